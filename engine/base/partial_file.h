@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace sigs {
+
+// An output that appears under its final name only when it is complete. Write to part(), then keep(); without keep() the
+// part is removed when this goes out of scope. The part lies beside the final file, so that the last step is a rename.
+class PartialFile {
+ public:
+  // Error cannot_create where the final file exists and overwrite is false, or the folder is not there.
+  // The part keeps the final extension ("x.part.mkv"), for libraries that look at it.
+  [[nodiscard]] static Result<PartialFile> create(std::filesystem::path final_path, bool overwrite);
+
+  PartialFile(PartialFile&& other) noexcept;
+  PartialFile& operator=(PartialFile&& other) noexcept;
+  ~PartialFile();
+
+  [[nodiscard]] const std::filesystem::path& part() const { return part_; }
+  [[nodiscard]] const std::filesystem::path& final_path() const { return final_; }
+
+  // Gives the part its final name. Error write_failed where that cannot be done.
+  [[nodiscard]] Result<void> keep();
+
+ private:
+  PartialFile(std::filesystem::path final_path, std::filesystem::path part);
+  void discard() noexcept;
+
+  std::filesystem::path final_;
+  std::filesystem::path part_;  // empty: nothing to remove
+};
+
+// Whole small files. Errors: cannot_read; cannot_create, write_failed (also when the disk is full).
+[[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path);
+[[nodiscard]] Result<void> write_text(const std::filesystem::path& path, std::string_view text, bool overwrite);
+
+}  // namespace sigs

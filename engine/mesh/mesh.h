@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace sigs {
+
+struct Material {
+  std::string name;
+  glm::vec3 diffuse{0.5F, 0.5F, 0.5F};  // display code values 0..1 (sRGB), as modellers pick them
+  glm::vec3 specular{0, 0, 0};
+  float shininess = 1;
+  float opacity = 1;  // 1: solid
+  cv::Mat texture;    // CV_8UC4, RGBA, first row is the top of the picture (v = 1); empty: none
+};
+
+// Vertices of one triangle soup corner; float is enough for a body of some 100 m (0.01 mm).
+struct Vertex {
+  glm::vec3 position_m;
+  glm::vec3 normal;  // unit
+  glm::vec2 uv;      // OBJ's: (0, 0) is the lower left corner of the texture
+};
+
+// Triangles that share one material: indices [first_index, first_index + index_count).
+struct MeshPart {
+  int material = 0;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+};
+
+// A model in body axes: X out of the nose, Y right wing, Z down; metres; origin at the model's reference point.
+struct Mesh {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
+  std::vector<MeshPart> parts;
+  std::vector<Material> materials;
+  std::vector<Warning> warnings;       // missing MTL or texture, faces left out
+
+  glm::vec3 low_m{0, 0, 0};            // corners of the bounds
+  glm::vec3 high_m{0, 0, 0};
+  float radius_m = 0;                  // of the smallest sphere around the origin that holds every vertex
+};
+
+// How a model file lies: which of its axes point out of the nose and up, and how large it is.
+struct ModelAxes {
+  std::string forward = "+x";  // one of +x -x +y -y +z -z
+  std::string up = "+z";       // the same, not along forward
+  double scale = 1.0;          // metres a unit; ignored where length_m is set
+  double length_m = 0;         // wanted extent along forward; 0: use scale
+  bool anchor_at_bounds = false;  // false: the file's origin is the reference point; true: the centre of its bounds
+};
+
+// Reads Wavefront OBJ with its MTL and textures. Normals are made (averaged over the faces around a vertex, weighted by
+// corner angle, across edges of less than 60 degrees) where the file has none. A file that mirrors (forward and up are
+// right-handed by construction) never happens; a missing MTL or texture is drawn grey, with a warning.
+// Errors: cannot_read; bad_data (no faces, indices out of range, coordinates not finite, forward along up, no extent).
+[[nodiscard]] Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes = {});
+
+}  // namespace sigs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "base/layer.h"
+#include "base/pose.h"
+#include "base/result.h"
+#include "camera/virtual_view.h"
+#include "mesh/mesh.h"
+
+namespace sigs {
+
+// An omnidirectional point light (paper section 3.1.2) and the light that comes from everywhere.
+struct Light {
+  glm::dvec3 p_in_camera{0, 0, 0};  // metres, camera frame
+  glm::dvec3 color{1, 1, 1};        // linear; 1: a white surface facing the light becomes white
+  double ambient = 0.35;            // 0..1: share of the light that comes from everywhere
+};
+
+// Draws meshes off screen with OpenGL through EGL. One renderer lives on one thread: the one that made it.
+class Renderer {
+ public:
+  // Makes a context on EGL's surfaceless platform, else on the first EGL device that works.
+  // Error unavailable where there is none; it says what was tried.
+  [[nodiscard]] static Result<Renderer> create();
+
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  // "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
+  [[nodiscard]] const std::string& description() const;
+
+  // Largest side of a view that draw() can make, px.
+  [[nodiscard]] int max_size_px() const;
+
+  // The mesh as the view sees it, covering the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
+  // 4 samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and kept
+  // for as long as the renderer lives, by the address of the mesh: keep meshes alive and where they are.
+  // Depth and position are relative to the camera, so nothing shakes far from the world's origin.
+  [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                   const Light& light, const VirtualView& view);
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sigs
