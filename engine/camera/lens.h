@@ -43,3 +43,10 @@ class Lens {
   [[nodiscard]] bool is_pinhole() const;
 
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }
+
+ private:
+  explicit Lens(LensParameters parameters);
+  LensParameters parameters_;
+};
+
+}  // namespace sigs

@@ -40,3 +40,11 @@ class Trajectory {
 
   // Position, and the attitude that the path asks for: nose along the velocity, bank of a coordinated turn.
   [[nodiscard]] Pose<frame::World, frame::Body> world_from_body(double time_s) const;
+
+ private:
+  struct Path;
+  explicit Trajectory(std::shared_ptr<const Path> path);
+  std::shared_ptr<const Path> path_;  // never changes once made, so copies may share it
+};
+
+}  // namespace sigs
