@@ -3,7 +3,9 @@ add_library(sigs_flags INTERFACE)
 target_include_directories(sigs_flags INTERFACE "${CMAKE_SOURCE_DIR}/engine")
 target_include_directories(sigs_flags SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_compile_options(sigs_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
-  -Wnon-virtual-dtor)
+  -Wnon-virtual-dtor
+  # Leaving a field at its default is what designated initialisers are for.
+  -Wno-missing-field-initializers)
 # The same sum in the same order everywhere: a fused multiply-add on one machine alone would change the bytes.
 target_compile_options(sigs_flags INTERFACE -ffp-contract=off)
 target_link_libraries(sigs_flags INTERFACE glm::glm tl::expected)

@@ -17,9 +17,10 @@ struct Camera {
   cv::Size size_px;
 };
 
-// Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow lens
-// profile JSON. The flavour is seen from the content, not from the name. docs/calibration-files.md lists the keys.
-//   footage_size_px  scales the calibration to the footage where both have the same shape; a different shape is an error
+// Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow
+// lens profile JSON. The flavour is seen from the content, not from the name. docs/calibration-files.md lists the keys.
+//   footage_size_px  scales the calibration to the footage where both have the same shape; a different shape is an
+//   error
 //                    that names both sizes. A file that states no size is taken to be made for the footage. Without
 //                    footage_size_px the file's own size is kept, and a file without one is an error.
 // Errors name file and field: {"gopro.xml: camera_matrix", "expected 9 numbers, found 8"}.

@@ -10,8 +10,8 @@
 
 namespace sigs {
 
-// A pinhole camera at the real camera's place, turned towards one intruder and covering no more than it. The intruder is
-// drawn in this view; the real lens then asks it for colours, so any lens works, a 170 degree fisheye too.
+// A pinhole camera at the real camera's place, turned towards one intruder and covering no more than it. The intruder
+// is drawn in this view; the real lens then asks it for colours, so any lens works, a 170 degree fisheye too.
 struct VirtualView {
   Pose<frame::View, frame::Camera> view_from_camera;  // a rotation; X along the view's axis, Y right, Z down
   double focal_px = 1;

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "render/renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/ensure.h"
+#include "base/transfer.h"
+#include "render/draw_list.h"
+#include "render/egl_context.h"
+#include "render/gpu_mesh.h"
+#include "render/program.h"
+#include "render/projection.h"
+#include "render/target.h"
+
+namespace sigs {
+
+struct Renderer::State {
+  EglContext context;
+  Program program;
+  Target target;
+  std::map<const Mesh*, GpuMesh> meshes;
+};
+
+namespace {
+
+constexpr int kLargestView_px = 16384;
+constexpr float kOpaque = 254.5F / 255.0F;      // a cutout's texel at or above is solid
+constexpr float kSeen = 1.0F / 255.0F;          // below, light passes as if nothing were there
+constexpr float kAnyOpacity = 1e9F;
+
+using ViewFromBody = Pose<frame::View, frame::Body>;
+
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// p = scaled / scale, with a length whose square fits a float.
+struct ScaledPoint {
+  glm::vec3 scaled;
+  float scale;
+};
+
+ScaledPoint scaled_point(const glm::dvec3& p) {
+  constexpr double kFar_m = 1e6;
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double scale = largest > kFar_m ? kFar_m / largest : 1.0;
+  return {p * scale, static_cast<float>(scale)};
+}
+
+glm::vec3 linear_color(const glm::vec3& display) {
+  return {linear_of_display(display.x), linear_of_display(display.y), linear_of_display(display.z)};
+}
+
+void set_light(const Program& program, const Light& light, const ViewFromBody& view_from_body,
+               const Pose<frame::View, frame::Camera>& view_from_camera) {
+  const ScaledPoint lamp =
+      scaled_point(view_from_camera * light.p_in_camera - view_from_body.translation_m);
+  const ScaledPoint eye = scaled_point(-view_from_body.translation_m);
+  program.set("light_color", glm::vec3(light.color));
+  program.set("ambient", static_cast<float>(std::clamp(light.ambient, 0.0, 1.0)));
+  program.set("light_scaled", lamp.scaled);
+  program.set("light_scale", lamp.scale);
+  program.set("eye_scaled", eye.scaled);
+  program.set("eye_scale", eye.scale);
+  program.set("view_from_body", glm::mat3(glm::mat3_cast(view_from_body.rotation)));
+}
+
+void set_material(const Program& program, const Material& material) {
+  program.set("diffuse", linear_color(material.diffuse));
+  program.set("specular", material.specular);
+  program.set("shininess", std::clamp(material.shininess, 1.0F, 200.0F));
+  program.set("opacity", material.opacity >= kSolidOpacity ? 1.0F : std::max(material.opacity, 0.0F));
+}
+
+void draw_runs(const Program& program, const Mesh& mesh, const GpuMesh& gpu, const std::vector<Run>& runs,
+               bool is_solid_pass) {
+  for (const Run& run : runs) {
+    set_material(program, mesh.materials[run.material]);
+    gpu.bind_picture(run.material);
+    const bool is_cutout = run.surface == Surface::cutout;
+    program.set("solid", run.surface == Surface::solid);
+    program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kSeen);
+    program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
+    gpu.draw(run);
+  }
+}
+
+void draw_solid(const Program& program, const Mesh& mesh, const GpuMesh& gpu) {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  gpu.bind_solid();
+  draw_runs(program, mesh, gpu, gpu.solid_runs(), true);
+}
+
+void draw_see_through(const Program& program, const Mesh& mesh, const GpuMesh& gpu, const DrawList& sorted) {
+  if (sorted.runs.empty()) return;
+  glEnablei(GL_BLEND, 0);
+  glDisablei(GL_BLEND, 1);  // coverage is replaced: glass covers wholly
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  gpu.bind_sorted(sorted);
+  draw_runs(program, mesh, gpu, sorted.runs, false);
+}
+
+void set_fixed_state() {
+  glEnable(GL_MULTISAMPLE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CW);  // the window's rows run down the picture, so counter-clockwise triangles turn the other way
+}
+
+std::vector<cv::Rect> pieces_of(const cv::Size& size) {
+  constexpr int kSide = Target::kLargestPiece_px;
+  std::vector<cv::Rect> pieces;
+  for (int y = 0; y < size.height; y += kSide)
+    for (int x = 0; x < size.width; x += kSide)
+      pieces.emplace_back(x, y, std::min(kSide, size.width - x), std::min(kSide, size.height - y));
+  return pieces;
+}
+
+const GpuMesh& uploaded(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
+  const auto known = meshes.find(&mesh);
+  if (known != meshes.end() && known->second.is_copy_of(mesh)) return known->second;
+  if (known != meshes.end()) {
+    known->second.release();
+    meshes.erase(known);
+  }
+  return meshes.emplace(&mesh, GpuMesh(mesh)).first->second;
+}
+
+Layer blank(const cv::Size& size) {
+  return {cv::Rect({0, 0}, size), cv::Mat::zeros(size, CV_32FC4), cv::Mat::zeros(size, CV_32FC1)};
+}
+
+void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const VirtualView& view) {
+  ENSURE(is_finite(view_from_body.translation_m));
+  ENSURE(std::isfinite(glm::dot(view_from_body.rotation, view_from_body.rotation)));
+  ENSURE(is_finite(light.p_in_camera) && is_finite(light.color) && std::isfinite(light.ambient));
+  ENSURE(std::isfinite(view.focal_px) && view.focal_px > 0);
+  ENSURE(std::isfinite(view.center_px.x) && std::isfinite(view.center_px.y));
+}
+
+}  // namespace
+
+Result<Renderer> Renderer::create() {
+  Result<EglContext> context = EglContext::create();
+  if (!context) return fail(context.error());
+  Result<Program> program = Program::create();
+  if (!program) return fail(program.error());
+  return Renderer(std::unique_ptr<State>(new State{std::move(*context), std::move(*program), Target(), {}}));
+}
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+const std::string& Renderer::description() const { return state_->context.description(); }
+
+int Renderer::max_size_px() const { return kLargestView_px; }
+
+Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
+                             const Light& light, const VirtualView& view) {
+  const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
+  ensure_sane(view_from_body, light, view);
+  if (view.size_px.empty()) return Layer{};
+  if (std::max(view.size_px.width, view.size_px.height) > kLargestView_px)
+    return fail("view", "of " + std::to_string(view.size_px.width) + " x " + std::to_string(view.size_px.height) +
+                            " pixels is larger than " + std::to_string(kLargestView_px));
+  if (!state_->context.make_current())
+    return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
+
+  Layer layer = blank(view.size_px);
+  if (mesh.indices.empty()) return layer;
+  const GpuMesh& gpu = uploaded(state_->meshes, mesh);
+  const DrawList sorted = sorted_list(gpu.see_through(), inverse(view_from_body).translation_m);
+  const Program& program = state_->program;
+  program.use();
+  set_fixed_state();
+  set_light(program, light, view_from_body, view.view_from_camera);
+  for (const cv::Rect& piece : pieces_of(view.size_px)) {
+    const std::optional<glm::dmat4> clip = clip_from_body(view_from_body, mesh.radius_m, view, piece);
+    if (!clip) return layer;
+    if (const auto begun = state_->target.begin(piece.size()); !begun) return fail(begun.error());
+    program.set("clip_from_body", glm::mat4(*clip));
+    draw_solid(program, mesh, gpu);
+    draw_see_through(program, mesh, gpu, sorted);
+    state_->target.read(layer.color(piece), layer.coverage(piece));
+  }
+  if (const GLenum code = glGetError(); code != GL_NO_ERROR)
+    return fail("OpenGL", "drawing failed with error " + std::to_string(code), ErrorKind::unavailable);
+  return layer;
+}
+
+}  // namespace sigs

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "spline/trajectory.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/ensure.h"
+#include "spline/approximating_spline.h"
+#include "spline/attitude.h"
+#include "spline/course.h"
+#include "spline/interpolating_spline.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kFarthest_m = 1e12;  // a double still counts tenths of a millimetre there
+constexpr double kLatest_s = 1e12;
+constexpr double kShortestLeg_s = 1e-9;
+
+bool within(const glm::dvec3& v, double limit) {  // false for NaN
+  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
+std::optional<std::string> mistake_in(const TimedWaypoint& waypoint, const TimedWaypoint* before) {
+  if (!within(waypoint.position_m, kFarthest_m))
+    return "position must be three numbers, each within 1e12 m of the origin";
+  if (!(std::abs(waypoint.time_s) <= kLatest_s)) return "time must be a number of seconds within 1e12";
+  if (before && !(waypoint.time_s - before->time_s >= kShortestLeg_s))
+    return "time " + std::to_string(waypoint.time_s) + " s must be later than that of the waypoint before, " +
+           std::to_string(before->time_s) + " s";
+  return std::nullopt;
+}
+
+Result<void> checked(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
+  if (waypoints.empty()) return fail("waypoints", "a trajectory needs at least one waypoint", ErrorKind::bad_project);
+  for (std::size_t i = 0; i < waypoints.size(); ++i)
+    if (const auto mistake = mistake_in(waypoints[i], i > 0 ? &waypoints[i - 1] : nullptr))
+      return fail("waypoints[" + std::to_string(i) + "]", *mistake, ErrorKind::bad_project);
+  if (!(settings.bank_limit_rad >= 0 && settings.bank_limit_rad <= std::numbers::pi))
+    return fail("bank_limit", "must lie between 0 and 180 degrees", ErrorKind::bad_project);
+  return {};
+}
+
+Course course_of(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
+  PiecewiseCubic curve =
+      settings.spline == SplineKind::interpolating ? interpolating_spline(waypoints) : approximating_spline(waypoints);
+  if (settings.timing == Timing::frames) return curve;
+  return ConstantSpeed(std::move(curve));
+}
+
+}  // namespace
+
+struct Trajectory::Path {
+  Course course;
+  AttitudeTable attitude;
+
+  Path(Course walked, const TrajectorySettings& settings)
+      : course(std::move(walked)), attitude(course, settings.bank, settings.bank_limit_rad) {}
+};
+
+Trajectory::Trajectory(std::shared_ptr<const Path> path) : path_(std::move(path)) {}
+
+Result<Trajectory> Trajectory::make(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
+  if (const Result<void> good = checked(waypoints, settings); !good) return fail(good.error());
+  return Trajectory(std::make_shared<const Path>(course_of(waypoints, settings), settings));
+}
+
+glm::dvec3 Trajectory::position_m(double time_s) const {
+  return motion_at(path_->course, time_s).position_m;
+}
+
+glm::dvec3 Trajectory::velocity_mps(double time_s) const {
+  return motion_at(path_->course, time_s).velocity_mps;
+}
+
+glm::dvec3 Trajectory::acceleration_mps2(double time_s) const {
+  return motion_at(path_->course, time_s).acceleration_mps2;
+}
+
+Pose<frame::World, frame::Body> Trajectory::world_from_body(double time_s) const {
+  ENSURE(std::isfinite(time_s));
+  const Motion motion = motion_at(path_->course, time_s);
+  return {path_->attitude.world_from_body(time_s, motion.velocity_mps), motion.position_m};
+}
+
+}  // namespace sigs

@@ -12,12 +12,12 @@ enum class PixelLayout {
   yuv420,  // planes Y, Cb, Cr; chroma halved both ways, rounded up
   yuv422,  // chroma halved in x, rounded up
   yuv444,
-  rgb,     // planes red, green, blue, full range
+  rgb,  // planes red, green, blue, full range
 };
 
-enum class ColorRange { limited, full };          // luma 16..235 or 0..255
-enum class ColorMatrix { bt601, bt709, bt2020 };  // Y'CbCr coefficients; bt2020 is the non-constant-luminance one
-enum class ChromaSite { left, center, top_left }; // of 4:2:0: where a chroma sample sits among its four luma samples
+enum class ColorRange { limited, full };           // luma 16..235 or 0..255
+enum class ColorMatrix { bt601, bt709, bt2020 };   // Y'CbCr coefficients; bt2020 is the non-constant-luminance one
+enum class ChromaSite { left, center, top_left };  // of 4:2:0: where a chroma sample sits among its four luma samples
 
 // What the samples mean. Carried from the footage to the output unchanged.
 struct ColorInfo {
@@ -36,7 +36,7 @@ struct ColorInfo {
 struct Frame {
   PixelLayout layout = PixelLayout::yuv420;
   ColorInfo color;
-  std::array<cv::Mat, 3> planes;
+  std::array<cv::Mat, 3> planes{};
   double time_s = 0;     // presentation time, 0 at the footage's first frame
   bool damaged = false;  // the decoder reported an error in it, or could not make it and the frame before stands in
 

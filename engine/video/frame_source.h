@@ -18,18 +18,18 @@ struct VideoInfo {
   cv::Size size_px;
   PixelLayout layout = PixelLayout::yuv420;
   ColorInfo color;
-  std::vector<double> times_s;     // presentation time of each frame, in order, 0 for the first
-  int frame_rate_num = 25;         // nominal rate; times_s holds the truth where the rate varies
+  std::vector<double> times_s;  // presentation time of each frame, in order, 0 for the first
+  int frame_rate_num = 25;      // nominal rate; times_s holds the truth where the rate varies
   int frame_rate_den = 1;
-  int pixel_aspect_num = 1;        // sample aspect ratio
+  int pixel_aspect_num = 1;  // sample aspect ratio
   int pixel_aspect_den = 1;
   bool variable_frame_rate = false;
-  std::string codec;               // "h264"
-  std::string pixel_format;        // as the decoder names it: "yuv420p10le"
-  std::string conversion;          // how deeper or odd formats become 8-bit planes; empty: samples are taken as they are
-  std::string container;           // "mov,mp4,..."
-  long long declared_frames = 0;   // what the header claims; 0: nothing
-  std::vector<Warning> warnings;   // "header declares 444 frames, 68 are there"
+  std::string codec;              // "h264"
+  std::string pixel_format;       // as the decoder names it: "yuv420p10le"
+  std::string conversion;         // how deeper or odd formats become 8-bit planes; empty: samples are taken as they are
+  std::string container;          // "mov,mp4,..."
+  long long declared_frames = 0;  // what the header claims; 0: nothing
+  std::vector<Warning> warnings;  // "header declares 444 frames, 68 are there"
 
   [[nodiscard]] int frame_count() const { return static_cast<int>(times_s.size()); }
 };
@@ -48,8 +48,8 @@ class FrameSource {
 
   [[nodiscard]] const VideoInfo& info() const;
 
-  // Frame n, 0 <= n < frame_count(). Reading in order decodes straight on; anything else seeks. A frame that the decoder
-  // could not make is the picture before it, marked damaged. Error bad_data where not even that exists.
+  // Frame n, 0 <= n < frame_count(). Reading in order decodes straight on; anything else seeks. A frame that the
+  // decoder could not make is the picture before it, marked damaged. Error bad_data where not even that exists.
   [[nodiscard]] Result<Frame> read(int n);
 
  private:

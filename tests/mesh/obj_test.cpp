@@ -1,1 +1,175 @@
 // SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+
+#include "mesh/mesh.h"
+#include "mesh/written.h"
+#include "support/test_data.h"
+
+namespace sigs {
+namespace {
+
+Result<Mesh> mesh_of(const std::string& text) {
+  const test::TemporaryFolder folder;
+  return read_obj(test::written(folder / "model.obj", text));
+}
+
+void refused(const std::string& text, const std::string& part_of_message) {
+  CAPTURE(text);
+  const Result<Mesh> mesh = mesh_of(text);
+  REQUIRE_FALSE(mesh);
+  CHECK(mesh.error().kind == ErrorKind::bad_data);
+  CAPTURE(mesh.error().text());
+  CHECK(mesh.error().text().find("model.obj") != std::string::npos);
+  CHECK(mesh.error().text().find(part_of_message) != std::string::npos);
+}
+
+double area_m2(const Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const auto p = [&](std::size_t corner) { return glm::dvec3(mesh.vertices[mesh.indices[i + corner]].position_m); };
+    sum += 0.5 * glm::length(glm::cross(p(1) - p(0), p(2) - p(0)));
+  }
+  return sum;
+}
+
+// Positive where the surface is closed and wound counter-clockwise seen from outside (divergence theorem).
+double volume_m3(const Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const auto p = [&](std::size_t corner) { return glm::dvec3(mesh.vertices[mesh.indices[i + corner]].position_m); };
+    sum += glm::dot(p(0), glm::cross(p(1), p(2))) / 6.0;
+  }
+  return sum;
+}
+
+constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("a box becomes twelve triangles with its area and volume and four vertices a side") {
+  const Result<Mesh> mesh = mesh_of(test::box_obj());
+  REQUIRE(mesh);
+  CHECK(mesh->indices.size() == 36);
+  CHECK(mesh->vertices.size() == 24);  // each corner has three normals
+  REQUIRE(mesh->parts.size() == 1);
+  CHECK(mesh->parts[0].index_count == 36);
+  CHECK(area_m2(*mesh) == doctest::Approx(28));
+  CHECK(volume_m3(*mesh) == doctest::Approx(8));
+  CHECK(mesh->warnings.empty());
+}
+
+TEST_CASE("the volume stays positive in any axes because nothing is mirrored") {
+  const test::TemporaryFolder folder;
+  const auto path = test::written(folder / "box.obj", test::box_obj());
+  for (const char* forward : {"+x", "-x", "+y", "-y", "+z", "-z"})
+    for (const char* up : {"+x", "-x", "+y", "-y", "+z", "-z"})
+      if (forward[1] != up[1]) CHECK(volume_m3(read_obj(path, {.forward = forward, .up = up}).value()) > 7.9);
+}
+
+TEST_CASE("a concave polygon is cut into triangles that stay inside it") {
+  // An L of area 3, seen along z, with a notch that a fan from the first corner would cover.
+  const Result<Mesh> mesh = mesh_of("v 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nf 1 2 3 4 5 6\n");
+  REQUIRE(mesh);
+  CHECK(mesh->indices.size() == 12);
+  CHECK(area_m2(*mesh) == doctest::Approx(3));
+}
+
+TEST_CASE("a polygon of three hundred corners keeps its area") {
+  std::ostringstream text;
+  constexpr int kCorners = 300;
+  for (int i = 0; i < kCorners; ++i)
+    text << "v " << std::cos(2 * M_PI * i / kCorners) << " " << std::sin(2 * M_PI * i / kCorners) << " 5\n";
+  text << "f";
+  for (int i = 1; i <= kCorners; ++i) text << " " << i;
+  const Result<Mesh> mesh = mesh_of(text.str() + "\n");
+  REQUIRE(mesh);
+  CHECK(mesh->indices.size() == 3 * (kCorners - 2));
+  // Area of the regular polygon; the coordinates above are written with six digits.
+  CHECK(area_m2(*mesh) == doctest::Approx(0.5 * kCorners * std::sin(2 * M_PI / kCorners)).epsilon(1e-5));
+}
+
+TEST_CASE("negative indices count back from the end") {
+  const Result<Mesh> mesh = mesh_of(std::string(kTriangle) + "f -3 -2 -1\nv 9 9 9\n");
+  REQUIRE(mesh);
+  CHECK(mesh->high_m == glm::vec3{1, 1, 0});
+}
+
+TEST_CASE("Windows line ends and continued lines and blanks are read") {
+  const Result<Mesh> mesh = mesh_of("v 0 0 0\r\n  v 1 0 0\r\nv\t0 1 0 \r\nf 1 \\\r\n 2 3\r\n");
+  REQUIRE(mesh);
+  CHECK(mesh->indices.size() == 3);
+}
+
+TEST_CASE("faces without area are left out and the others stay") {
+  const Result<Mesh> mesh = mesh_of(std::string(kTriangle) + "v 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2\n");
+  REQUIRE(mesh);
+  CHECK(mesh->indices.size() == 3);
+  CHECK(mesh->warnings.empty());
+}
+
+TEST_CASE("vertices that no face uses do not count for the bounds") {
+  const Result<Mesh> mesh = mesh_of(std::string(kTriangle) + "v 100 100 100\nf 1 2 3\n");
+  REQUIRE(mesh);
+  CHECK(mesh->high_m == glm::vec3{1, 1, 0});
+  CHECK(mesh->radius_m == 1);
+}
+
+TEST_CASE("the same corner is one vertex and another uv makes another one") {
+  const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n";
+  CHECK(mesh_of(quad + "f 1/1 2/1 3/1\nf 1/1 3/1 4/1\n").value().vertices.size() == 4);
+  CHECK(mesh_of(quad + "f 1/1 2/1 3/1\nf 1/1 3/2 4/1\n").value().vertices.size() == 5);
+}
+
+TEST_CASE("files that hold no surface are refused") {
+  refused("", "no faces");
+  refused("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces");
+  refused("v 0 0 0\nv 1 0 0\nl 1 2\n", "no faces");
+  refused(std::string(kTriangle) + "f 1 1 1\n", "no faces with an area");
+}
+
+TEST_CASE("indices out of range are counted") {
+  const std::string start = std::string(kTriangle) + "vt 0 0\nvn 0 0 1\nf 1 2 3\n";
+  refused(start + "f 1 2 4\n", "1 of 2 faces");
+  refused(start + "f 1 2 -4\nf 1 2 3 99\n", "2 of 3 faces");
+  refused(start + "f 0 1 2\n", "1 of 2 faces");
+  refused(start + "f 1/1 2/2 3/1\n", "1 of 2 faces");
+  refused(start + "f 1//1 2//-2 3//1\n", "1 of 2 faces");
+  refused(start + "f a b c\n", "1 of 2 faces");
+  refused(start + "f 1 2 2147483647\n", "1 of 2 faces");
+}
+
+TEST_CASE("coordinates that are no finite numbers are refused with their line") {
+  for (const char* bad : {"v nan 0 0", "v 0 -nan 0", "v 0 0 inf", "v 1e999 0 0", "v 1 2", "v a b c", "v 1,5 0 0"})
+    refused("v 1 0 0\n" + std::string(bad) + "\nv 0 1 0\nf 1 2 3\n", "line 2");
+  refused("v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "too large");  // a double, but no float
+}
+
+TEST_CASE("a file that is not there cannot be read") {
+  const test::TemporaryFolder folder;
+  const Result<Mesh> mesh = read_obj(folder / "nowhere.obj");
+  REQUIRE_FALSE(mesh);
+  CHECK(mesh.error().kind == ErrorKind::cannot_read);
+  CHECK(mesh.error().text().find("nowhere.obj") != std::string::npos);
+  CHECK_FALSE(read_obj(folder.path()));
+}
+
+TEST_CASE("any bytes at all are read or refused but never crash") {
+  std::uint32_t state = 1;
+  const std::string letters = "vfnt mlub0123456789-+./\n\n\n  \\eE#dKN\r";
+  for (int round = 0; round < 200; ++round) {
+    std::string text = kTriangle;
+    for (int i = 0; i < 400; ++i) {
+      state = state * 1664525U + 1013904223U;
+      text += letters[(state >> 16) % letters.size()];
+    }
+    const Result<Mesh> mesh = mesh_of(text + "\nf 1 2 3\n");
+    if (mesh) CHECK(mesh->indices.size() % 3 == 0);
+    if (!mesh) CHECK_FALSE(mesh.error().text().empty());
+  }
+}
+
+}  // namespace sigs

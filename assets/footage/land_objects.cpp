@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "land.h"
+#include "light.h"
+#include "noise.h"
+
+namespace sigs::footage {
+
+namespace {
+
+// How one thing changes the cells around it: share() of the cell at the offset from its middle, and what it does there.
+class Brush {
+ public:
+  Brush(const GroundMap::Layer& layer, cv::Mat& color) : layer_(layer), color_(color) {}
+
+  // Cells within radius_m of middle_m: blend(offset_m, colour) returns the changed colour.
+  template <class Blend>
+  void touch(const glm::dvec2& middle_m, double radius_m, const Blend& blend) {
+    const glm::dvec2 low = (middle_m - radius_m - layer_.origin_m) / layer_.cell_m;
+    const glm::dvec2 high = (middle_m + radius_m - layer_.origin_m) / layer_.cell_m;
+    for (int r = std::max(0, int(std::ceil(low.x))); r <= std::min(color_.rows - 1, int(std::floor(high.x))); ++r)
+      for (int c = std::max(0, int(std::ceil(low.y))); c <= std::min(color_.cols - 1, int(std::floor(high.y))); ++c) {
+        cv::Vec3f& cell = color_.at<cv::Vec3f>(r, c);
+        const glm::dvec2 here = layer_.origin_m + layer_.cell_m * glm::dvec2(r, c);
+        const glm::vec3 changed = blend(glm::vec2(here - middle_m), glm::vec3(cell[0], cell[1], cell[2]));
+        cell = {changed.r, changed.g, changed.b};
+      }
+  }
+  [[nodiscard]] float soft_m() const { return static_cast<float>(layer_.cell_m); }
+  [[nodiscard]] const GroundMap::Layer& layer() const { return layer_; }
+
+ private:
+  const GroundMap::Layer& layer_;
+  cv::Mat& color_;
+};
+
+const glm::vec2 kAwayFromSun = -glm::vec2(kToSun) / static_cast<float>(-kToSun.z);  // shadow's length for 1 m of height
+
+void draw_shadow(Brush& brush, const glm::dvec2& middle_m, float radius_m, float height_m) {
+  const glm::vec2 throw_m = kAwayFromSun * height_m;
+  const float length = glm::length(throw_m);
+  brush.touch(middle_m + 0.5 * glm::dvec2(throw_m), radius_m + 0.5 * length, [&](const glm::vec2& at, const glm::vec3& old) {
+    const glm::vec2 along = throw_m / length;
+    const float u = glm::max(std::abs(glm::dot(at, along)) - 0.5F * length, 0.0F), v = at.x * along.y - at.y * along.x;
+    const float inside = 1 - smooth(radius_m - brush.soft_m(), radius_m + 0.5F * brush.soft_m(), std::hypot(u, v));
+    return old * (1 - 0.62F * inside);
+  });
+}
+
+void draw_tree(Brush& brush, const glm::dvec2& middle_m, std::uint32_t id) {
+  const float radius_m = 2.2F + 3.2F * chance(hash(id)), height_m = 1.9F * radius_m;
+  draw_shadow(brush, middle_m, 0.9F * radius_m, height_m);
+  const glm::vec3 leaf = glm::mix(glm::vec3(0.040F, 0.070F, 0.020F), glm::vec3(0.085F, 0.115F, 0.034F), chance(hash(id, 1, 1)));
+  const glm::vec2 to_sun = glm::normalize(glm::vec2(kToSun));
+  brush.touch(middle_m, 1.3F * radius_m, [&](const glm::vec2& at, const glm::vec3& old) {
+    const float ragged = radius_m * (1 + 0.5F * gradient_noise((middle_m + glm::dvec2(at)) / 2.1, 91));
+    const float inside = 1 - smooth(ragged - brush.soft_m(), ragged + 0.3F * brush.soft_m(), glm::length(at));
+    const float bumps = 1 + 0.5F * gradient_noise((middle_m + glm::dvec2(at)) / 1.3, 92);
+    const float lit = glm::clamp(0.75F + 0.62F * glm::dot(at, to_sun) / radius_m, 0.18F, 1.4F) * bumps;
+    return glm::mix(old, leaf * lit * (kSunlight + kSkylight), inside);
+  });
+}
+
+void draw_house(Brush& brush, const glm::dvec2& middle_m, std::uint32_t id) {
+  const double turn = 6.2832 * chance(hash(id, 1, 5));
+  const glm::vec2 ridge{static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn))}, side{-ridge.y, ridge.x};
+  const glm::vec2 half{5.0F + 4.5F * chance(hash(id, 2, 5)), 3.8F + 1.8F * chance(hash(id, 3, 5))};
+  static const glm::vec3 kRoofs[] = {{0.36F, 0.155F, 0.095F}, {0.30F, 0.13F, 0.085F}, {0.20F, 0.115F, 0.09F}, {0.15F, 0.15F, 0.16F},
+                                     {0.42F, 0.24F, 0.16F}};
+  const glm::vec3 roof = kRoofs[hash(id, 4, 5) % 5] * (0.85F + 0.3F * chance(hash(id, 5, 5)));
+  draw_shadow(brush, middle_m, half.y * 1.05F, 6.5F);
+  brush.touch(middle_m, half.x + half.y, [&](const glm::vec2& at, const glm::vec3& old) {
+    const float u = std::abs(glm::dot(at, ridge)) - half.x, v = glm::dot(at, side);
+    const float outside = glm::max(u, std::abs(v) - half.y);
+    const float inside = 1 - smooth(-0.5F * brush.soft_m(), 0.5F * brush.soft_m(), outside);
+    const glm::vec3 up = glm::normalize(glm::vec3(side * (v > 0 ? 0.65F : -0.65F), -1.0F));
+    const float lit = glm::max(glm::dot(up, glm::vec3(kToSun)), 0.0F);
+    return glm::mix(old, roof * (kSunlight * lit * 1.25F + kSkylight), inside);
+  });
+}
+
+bool tree_stands(const glm::dvec2& p_m, float draw) {
+  if (distance_to_road_m(p_m) < 6 || distance_to_river_m(p_m) < river_half_width_m(p_m) + 2) return false;
+  if (village_at(p_m) > 0.1F) return draw < 0.30F;
+  if (distance_to_river_m(p_m) < river_half_width_m(p_m) + 22) return draw < 0.5F;
+  const Field field = field_at(p_m);
+  if (field.to_lane_m < 10) return field.to_lane_m > 4 && draw < 0.42F;
+  if (field.hedged && field.to_edge_m < 6) return draw < 0.8F;
+  if (wood_at(p_m) > -0.03F && wood_at(p_m) < 0.01F) return draw < 0.8F;
+  return draw < 0.012F;
+}
+
+bool house_stands(const glm::dvec2& p_m, float draw) {
+  if (distance_to_road_m(p_m) < 14 || wood_at(p_m) > -0.05F) return false;
+  if (distance_to_river_m(p_m) < river_half_width_m(p_m) + 20 || field_at(p_m).to_lane_m < 12) return false;
+  return draw < 0.75F * village_at(p_m) || draw > 0.9994F;
+}
+
+// Calls visit(place, id) for one jittered place in each square of spacing_m that the layer holds.
+template <class Visit>
+void for_each_place(const GroundMap::Layer& layer, double spacing_m, std::uint32_t seed, const Visit& visit) {
+  const glm::dvec2 far = layer.origin_m + layer.cell_m * glm::dvec2(layer.color.rows, layer.color.cols);
+  for (int i = int(std::floor(layer.origin_m.x / spacing_m)) - 1; i * spacing_m < far.x; ++i)
+    for (int j = int(std::floor(layer.origin_m.y / spacing_m)) - 1; j * spacing_m < far.y; ++j) {
+      const std::uint32_t id = hash(i, j, seed);
+      visit(spacing_m * (glm::dvec2(i, j) + glm::dvec2(chance(hash(id, 1, 1)), chance(hash(id, 2, 1)))), id);
+    }
+}
+
+}  // namespace
+
+void draw_objects(const GroundMap::Layer& layer, cv::Mat& color) {
+  if (layer.cell_m > 6) return;
+  Brush brush(layer, color);
+  for_each_place(layer, 7.5, 95, [&](const glm::dvec2& p_m, std::uint32_t id) {
+    if (const float draw = chance(hash(id, 3, 1)); draw < 0.8F && tree_stands(p_m, draw)) draw_tree(brush, p_m, id);
+  });
+  for_each_place(layer, 23, 96, [&](const glm::dvec2& p_m, std::uint32_t id) {
+    if (house_stands(p_m, chance(hash(id, 3, 1)))) draw_house(brush, p_m, id);
+  });
+}
+
+}  // namespace sigs::footage

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "clouds.h"
+
+namespace sigs::footage {
+
+// The sky ahead, marched through once every few metres of flight and looked up from then on. Between two such places the
+// clouds are shifted as things at their middle height are, and faded from one to the other.
+class SkyMap {
+ public:
+  SkyMap(const Clouds& clouds, double flight_m, double height_m);
+
+  // Colour in linear light, of a unit direction at or above the horizon, seen from (x_m, 0, -height_m).
+  [[nodiscard]] glm::vec3 color(double x_m, const glm::dvec3& ray_in_world) const;
+
+ private:
+  [[nodiscard]] cv::Mat_<cv::Vec4f> seen_from(const Clouds& clouds, double x_m) const;
+  [[nodiscard]] glm::vec4 clouds_from(int place, double x_m, const glm::dvec3& ray_in_world) const;
+
+  double height_m_;
+  double spacing_m_;
+  std::vector<cv::Mat_<cv::Vec4f>> places_;  // azimuth along x, elevation along y from the horizon up
+};
+
+}  // namespace sigs::footage

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "paint.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace sigs::models {
+
+cv::Mat painted(cv::Size size_px, const std::function<Colour(const glm::dvec2& place)>& colour_at) {
+  constexpr int kFine = 5;
+  cv::Mat bgr(size_px, CV_8UC3);
+  for (int y = 0; y < size_px.height; ++y)
+    for (int x = 0; x < size_px.width; ++x) {
+      Colour sum{0};
+      for (int i = 0; i < kFine * kFine; ++i) {
+        const glm::dvec2 fine{(i % kFine + 0.5) / kFine, (i / kFine + 0.5) / kFine};
+        sum += colour_at((glm::dvec2(x, y) + fine) / glm::dvec2(size_px.width, size_px.height));
+      }
+      const Colour mean = glm::clamp(sum / double(kFine * kFine), 0.0, 1.0) * 255.0;
+      bgr.at<cv::Vec3b>(y, x) = {cv::saturate_cast<uchar>(mean.b), cv::saturate_cast<uchar>(mean.g),
+                                 cv::saturate_cast<uchar>(mean.r)};
+    }
+  return bgr;
+}
+
+Lettering::Lettering(const std::string& text) {
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX, kThickness = 12;
+  constexpr double kScale = 3;
+  int below = 0;
+  const cv::Size size = cv::getTextSize(text, kFont, kScale, kThickness, &below);
+  cv::Mat canvas(size.height + 3 * kThickness, size.width + 3 * kThickness, CV_8UC1, cv::Scalar(0));
+  cv::putText(canvas, text, {kThickness, canvas.rows - kThickness}, kFont, kScale, 255, kThickness, cv::LINE_8);
+  mask_ = canvas(cv::boundingRect(canvas)).clone();
+  aspect_ = static_cast<double>(mask_.cols) / mask_.rows;
+}
+
+bool Lettering::covers(double x, double y) const {
+  if (x < 0 || y < 0 || x >= 1 || y >= 1) return false;
+  return mask_.at<uchar>(static_cast<int>(y * mask_.rows), static_cast<int>(x * mask_.cols)) > 127;
+}
+
+}  // namespace sigs::models

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace sigs::models {
+
+// Model axes: +x out of the nose, +y left wing, +z up; metres. Texture coordinates as in OBJ: (0, 0) is the lower left.
+
+struct Face {
+  std::array<int, 3> corner;  // counter-clockwise seen from outside
+  std::string material;
+};
+
+// A piece of surface that is shaded smoothly as one, except across edges sharper than 50 degrees.
+struct Patch {
+  std::vector<glm::dvec3> position_m;
+  std::vector<glm::dvec2> uv;  // one for each position
+  std::vector<Face> faces;
+};
+
+using Ring = std::vector<glm::dvec3>;
+// Texture coordinates and material of the grid's point or cell in row r (ring) and column c (place on the ring).
+using UvOf = std::function<glm::dvec2(const glm::dvec3& position_m, int row, int column)>;
+using MaterialOf = std::function<std::string(int row, int column)>;
+
+// Joins rings of equal length by triangles. A closed ring repeats its first point. Triangles without area are left out.
+[[nodiscard]] Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const MaterialOf& material_of);
+[[nodiscard]] Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const std::string& material);
+
+// Adds the middle of the first and of the last ring as a ring of its own, so that both ends get a lid.
+[[nodiscard]] std::vector<Ring> closed(std::vector<Ring> rings);
+
+[[nodiscard]] Patch joined(const Patch& a, const Patch& b);
+[[nodiscard]] Patch moved(Patch patch, const glm::dmat3& turn, const glm::dvec3& shift_m);
+
+// Reflection at the plane y = 0; still seen from outside. flip_v mirrors the texture's rows, so that both sides of a body
+// share one picture: its left side in the upper half, its right side upside down in the lower one.
+[[nodiscard]] Patch mirrored(Patch patch, bool flip_v);
+
+// Turns all triangles over where most of them look inwards (the enclosed volume comes out negative).
+[[nodiscard]] Patch turned_outwards(Patch patch);
+[[nodiscard]] Patch turned_over(Patch patch);
+
+// Unit normal at each corner of each face: the faces around the point, weighted by corner angle, that turn away from
+// this face by less than 50 degrees.
+[[nodiscard]] std::vector<std::array<glm::dvec3, 3>> smooth_normals(const Patch& patch);
+
+}  // namespace sigs::models

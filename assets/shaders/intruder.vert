@@ -1,0 +1,22 @@
+#version 330 core
+// SPDX-License-Identifier: MIT
+// Body coordinates to the picture. The origin of all lighting is the body's reference point, turned like the view, so
+// that the numbers stay small however far away the camera is.
+
+uniform mat4 clip_from_body;
+uniform mat3 view_from_body;
+
+layout(location = 0) in vec3 position_m;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+
+centroid out vec3 surface_m;
+centroid out vec3 surface_normal;
+centroid out vec2 surface_uv;
+
+void main() {
+  gl_Position = clip_from_body * vec4(position_m, 1.0);
+  surface_m = view_from_body * position_m;
+  surface_normal = view_from_body * normal;
+  surface_uv = vec2(uv.x, 1.0 - uv.y);  // the first row of the picture is its top
+}

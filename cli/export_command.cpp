@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "cli/export_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "export.h"
+#include "project/set_field.h"
+
+namespace sigs::cli {
+
+namespace {
+
+struct ExportOptions {
+  ProjectOptions project;
+  std::filesystem::path folder = ".";
+  std::string frames;
+  std::map<std::string, std::string> settings;  // options that stand for one setting of the project
+  std::string labels;
+  int jobs = 0;
+  bool force = false;
+  bool times = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+const std::map<std::string, ProgressStyle> kProgressStyles{{"auto", ProgressStyle::automatic},
+                                                           {"plain", ProgressStyle::plain},
+                                                           {"json", ProgressStyle::json},
+                                                           {"none", ProgressStyle::none}};
+
+std::string json_list(const std::string& comma_separated) {
+  std::string list = "[\"";
+  for (const char c : comma_separated) list += c == ',' ? std::string("\",\"") : std::string(1, c);
+  return comma_separated.empty() ? "[]" : list + "\"]";
+}
+
+Result<ExportRequest> request_of(const ExportOptions& options) {
+  Result<Project> project = project_of(options.project);
+  if (!project) return fail(project.error());
+  for (const auto& [key, value] : options.settings)
+    if (!value.empty())
+      if (const Result<void> set = set_field(*project, key + "=" + value); !set) return fail(set.error());
+  if (!options.labels.empty()) {
+    const std::string list = options.labels == "none" ? "[]" : json_list(options.labels);
+    if (const Result<void> set = set_field(*project, "export.labels=" + list); !set) return fail(set.error());
+  }
+  ExportRequest request{.project = std::move(*project), .folder = options.folder, .overwrite = options.force};
+  request.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (!options.frames.empty()) {
+    const Result<FrameRange> range = frame_range_of(options.frames);
+    if (!range) return fail(range.error());
+    request.frames = *range;
+  }
+  return request;
+}
+
+void print_times(const ExportReport& report) {
+  const StopTimes& times = report.times;
+  const double per_frame_ms = 1000.0 / std::max(1, report.frames);
+  std::fprintf(stderr, "%d frames in %s, %.1f frames/s; per frame: decode %.2f ms, draw %.2f ms, composite %.2f ms, "
+               "encode %.2f ms%s%s\n", report.frames, clock_text(times.wall_s).c_str(),
+               report.frames / std::max(times.wall_s, 1e-6), times.decode_s * per_frame_ms,
+               times.draw_s * per_frame_ms, times.composite_s * per_frame_ms, times.encode_s * per_frame_ms,
+               report.drawn_with.empty() ? "" : "; drawn with ", report.drawn_with.c_str());
+}
+
+Result<void> run(const ExportOptions& options) {
+  const Result<ExportRequest> request = request_of(options);
+  if (!request) return fail(request.error());
+  Progress progress(options.progress);
+  const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                              .warn =
+                                  [&](const Warning& warning) {
+                                    progress.end();
+                                    print_warning(warning);
+                                  },
+                              .cancel = &interrupt_flag()};
+  const Result<ExportReport> report = export_project(*request, control);
+  progress.end();
+  if (!report) return fail(report.error());
+  for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
+  if (options.times) print_times(*report);
+  return {};
+}
+
+}  // namespace
+
+std::function<Result<void>()> add_export_command(CLI::App& program) {
+  CLI::App* const command =
+      program.add_subcommand("export", "write a project's video, masks and annotations; prints the files written");
+  const auto options = std::make_shared<ExportOptions>();
+  add_project_options(*command, options->project);
+  command->add_option("--out", options->folder, "folder to write into; made where it is not there")->capture_default_str();
+  command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
+  const std::pair<const char*, const char*> settings[] = {{"--codec", "export.video.codec"},
+                                                          {"--crf", "export.video.crf"},
+                                                          {"--container", "export.video.container"},
+                                                          {"--method", "compositing.method"},
+                                                          {"--masks", "export.masks"}};
+  const std::map<std::string, std::string> help{{"--codec", "ffv1, h264, mjpeg or png"},
+                                                {"--crf", "quality of h264: 0 lossless to 51 worst"},
+                                                {"--container", "mkv, mp4 or avi"},
+                                                {"--method", "direct, classic or plain"},
+                                                {"--masks", "video, png or none"}};
+  for (const auto& [option, key] : settings)
+    command->add_option(option, options->settings[key], help.at(option))->option_text("NAME");
+  command->add_option("--labels", options->labels, "annotation formats, separated by commas: xml; none")
+      ->option_text("NAMES");
+  command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one a processor core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "overwrite what is there");
+  command->add_flag("--times", options->times, "say at the end how long each stop took");
+  command->add_option("--progress", options->progress, "auto, plain, json or none")
+      ->option_text("STYLE")
+      ->transform(CLI::CheckedTransformer(kProgressStyles));
+  return [options] { return run(*options); };
+}
+
+}  // namespace sigs::cli

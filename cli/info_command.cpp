@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "cli/info_command.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/angles.h"
+#include "camera/camera.h"
+#include "cli/options.h"
+#include "mesh/mesh.h"
+#include "video/frame_source.h"
+
+namespace sigs::cli {
+
+namespace {
+
+const char* name_of(PixelLayout layout) {
+  switch (layout) {
+    case PixelLayout::gray: return "gray";
+    case PixelLayout::yuv420: return "Y'CbCr 4:2:0";
+    case PixelLayout::yuv422: return "Y'CbCr 4:2:2";
+    case PixelLayout::yuv444: return "Y'CbCr 4:4:4";
+    case PixelLayout::rgb: return "RGB";
+  }
+  return "";
+}
+
+const char* name_of(ColorMatrix matrix) {
+  switch (matrix) {
+    case ColorMatrix::bt601: return "BT.601";
+    case ColorMatrix::bt709: return "BT.709";
+    case ColorMatrix::bt2020: return "BT.2020";
+  }
+  return "";
+}
+
+void print_video(const VideoInfo& video) {
+  std::printf("video: %s, %dx%d, %s (%s), container %s\n", video.codec.c_str(), video.size_px.width,
+              video.size_px.height, name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
+  if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
+  std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
+              video.variable_frame_rate ? " (variable)" : "", video.times_s.empty() ? 0.0 : video.times_s.back());
+  std::printf("color: %s range%s, matrix %s%s\n", video.color.range == ColorRange::full ? "full" : "limited",
+              video.color.range_stated ? "" : " (assumed)", name_of(video.color.matrix),
+              video.color.matrix_stated ? "" : " (assumed)");
+  for (const Warning& warning : video.warnings) print_warning(warning);
+}
+
+void print_camera(const Camera& camera) {
+  const LensParameters& lens = camera.lens.parameters();
+  std::printf("calibration: %s, %zu coefficients%s\n",
+              lens.model == LensModel::kannala_brandt ? "Kannala-Brandt fisheye" : "Brown-Conrady",
+              lens.coefficients.size(), camera.lens.is_pinhole() ? " (a plain pinhole)" : "");
+  std::printf("size: %dx%d\n", camera.size_px.width, camera.size_px.height);
+  std::printf("fx fy cx cy: %.6g %.6g %.6g %.6g px\n", lens.fx, lens.fy, lens.cx, lens.cy);
+  std::printf("coefficients:");
+  for (const double coefficient : lens.coefficients) std::printf(" %.9g", coefficient);
+  std::printf("\nvalid field: up to %.2f degrees from the axis\n", deg_of_rad(camera.lens.valid_angle_rad()));
+  const cv::Size size = camera.size_px;
+  int unreachable = 0;
+  for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(size.width - 1, 0), glm::dvec2(0, size.height - 1),
+                                  glm::dvec2(size.width - 1, size.height - 1)})
+    unreachable += camera.lens.ray(corner) ? 0 : 1;
+  if (unreachable > 0) std::printf("corners of the picture without a ray: %d of 4\n", unreachable);
+}
+
+void print_mesh(const Mesh& mesh) {
+  const glm::vec3 size = mesh.high_m - mesh.low_m;
+  std::printf("model: %zu triangles, %zu vertices, %zu materials\n", mesh.indices.size() / 3, mesh.vertices.size(),
+              mesh.materials.size());
+  std::printf("extent along x y z of the file, in its units: %.4g %.4g %.4g\n", size.x, size.y, size.z);
+  for (const Material& material : mesh.materials)
+    std::printf("material %s: color %.3g %.3g %.3g, opacity %.3g%s\n", material.name.c_str(), material.diffuse.x,
+                material.diffuse.y, material.diffuse.z, material.opacity, material.texture.empty() ? "" : ", textured");
+  for (const Warning& warning : mesh.warnings) print_warning(warning);
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// A calibration may lack a size; then the numbers are shown for any size.
+Result<void> info_of_calibration(const std::filesystem::path& path) {
+  Result<Camera> camera = read_calibration(path);
+  if (!camera) return fail(camera.error());
+  print_camera(*camera);
+  return {};
+}
+
+Result<void> info(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
+  const std::string extension = lower_extension(path);
+  if (extension == ".obj") {
+    const Result<Mesh> mesh = read_obj(path);
+    if (!mesh) return fail(mesh.error());
+    print_mesh(*mesh);
+    return {};
+  }
+  if (extension == ".xml" || extension == ".yml" || extension == ".yaml" || extension == ".json")
+    return info_of_calibration(path);
+  const Result<FrameSource> video = FrameSource::open(path);
+  if (!video) return fail(video.error());
+  print_video(video->info());
+  return {};
+}
+
+}  // namespace
+
+std::function<Result<void>()> add_info_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("info", "say what is read in a video, calibration or model");
+  const auto path = std::make_shared<std::filesystem::path>();
+  command->add_option("FILE", *path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")->required();
+  return [path] { return info(*path); };
+}
+
+}  // namespace sigs::cli

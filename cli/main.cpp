@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+#include "cli/check_command.h"
+#include "cli/export_command.h"
+#include "cli/frame_command.h"
+#include "cli/info_command.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+
+namespace {
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  sigs export projects/crossing/crossing.json --out out\n"
+    "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
+    "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
+    "  sigs check projects/crossing/crossing.json\n"
+    "  sigs info assets/footage/sample.mp4\n"
+    "\n"
+    "Exit status: 0 done, 64 usage, 65 bad data, 66 cannot read an input, 69 no OpenGL or encoder,\n"
+    "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted.";
+
+struct Command {
+  CLI::App* app;
+  std::function<sigs::Result<void>()> run;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace sigs::cli;
+  CLI::App program("Puts simulated aircraft into real UAV footage, and writes the truth beside it.", "sigs");
+  program.set_version_flag("--version", std::string("sigs ") + SIGS_VERSION);
+  program.require_subcommand(1);
+  program.footer(kFooter);
+  std::vector<Command> commands;
+  for (const auto add : {add_export_command, add_frame_command, add_check_command, add_info_command}) {
+    std::function<sigs::Result<void>()> run = add(program);
+    commands.push_back({program.get_subcommands({}).back(), std::move(run)});
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
+  }
+  listen_for_interrupts();
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    if (const sigs::Result<void> done = command.run(); !done) {
+      print_error(done.error());
+      return static_cast<int>(done.error().kind);
+    }
+  }
+  return 0;
+}

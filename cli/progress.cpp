@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace sigs::cli {
+
+namespace {
+
+constexpr int kBarWidth = 32;
+
+bool is_plain_terminal() {
+  const char* const term = std::getenv("TERM");
+  return term == nullptr || std::strcmp(term, "dumb") == 0;
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const long whole = std::lround(std::max(0.0, seconds));
+  char text[32];
+  if (whole >= 3600)
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  return text;
+}
+
+Progress::Progress(ProgressStyle style) : style_(style) {
+  bar_ = style == ProgressStyle::automatic && isatty(STDERR_FILENO) == 1 && !is_plain_terminal();
+  color_ = bar_ && std::getenv("NO_COLOR") == nullptr;
+}
+
+void Progress::update(int done, int total) {
+  const bool last = done == total;
+  const Clock::time_point now = Clock::now();
+  if (!last && drawn_ != Clock::time_point::min() && now - drawn_ < std::chrono::milliseconds(bar_ ? 100 : 1000)) return;
+  drawn_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  const double left_s = elapsed_s * (total - done) / done;
+  if (bar_) {
+    draw_bar(done, total, elapsed_s);
+  } else if (style_ == ProgressStyle::plain) {
+    std::fprintf(stderr, "frame %d of %d, %s left\n", done, total, clock_text(left_s).c_str());
+  } else if (style_ == ProgressStyle::json) {
+    std::fprintf(stderr, "{\"done\": %d, \"total\": %d, \"elapsed_s\": %.3f, \"left_s\": %.3f}\n", done, total, elapsed_s,
+                 left_s);
+  }
+}
+
+void Progress::draw_bar(int done, int total, double elapsed_s) {
+  const int filled = static_cast<int>(static_cast<long long>(kBarWidth) * done / total);
+  std::string full;
+  for (int i = 0; i < filled; ++i) full += "█";
+  std::string rest;
+  for (int i = filled; i < kBarWidth; ++i) rest += "░";
+  const double left_s = elapsed_s * (total - done) / done;
+  std::fprintf(stderr, "\r%s%s%s%s %3d%%  %d/%d frames  %.1f/s  %s left\033[K", color_ ? "\033[36m" : "", full.c_str(),
+               rest.c_str(), color_ ? "\033[0m" : "", static_cast<int>(100LL * done / total), done, total,
+               done / std::max(elapsed_s, 1e-3), clock_text(left_s).c_str());
+  std::fflush(stderr);
+  line_open_ = true;
+}
+
+void Progress::end() {
+  if (line_open_) std::fprintf(stderr, "\n");
+  line_open_ = false;
+}
+
+}  // namespace sigs::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "annotation/measure.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sigs {
+
+std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body,
+                                        const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  glm::dvec2 low(kInfinity);
+  glm::dvec2 high(-kInfinity);
+  bool all_have_image = true;
+  for (const glm::vec3& point : points_in_body) {
+    const std::optional<glm::dvec2> pixel = lens.pixel(camera_from_body * glm::dvec3(point));
+    if (!pixel) {
+      all_have_image = false;
+      continue;
+    }
+    low = glm::min(low, *pixel);
+    high = glm::max(high, *pixel);
+  }
+  if (low.x > high.x) return std::nullopt;
+  return Silhouette{{low.x, low.y, high.x - low.x, high.y - low.y}, all_have_image};
+}
+
+std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rect) {
+  cv::Point low(rect.width, rect.height);
+  cv::Point high(-1, -1);
+  for (int j = 0; j < rect.height; ++j)
+    for (int i = 0; i < rect.width; ++i) {
+      if (coverage.at<float>(j, i) < kLeastCoverage) continue;
+      low = {std::min(low.x, i), std::min(low.y, j)};
+      high = {std::max(high.x, i), std::max(high.y, j)};
+    }
+  if (high.x < 0) return std::nullopt;
+  return cv::Rect(low + rect.tl(), high + rect.tl() + cv::Point(1, 1));
+}
+
+double area_px(const cv::Mat& coverage) { return coverage.empty() ? 0.0 : cv::sum(coverage)[0]; }
+
+}  // namespace sigs

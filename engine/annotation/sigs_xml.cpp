@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "annotation/sigs_xml.h"
+
+#include <cerrno>
+#include <cstring>
+#include <pugixml.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "annotation/number_text.h"
+#include "base/angles.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kMetreDecimals = 6;
+constexpr int kDegreeDecimals = 6;
+constexpr int kPixelDecimals = 4;
+constexpr int kFractionDecimals = 6;
+constexpr int kSecondDecimals = 6;
+
+void set(pugi::xml_node node, const char* name, double number, int decimals) {
+  node.append_attribute(name) = number_text(number, decimals).c_str();
+}
+
+void set_position(pugi::xml_node node, const glm::dvec3& position_m) {
+  set(node, "x_m", position_m.x, kMetreDecimals);
+  set(node, "y_m", position_m.y, kMetreDecimals);
+  set(node, "z_m", position_m.z, kMetreDecimals);
+}
+
+void set_attitude(pugi::xml_node node, const Attitude& attitude) {
+  set(node, "roll_deg", deg_of_rad(attitude.roll_rad), kDegreeDecimals);
+  set(node, "pitch_deg", deg_of_rad(attitude.pitch_rad), kDegreeDecimals);
+  set(node, "yaw_deg", deg_of_rad(attitude.yaw_rad), kDegreeDecimals);
+}
+
+void add_boxes(pugi::xml_node node, const IntruderTruth& truth) {
+  if (truth.box) {
+    pugi::xml_node box = node.append_child("box");
+    box.append_attribute("x") = truth.box->x;
+    box.append_attribute("y") = truth.box->y;
+    box.append_attribute("width") = truth.box->width;
+    box.append_attribute("height") = truth.box->height;
+  }
+  if (truth.silhouette) {
+    pugi::xml_node silhouette = node.append_child("silhouette");
+    set(silhouette, "x", truth.silhouette->x, kPixelDecimals);
+    set(silhouette, "y", truth.silhouette->y, kPixelDecimals);
+    set(silhouette, "width", truth.silhouette->width, kPixelDecimals);
+    set(silhouette, "height", truth.silhouette->height, kPixelDecimals);
+  }
+}
+
+void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
+  pugi::xml_node node = frame.append_child("intruder");
+  node.append_attribute("id") = truth.id;
+  node.append_attribute("name") = truth.name.c_str();
+  node.append_attribute("in_picture") = truth.in_picture;
+  set(node, "visible_fraction", truth.visible_fraction, kFractionDecimals);
+  set_position(node.append_child("position"), truth.position_m);
+  set(node.append_child("distance"), "m", glm::length(truth.position_m), kMetreDecimals);
+  set_attitude(node.append_child("attitude"), truth.attitude);
+  add_boxes(node, truth);
+}
+
+std::string head_of(const FootageTruth& footage) {
+  pugi::xml_document document;
+  pugi::xml_node node = document.append_child("footage");
+  node.append_attribute("video") = footage.video.c_str();
+  node.append_attribute("width") = footage.size_px.width;
+  node.append_attribute("height") = footage.size_px.height;
+  node.append_attribute("first_frame") = footage.first_frame;
+  node.append_attribute("last_frame") = footage.last_frame;
+  node.append_attribute("frame_rate") =
+      (std::to_string(footage.frame_rate_num) + "/" + std::to_string(footage.frame_rate_den)).c_str();
+  std::ostringstream text;
+  text << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<sigs version=\"1\">\n";
+  node.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);
+  return text.str();
+}
+
+}  // namespace
+
+std::string xml_of(const FrameTruth& truth) {
+  pugi::xml_document document;
+  pugi::xml_node frame = document.append_child("frame");
+  frame.append_attribute("index") = truth.index;
+  set(frame, "time_s", truth.time_s, kSecondDecimals);
+  pugi::xml_node camera = frame.append_child("camera");
+  set_position(camera, truth.camera_position_m);
+  set_attitude(camera, truth.camera_attitude);
+  for (const IntruderTruth& intruder : truth.intruders) add_intruder(frame, intruder);
+  std::ostringstream text;
+  frame.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);
+  return text.str();
+}
+
+SigsXmlWriter::SigsXmlWriter(std::filesystem::path path, std::ofstream out)
+    : path_(std::move(path)), out_(std::move(out)) {}
+
+Result<SigsXmlWriter> SigsXmlWriter::open(const std::filesystem::path& path, const FootageTruth& footage) {
+  std::ofstream out(path, std::ios::binary);
+  if (!out)
+    return fail(path.string(), std::string("cannot be created: ") + std::strerror(errno), ErrorKind::cannot_create);
+  SigsXmlWriter writer(path, std::move(out));
+  const Result<void> head = writer.put(head_of(footage));
+  if (!head) return fail(head.error());
+  return writer;
+}
+
+Result<void> SigsXmlWriter::write(const FrameTruth& truth) { return put(xml_of(truth)); }
+
+Result<void> SigsXmlWriter::finish() {
+  const Result<void> end = put("</sigs>\n");
+  if (!end) return end;
+  out_.close();
+  if (!out_) return fail(path_.string(), "could not be written to its end", ErrorKind::write_failed);
+  return {};
+}
+
+Result<void> SigsXmlWriter::put(const std::string& text) {
+  out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!out_)
+    return fail(path_.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
+  return {};
+}
+
+}  // namespace sigs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "annotation/annotation.h"
+#include "base/result.h"
+
+namespace sigs {
+
+struct FootageTruth {
+  std::string video;  // file name without folder
+  cv::Size size_px;
+  int first_frame = 0;
+  int last_frame = 0;
+  int frame_rate_num = 25;
+  int frame_rate_den = 1;
+};
+
+// The truth of one frame as an element of the file, indented, with its line end.
+[[nodiscard]] std::string xml_of(const FrameTruth& truth);
+
+// Writes a SIGS annotation file (docs/annotation-format.md, docs/sigs-annotations.xsd) frame by frame: memory does not
+// grow with the video.
+class SigsXmlWriter {
+ public:
+  // Error cannot_create. path is the place to write to; the caller gives it its final name.
+  [[nodiscard]] static Result<SigsXmlWriter> open(const std::filesystem::path& path, const FootageTruth& footage);
+
+  // Error write_failed.
+  [[nodiscard]] Result<void> write(const FrameTruth& truth);
+  [[nodiscard]] Result<void> finish();
+
+ private:
+  SigsXmlWriter(std::filesystem::path path, std::ofstream out);
+  [[nodiscard]] Result<void> put(const std::string& text);
+
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+}  // namespace sigs

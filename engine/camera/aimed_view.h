@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "camera/camera.h"
+#include "camera/virtual_view.h"
+
+namespace sigs {
+
+// The views in which to draw a body so that the lens can then ask them for its colours.
+//   corners_in_camera  the eight corners of a box around the body, metres, camera frame
+//   supersampling      drawn pixels a picture pixel, each way, where the picture is finest; >= 1
+//   max_size_px        largest side of a view; a body that would need more is drawn coarser
+// One view that just holds the box where it spans less than about 100 degrees; else the six faces of a cube around the
+// camera. Small bodies are drawn at least some 50 pixels large, so that their share of a picture pixel is right.
+// None where the camera sees no part of the body's surroundings at all.
+[[nodiscard]] std::vector<VirtualView> aimed_views(const Camera& camera,
+                                                   const std::array<glm::dvec3, 8>& corners_in_camera,
+                                                   double supersampling, int max_size_px);
+
+}  // namespace sigs

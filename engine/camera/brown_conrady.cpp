@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "camera/brown_conrady.h"
+
+#include <array>
+#include <cmath>
+
+namespace sigs::distortion {
+namespace {
+
+struct Ratio {
+  double value = 1;  // N / D
+  double slope = 0;  // its derivative by u
+};
+
+Ratio ratio(const BrownConrady& m, double u) {
+  const double numerator = 1 + u * (m.k1 + u * (m.k2 + u * m.k3));
+  const double denominator = 1 + u * (m.k4 + u * (m.k5 + u * m.k6));
+  const double numerator_slope = m.k1 + u * (2 * m.k2 + u * 3 * m.k3);
+  const double denominator_slope = m.k4 + u * (2 * m.k5 + u * 3 * m.k6);
+  const double value = numerator / denominator;
+  return {value, (numerator_slope - value * denominator_slope) / denominator};
+}
+
+// Scheimpflug tilt: the sensor plane is turned by R = Ry(tau_y) Rx(tau_x), which takes (x'', y'', 1) to a point in its
+// own frame. Seen along the optical axis, the turned axis has to stay at (0, 0): with c = R (0, 0, 1), the third
+// column, the point (X, Y, Z) lands on c_z X / Z - c_x and c_z Y / Z - c_y. That is the first matrix below.
+glm::dmat3 tilt_matrix(double tau_x, double tau_y) {
+  const double cx = std::cos(tau_x);
+  const double sx = std::sin(tau_x);
+  const double cy = std::cos(tau_y);
+  const double sy = std::sin(tau_y);
+  const glm::dmat3 about_x{{1, 0, 0}, {0, cx, -sx}, {0, sx, cx}};  // columns
+  const glm::dmat3 about_y{{cy, 0, sy}, {0, 1, 0}, {-sy, 0, cy}};
+  const glm::dmat3 turn = about_y * about_x;
+  const glm::dvec3 axis = turn[2];
+  const glm::dmat3 along_axis{{axis.z, 0, 0}, {0, axis.z, 0}, {-axis.x, -axis.y, 1}};
+  return along_axis * turn;
+}
+
+}  // namespace
+
+BrownConrady BrownConrady::of(std::span<const double> coefficients) {
+  std::array<double, 14> c{};
+  for (std::size_t i = 0; i < coefficients.size() && i < c.size(); ++i) c[i] = coefficients[i];
+  BrownConrady m{.k1 = c[0],
+                 .k2 = c[1],
+                 .k3 = c[4],
+                 .k4 = c[5],
+                 .k5 = c[6],
+                 .k6 = c[7],
+                 .p1 = c[2],
+                 .p2 = c[3],
+                 .s1 = c[8],
+                 .s2 = c[9],
+                 .s3 = c[10],
+                 .s4 = c[11]};
+  m.radial_only = m.p1 == 0 && m.p2 == 0 && m.s1 == 0 && m.s2 == 0 && m.s3 == 0 && m.s4 == 0;
+  m.tilted = c[12] != 0 || c[13] != 0;
+  if (m.tilted) {
+    m.tilt = tilt_matrix(c[12], c[13]);
+    m.tilt_inverse = glm::inverse(m.tilt);
+  }
+  return m;
+}
+
+glm::dvec2 BrownConrady::bent(const glm::dvec2& p) const {
+  const double u = glm::dot(p, p);
+  const double across = 2 * p.x * p.y;
+  const glm::dvec2 tangential{p1 * across + p2 * (u + 2 * p.x * p.x), p1 * (u + 2 * p.y * p.y) + p2 * across};
+  const glm::dvec2 prism{u * (s1 + u * s2), u * (s3 + u * s4)};
+  return p * ratio(*this, u).value + tangential + prism;
+}
+
+glm::dmat2 BrownConrady::bent_jacobian(const glm::dvec2& p) const {
+  const double u = glm::dot(p, p);
+  const Ratio r = ratio(*this, u);
+  const double mixed = 2 * p.x * p.y * r.slope + 2 * p1 * p.x + 2 * p2 * p.y;
+  const glm::dvec2 prism_slope{2 * (s1 + 2 * s2 * u), 2 * (s3 + 2 * s4 * u)};
+  const double xx = r.value + 2 * p.x * p.x * r.slope + 2 * p1 * p.y + 6 * p2 * p.x;
+  const double yy = r.value + 2 * p.y * p.y * r.slope + 6 * p1 * p.y + 2 * p2 * p.x;
+  return {glm::dvec2{xx, mixed} + prism_slope * p.x, glm::dvec2{mixed, yy} + prism_slope * p.y};
+}
+
+ValueAndSlope BrownConrady::radial(double r) const {
+  const double u = r * r;
+  const Ratio n = ratio(*this, u);
+  return {r * n.value, n.value + 2 * u * n.slope};
+}
+
+glm::dvec2 BrownConrady::distorted(const glm::dvec2& p) const {
+  const glm::dvec2 flat = bent(p);
+  if (!tilted) return flat;
+  const glm::dvec3 seen = tilt * glm::dvec3{flat, 1};
+  return glm::dvec2{seen} / seen.z;
+}
+
+glm::dmat2 BrownConrady::jacobian(const glm::dvec2& p) const {
+  const glm::dmat2 inner = bent_jacobian(p);
+  if (!tilted) return inner;
+  const glm::dvec3 seen = tilt * glm::dvec3{bent(p), 1};
+  const glm::dvec2 at = glm::dvec2{seen} / seen.z;
+  const glm::dmat2 outer{(glm::dvec2{tilt[0]} - at * tilt[0].z) / seen.z,
+                         (glm::dvec2{tilt[1]} - at * tilt[1].z) / seen.z};
+  return outer * inner;
+}
+
+std::optional<glm::dvec2> BrownConrady::untilted(const glm::dvec2& distorted_point) const {
+  if (!tilted) return distorted_point;
+  const glm::dvec3 flat = tilt_inverse * glm::dvec3{distorted_point, 1};
+  if (!(flat.z > 0)) return std::nullopt;
+  return glm::dvec2{flat} / flat.z;
+}
+
+std::optional<glm::dvec2> BrownConrady::plane_of(const glm::dvec3& p_optical) {
+  if (!(p_optical.z > 0)) return std::nullopt;
+  return glm::dvec2{p_optical.x / p_optical.z, p_optical.y / p_optical.z};
+}
+
+glm::dvec3 BrownConrady::ray_of(const glm::dvec2& p) {
+  return glm::normalize(glm::dvec3{p, 1});
+}
+
+glm::dvec2 BrownConrady::stretch(const glm::dvec2& p) {
+  // r = tan(theta): dr/dtheta = 1 + r^2; across, a turn by dphi moves r dphi and is an angle of sin(theta) dphi.
+  const double secant_squared = 1 + glm::dot(p, p);
+  return {secant_squared, std::sqrt(secant_squared)};
+}
+
+}  // namespace sigs::distortion

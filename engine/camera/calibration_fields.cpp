@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "camera/calibration_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "camera/scaled_calibration.h"
+
+namespace sigs::calibration {
+namespace {
+
+using Names = std::span<const std::string_view>;
+
+constexpr std::array<std::string_view, 6> kMatrixNames{
+    "camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k", "M1"};
+constexpr std::array<std::string_view, 12> kCoefficientNames{"distortion_coefficients",
+                                                             "Distortion_Coefficients",
+                                                             "distortionCoefficients",
+                                                             "distortion_coeffs",
+                                                             "dist_coeffs",
+                                                             "dist_coefs",
+                                                             "dist_coeff",
+                                                             "distCoeffs",
+                                                             "D",
+                                                             "d",
+                                                             "D1",
+                                                             "distortion"};
+constexpr std::array<std::string_view, 4> kSizeNames{"image_size", "image_Size", "imageSize", "Image_Size"};
+constexpr std::array<std::string_view, 4> kWidthNames{"image_width", "image_Width", "imageWidth", "width"};
+constexpr std::array<std::string_view, 4> kHeightNames{"image_height", "image_Height", "imageHeight", "height"};
+constexpr std::array<std::string_view, 3> kFisheyeNames{"fisheye_model", "fisheye", "fisheyeModel"};
+constexpr std::array<std::string_view, 2> kModelNames{"distortion_model", "lens_model"};
+
+std::string joined(Names names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+const Field* found(const Fields& fields, Names names) {
+  for (const std::string_view name : names)
+    if (const auto it = fields.find(name); it != fields.end()) return &it->second;
+  return nullptr;
+}
+
+// The messages name the file and, where one is at fault, the field.
+struct Reader {
+  const Fields& fields;
+  const std::string& file;
+
+  [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
+  [[nodiscard]] Result<void> check_numbers(const Field& field) const;
+  [[nodiscard]] Result<bool> is_fisheye() const;
+  [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
+  [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
+  [[nodiscard]] Result<int> pixels(const Field& field, double number) const;
+  [[nodiscard]] Result<std::optional<cv::Size>> size() const;
+};
+
+Result<void> Reader::check_numbers(const Field& field) const {
+  if (field.not_a_number) return fail(where(field), "'" + *field.not_a_number + "' is not a number");
+  if (field.stated_count && *field.stated_count != field.numbers.size())
+    return fail(where(field), "rows and cols say " + std::to_string(*field.stated_count) + " numbers, found " +
+                                  std::to_string(field.numbers.size()));
+  for (const double number : field.numbers)
+    if (!std::isfinite(number)) return fail(where(field), text_of(number) + " is not a finite number");
+  return {};
+}
+
+// Words for a model, as ROS and Kalibr have them, against OpenCV's flag.
+Result<bool> Reader::is_fisheye() const {
+  constexpr std::array<std::string_view, 7> kBrown{
+      "plumb_bob", "rational_polynomial", "thin_prism", "radtan", "brown_conrady", "none", ""};
+  constexpr std::array<std::string_view, 5> kFisheye{"equidistant", "fisheye", "kannala_brandt", "kannala_brandt4",
+                                                     "opencv_fisheye"};
+  if (const Field* flag = found(fields, kFisheyeNames)) {
+    if (flag->text == "true" || flag->text == "True") return true;
+    if (flag->text == "false" || flag->text == "False") return false;
+    if (flag->numbers.size() != 1 || flag->not_a_number) return fail(where(*flag), "expected 0 or 1");
+    if (flag->numbers.front() != 0) return true;
+  }
+  const Field* model = found(fields, kModelNames);
+  if (model == nullptr) return false;
+  if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return true;
+  if (std::ranges::find(kBrown, model->text) != kBrown.end()) return false;
+  return fail(where(*model), "distortion model '" + model->text +
+                                 "' is not supported; plumb_bob, rational_polynomial, equidistant and fisheye are");
+}
+
+Result<void> Reader::read_matrix(LensParameters& lens) const {
+  const Field* field = found(fields, kMatrixNames);
+  if (field == nullptr) return fail(file, "no camera matrix; looked for " + joined(kMatrixNames));
+  if (const auto good = check_numbers(*field); !good) return fail(good.error());
+  const std::vector<double>& m = field->numbers;
+  if (m.size() != 9) return fail(where(*field), "expected 9 numbers, found " + std::to_string(m.size()));
+  lens.fx = m[0], lens.fy = m[4], lens.cx = m[2], lens.cy = m[5];
+  if (!(lens.fx > 0 && lens.fy > 0))
+    return fail(where(*field), "focal lengths must be positive, are " + text_of(lens.fx) + " and " + text_of(lens.fy));
+  constexpr double kRounding = 1e-6;  // of the focal length: what a solver leaves where it was told to keep zero
+  if (std::abs(m[1]) > kRounding * lens.fx || std::abs(m[3]) > kRounding * lens.fx)
+    return fail(where(*field), "skew is not supported; the 2nd and 4th numbers must be 0, are " + text_of(m[1]) +
+                                   " and " + text_of(m[3]));
+  constexpr double kLastRowRounding = 1e-9;
+  if (std::abs(m[6]) > kLastRowRounding || std::abs(m[7]) > kLastRowRounding || std::abs(m[8] - 1) > kLastRowRounding)
+    return fail(where(*field),
+                "the last row must be 0 0 1, is " + text_of(m[6]) + " " + text_of(m[7]) + " " + text_of(m[8]));
+  return {};
+}
+
+Result<void> Reader::read_coefficients(LensParameters& lens) const {
+  const Field* field = found(fields, kCoefficientNames);
+  if (field == nullptr) return fail(file, "no distortion coefficients; looked for " + joined(kCoefficientNames));
+  if (const auto good = check_numbers(*field); !good) return fail(good.error());
+  lens.coefficients = field->numbers;
+  const auto made = Lens::make(lens);  // knows how many there may be
+  if (!made) return fail(where(*field), made.error().what);
+  return {};
+}
+
+Result<int> Reader::pixels(const Field& field, double number) const {
+  constexpr double kMost = 1 << 20;
+  if (!(number >= 1 && number <= kMost) || number != std::floor(number))
+    return fail(where(field), "expected a whole number of pixels, found " + text_of(number));
+  return static_cast<int>(number);
+}
+
+// Nothing where the file says no size at all.
+Result<std::optional<cv::Size>> Reader::size() const {
+  const Field* both = found(fields, kSizeNames);
+  const Field* width = found(fields, kWidthNames);
+  const Field* height = found(fields, kHeightNames);
+  if (both == nullptr && width == nullptr && height == nullptr) return std::nullopt;
+  if (width == nullptr && height == nullptr) {
+    if (both->numbers.size() != 2 || both->not_a_number)
+      return fail(where(*both), "expected 2 numbers, width and height");
+    width = height = both;
+  }
+  if (width == nullptr) return fail(where(*height), "a height without a width; looked for " + joined(kWidthNames));
+  if (height == nullptr) return fail(where(*width), "a width without a height; looked for " + joined(kHeightNames));
+  for (const Field* field : {width, height})
+    if (field != both && (field->numbers.size() != 1 || field->not_a_number))
+      return fail(where(*field), "expected one number");
+  const Result<int> width_px = pixels(*width, width->numbers.front());
+  if (!width_px) return fail(width_px.error());
+  const Result<int> height_px = pixels(*height, height->numbers.back());
+  if (!height_px) return fail(height_px.error());
+  return cv::Size(*width_px, *height_px);
+}
+
+std::string size_names() {
+  return joined(kSizeNames) + "; " + joined(kWidthNames) + " with " + joined(kHeightNames);
+}
+
+}  // namespace
+
+std::string text_of(double number) {
+  std::array<char, 32> digits{};  // the longest shortest text of a double has 24 characters
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  return {digits.data(), end};
+}
+
+Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
+                           std::optional<cv::Size> footage_size_px) {
+  constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
+  const Reader reader{fields, file_name};
+  if (const Field* mirror = found(fields, kMirrorNames))
+    return fail(reader.where(*mirror), "the omnidirectional model (xi) is not supported; calibrate as fisheye");
+  LensParameters lens;
+  const Result<bool> fisheye = reader.is_fisheye();
+  if (!fisheye) return fail(fisheye.error());
+  lens.model = *fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
+  if (const auto good = reader.read_matrix(lens); !good) return fail(good.error());
+  if (const auto good = reader.read_coefficients(lens); !good) return fail(good.error());
+  const Result<std::optional<cv::Size>> own_size_px = reader.size();
+  if (!own_size_px) return fail(own_size_px.error());
+  if (!*own_size_px && !footage_size_px)
+    return fail(file_name, "no image size, and no footage to take it from; looked for " + size_names());
+  return scaled_calibration(std::move(lens), own_size_px->value_or(footage_size_px.value_or(cv::Size{})),
+                            footage_size_px, file_name);
+}
+
+}  // namespace sigs::calibration

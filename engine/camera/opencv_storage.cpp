@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "camera/opencv_storage.h"
+
+#include <algorithm>
+#include <exception>
+#include <opencv2/core.hpp>
+#include <utility>
+
+namespace sigs::calibration {
+namespace {
+
+void append(const cv::FileNode& node, Field& field) {
+  if (node.isInt() || node.isReal()) {
+    field.numbers.push_back(node.real());
+  } else if (node.isSeq()) {
+    for (const cv::FileNode& element : node) append(element, field);
+  } else if (!field.not_a_number) {
+    field.not_a_number = node.isString() ? node.string() : "?";
+  }
+}
+
+Field field_of(const cv::FileNode& node) {
+  Field field{.name = node.name()};
+  if (node.isString()) field.text = node.string();
+  if (!node.isMap()) {
+    append(node, field);
+    return field;
+  }
+  const cv::FileNode rows = node["rows"];
+  const cv::FileNode cols = node["cols"];
+  if (rows.isInt() && cols.isInt() && rows.real() >= 0 && cols.real() >= 0)
+    field.stated_count = static_cast<std::size_t>(rows.real() * cols.real());
+  const cv::FileNode data = node["data"];
+  if (!data.empty()) append(data, field);
+  return field;
+}
+
+Fields fields_of(const cv::FileNode& root) {
+  Fields fields;
+  if (!root.isMap()) return fields;
+  for (const cv::FileNode& node : root) {
+    Field field = field_of(node);
+    fields.emplace(field.name, std::move(field));
+  }
+  return fields;
+}
+
+// The message proper, on one line.
+std::string reason(const cv::Exception& error) {
+  std::string text = error.err.empty() ? std::string("syntax error") : error.err;
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+Result<Fields> opencv_storage_fields(const std::string& text, const std::string& file_name) {
+  try {
+    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    if (!storage.isOpened()) return fail(file_name, "not an OpenCV calibration file");
+    return fields_of(storage.root());
+  } catch (const cv::Exception& error) {
+    return fail(file_name, "not readable as an OpenCV file: " + reason(error));
+  } catch (const std::exception& error) {
+    return fail(file_name, std::string("not readable as an OpenCV file: ") + error.what());
+  }
+}
+
+}  // namespace sigs::calibration

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "camera/valid_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+
+#include "camera/polynomial.h"
+
+namespace sigs::distortion {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kLargestRadius = 1e8;
+constexpr double kSmallestDenominator = 1e-6;
+
+// mean + Re(first e^{i phi}) + Re(second e^{2 i phi}): how a quantity changes round a circle.
+struct Harmonics {
+  double mean = 0;
+  Complex first;
+  Complex second;
+
+  [[nodiscard]] double at(double phi) const {
+    const Complex turn = std::polar(1.0, phi);
+    return mean + (first * turn + second * turn * turn).real();
+  }
+};
+
+// Smallest value of a function between two places that enclose one dip, by golden section; and where.
+struct Lowest {
+  double x = 0;
+  double value = 0;
+};
+
+template <class Function>
+Lowest bottom_of_dip(const Function& f, double a, double b) {
+  constexpr double kGolden = 1 / std::numbers::phi;
+  double x1 = b - kGolden * (b - a);
+  double x2 = a + kGolden * (b - a);
+  double f1 = f(x1);
+  double f2 = f(x2);
+  constexpr int kSteps = 40;  // 0.618^40 = 4e-9 of the interval: a parabola's bottom to the last bit
+  for (int step = 0; step < kSteps; ++step) {
+    if (f1 < f2) {
+      b = x2, x2 = x1, f2 = f1;
+      x1 = b - kGolden * (b - a), f1 = f(x1);
+    } else {
+      a = x1, x1 = x2, f1 = f2;
+      x2 = a + kGolden * (b - a), f2 = f(x2);
+    }
+  }
+  return f1 < f2 ? Lowest{x1, f1} : Lowest{x2, f2};
+}
+
+// At most two dips lie on the circle, so 32 samples see each of them.
+double smallest(const Harmonics& h) {
+  constexpr int kSamples = 32;
+  constexpr double kStep = 2 * std::numbers::pi / kSamples;
+  std::array<double, kSamples> sample{};
+  for (int i = 0; i < kSamples; ++i) sample[i] = h.at(i * kStep);
+  double result = *std::ranges::min_element(sample);
+  for (int i = 0; i < kSamples; ++i) {
+    const double before = sample[(i + kSamples - 1) % kSamples];
+    const double after = sample[(i + 1) % kSamples];
+    if (sample[i] > before || sample[i] > after) continue;
+    const auto value = [&h](double phi) { return h.at(phi); };
+    result = std::min(result, bottom_of_dip(value, (i - 1) * kStep, (i + 1) * kStep).value);
+  }
+  return result;
+}
+
+// With points as complex numbers, w = p2 + i p1 and s(r) the prism's shift, the circle of radius r is bent to
+//   f = g(r) e^{i phi} + 2 w r^2 + conj(w) r^2 e^{2 i phi} + s(r)
+// and the determinant of the Jacobian is Im(conj(df/dr) df/dphi) / r.
+double smallest_determinant(const BrownConrady& m, double r) {
+  const Complex w{m.p2, m.p1};
+  const Complex s_slope = 2 * r * Complex{m.s1, m.s3} + 4 * r * r * r * Complex{m.s2, m.s4};
+  const ValueAndSlope g = m.radial(r);
+  const double g_over_r = g.value / r;
+  const Complex a = std::conj(4.0 * r * w + s_slope);
+  const Complex b = 2.0 * r * w;
+  const Complex c = std::conj(b);
+  return smallest({.mean = g.slope * g_over_r + (b * c).real(),
+                   .first = g.slope * c + a * g_over_r + std::conj(b) * g_over_r,
+                   .second = a * c});
+}
+
+// Third coordinate of a bent circle on the tilted sensor, against that of the axis: zero where it is met edge on.
+double smallest_tilt_depth(const BrownConrady& m, double r) {
+  const Complex w{m.p2, m.p1};
+  const Complex shift = 2.0 * r * r * w + r * r * Complex{m.s1, m.s3} + r * r * r * r * Complex{m.s2, m.s4};
+  const double tx = m.tilt[0].z / m.tilt[2].z;
+  const double ty = m.tilt[1].z / m.tilt[2].z;
+  const Complex across{tx, -ty};  // Re(across * f) = tx x + ty y
+  return smallest({.mean = 1 + (across * shift).real(),
+                   .first = across * m.radial(r).value,
+                   .second = across * std::conj(w) * r * r}) -
+         kSmallestDenominator;
+}
+
+// Largest r up to limit below which f, positive near 0, is positive throughout. Steps of under 1 percent of r, and
+// every dip between them is followed to its bottom.
+template <class Function>
+double positive_up_to(const Function& f, double limit) {
+  constexpr double kSmallestRadius = 1e-8;
+  constexpr int kSteps = 4096;
+  const auto fall_between = [&f](double good, double bad) {
+    for (;;) {
+      const double middle = std::midpoint(good, bad);
+      if (middle == good || middle == bad) return good;
+      (f(middle) > 0 ? good : bad) = middle;
+    }
+  };
+  const double growth = std::pow(limit / kSmallestRadius, 1.0 / kSteps);
+  std::array<Lowest, 3> last{{{0, 1}, {0, 1}, {0, 1}}};
+  for (int step = 0; step <= kSteps; ++step) {
+    const double r = std::min(limit, kSmallestRadius * std::pow(growth, step));
+    last = {last[1], last[2], Lowest{r, f(r)}};
+    if (!(last[2].value > 0)) return fall_between(last[1].x, r);
+    if (last[1].value > last[0].value || last[1].value > last[2].value) continue;
+    const Lowest bottom = bottom_of_dip(f, std::max(last[0].x, kSmallestRadius), r);
+    if (!(bottom.value > 0)) return fall_between(last[0].x, bottom.x);
+  }
+  return limit;
+}
+
+double radial_limit(const BrownConrady& m) {
+  const Polynomial numerator{1, m.k1, m.k2, m.k3};
+  const Polynomial denominator{1, m.k4, m.k5, m.k6};
+  const Polynomial twice_u{0, 2};
+  const Polynomial r_numerator_slope = sum(numerator, product(twice_u, derivative(numerator)));
+  const Polynomial slope =
+      sum(product(r_numerator_slope, denominator), product(product(twice_u, numerator), derivative(denominator)), -1);
+  const double largest = kLargestRadius * kLargestRadius;
+  const double fold = first_fall(slope, largest);
+  const double pole = first_fall(sum(denominator, {kSmallestDenominator}, -1), largest);
+  return std::min(kLargestRadius, std::sqrt(std::min(fold, pole)));
+}
+
+std::vector<glm::dvec2> bent_rim(const BrownConrady& m, double radius) {
+  constexpr int kCorners = 360;
+  std::vector<glm::dvec2> rim;
+  for (int i = 0; i < kCorners; ++i) {
+    const double phi = i * 2 * std::numbers::pi / kCorners;
+    rim.push_back(m.bent(radius * glm::dvec2{std::cos(phi), std::sin(phi)}));
+  }
+  return rim;
+}
+
+}  // namespace
+
+Field valid_field(const BrownConrady& m) {
+  const bool straight = m.k1 == 0 && m.k2 == 0 && m.k3 == 0 && m.k4 == 0 && m.k5 == 0 && m.k6 == 0;
+  if (straight && m.radial_only && !m.tilted) return {};
+  double radius = radial_limit(m);
+  if (!m.radial_only) radius = positive_up_to([&m](double r) { return smallest_determinant(m, r); }, radius);
+  if (m.tilted) radius = positive_up_to([&m](double r) { return smallest_tilt_depth(m, r); }, radius);
+  return {.radius = radius, .edge = m.radial_only ? std::vector<glm::dvec2>{} : bent_rim(m, radius)};
+}
+
+Field valid_field(const KannalaBrandt& m) {
+  const Polynomial slope{1, 3 * m.k[0], 5 * m.k[1], 7 * m.k[2], 9 * m.k[3]};
+  const double fold = std::sqrt(first_fall(slope, std::numbers::pi * std::numbers::pi));
+  return {.radius = std::min(fold, std::numbers::pi), .edge = {}};
+}
+
+}  // namespace sigs::distortion

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "project/project.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+struct FrameRange {
+  int first = 0;
+  int last = 0;  // included
+};
+
+struct ExportRequest {
+  Project project;
+  std::filesystem::path folder;      // made where it is not there
+  std::optional<FrameRange> frames;  // none: the project's own range; numbers are the footage's
+  int jobs = 1;                      // frames composed side by side; the bytes do not depend on it
+  bool overwrite = false;
+};
+
+// Seconds spent at each stop, added up over frames (stops run side by side).
+struct StopTimes {
+  double decode_s = 0;
+  double draw_s = 0;
+  double composite_s = 0;
+  double encode_s = 0;
+  double wall_s = 0;
+};
+
+struct ExportReport {
+  std::vector<std::filesystem::path> written;
+  std::vector<Warning> warnings;
+  int frames = 0;
+  int damaged_frames = 0;
+  StopTimes times;
+  std::string drawn_with;  // what Renderer::description says; empty: no intruder came into view
+};
+
+struct ExportControl {
+  std::function<void(int done, int total)> progress;  // called from the calling thread after each frame
+  std::function<void(const Warning&)> warn;           // as soon as something is known
+  const std::atomic<bool>* cancel = nullptr;          // set: stop soon, error interrupted, nothing is left behind
+};
+
+// All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of pictures), NAME.masks.mkv (or a
+// folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
+[[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
+
+// What a scene has to know of a video.
+struct FootageShape;
+[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
+
+}  // namespace sigs

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "export_files.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace sigs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+VideoCodec codec_of(CodecChoice choice) {
+  switch (choice) {
+    case CodecChoice::ffv1: return VideoCodec::ffv1;
+    case CodecChoice::h264: return VideoCodec::h264;
+    case CodecChoice::mjpeg: return VideoCodec::mjpeg;
+    case CodecChoice::png: return VideoCodec::png;
+  }
+  return VideoCodec::ffv1;
+}
+
+Container container_of(const ExportSettings& output) {
+  switch (output.container) {
+    case ContainerChoice::mkv: return Container::mkv;
+    case ContainerChoice::mp4: return Container::mp4;
+    case ContainerChoice::avi: return Container::avi;
+    case ContainerChoice::automatic: break;
+  }
+  switch (output.codec) {
+    case CodecChoice::h264: return Container::mp4;
+    case CodecChoice::mjpeg: return Container::avi;
+    default: return Container::mkv;
+  }
+}
+
+VideoFormat picture_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
+  return {.codec = codec_of(output.codec),
+          .container = container_of(output),
+          .crf = output.crf,
+          .threads = threads,
+          .size_px = footage.size_px,
+          .layout = footage.layout,
+          .color = footage.color,
+          .frame_rate_num = footage.frame_rate_num,
+          .frame_rate_den = footage.frame_rate_den,
+          .pixel_aspect_num = footage.pixel_aspect_num,
+          .pixel_aspect_den = footage.pixel_aspect_den};
+}
+
+// Masks are full-range gray, lossless, whatever the footage is.
+VideoFormat mask_format(const VideoFormat& picture, MasksChoice masks) {
+  VideoFormat format = picture;
+  format.codec = masks == MasksChoice::png ? VideoCodec::png : VideoCodec::ffv1;
+  format.container = Container::mkv;
+  format.layout = PixelLayout::gray;
+  format.color = {.range = ColorRange::full, .range_stated = true};
+  return format;
+}
+
+std::string with_extension(const std::string& name, const VideoFormat& format) {
+  return format.codec == VideoCodec::png ? name : name + "." + extension_of(format.container);
+}
+
+Frame frame_of_mask(const ComposedFrame& composed) {
+  const cv::Size size = composed.picture.size_px();
+  return {.layout = PixelLayout::gray,
+          .color = {.range = ColorRange::full, .range_stated = true},
+          .planes = {composed.mask.empty() ? cv::Mat(cv::Mat::zeros(size, CV_8UC1)) : composed.mask},
+          .time_s = composed.picture.time_s};
+}
+
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  return {};
+}
+
+// What an export that was killed has left there would end up among the new pictures.
+Result<void> make_empty_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::remove_all(folder, code);
+  return make_folder(folder);
+}
+
+}  // namespace
+
+Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const VideoFormat& format, bool overwrite) {
+  Result<PartialFile> file = PartialFile::create(path, overwrite);
+  if (!file) return fail(file.error());
+  if (format.codec == VideoCodec::png)
+    if (const Result<void> folder = make_empty_folder(file->part()); !folder) return fail(folder.error());
+  Result<VideoWriter> writer = VideoWriter::open(file->part(), format);
+  if (!writer) return fail(writer.error());
+  return Video{std::move(*file), std::move(*writer)};
+}
+
+Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const FootageTruth& footage,
+                                                     bool overwrite) {
+  Result<PartialFile> file = PartialFile::create(path, overwrite);
+  if (!file) return fail(file.error());
+  Result<SigsXmlWriter> writer = SigsXmlWriter::open(file->part(), footage);
+  if (!writer) return fail(writer.error());
+  return Labels{std::move(*file), std::move(*writer)};
+}
+
+Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage,
+                                      const FrameRange& range) {
+  if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
+  const ExportSettings& output = request.project.output;
+  const fs::path base = request.folder / request.project.name;
+  const VideoFormat format = picture_format(output, footage, request.jobs);
+  ExportFiles files;
+
+  Result<Video> video = open_video(with_extension(base.string(), format), format, request.overwrite);
+  if (!video) return fail(video.error());
+  files.video_.emplace(std::move(*video));
+
+  if (output.masks != MasksChoice::none) {
+    const VideoFormat masks = mask_format(format, output.masks);
+    Result<Video> opened = open_video(with_extension(base.string() + ".masks", masks), masks, request.overwrite);
+    if (!opened) return fail(opened.error());
+    files.masks_.emplace(std::move(*opened));
+  }
+  if (std::find(output.labels.begin(), output.labels.end(), "xml") != output.labels.end()) {
+    const FootageTruth truth{.video = footage.path.filename().string(),
+                             .size_px = footage.size_px,
+                             .first_frame = range.first,
+                             .last_frame = range.last,
+                             .frame_rate_num = footage.frame_rate_num,
+                             .frame_rate_den = footage.frame_rate_den};
+    Result<Labels> labels = open_labels(base.string() + ".xml", truth, request.overwrite);
+    if (!labels) return fail(labels.error());
+    files.labels_.emplace(std::move(*labels));
+  }
+  return files;
+}
+
+Result<void> ExportFiles::write(const ComposedFrame& frame) {
+  Result<void> step = video_->writer.write(frame.picture, frame.truth.index);
+  if (step && masks_) step = masks_->writer.write(frame_of_mask(frame), frame.truth.index);
+  if (step && labels_) step = labels_->writer.write(frame.truth);
+  return step;
+}
+
+Result<void> ExportFiles::finish() {
+  Result<void> step = video_->writer.finish();
+  if (step && masks_) step = masks_->writer.finish();
+  if (step && labels_) step = labels_->writer.finish();
+  return step;
+}
+
+Result<std::vector<fs::path>> ExportFiles::keep() {
+  if (const Result<void> step = finish(); !step) return fail(step.error());
+  std::vector<PartialFile*> files{&video_->file};
+  if (masks_) files.push_back(&masks_->file);
+  if (labels_) files.push_back(&labels_->file);
+  std::vector<fs::path> written;
+  for (PartialFile* file : files) {
+    if (const Result<void> step = file->keep(); !step) return fail(step.error());
+    written.push_back(file->final_path());
+  }
+  return written;
+}
+
+}  // namespace sigs

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "frame.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "base/ensure.h"
+#include "lay_on.h"
+#include "see_intruder.h"
+
+namespace sigs {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+FrameTruth truth_of(const SceneMoment& moment, int frame, std::vector<IntruderTruth> intruders) {
+  std::sort(intruders.begin(), intruders.end(),
+            [](const IntruderTruth& a, const IntruderTruth& b) { return a.id < b.id; });
+  return {.index = frame,
+          .time_s = moment.time_s,
+          .camera_position_m = moment.world_from_camera.translation_m,
+          .camera_attitude = attitude_of(moment.world_from_camera.rotation),
+          .intruders = std::move(intruders)};
+}
+
+}  // namespace
+
+Result<Renderer*> Bench::renderer() {
+  if (!renderer_) {
+    Result<Renderer> made = Renderer::create();
+    if (!made) return fail(made.error());
+    renderer_.emplace(std::move(*made));
+  }
+  return &*renderer_;
+}
+
+const DistortMaps& Bench::maps_of(const Camera& camera) {
+  if (!maps_) maps_ = distort_maps(camera);
+  return *maps_;
+}
+
+std::string Bench::renderer_description() const { return renderer_ ? renderer_->description() : std::string(); }
+
+Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, Bench& bench,
+                                    Stages stages) {
+  ENSURE(background.size_px() == scene.footage.size_px);
+  const SceneMoment moment = scene_at(scene, frame);
+
+  const Clock::time_point start = Clock::now();
+  std::vector<SeenIntruder> seen;
+  double draw_s = 0;
+  for (const PlacedIntruder& placed : moment.intruders) {
+    Result<SeenIntruder> intruder = see_intruder(scene, moment, placed, bench);
+    if (!intruder) return fail(intruder.error());
+    draw_s += intruder->draw_s;
+    seen.push_back(std::move(*intruder));
+  }
+  ComposedFrame composed = laid_on(background, scene, seen, bench, stages);
+  composed.truth = truth_of(moment, frame, measured(scene, seen));
+  composed.times = {draw_s, seconds_since(start) - draw_s};
+  return composed;
+}
+
+}  // namespace sigs

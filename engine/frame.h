@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "annotation/annotation.h"
+#include "base/result.h"
+#include "compositor/classic.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+#include "video/frame.h"
+
+namespace sigs {
+
+// One intermediate picture of a frame, for looking at: CV_8UC3 BGR or, for masks, CV_8UC1.
+struct Stage {
+  std::string name;  // "input1", "a", "bent", ...
+  cv::Mat picture;
+};
+
+// What composing needs beside the scene: OpenGL, made when the first intruder comes into view, and what depends on the
+// scene alone. One bench serves one thread and one scene.
+class Bench {
+ public:
+  // Error unavailable where no OpenGL can be had.
+  [[nodiscard]] Result<Renderer*> renderer();
+  [[nodiscard]] const DistortMaps& maps_of(const Camera& camera);
+
+  // "" until something was drawn.
+  [[nodiscard]] std::string renderer_description() const;
+
+ private:
+  std::optional<Renderer> renderer_;
+  std::optional<DistortMaps> maps_;
+};
+
+// Seconds that the stops of one frame took.
+struct FrameTimes {
+  double draw_s = 0;
+  double composite_s = 0;  // bend, soften, hide, blend
+};
+
+struct ComposedFrame {
+  Frame picture;
+  // CV_8UC1 of the picture's size: opacity with which intruders were laid on, 255 opaque; at least 1 where a pixel was
+  // touched at all, 0 where the footage is untouched. Empty: no pixel was touched.
+  cv::Mat mask;
+  FrameTruth truth;
+  std::vector<Stage> stages;  // where asked for
+  FrameTimes times;
+};
+
+enum class Stages { leave_out, keep };
+
+// The one door: everything that shows or writes a picture of a scene calls this. Same scene, frame and background give
+// the same bytes on every thread.
+//   frame       counts the footage's frames from 0
+//   background  that frame of the footage, of the scene's size
+[[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, Bench& bench,
+                                                  Stages stages = Stages::leave_out);
+
+}  // namespace sigs

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/obj_file.h"
+
+#include <tiny_obj_loader.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "mesh/text.h"
+#include "mesh/triangulate.h"
+
+namespace sigs {
+namespace {
+
+struct Polygon {
+  std::vector<ObjCorner> corners;
+  int material = 0;
+};
+
+// What tinyobj's callbacks fill.
+struct Reading {
+  ObjFile file;
+  std::vector<Polygon> polygons;
+  std::map<std::string, int> material_of_name;
+  int material = -1;
+};
+
+int material_named(Reading& reading, const std::string& name) {
+  const int next = static_cast<int>(reading.file.material_names.size());
+  const auto [entry, is_first] = reading.material_of_name.emplace(name, next);
+  if (is_first) reading.file.material_names.push_back(name);
+  return entry->second;
+}
+
+// OBJ counts from 1, negative numbers from the end; 0 stands for "none" in tinyobj's callbacks.
+// Out of range stays out of range and is counted later: an OBJ file may name what comes further down.
+int index_of(int written, std::size_t count_so_far) {
+  constexpr int kNowhere = -2;
+  if (written > 0) return written - 1;
+  if (written == 0) return -1;
+  const long index = static_cast<long>(count_so_far) + written;
+  return index >= 0 ? static_cast<int>(index) : kNowhere;
+}
+
+void on_position(void* user, float x, float y, float z, float) {
+  static_cast<Reading*>(user)->file.positions.emplace_back(x, y, z);
+}
+
+void on_normal(void* user, float x, float y, float z) {
+  static_cast<Reading*>(user)->file.normals.emplace_back(x, y, z);
+}
+
+void on_uv(void* user, float u, float v, float) { static_cast<Reading*>(user)->file.uvs.emplace_back(u, v); }
+
+void on_face(void* user, tinyobj::index_t* indices, int count) {
+  if (count < 3) return;
+  Reading& reading = *static_cast<Reading*>(user);
+  if (reading.material < 0) reading.material = material_named(reading, "");
+  Polygon polygon{{}, reading.material};
+  for (int i = 0; i < count; ++i)
+    polygon.corners.push_back({index_of(indices[i].vertex_index, reading.file.positions.size()),
+                               index_of(indices[i].texcoord_index, reading.file.uvs.size()),
+                               index_of(indices[i].normal_index, reading.file.normals.size())});
+  reading.polygons.push_back(std::move(polygon));
+}
+
+void on_material(void* user, const char* name, int) {
+  Reading& reading = *static_cast<Reading*>(user);
+  reading.material = material_named(reading, std::string(trimmed(name)));
+}
+
+Result<Reading> read_with_tinyobj(const std::string& text, const std::string& name) {
+  tinyobj::callback_t callbacks;
+  callbacks.vertex_cb = on_position;
+  callbacks.normal_cb = on_normal;
+  callbacks.texcoord_cb = on_uv;
+  callbacks.index_cb = on_face;
+  callbacks.usemtl_cb = on_material;
+  try {
+    Reading reading;
+    std::istringstream stream(text);
+    std::string warning;
+    std::string error;
+    if (!tinyobj::LoadObjWithCallback(stream, callbacks, &reading, nullptr, &warning, &error)) return fail(name, error);
+    return reading;
+  } catch (const std::exception& exception) {
+    return fail(name, exception.what());
+  }
+}
+
+// CAD programs break long lines with a backslash; tinyobj does not know that.
+void join_continued_lines(std::string& text) {
+  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
+    std::size_t end = at + 1;
+    if (end < text.size() && text[end] == '\r') ++end;
+    if (end >= text.size() || text[end] != '\n') continue;
+    for (std::size_t i = at; i <= end; ++i) text[i] = ' ';
+  }
+}
+
+bool is_finite_number(std::string_view token) {
+  if (token.starts_with('+')) token.remove_prefix(1);
+  double value = 0;
+  const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
+  return code == std::errc{} && end == token.data() + token.size() && std::isfinite(value);
+}
+
+bool are_coordinates(std::string_view line) {
+  for (int i = 0; i < 3; ++i)
+    if (!is_finite_number(next_token(line))) return false;
+  return true;
+}
+
+// tinyobj takes what it cannot read, "nan" among it, as 0. So positions are looked at before.
+Result<void> check_positions(const std::string& text, const std::string& name) {
+  std::string_view rest = text;
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    std::string_view line = next_line(rest);
+    if (next_token(line) == "v" && !are_coordinates(line))
+      return fail(name + ": line " + std::to_string(line_number),
+                  "expected three finite coordinates, found \"" + std::string(trimmed(line)) + "\"");
+  }
+  return {};
+}
+
+std::vector<std::string> libraries_of(const std::string& text) {
+  std::vector<std::string> libraries;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    std::string_view line = next_line(rest);
+    if (next_token(line) == "mtllib") libraries.emplace_back(trimmed(line));
+  }
+  return libraries;
+}
+
+bool is_within(const ObjCorner& corner, const ObjFile& file) {
+  const auto below = [](int index, std::size_t count) { return index < static_cast<int>(count); };
+  return corner.position >= 0 && below(corner.position, file.positions.size()) && corner.uv >= -1 &&
+         below(corner.uv, file.uvs.size()) && corner.normal >= -1 && below(corner.normal, file.normals.size());
+}
+
+int count_out_of_range(const Reading& reading) {
+  int count = 0;
+  for (const Polygon& polygon : reading.polygons)
+    for (const ObjCorner& corner : polygon.corners)
+      if (!is_within(corner, reading.file)) {
+        ++count;
+        break;
+      }
+  return count;
+}
+
+void append_triangles(ObjFile& file, const Polygon& polygon) {
+  std::vector<glm::vec3> positions;
+  for (const ObjCorner& corner : polygon.corners) positions.push_back(file.positions[corner.position]);
+  for (const auto& [a, b, c] : triangulated(positions))
+    file.triangles.push_back({{polygon.corners[a], polygon.corners[b], polygon.corners[c]}, polygon.material});
+}
+
+}  // namespace
+
+Result<ObjFile> parse_obj(std::string text, const std::string& name) {
+  join_continued_lines(text);
+  if (const auto checked = check_positions(text, name); !checked) return fail(checked.error());
+  auto reading = read_with_tinyobj(text, name);
+  if (!reading) return fail(reading.error());
+  if (reading->polygons.empty()) return fail(name, "has no faces");
+  if (const int bad = count_out_of_range(*reading); bad > 0)
+    return fail(name, std::to_string(bad) + " of " + std::to_string(reading->polygons.size()) +
+                          " faces name vertices that the file does not have");
+  for (const glm::vec3& position : reading->file.positions)
+    if (!std::isfinite(position.x + position.y + position.z)) return fail(name, "a coordinate is too large");
+  for (const Polygon& polygon : reading->polygons) append_triangles(reading->file, polygon);
+  reading->file.libraries = libraries_of(text);
+  return std::move(reading->file);
+}
+
+}  // namespace sigs

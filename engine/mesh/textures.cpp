@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/textures.h"
+
+#include <algorithm>
+#include <cctype>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+fs::path any_case(const fs::path& path) {
+  std::error_code code;
+  const std::string wanted = lower_case(path.filename().string());
+  for (fs::directory_iterator entry(path.parent_path(), code); !code && entry != fs::directory_iterator();
+       entry.increment(code))
+    if (lower_case(entry->path().filename().string()) == wanted) return entry->path();
+  return {};
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code code;
+  return fs::is_regular_file(path, code);
+}
+
+// 16-bit pictures hold 257 steps for each of 8 bits; floating-point ones run from 0 to 1.
+cv::Mat as_8_bit(const cv::Mat& picture) {
+  cv::Mat result = picture;
+  if (picture.depth() == CV_16U) picture.convertTo(result, CV_8U, 1.0 / 257.0);
+  if (picture.depth() == CV_32F || picture.depth() == CV_64F) picture.convertTo(result, CV_8U, 255.0);
+  return result;
+}
+
+cv::Mat as_rgba(const cv::Mat& picture) {
+  cv::Mat rgba;
+  if (picture.depth() != CV_8U) return rgba;
+  if (picture.channels() == 1) cv::cvtColor(picture, rgba, cv::COLOR_GRAY2RGBA);
+  if (picture.channels() == 2) {
+    const std::vector<int> from_to{0, 0, 0, 1, 0, 2, 1, 3};
+    rgba.create(picture.size(), CV_8UC4);
+    cv::mixChannels({picture}, {rgba}, from_to);
+  }
+  if (picture.channels() == 3) cv::cvtColor(picture, rgba, cv::COLOR_BGR2RGBA);
+  if (picture.channels() == 4) cv::cvtColor(picture, rgba, cv::COLOR_BGRA2RGBA);
+  return rgba;
+}
+
+cv::Mat read_picture(const fs::path& path) {
+  try {
+    const cv::Mat picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    return picture.empty() ? cv::Mat() : as_rgba(as_8_bit(picture));
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+fs::path found_file(const fs::path& folder, std::string written) {
+  std::replace(written.begin(), written.end(), '\\', '/');
+  const fs::path named = folder / written;
+  if (written.empty()) return {};
+  for (const fs::path& candidate :
+       {named, any_case(named), folder / named.filename(), any_case(folder / named.filename())})
+    if (is_file(candidate)) return candidate;
+  return {};
+}
+
+cv::Mat TextureShelf::picture(const fs::path& path) {
+  const auto [entry, is_first] = pictures_.try_emplace(path);
+  if (is_first) entry->second = read_picture(path);
+  return entry->second;
+}
+
+cv::Mat with_opacity_map(const cv::Mat& texture, const cv::Mat& opacity_map) {
+  cv::Mat gray;
+  cv::cvtColor(opacity_map, gray, cv::COLOR_RGBA2GRAY);
+  cv::resize(gray, gray, texture.size(), 0, 0, cv::INTER_AREA);
+  std::vector<cv::Mat> planes;
+  cv::split(texture, planes);
+  cv::multiply(planes[3], gray, planes[3], 1.0 / 255.0);
+  cv::Mat result;
+  cv::merge(planes, result);
+  return result;
+}
+
+}  // namespace sigs

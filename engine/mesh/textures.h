@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace sigs {
+
+// The file that a model names, as the model's author may have meant it: written on Windows (back slashes, another case)
+// or with a path of his own machine (then the file beside the model counts). Empty: there is none.
+[[nodiscard]] std::filesystem::path found_file(const std::filesystem::path& folder, std::string written);
+
+// Pictures by path, each read once: materials that name the same file share its pixels.
+class TextureShelf {
+ public:
+  // CV_8UC4, RGBA; empty where the file cannot be read as a picture.
+  [[nodiscard]] cv::Mat picture(const std::filesystem::path& path);
+
+ private:
+  std::map<std::filesystem::path, cv::Mat> pictures_;
+};
+
+// A copy of the texture whose opacity is multiplied by the brightness of a map_d picture.
+[[nodiscard]] cv::Mat with_opacity_map(const cv::Mat& texture, const cv::Mat& opacity_map);
+
+}  // namespace sigs

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "project/field_json.h"
+
+#include <cmath>
+
+namespace sigs {
+
+namespace {
+
+std::string mismatch(const char* wanted, const Json& found) {
+  std::string text = found.dump();
+  if (text.size() > 40) text = text.substr(0, 37) + "...";
+  return std::string("expected ") + wanted + ", found " + text;
+}
+
+std::string put(const Json& json, double* value) {
+  if (!json.is_number()) return mismatch("a number", json);
+  *value = json.get<double>();
+  return {};
+}
+
+std::string put(const Json& json, int* value) {
+  if (!json.is_number()) return mismatch("a whole number", json);
+  const double number = json.get<double>();
+  if (number != std::floor(number) || std::fabs(number) > 2e9) return mismatch("a whole number", json);
+  *value = static_cast<int>(number);
+  return {};
+}
+
+template <class T>
+std::string put(const Json& json, std::optional<T>* value) {
+  if (json.is_null()) {
+    value->reset();
+    return {};
+  }
+  T inner{};
+  std::string wrong = put(json, &inner);
+  if (wrong.empty()) *value = inner;
+  return wrong;
+}
+
+std::string put(const Json& json, std::string* value) {
+  if (json.is_null()) {
+    value->clear();
+    return {};
+  }
+  if (!json.is_string()) return mismatch("a text in quotes", json);
+  *value = json.get<std::string>();
+  return {};
+}
+
+std::string put(const Json& json, glm::dvec3* value) {
+  if (!json.is_array() || json.size() != 3) return mismatch("three numbers [x, y, z]", json);
+  glm::dvec3 read{0, 0, 0};
+  for (int i = 0; i < 3; ++i)
+    if (!put(json[static_cast<std::size_t>(i)], &read[i]).empty()) return mismatch("three numbers [x, y, z]", json);
+  *value = read;
+  return {};
+}
+
+std::string put(const Json& json, std::vector<std::string>* value) {
+  if (!json.is_array()) return mismatch("a list of texts", json);
+  std::vector<std::string> read;
+  for (const Json& item : json) {
+    if (!item.is_string()) return mismatch("a list of texts", json);
+    read.push_back(item.get<std::string>());
+  }
+  *value = std::move(read);
+  return {};
+}
+
+std::string put(const Json& json, const Choice& choice) {
+  std::string wanted;
+  for (std::size_t i = 0; i < choice.names.size(); ++i) {
+    if (json.is_string() && json.get<std::string>() == choice.names[i]) {
+      choice.set(static_cast<int>(i));
+      return {};
+    }
+    wanted += (i == 0 ? "" : ", ") + std::string(choice.names[i]);
+  }
+  return mismatch(("one of " + wanted).c_str(), json);
+}
+
+Json json_of_value(const double* value) { return *value; }
+Json json_of_value(const int* value) { return *value; }
+Json json_of_value(const std::string* value) { return *value; }
+Json json_of_value(const std::vector<std::string>* value) { return *value; }
+Json json_of_value(const glm::dvec3* value) { return Json::array({value->x, value->y, value->z}); }
+Json json_of_value(const Choice& choice) { return choice.names.at(static_cast<std::size_t>(choice.get())); }
+template <class T>
+Json json_of_value(const std::optional<T>* value) {
+  return *value ? Json(**value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string put_json(const Json& json, const Field& field) {
+  return std::visit([&json](const auto& value) { return put(json, value); }, field.value);
+}
+
+Json json_of(const Field& field) {
+  return std::visit([](const auto& value) { return json_of_value(value); }, field.value);
+}
+
+}  // namespace sigs

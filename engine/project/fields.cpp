@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "project/fields.h"
+
+#include <utility>
+
+namespace sigs {
+
+namespace {
+
+constexpr double kFarthest_m = 1e8;  // farther than any aircraft; beyond it even double metres lose their millimetres
+
+template <class Enum>
+Choice choice_of(Enum& value, std::vector<std::string_view> names) {
+  return {.names = std::move(names),
+          .get = [&value] { return static_cast<int>(value); },
+          .set = [&value](int index) { value = static_cast<Enum>(index); }};
+}
+
+// Collects fields under a common beginning of their keys.
+class FieldList {
+ public:
+  FieldList(std::vector<Field>& fields, std::string prefix) : fields_(fields), prefix_(std::move(prefix)) {}
+
+  Field& add(std::string_view key, FieldValue value, std::string_view unit, std::string_view help) {
+    return fields_.emplace_back(
+        Field{.key = prefix_ + std::string(key), .value = std::move(value), .unit = unit, .help = help});
+  }
+
+  void number(std::string_view key, FieldValue value, std::string_view unit, double minimum, double maximum,
+              std::string_view help) {
+    Field& field = add(key, std::move(value), unit, help);
+    field.minimum = minimum;
+    field.maximum = maximum;
+  }
+
+  void path(std::string_view key, std::string& value, bool required, std::string_view help) {
+    Field& field = add(key, &value, "", help);
+    field.is_path = true;
+    field.required = required;
+  }
+
+ private:
+  std::vector<Field>& fields_;
+  std::string prefix_;
+};
+
+void add_footage(FieldList list, FootageSettings& footage) {
+  list.path("video", footage.video, true, "the background: a video file of a real flight");
+  list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
+  list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
+  list.path("calibration", footage.calibration, true, "the camera's calibration file");
+  list.path("own_body_mask", footage.own_body_mask, false,
+            "picture of the footage's size, white where the UAV's own body hides the intruder; empty: none");
+}
+
+void add_camera(FieldList list, CameraSettings& camera) {
+  list.number("position_m", &camera.position_m, "m", -kFarthest_m, kFarthest_m, "where the camera is at frame 0, in the world");
+  list.number("attitude_deg.roll", &camera.roll_deg, "deg", -180, 180, "right side down");
+  list.number("attitude_deg.pitch", &camera.pitch_deg, "deg", -90, 90, "axis up");
+  list.number("attitude_deg.yaw", &camera.yaw_deg, "deg", -180, 180, "axis to the right of world X");
+  list.number("speed_mps", &camera.speed_mps, "m/s", -1000, 1000, "constant speed along world X");
+}
+
+void add_light(FieldList list, LightSettings& light) {
+  list.number("position_m", &light.position_m, "m", -1e12, 1e12, "where the light is, in the world; it shines every way");
+  list.number("color", &light.color, "", 0, 100, "red, green, blue in linear light; 1: white faces become white");
+  list.number("ambient", &light.ambient, "", 0, 1, "share of the light that comes from everywhere");
+}
+
+void add_model(FieldList list, ModelSettings& model) {
+  list.path("file", model.file, true, "the aircraft: a Wavefront OBJ file");
+  list.add("forward", &model.forward, "", "axis of the file that points out of the nose: +x -x +y -y +z -z");
+  list.add("up", &model.up, "", "axis of the file that points up");
+  list.number("scale", &model.scale, "m", 1e-9, 1e9, "metres a unit of the file");
+  list.number("length_m", &model.length_m, "m", 0, 1e6, "wanted length from nose to tail; 0: scale says");
+  list.add("anchor", choice_of(model.anchor, {"origin", "bounds"}), "",
+           "reference point that flies along the trajectory: the file's origin or the centre of its bounds");
+}
+
+void add_trajectory(FieldList list, TrajectoryPlan& plan) {
+  list.add("spline", choice_of(plan.spline, {"interpolating", "approximating"}), "",
+           "through the waypoints, or the paper's uniform B-spline that takes them as control points");
+  list.add("timing", choice_of(plan.timing, {"frames", "constant_speed"}), "",
+           "at each waypoint in its frame, or along the same curve at one speed");
+  list.add("bank", choice_of(plan.bank, {"coordinated", "level"}), "", "bank as in a coordinated turn, or wings level");
+  list.number("bank_limit_deg", &plan.bank_limit_deg, "deg", 0, 90, "steepest bank");
+}
+
+void add_compositing(FieldList list, CompositingSettings& compositing) {
+  list.add("method", choice_of(compositing.method, {"direct", "classic", "plain"}), "",
+           "direct: layer through the lens; classic: the paper's section 3.2; plain: keyed paste");
+  list.add("blend", choice_of(compositing.blend, {"linear", "display"}), "",
+           "mix light, or mix code values as the paper does (direct only)");
+  list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10, "Gaussian blur: sigma a metre of distance");
+  list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels a picture pixel, each way");
+}
+
+void add_output(FieldList list, ExportSettings& output) {
+  list.add("video.codec", choice_of(output.codec, {"ffv1", "h264", "mjpeg", "png"}), "",
+           "ffv1: lossless; h264: small; mjpeg; png: numbered pictures");
+  list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi"}), "",
+           "auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
+  list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
+  list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "", "opacity of the intruders, as video or pictures");
+  list.add("labels", &output.labels, "", "annotation formats to write: xml");
+}
+
+}  // namespace
+
+std::vector<Field> fields_of(Project& project) {
+  std::vector<Field> fields;
+  FieldList(fields, "").add("name", &project.name, "", "what the results are called").required = true;
+  add_footage(FieldList(fields, "footage."), project.footage);
+  add_camera(FieldList(fields, "camera."), project.camera);
+  add_light(FieldList(fields, "light."), project.light);
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    IntruderSettings& intruder = project.intruders[i];
+    const std::string prefix = "intruders[" + std::to_string(i) + "].";
+    FieldList(fields, prefix).add("name", &intruder.name, "", "what the annotations call it");
+    add_model(FieldList(fields, prefix + "model."), intruder.model);
+    add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
+    for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {
+      WaypointSettings& waypoint = intruder.trajectory.waypoints[j];
+      FieldList list(fields, prefix + "trajectory.waypoints[" + std::to_string(j) + "].");
+      list.number("frame", &waypoint.frame, "frame", -1e9, 1e9, "frame at which it is passed; none: spread evenly");
+      list.number("position_m", &waypoint.position_m, "m", -kFarthest_m, kFarthest_m, "where, in the world");
+    }
+  }
+  add_compositing(FieldList(fields, "compositing."), project.compositing);
+  add_output(FieldList(fields, "export."), project.output);
+  return fields;
+}
+
+}  // namespace sigs

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "project/json.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/partial_file.h"
+#include "project/field_json.h"
+
+namespace sigs {
+
+namespace {
+
+// "intruders[0].model.file" -> /intruders/0/model/file
+Json::json_pointer pointer_of(const std::string& key) {
+  std::string pointer = "/";
+  for (const char c : key) {
+    if (c == '.' || c == '[')
+      pointer += '/';
+    else if (c != ']')
+      pointer += c;
+  }
+  return Json::json_pointer(pointer);
+}
+
+// The list under a key, empty where the key is absent. What else stands there is an error.
+Result<std::size_t> list_size(const Json& json, const char* pointer, const std::string& where) {
+  const Json::json_pointer place(pointer);
+  if (!json.contains(place)) return std::size_t{0};
+  if (!json.at(place).is_array())
+    return fail(where, "expected a list [ ... ]", ErrorKind::bad_project);
+  return json.at(place).size();
+}
+
+Result<void> make_room_for_lists(const Json& json, const std::string& file, Project& project) {
+  const Result<std::size_t> intruders = list_size(json, "/intruders", file + ": intruders");
+  if (!intruders) return fail(intruders.error());
+  project.intruders.resize(*intruders);
+  for (std::size_t i = 0; i < *intruders; ++i) {
+    const std::string key = "intruders[" + std::to_string(i) + "]";
+    const Json& intruder = json.at("intruders").at(i);
+    if (!intruder.is_object()) return fail(file + ": " + key, "expected { ... }", ErrorKind::bad_project);
+    const Result<std::size_t> waypoints =
+        list_size(intruder, "/trajectory/waypoints", file + ": " + key + ".trajectory.waypoints");
+    if (!waypoints) return fail(waypoints.error());
+    project.intruders[i].trajectory.waypoints.resize(*waypoints);
+  }
+  return {};
+}
+
+// Objects that have lost all their keys go too, so that what remains is what nobody knows.
+void remove_empty_objects(Json& json) {
+  if (!json.is_object()) return;
+  for (auto it = json.begin(); it != json.end();) {
+    remove_empty_objects(*it);
+    it = it->is_object() && it->empty() ? json.erase(it) : std::next(it);
+  }
+}
+
+void warn_of(const Json& unknown, const std::string& where, std::vector<Warning>& warnings) {
+  for (const auto& [key, value] : unknown.items())
+    if (value.is_object())
+      warn_of(value, where + key + ".", warnings);
+    else
+      warnings.push_back({where + key, "unknown key, kept but not used"});
+}
+
+std::string kept(Json unknown, const std::string& where, std::vector<Warning>& warnings) {
+  remove_empty_objects(unknown);
+  warn_of(unknown, where, warnings);
+  return unknown.empty() ? std::string() : unknown.dump();
+}
+
+// Takes the lists out of rest, and keeps what is left of each of their items beside the item.
+void keep_unknown(Json rest, const std::string& file, Project& project, std::vector<Warning>& warnings) {
+  Json intruders = rest.value("intruders", Json::array());
+  rest.erase("sigs");
+  rest.erase("intruders");
+  project.unknown_json = kept(std::move(rest), file + ": ", warnings);
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const std::string where = file + ": intruders[" + std::to_string(i) + "].";
+    IntruderSettings& intruder = project.intruders[i];
+    Json& json = intruders.at(i);
+    for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j)
+      intruder.trajectory.waypoints[j].unknown_json =
+          kept(json.at("trajectory").at("waypoints").at(j),
+               where + "trajectory.waypoints[" + std::to_string(j) + "].", warnings);
+    if (json.contains("trajectory")) json.at("trajectory").erase("waypoints");
+    intruder.unknown_json = kept(std::move(json), where, warnings);
+  }
+}
+
+Json parsed_or_empty(const std::string& text) {
+  return text.empty() ? Json::object() : Json::parse(text);
+}
+
+// Lines and columns as an editor counts them.
+std::string place_of(const std::string& text, std::size_t byte) {
+  const std::string before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t column = before.size() - (before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1) + 1;
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+Result<Json> parsed(const std::string& text, const std::string& file) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    return fail(file, "is not JSON: unexpected text at " + place_of(text, error.byte), ErrorKind::bad_project);
+  } catch (const Json::exception&) {
+    return fail(file, "holds a number that is too large", ErrorKind::bad_project);
+  }
+}
+
+Result<void> check_version(const Json& json, const std::string& file) {
+  if (!json.is_object()) return fail(file, "is not a SIGS project: expected { ... }", ErrorKind::bad_project);
+  const auto version = json.find("sigs");
+  if (version == json.end())
+    return fail(file + ": sigs", "missing; a project begins with \"sigs\": 1", ErrorKind::bad_project);
+  if (!version->is_number_integer() || *version != kProjectVersion)
+    return fail(file + ": sigs", "version " + version->dump() + " is not known; this program reads version 1",
+                ErrorKind::bad_project);
+  return {};
+}
+
+// Puts every field that the file has, and takes it out of rest.
+Result<void> put_fields(const Json& json, const std::string& file, Project& project, Json& rest) {
+  for (const Field& field : fields_of(project)) {
+    const Json::json_pointer place = pointer_of(field.key);
+    if (!json.contains(place)) continue;
+    const std::string wrong = put_json(json.at(place), field);
+    if (!wrong.empty()) return fail(file + ": " + field.key, wrong, ErrorKind::bad_project);
+    rest.at(place.parent_pointer()).erase(place.back());
+  }
+  return {};
+}
+
+// A section written as a number or text ("camera": 5) would hide all its fields.
+Result<void> check_sections(const Json& json, const std::string& file, Project& project) {
+  for (const Field& field : fields_of(project)) {
+    for (Json::json_pointer place = pointer_of(field.key).parent_pointer(); !place.empty(); place = place.parent_pointer()) {
+      if (!json.contains(place) || json.at(place).is_object() || json.at(place).is_array()) continue;
+      return fail(file + ": " + place.to_string().substr(1), "expected { ... }", ErrorKind::bad_project);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ReadProject> parse_project(const std::string& text, const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const Result<Json> json = parsed(text, file);
+  if (!json) return fail(json.error());
+  ReadProject read;
+  read.project.file = path;
+  Json rest = *json;
+  Result<void> step = check_version(*json, file);
+  if (step) step = make_room_for_lists(*json, file, read.project);
+  if (step) step = check_sections(*json, file, read.project);
+  if (step) step = put_fields(*json, file, read.project, rest);
+  if (!step) return fail(step.error());
+  keep_unknown(std::move(rest), file, read.project, read.warnings);
+  return read;
+}
+
+Result<ReadProject> read_project(const std::filesystem::path& path) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return fail(text.error());
+  return parse_project(*text, path);
+}
+
+std::string text_of(const Project& project) {
+  Project copy = project;
+  Json json = Json::object();
+  json["sigs"] = kProjectVersion;
+  json.update(parsed_or_empty(project.unknown_json), true);
+  json["intruders"] = Json::array();
+  for (const IntruderSettings& intruder : project.intruders) {
+    Json item = parsed_or_empty(intruder.unknown_json);
+    item["trajectory"]["waypoints"] = Json::array();
+    for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
+      item["trajectory"]["waypoints"].push_back(parsed_or_empty(waypoint.unknown_json));
+    json["intruders"].push_back(std::move(item));
+  }
+  for (const Field& field : fields_of(copy)) json[pointer_of(field.key)] = json_of(field);
+  return json.dump(2) + "\n";
+}
+
+Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite) {
+  return write_text(path, text_of(project), overwrite);
+}
+
+}  // namespace sigs

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sigs {
+
+// A project as its file has it: numbers, names and paths; nothing is opened. Units and ranges: project/fields.h.
+struct FootageSettings {
+  std::string video;
+  int first_frame = 0;
+  std::optional<int> last_frame;  // the last one used; none: the footage's last
+  std::string calibration;
+  std::string own_body_mask;  // empty: none
+};
+
+struct CameraSettings {
+  glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
+  double roll_deg = 0;
+  double pitch_deg = 0;
+  double yaw_deg = 0;
+  double speed_mps = 0;  // along world X
+};
+
+struct LightSettings {
+  glm::dvec3 position_m{-2000, 1000, -3000};  // world
+  glm::dvec3 color{1, 1, 1};
+  double ambient = 0.35;
+};
+
+enum class AnchorChoice { origin, bounds };
+
+struct ModelSettings {
+  std::string file;
+  std::string forward = "+x";
+  std::string up = "+z";
+  double scale = 1.0;
+  double length_m = 0;  // 0: scale says how large
+  AnchorChoice anchor = AnchorChoice::origin;
+};
+
+struct WaypointSettings {
+  std::optional<double> frame;  // none: spread evenly between its neighbours
+  glm::dvec3 position_m{0, 0, 0};
+  std::string unknown_json;  // keys of the file that this program does not know, kept on save
+};
+
+enum class SplineChoice { interpolating, approximating };
+enum class TimingChoice { frames, constant_speed };
+enum class BankChoice { coordinated, level };
+
+struct TrajectoryPlan {
+  SplineChoice spline = SplineChoice::interpolating;
+  TimingChoice timing = TimingChoice::frames;
+  BankChoice bank = BankChoice::coordinated;
+  double bank_limit_deg = 60;
+  std::vector<WaypointSettings> waypoints;
+};
+
+struct IntruderSettings {
+  std::string name = "intruder";
+  ModelSettings model;
+  TrajectoryPlan trajectory;
+  std::string unknown_json;
+};
+
+enum class MethodChoice { direct, classic, plain };
+enum class BlendChoice { linear, display };
+
+struct CompositingSettings {
+  MethodChoice method = MethodChoice::direct;
+  BlendChoice blend = BlendChoice::linear;
+  double blur_px_per_m = 0.002;
+  int supersampling = 2;
+};
+
+enum class CodecChoice { ffv1, h264, mjpeg, png };
+enum class ContainerChoice { automatic, mkv, mp4, avi };
+enum class MasksChoice { none, video, png };
+
+struct ExportSettings {
+  CodecChoice codec = CodecChoice::ffv1;
+  ContainerChoice container = ContainerChoice::automatic;
+  int crf = 18;
+  MasksChoice masks = MasksChoice::video;
+  std::vector<std::string> labels{"xml"};
+};
+
+struct Project {
+  std::filesystem::path file;  // where it was read from; paths in it are relative to this file's folder
+  std::string name = "untitled";
+  FootageSettings footage;
+  CameraSettings camera;
+  LightSettings light;
+  std::vector<IntruderSettings> intruders;
+  CompositingSettings compositing;
+  ExportSettings output;
+  std::string unknown_json;
+};
+
+// A path of the project as the file system knows it: absolute ones as they are, others from the project file's folder.
+[[nodiscard]] std::filesystem::path resolved(const Project& project, const std::string& path);
+
+}  // namespace sigs

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "project/validate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "project/fields.h"
+
+namespace sigs {
+
+namespace {
+
+using Problems = std::vector<Problem>;
+
+std::string short_text(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+void check_number(const Field& field, double number, Problems& problems) {
+  if (!std::isfinite(number)) {
+    problems.push_back({field.key, "is not a finite number"});
+  } else if (number < field.minimum || number > field.maximum) {
+    problems.push_back({field.key, "is " + short_text(number) + "; it must lie between " + short_text(field.minimum) +
+                                       " and " + short_text(field.maximum)});
+  }
+}
+
+void check_range(const Field& field, Problems& problems) {
+  if (const auto* const number = std::get_if<double*>(&field.value)) check_number(field, **number, problems);
+  if (const auto* const number = std::get_if<int*>(&field.value)) check_number(field, **number, problems);
+  if (const auto* const number = std::get_if<std::optional<double>*>(&field.value); number && **number)
+    check_number(field, ***number, problems);
+  if (const auto* const number = std::get_if<std::optional<int>*>(&field.value); number && **number)
+    check_number(field, ***number, problems);
+  if (const auto* const vector = std::get_if<glm::dvec3*>(&field.value))
+    for (int i = 0; i < 3; ++i) check_number(field, (**vector)[i], problems);
+}
+
+void check_text(const Project& project, const Field& field, Problems& problems) {
+  const auto* const value = std::get_if<std::string*>(&field.value);
+  if (value == nullptr) return;
+  const std::string& text = **value;
+  if (text.empty()) {
+    if (field.required) problems.push_back({field.key, "is missing: " + std::string(field.help)});
+    return;
+  }
+  std::error_code code;
+  const std::filesystem::path path = resolved(project, text);
+  if (field.is_path && !std::filesystem::exists(path, code))
+    problems.push_back({field.key, "no such file: " + path.lexically_normal().string(), ErrorKind::cannot_read});
+}
+
+void check_name(const Project& project, Problems& problems) {
+  if (project.name.find('/') != std::string::npos || project.name.starts_with('.'))
+    problems.push_back({"name", "names the output files: it may hold no / and not begin with a dot"});
+}
+
+bool is_axis(std::string_view text) {
+  constexpr std::array<std::string_view, 6> kAxes{"+x", "-x", "+y", "-y", "+z", "-z"};
+  return std::find(kAxes.begin(), kAxes.end(), text) != kAxes.end();
+}
+
+void check_axes(const ModelSettings& model, const std::string& key, Problems& problems) {
+  for (const auto& [name, axis] : {std::pair{".forward", model.forward}, std::pair{".up", model.up}})
+    if (!is_axis(axis)) problems.push_back({key + name, "is \"" + axis + "\"; it must be one of +x -x +y -y +z -z"});
+  if (is_axis(model.forward) && is_axis(model.up) && model.forward[1] == model.up[1])
+    problems.push_back({key + ".up", "lies along forward; up must be another axis"});
+}
+
+void check_waypoints(const TrajectoryPlan& plan, const std::string& key, Problems& problems) {
+  if (plan.waypoints.empty())
+    problems.push_back({key, "is empty; an intruder needs at least one waypoint"});
+  std::optional<double> last_frame;
+  std::size_t last_index = 0;
+  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {
+    const std::optional<double>& frame = plan.waypoints[i].frame;
+    if (!frame) continue;
+    if (last_frame && *frame <= *last_frame)
+      problems.push_back({key + "[" + std::to_string(i) + "].frame",
+                          "is " + short_text(*frame) + ", not after waypoints[" + std::to_string(last_index) +
+                              "], which has " + short_text(*last_frame)});
+    last_frame = frame;
+    last_index = i;
+  }
+}
+
+void check_frames(const FootageSettings& footage, Problems& problems) {
+  if (footage.last_frame && *footage.last_frame < footage.first_frame)
+    problems.push_back({"footage.last_frame", "lies before footage.first_frame"});
+}
+
+void check_output(const ExportSettings& output, Problems& problems) {
+  const ContainerChoice container = output.container;
+  if (output.codec == CodecChoice::ffv1 && container == ContainerChoice::mp4)
+    problems.push_back({"export.video.container", "mp4 cannot hold ffv1; use mkv or avi"});
+  if (output.codec == CodecChoice::png && container != ContainerChoice::automatic)
+    problems.push_back({"export.video.container", "png writes numbered pictures, not a container; use auto"});
+  for (const std::string& label : output.labels)
+    if (label != "xml") problems.push_back({"export.labels", "knows no format \"" + label + "\"; there is xml"});
+}
+
+}  // namespace
+
+std::filesystem::path resolved(const Project& project, const std::string& path) {
+  return path.empty() ? std::filesystem::path() : project.file.parent_path() / path;
+}
+
+std::vector<Problem> validate(const Project& project) {
+  Problems problems;
+  Project copy = project;
+  for (const Field& field : fields_of(copy)) {
+    check_range(field, problems);
+    check_text(project, field, problems);
+  }
+  check_name(project, problems);
+  check_frames(project.footage, problems);
+  check_output(project.output, problems);
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const std::string key = "intruders[" + std::to_string(i) + "]";
+    check_axes(project.intruders[i].model, key + ".model", problems);
+    check_waypoints(project.intruders[i].trajectory, key + ".trajectory.waypoints", problems);
+  }
+  return problems;
+}
+
+Error error_of(const Project& project, const Problem& problem) {
+  return {project.file.string() + ": " + problem.field, problem.what, problem.kind};
+}
+
+}  // namespace sigs

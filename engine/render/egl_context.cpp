@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "render/egl_context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/ensure.h"
+
+namespace sigs {
+namespace {
+
+// A way to a display, and what it is called.
+struct Door {
+  std::string name;
+  EGLDisplay display = EGL_NO_DISPLAY;
+};
+
+bool has_client_extension(const char* name) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, name); }
+
+std::optional<Door> surfaceless_door() {
+  if (!has_client_extension("EGL_EXT_platform_base") || !has_client_extension("EGL_MESA_platform_surfaceless"))
+    return std::nullopt;
+  return Door{"surfaceless", eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
+}
+
+std::vector<Door> device_doors() {
+  const bool can_list =
+      has_client_extension("EGL_EXT_device_enumeration") || has_client_extension("EGL_EXT_device_base");
+  if (!can_list || !has_client_extension("EGL_EXT_platform_device")) return {};
+  std::array<EGLDeviceEXT, 64> devices{};
+  EGLint count = 0;
+  if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return {};
+  std::vector<Door> doors;
+  for (EGLint i = 0; i < count; ++i)
+    doors.push_back({"EGL device " + std::to_string(i),
+                     eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr)});
+  return doors;
+}
+
+std::string hexadecimal(EGLint code) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(code));
+  return text.data();
+}
+
+EGLConfig config_of(EGLDisplay display) {
+  if (epoxy_has_egl_extension(display, "EGL_KHR_no_config_context") ||
+      epoxy_has_egl_extension(display, "EGL_MESA_configless_context"))
+    return nullptr;
+  const std::array<EGLint, 5> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  eglChooseConfig(display, wanted.data(), &config, 1, &count);
+  return count > 0 ? config : nullptr;
+}
+
+EGLContext context_of(EGLDisplay display, EGLint major, EGLint minor) {
+  const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                         major,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         minor,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_NONE};
+  return eglCreateContext(display, config_of(display), EGL_NO_CONTEXT, attributes.data());
+}
+
+std::string text_of(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
+}
+
+std::string description_of(const Door& door) {
+  const int version = epoxy_gl_version();
+  return door.name + ", " + text_of(GL_RENDERER) + ", OpenGL " + std::to_string(version / 10) + "." +
+         std::to_string(version % 10);
+}
+
+// The context, current, or why there is none.
+Result<EGLContext> opened(const Door& door) {
+  const auto failed = [&](const char* step) { return fail(door.name, step + (" (" + hexadecimal(eglGetError()) + ")")); };
+  if (door.display == EGL_NO_DISPLAY) return failed("no display");
+  EGLint major = 0;
+  EGLint minor = 0;
+  if (!eglInitialize(door.display, &major, &minor)) return failed("cannot be initialised");
+  if (!eglBindAPI(EGL_OPENGL_API)) return failed("has no OpenGL");
+  if (!epoxy_has_egl_extension(door.display, "EGL_KHR_surfaceless_context")) return failed("needs a surface");
+  EGLContext context = context_of(door.display, 4, 5);
+  if (context == EGL_NO_CONTEXT) context = context_of(door.display, 3, 3);
+  if (context == EGL_NO_CONTEXT) return failed("has no OpenGL 3.3 core");
+  if (eglMakeCurrent(door.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
+  eglDestroyContext(door.display, context);
+  return failed("cannot make its context current");
+}
+
+std::vector<Door> doors() {
+  std::vector<Door> all;
+  if (const auto door = surfaceless_door()) all.push_back(*door);
+  for (Door& door : device_doors()) all.push_back(std::move(door));
+  return all;
+}
+
+}  // namespace
+
+Result<EglContext> EglContext::create() {
+  std::string tried;
+  for (const Door& door : doors()) {
+    const Result<EGLContext> context = opened(door);
+    if (context) return EglContext(door.display, *context, description_of(door));
+    tried += (tried.empty() ? "" : "; ") + context.error().text();
+  }
+  if (tried.empty()) tried = "EGL offers neither the surfaceless platform nor devices";
+  return fail("OpenGL", "cannot be had without a display: " + tried, ErrorKind::unavailable);
+}
+
+EglContext::EglContext(void* display, void* context, std::string description)
+    : display_(display),
+      context_(context),
+      description_(std::move(description)),
+      thread_(std::this_thread::get_id()) {}
+
+EglContext::EglContext(EglContext&& other) noexcept
+    : display_(other.display_),
+      context_(std::exchange(other.context_, nullptr)),
+      description_(std::move(other.description_)),
+      thread_(other.thread_) {}
+
+EglContext& EglContext::operator=(EglContext&& other) noexcept {
+  if (this == &other) return *this;
+  destroy();
+  display_ = other.display_;
+  context_ = std::exchange(other.context_, nullptr);
+  description_ = std::move(other.description_);
+  thread_ = other.thread_;
+  return *this;
+}
+
+EglContext::~EglContext() { destroy(); }
+
+bool EglContext::make_current() const {
+  ENSURE(thread_ == std::this_thread::get_id());
+  if (eglGetCurrentContext() == context_) return true;
+  return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+}
+
+// The display stays initialised: other contexts of the process may live on it.
+void EglContext::destroy() noexcept {
+  if (context_ == nullptr) return;
+  if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(display_, context_);
+  context_ = nullptr;
+}
+
+}  // namespace sigs

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <thread>
+
+#include "base/result.h"
+
+namespace sigs {
+
+// An OpenGL core context with no window and no surface. It belongs to the thread that made it.
+class EglContext {
+ public:
+  // Tries EGL's surfaceless platform, then each EGL device. OpenGL 4.5, else 3.3. Current on return.
+  // Error unavailable says what was tried and how each failed.
+  [[nodiscard]] static Result<EglContext> create();
+
+  EglContext(EglContext&& other) noexcept;
+  EglContext& operator=(EglContext&& other) noexcept;
+  ~EglContext();
+
+  // Several contexts may take turns on one thread.
+  [[nodiscard]] bool make_current() const;
+
+  // "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
+  [[nodiscard]] const std::string& description() const { return description_; }
+
+ private:
+  EglContext(void* display, void* context, std::string description);
+  void destroy() noexcept;
+
+  void* display_ = nullptr;
+  void* context_ = nullptr;  // null: nothing to destroy
+  std::string description_;
+  std::thread::id thread_;
+};
+
+}  // namespace sigs

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "render/gpu_mesh.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <opencv2/imgproc.hpp>
+
+#include "base/transfer.h"
+
+namespace sigs {
+namespace {
+
+constexpr GLfloat kAnisotropy = 16;
+
+// Colour times opacity, in linear light, so that filtering lets no colour of transparent texels bleed in.
+cv::Mat premultiplied(const cv::Mat& rgba) {
+  std::array<float, 256> linear{};
+  for (int i = 0; i < 256; ++i) linear[i] = linear_of_display(static_cast<float>(i) / 255.0F);
+  cv::Mat result = rgba.clone();
+  result.forEach<cv::Vec4b>([&](cv::Vec4b& texel, const int*) {
+    if (texel[3] == 255) return;
+    const float opacity = static_cast<float>(texel[3]) / 255.0F;
+    for (int i = 0; i < 3; ++i)
+      texel[i] = cv::saturate_cast<uchar>(255.0F * display_of_linear(linear[texel[i]] * opacity));
+  });
+  return result;
+}
+
+cv::Mat fitting(const cv::Mat& picture) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (picture.cols <= largest && picture.rows <= largest) return picture;
+  cv::Mat smaller;
+  cv::resize(picture, smaller, {std::min(picture.cols, largest), std::min(picture.rows, largest)}, 0, 0, cv::INTER_AREA);
+  return smaller;
+}
+
+GLuint uploaded(const cv::Mat& picture) {
+  const cv::Mat texels = premultiplied(fitting(picture));
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, texels.cols, texels.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data);
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    GLfloat largest = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &largest);
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(largest, kAnisotropy));
+  }
+  return name;
+}
+
+void set_attribute(GLuint index, GLint count, std::size_t offset) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offset));
+}
+
+template <class T>
+void upload(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usage) {
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+}
+
+}  // namespace
+
+GpuMesh::GpuMesh(const Mesh& mesh)
+    : vertices_(mesh.vertices.data()),
+      indices_(mesh.indices.data()),
+      vertex_count_(mesh.vertices.size()),
+      index_count_(mesh.indices.size()) {
+  const std::vector<Surface> surfaces = surfaces_of(mesh);
+  const DrawList solid = solid_list(mesh, surfaces);
+  solid_runs_ = solid.runs;
+  see_through_ = sigs::see_through(mesh, surfaces);
+
+  glGenVertexArrays(1, &vertex_array_);
+  glGenBuffers(1, &vertex_buffer_);
+  glGenBuffers(1, &solid_indices_);
+  glGenBuffers(1, &sorted_indices_);
+  glBindVertexArray(vertex_array_);
+  upload(GL_ARRAY_BUFFER, vertex_buffer_, mesh.vertices, GL_STATIC_DRAW);
+  upload(GL_ELEMENT_ARRAY_BUFFER, solid_indices_, solid.indices, GL_STATIC_DRAW);
+  set_attribute(0, 3, offsetof(Vertex, position_m));
+  set_attribute(1, 3, offsetof(Vertex, normal));
+  set_attribute(2, 2, offsetof(Vertex, uv));
+  upload_pictures(mesh);
+}
+
+void GpuMesh::upload_pictures(const Mesh& mesh) {
+  const cv::Mat white(1, 1, CV_8UC4, cv::Scalar::all(255));
+  for (const Material& material : mesh.materials) {
+    const unsigned char* pixels = material.texture.empty() ? nullptr : material.texture.data;
+    const auto [entry, is_first] = picture_of_pixels_.try_emplace(pixels, 0);
+    if (is_first) entry->second = uploaded(pixels == nullptr ? white : material.texture);
+    pictures_.push_back(entry->second);
+  }
+}
+
+bool GpuMesh::is_copy_of(const Mesh& mesh) const {
+  return vertices_ == mesh.vertices.data() && indices_ == mesh.indices.data() &&
+         vertex_count_ == mesh.vertices.size() && index_count_ == mesh.indices.size();
+}
+
+void GpuMesh::release() {
+  const std::array<GLuint, 3> buffers{vertex_buffer_, solid_indices_, sorted_indices_};
+  glDeleteBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  glDeleteVertexArrays(1, &vertex_array_);
+  for (const auto& [pixels, picture] : picture_of_pixels_) glDeleteTextures(1, &picture);
+}
+
+void GpuMesh::bind_solid() const {
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, solid_indices_);
+}
+
+void GpuMesh::bind_sorted(const DrawList& list) const {
+  glBindVertexArray(vertex_array_);
+  upload(GL_ELEMENT_ARRAY_BUFFER, sorted_indices_, list.indices, GL_STREAM_DRAW);
+}
+
+void GpuMesh::draw(const Run& run) const {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(run.first * sizeof(std::uint32_t)));
+}
+
+void GpuMesh::bind_picture(int material) const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, pictures_[material]);
+}
+
+}  // namespace sigs

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "render/target.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/ensure.h"
+
+namespace sigs {
+namespace {
+
+constexpr int kSamples = 4;
+
+unsigned int renderbuffer(const cv::Size& size, int samples, GLenum format) {
+  GLuint name = 0;
+  glGenRenderbuffers(1, &name);
+  glBindRenderbuffer(GL_RENDERBUFFER, name);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size.width, size.height);
+  return name;
+}
+
+void draw_to(std::initializer_list<GLenum> attachments) {
+  glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.begin());
+}
+
+void read_plane(GLenum attachment, GLenum format, cv::Mat& plane) {
+  glReadBuffer(attachment);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(plane.step / plane.elemSize()));
+  glReadPixels(0, 0, plane.cols, plane.rows, format, GL_FLOAT, plane.data);
+}
+
+}  // namespace
+
+Result<Target::Buffers> Target::make(const cv::Size& size, int samples, unsigned int color_format) {
+  Buffers buffers;
+  glGenFramebuffers(1, &buffers.framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, buffers.framebuffer);
+  buffers.color = renderbuffer(size, samples, color_format);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers.color);
+  buffers.coverage = renderbuffer(size, samples, color_format == GL_RGBA32F ? GL_R32F : GL_R16F);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_RENDERBUFFER, buffers.coverage);
+  if (samples > 0) {
+    buffers.depth = renderbuffer(size, samples, GL_DEPTH_COMPONENT32F);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers.depth);
+  }
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && glGetError() == GL_NO_ERROR)
+    return buffers;
+  release(buffers);
+  return fail("OpenGL", "cannot draw to floating-point buffers of " + std::to_string(size.width) + " x " +
+                            std::to_string(size.height) + " pixels", ErrorKind::unavailable);
+}
+
+void Target::release(const Buffers& buffers) {
+  const std::array<GLuint, 3> renderbuffers{buffers.color, buffers.coverage, buffers.depth};
+  glDeleteRenderbuffers(static_cast<GLsizei>(renderbuffers.size()), renderbuffers.data());
+  glDeleteFramebuffers(1, &buffers.framebuffer);
+}
+
+Result<void> Target::grow(const cv::Size& size) {
+  release(drawn_);
+  release(resolved_);
+  drawn_ = resolved_ = {};
+  size_ = {0, 0};
+  const GLenum formats[] = {GL_RGBA32F, GL_RGBA16F};  // the second: half floats are all that some drivers multisample
+  for (const GLenum format : formats) {
+    const Result<Buffers> drawn = make(size, kSamples, format);
+    const Result<Buffers> resolved = make(size, 0, format);
+    if (drawn && resolved) {
+      drawn_ = *drawn;
+      resolved_ = *resolved;
+      size_ = size;
+      return {};
+    }
+    if (drawn) release(*drawn);
+    if (resolved) release(*resolved);
+    if (format == formats[1]) return fail(drawn ? resolved.error() : drawn.error());
+  }
+  return {};
+}
+
+Result<void> Target::begin(const cv::Size& size) {
+  ENSURE(size.width <= kLargestPiece_px && size.height <= kLargestPiece_px);
+  if (size.width > size_.width || size.height > size_.height) {
+    const auto grown = grow({std::max(size.width, size_.width), std::max(size.height, size_.height)});
+    if (!grown) return grown;
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_.framebuffer);
+  draw_to({GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1});
+  glViewport(0, 0, size.width, size.height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, size.width, size.height);
+  glDepthMask(GL_TRUE);
+  const std::array<GLfloat, 4> nothing{0, 0, 0, 0};
+  const GLfloat farthest = 1;
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClearBufferfv(GL_COLOR, 1, nothing.data());
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  return {};
+}
+
+void Target::read(cv::Mat color, cv::Mat coverage) const {
+  ENSURE(color.type() == CV_32FC4 && coverage.type() == CV_32FC1 && color.size() == coverage.size());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.framebuffer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
+  for (const GLenum attachment : {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1}) {
+    glReadBuffer(attachment);
+    if (attachment == GL_COLOR_ATTACHMENT0) draw_to({GL_COLOR_ATTACHMENT0});
+    if (attachment == GL_COLOR_ATTACHMENT1) draw_to({GL_NONE, GL_COLOR_ATTACHMENT1});
+    glBlitFramebuffer(0, 0, color.cols, color.rows, 0, 0, color.cols, color.rows, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer);
+  read_plane(GL_COLOR_ATTACHMENT0, GL_RGBA, color);
+  read_plane(GL_COLOR_ATTACHMENT1, GL_RED, coverage);
+}
+
+}  // namespace sigs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "base/pose.h"
+#include "base/result.h"
+#include "camera/camera.h"
+#include "mesh/mesh.h"
+#include "project/project.h"
+#include "spline/trajectory.h"
+
+namespace sigs {
+
+// What a scene has to know of its footage.
+struct FootageShape {
+  cv::Size size_px;
+  std::vector<double> times_s;    // presentation time of each frame, from 0
+  double frame_interval_s = 0.04; // nominal; carries on before the first and after the last frame
+};
+
+struct SceneLight {
+  glm::dvec3 position_m{0, 0, 0};  // world
+  glm::dvec3 color{1, 1, 1};
+  double ambient = 0.35;
+};
+
+// An aircraft to draw, and its vertices' places, each once, to measure it by.
+struct Model {
+  Mesh mesh;
+  std::vector<glm::vec3> points_m;  // body axes
+};
+
+struct SceneIntruder {
+  std::string name;
+  const Model* model = nullptr;  // one of Scene::models
+  Trajectory trajectory;
+};
+
+// The camera flies straight along world X with constant attitude (paper section 3.1.3).
+struct CameraMotion {
+  Pose<frame::World, frame::Camera> world_from_camera_at_start;
+  double speed_mps = 0;
+};
+
+// Everything that a project names, opened and checked; nothing in it changes any more.
+struct Scene {
+  Camera camera;
+  CameraMotion motion;
+  SceneLight light;
+  std::vector<std::unique_ptr<const Model>> models;  // each file once, however many intruders fly it
+  std::vector<SceneIntruder> intruders;
+  cv::Mat own_body;  // CV_32FC1 of the footage's size, 1 where the own body hides everything; empty: no mask
+  CompositingSettings compositing;
+  FootageShape footage;
+  int first_frame = 0;
+  int last_frame = 0;  // included
+  std::vector<Warning> warnings;
+};
+
+// Errors name project file and field: "x.json: intruders[0].model.file: no such file".
+[[nodiscard]] Result<Scene> open_scene(const Project& project, const FootageShape& footage);
+
+// Time of a frame, also of fractions and beyond the footage's ends.
+[[nodiscard]] double time_of_frame_s(const FootageShape& footage, double frame);
+
+}  // namespace sigs

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "scene/scene_at.h"
+
+#include <algorithm>
+
+namespace sigs {
+
+namespace {
+
+Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {
+  Pose<frame::World, frame::Camera> pose = motion.world_from_camera_at_start;
+  pose.translation_m.x += motion.speed_mps * time_s;
+  return pose;
+}
+
+}  // namespace
+
+SceneMoment scene_at(const Scene& scene, int frame) {
+  SceneMoment moment;
+  moment.time_s = time_of_frame_s(scene.footage, frame);
+  moment.world_from_camera = camera_at(scene.motion, moment.time_s);
+  const Pose<frame::Camera, frame::World> camera_from_world = inverse(moment.world_from_camera);
+  moment.light_in_camera = camera_from_world * scene.light.position_m;
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
+    const Pose<frame::World, frame::Body> world_from_body =
+        scene.intruders[i].trajectory.world_from_body(moment.time_s);
+    // Subtracting in the world first keeps full precision where both are 1e7 m from its origin.
+    const glm::dvec3 from_camera_in_world = world_from_body.translation_m - moment.world_from_camera.translation_m;
+    moment.intruders.push_back({.id = static_cast<int>(i),
+                                .camera_from_body = {camera_from_world.rotation * world_from_body.rotation,
+                                                     camera_from_world.rotation * from_camera_in_world},
+                                .attitude = attitude_of(world_from_body.rotation)});
+  }
+  std::stable_sort(moment.intruders.begin(), moment.intruders.end(),
+                   [](const PlacedIntruder& a, const PlacedIntruder& b) { return a.distance_m() > b.distance_m(); });
+  return moment;
+}
+
+}  // namespace sigs

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "base/pose.h"
+#include "scene/scene.h"
+
+namespace sigs {
+
+struct PlacedIntruder {
+  int id = 0;  // number in Scene::intruders
+  Pose<frame::Camera, frame::Body> camera_from_body;
+  Attitude attitude;  // in the world
+
+  [[nodiscard]] double distance_m() const { return glm::length(camera_from_body.translation_m); }
+};
+
+// One moment of a scene.
+struct SceneMoment {
+  double time_s = 0;
+  Pose<frame::World, frame::Camera> world_from_camera;
+  glm::dvec3 light_in_camera{0, 0, 0};    // metres, camera frame
+  std::vector<PlacedIntruder> intruders;  // far to near, equal distances by id
+};
+
+// frame counts the footage's frames from 0.
+[[nodiscard]] SceneMoment scene_at(const Scene& scene, int frame);
+
+}  // namespace sigs

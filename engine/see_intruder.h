@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "annotation/measure.h"
+#include "compositor/bend.h"
+#include "frame.h"
+#include "scene/scene_at.h"
+
+namespace sigs {
+
+// One intruder as the camera sees it, before it is laid on the picture.
+struct SeenIntruder {
+  PlacedIntruder placed;
+  std::optional<Silhouette> silhouette;
+  double sigma_px = 0;
+  std::vector<DrawnView> views;  // empty: no part of it can reach the picture, nothing was drawn
+  Layer sharp;                   // through the lens, over all pixels it can reach within the picture grown by the blur
+  Layer soft;                    // the same, blurred, hidden by the own body, clipped to the picture
+  double draw_s = 0;             // what OpenGL took
+  double whole_area_px = 0;      // of the silhouette, also where it lies outside the picture
+};
+
+// The camera that the method has: the footage's, or for `plain`, which knows no lens, the pinhole with its matrix.
+[[nodiscard]] Camera seeing_camera(const Scene& scene);
+
+[[nodiscard]] Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
+                                                const PlacedIntruder& placed, Bench& bench);
+
+// The truth of every intruder, given far to near: nearer ones hide farther ones.
+[[nodiscard]] std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIntruder>& far_to_near);
+
+}  // namespace sigs

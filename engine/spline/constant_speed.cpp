@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "spline/constant_speed.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sigs {
+
+namespace {
+
+// Share of the mean speed below which rounding decides where the curve's velocity points.
+constexpr double kStanding = 1e-9;
+// How far to look beyond such a point for the direction, as a share of the whole time.
+constexpr double kLookAhead = 1e-6;
+
+}  // namespace
+
+ConstantSpeed::ConstantSpeed(PiecewiseCubic curve) : way_(std::move(curve)) {
+  if (way_.total_m() > 0) speed_mps_ = way_.total_m() / (last_s() - first_s());
+}
+
+glm::dvec3 ConstantSpeed::tangent_at(double parameter_s) const {
+  const double step_s = kLookAhead * (last_s() - first_s());
+  const bool at_end = parameter_s + step_s > last_s();
+  const glm::dvec3 velocity_mps = way_.curve().motion_at(parameter_s + (at_end ? -step_s : step_s)).velocity_mps;
+  const double curve_mps = length(velocity_mps);
+  return curve_mps > 0 ? velocity_mps / curve_mps : glm::dvec3(0);
+}
+
+Motion ConstantSpeed::motion_at(double time_s) const {
+  if (speed_mps_ == 0) return {.position_m = way_.curve().motion_at(last_s()).position_m};
+  const double inside_s = std::clamp(time_s, first_s(), last_s());
+  const double way_m = inside_s == last_s() ? way_.total_m() : speed_mps_ * (inside_s - first_s());
+  const double parameter_s = way_.parameter_s_at(way_m);
+  const Motion on_curve = way_.curve().motion_at(parameter_s);
+  const double curve_mps = length(on_curve.velocity_mps);
+  const bool standing = curve_mps <= kStanding * speed_mps_;
+
+  const glm::dvec3 tangent = standing ? tangent_at(parameter_s) : on_curve.velocity_mps / curve_mps;
+  Motion motion{on_curve.position_m + (time_s - inside_s) * speed_mps_ * tangent, speed_mps_ * tangent, {0, 0, 0}};
+  if (standing || inside_s != time_s) return motion;
+  const glm::dvec3 across_mps2 = on_curve.acceleration_mps2 - dot(on_curve.acceleration_mps2, tangent) * tangent;
+  const double pace = speed_mps_ / curve_mps;
+  motion.acceleration_mps2 = pace * pace * across_mps2;
+  return motion;
+}
+
+std::vector<double> ConstantSpeed::sample_times_s(int per_piece) const {
+  std::vector<double> times_s = way_.curve().sample_times_s(per_piece);
+  if (speed_mps_ == 0) return times_s;
+  for (double& time_s : times_s) time_s = std::min(first_s() + way_.way_m_at(time_s) / speed_mps_, last_s());
+  return times_s;
+}
+
+}  // namespace sigs

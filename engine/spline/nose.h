@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "spline/probes.h"
+
+namespace sigs {
+
+// Where the nose points at any time: along the velocity, save where the course stands or has a corner. Those moments
+// lie in a Turn: there the nose goes along a great circle from the last good direction to the next one, a full
+// about-turn by way of the right-hand side. A turn takes as long as the course stands, and at least 0.2 s for 180
+// degrees, in proportion, as far as the next turn leaves the room. Standing at the beginning or the end the nose waits
+// in the next or rests in the last direction; where there is none at all it points along world X.
+class Nose {
+ public:
+  Nose(const Course& course, const Probes& probes);
+
+  // Unit. Continuous in time; velocity_mps is that of the course at time_s, which must lie within the probes.
+  [[nodiscard]] glm::dvec3 at(double time_s, const glm::dvec3& velocity_mps) const;
+
+  // Whether the nose is led by a turn at that time, not by the velocity.
+  [[nodiscard]] bool turning_at(double time_s) const { return turn_at(time_s) != nullptr; }
+
+  // Ascending times from the first probe to the last, so close that the nose turns little from one to the next.
+  [[nodiscard]] std::vector<double> sample_times_s(const Probes& probes) const;
+
+ private:
+  struct Turn {
+    double from_s;
+    double to_s;
+    glm::dvec3 from_nose;
+    glm::dvec3 by_nose;  // half-way
+    glm::dvec3 to_nose;
+
+    [[nodiscard]] glm::dvec3 nose_at(double time_s) const;
+  };
+
+  // A stretch of time between two probes in which the velocity does not tell the nose.
+  struct Gap {
+    const Probe* from;
+    const Probe* to;
+  };
+
+  [[nodiscard]] static std::vector<Gap> gaps_in(const Probes& probes);
+  [[nodiscard]] static Turn held(const Gap& gap);
+  [[nodiscard]] static Turn turn_over(const Gap& gap, double earliest_s, double latest_s, const Course& course);
+  [[nodiscard]] const Turn* turn_at(double time_s) const;
+
+  std::vector<Turn> turns_;  // in order of time, none over another
+};
+
+}  // namespace sigs

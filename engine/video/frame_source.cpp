@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "video/frame_source.h"
+
+#include <optional>
+#include <utility>
+
+#include "base/ensure.h"
+#include "video/libav/planes.h"
+#include "video/libav/stream_facts.h"
+#include "video/picture_seeker.h"
+
+namespace sigs {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kBytesToKeep = 64 << 20;  // of pictures already decoded, for stepping back
+
+Error named(Error error, const fs::path& path) {
+  if (error.where.empty()) error.where = path.string();
+  return error;
+}
+
+// Pictures before the first that can be decoded (a clip cut out of an open group of pictures) are no frames.
+int drop_undecodable_head(libav::PictureOrder& order, int first_ordinal) {
+  int n = 0;
+  while (n < static_cast<int>(order.ordinals.size()) && order.ordinals[static_cast<size_t>(n)] != first_ordinal) ++n;
+  if (n == static_cast<int>(order.ordinals.size())) return 0;
+  order.ordinals.erase(order.ordinals.begin(), order.ordinals.begin() + n);
+  order.can_start.erase(order.can_start.begin(), order.can_start.begin() + n);
+  order.times_s.erase(order.times_s.begin(), order.times_s.begin() + n);
+  const double begin_s = order.times_s.front();
+  for (double& time_s : order.times_s) time_s -= begin_s;
+  return n;
+}
+
+double period_s(AVRational rate) {
+  return av_q2d(AVRational{rate.den, rate.num});
+}
+
+// From the packets where that is sure, else by decoding everything.
+Result<libav::PictureOrder> order_of(const libav::PacketTable& table, libav::PictureStream& stream) {
+  const libav::Demuxer& source = stream.demuxer();
+  if (auto order = libav::order_from_packets(table, source.format(), source.stream())) return std::move(*order);
+  return libav::order_from_decoding(table, source.stream(), stream, period_s(libav::frame_rate_of(source)));
+}
+
+Result<libav::Picture> first_picture(libav::PictureStream& stream, const libav::PictureOrder& order) {
+  const Result<void> started = stream.start(0, {.threads = 1, .reorder_depth = order.reorder_depth});
+  if (!started) return fail(started.error());
+  Result<std::optional<libav::Picture>> first = stream.next();
+  if (!first) return fail(first.error());
+  if (!*first) return fail("", "no frame of this video can be decoded");
+  return std::move(**first);
+}
+
+std::string size_text(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+}  // namespace
+
+struct FrameSource::State {
+  libav::PacketTable table;
+  VideoInfo info;
+  std::optional<PictureSeeker> seeker;
+
+  [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
+};
+
+Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
+  table = libav::PacketTable::read(demuxer);
+  libav::PictureStream stream(libav::PacketReader(info.path, std::move(demuxer), table), table);
+  Result<libav::PictureOrder> order = order_of(table, stream);
+  if (!order) return fail(order.error());
+  const Result<libav::Picture> first = first_picture(stream, *order);
+  if (!first) return fail(first.error());
+  const int dropped = drop_undecodable_head(*order, first->ordinal);
+  info = libav::facts_of(info.path, stream.demuxer(), table, *order, *first->frame);
+  if (dropped > 0)
+    info.warnings.push_back(
+        {info.path.string(), std::to_string(dropped) + " pictures before the first that can be decoded are left out"});
+  seeker.emplace(std::move(stream), std::move(*order), table, kBytesToKeep);
+  return {};
+}
+
+Result<FrameSource> FrameSource::open(const fs::path& path) {
+  Result<libav::Demuxer> demuxer = libav::Demuxer::open(path);
+  if (!demuxer) return fail(demuxer.error());
+  auto state = std::make_unique<State>();
+  state->info.path = path;
+  const Result<void> opened = state->open(std::move(*demuxer));
+  if (!opened) return fail(named(opened.error(), path));
+  return FrameSource(std::move(state));
+}
+
+FrameSource::FrameSource(std::unique_ptr<State> state) : state_(std::move(state)) {}
+FrameSource::FrameSource(FrameSource&&) noexcept = default;
+FrameSource& FrameSource::operator=(FrameSource&&) noexcept = default;
+FrameSource::~FrameSource() = default;
+
+const VideoInfo& FrameSource::info() const {
+  return state_->info;
+}
+
+Result<Frame> FrameSource::read(int n) {
+  const VideoInfo& info = state_->info;
+  ENSURE(n >= 0 && n < info.frame_count());
+  const std::string where = info.path.string() + ": frame " + std::to_string(n);
+  const Result<PictureSeeker::Found> found = state_->seeker->find(n);
+  if (!found) return fail(named(found.error(), info.path));
+  if (found->picture == nullptr) return fail(where, "cannot be decoded, nor any frame before it");
+  const AVFrame& picture = *found->picture->frame;
+  const cv::Size size(picture.width, picture.height);
+  if (size != info.size_px)
+    return fail(where, "the picture's size changes from " + size_text(info.size_px) + " to " + size_text(size));
+  Result<Frame> frame = libav::frame_of(picture, info.layout, info.color);
+  if (!frame) return fail(where, frame.error().what);
+  frame->time_s = info.times_s[static_cast<size_t>(n)];
+  frame->damaged = found->picture->damaged || found->stands_in;
+  return frame;
+}
+
+}  // namespace sigs

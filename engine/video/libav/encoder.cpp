@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "video/libav/encoder.h"
+
+extern "C" {
+#include <libavutil/opt.h>
+}
+
+#include <algorithm>
+#include <string>
+
+#include "base/ensure.h"
+#include "video/libav/color_tags.h"
+
+namespace sigs::libav {
+namespace {
+
+// One setting for all: x264's motion search and lookahead depend on how many threads there are. Its hand-written
+// routines differ in the last bit between processors unless told not to.
+constexpr int kH264Threads = 4;
+constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
+constexpr int kH264KeyInterval = 60;  // about two seconds: an editor scrubs through it
+
+constexpr int kFfv1Slices = 4;
+constexpr int kFfv1SmallestSliced = 64;  // px; below, slices cost more than they give
+constexpr int kMjpegQuality = 2;         // the finest scale that FFmpeg's rate control takes
+
+int frame_threads(int wanted) {
+  return std::max(wanted, 1);
+}
+
+void set_up_ffv1(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
+  context.level = 3;  // slices with checksums
+  context.gop_size = 1;
+  const bool small = std::min(format.size_px.width, format.size_px.height) < kFfv1SmallestSliced;
+  context.slices = small ? 1 : kFfv1Slices;
+  context.thread_count = std::min(frame_threads(format.threads), context.slices);
+  context.thread_type = FF_THREAD_SLICE;
+  av_dict_set(options, "slicecrc", "1", 0);
+}
+
+void set_up_h264(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
+  context.thread_count = kH264Threads;
+  context.gop_size = kH264KeyInterval;
+  if (format.container == Container::avi) context.max_b_frames = 0;  // AVI knows no presentation times
+  av_dict_set(options, "crf", std::to_string(std::clamp(format.crf, 0, 51)).c_str(), 0);
+  av_dict_set(options, "x264-params", kH264Parameters, 0);
+}
+
+void set_up_mjpeg(AVCodecContext& context, const VideoFormat& format) {
+  context.flags |= AV_CODEC_FLAG_QSCALE;
+  context.global_quality = FF_QP2LAMBDA * kMjpegQuality;
+  context.qmin = context.qmax = kMjpegQuality;
+  // Slices would change the bytes; pictures do not depend on one another.
+  context.thread_count = frame_threads(format.threads);
+  context.thread_type = FF_THREAD_FRAME;
+}
+
+void set_up_picture(AVCodecContext& context, const VideoFormat& format, const Encoding& encoding, AVRational tick) {
+  context.width = format.size_px.width;
+  context.height = format.size_px.height;
+  context.pix_fmt = encoding.pixel_format;
+  context.time_base = tick;
+  context.framerate = {format.frame_rate_num, format.frame_rate_den};
+  context.sample_aspect_ratio = {format.pixel_aspect_num, format.pixel_aspect_den};
+  context.flags |= AV_CODEC_FLAG_BITEXACT;
+  tag(context, encoding.color, encoding.layout);
+}
+
+}  // namespace
+
+Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encoding, AVRational tick, bool headers) {
+  const AVCodec* codec = avcodec_find_encoder_by_name(encoding.encoder);
+  if (codec == nullptr)
+    return fail("", std::string("this FFmpeg has no encoder ") + encoding.encoder, ErrorKind::unavailable);
+  CodecPtr context(avcodec_alloc_context3(codec));
+  ENSURE(context != nullptr);
+  set_up_picture(*context, format, encoding, tick);
+  if (headers) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+  AVDictionary* options = nullptr;
+  if (format.codec == VideoCodec::ffv1) set_up_ffv1(*context, format, &options);
+  if (format.codec == VideoCodec::h264) set_up_h264(*context, format, &options);
+  if (format.codec == VideoCodec::mjpeg) set_up_mjpeg(*context, format);
+  const int error = avcodec_open2(context.get(), codec, &options);
+  av_dict_free(&options);
+  if (error < 0)
+    return fail("", std::string("the encoder ") + encoding.encoder + " refuses: " + text_of(error),
+                ErrorKind::unavailable);
+  return context;
+}
+
+}  // namespace sigs::libav

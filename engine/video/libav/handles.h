@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Private to this room: the FFmpeg libraries' types with owners. Nothing outside engine/video includes
+// engine/video/libav.
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/frame.h>
+#include <libswscale/swscale.h>
+}
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace sigs::libav {
+
+struct Deleter {
+  void operator()(AVFormatContext* context) const;  // of an input
+  void operator()(AVCodecContext* context) const;
+  void operator()(AVPacket* packet) const;
+  void operator()(AVFrame* frame) const;
+  void operator()(SwsContext* context) const;
+};
+
+using InputPtr = std::unique_ptr<AVFormatContext, Deleter>;
+using CodecPtr = std::unique_ptr<AVCodecContext, Deleter>;
+using PacketPtr = std::unique_ptr<AVPacket, Deleter>;
+using FramePtr = std::unique_ptr<AVFrame, Deleter>;
+using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
+
+// Stops the program where memory is out.
+[[nodiscard]] PacketPtr new_packet();
+[[nodiscard]] FramePtr new_frame();
+
+// FFmpeg's words for one of its error codes.
+[[nodiscard]] std::string text_of(int error);
+
+// The path as FFmpeg takes it literally: "a:b.mkv" is a file, not a protocol.
+[[nodiscard]] std::string url_of(const std::filesystem::path& path);
+
+// FFmpeg reports to stderr, which belongs to the program's own log and progress. Errors come back as values anyway.
+void silence();
+
+}  // namespace sigs::libav

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "video/libav/packet_table.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "video/libav/ffv1_check.h"
+
+namespace sigs::libav {
+namespace {
+
+PacketMark mark_of(const AVPacket& packet) {
+  return {.pts = packet.pts,
+          .dts = packet.dts,
+          .file_position = packet.pos,
+          .size = packet.size,
+          .key = (packet.flags & AV_PKT_FLAG_KEY) != 0,
+          .discarded = (packet.flags & AV_PKT_FLAG_DISCARD) != 0,
+          .corrupt = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0};
+}
+
+// Only a stream in which some packet's checksums match has checksums at all.
+void mark_corrupt(std::vector<PacketMark>& marks, const std::vector<bool>& checksums_match) {
+  if (std::find(checksums_match.begin(), checksums_match.end(), true) == checksums_match.end()) return;
+  for (size_t i = 0; i < marks.size(); ++i)
+    if (!checksums_match[i]) marks[i].corrupt = true;
+}
+
+}  // namespace
+
+PacketTable PacketTable::read(Demuxer& demuxer) {
+  PacketTable table;
+  const bool is_ffv1 = demuxer.stream().codecpar->codec_id == AV_CODEC_ID_FFV1;
+  std::vector<bool> checksums_match;
+  const PacketPtr packet = new_packet();
+  while (demuxer.next(*packet)) {
+    table.marks_.push_back(mark_of(*packet));
+    if (is_ffv1) checksums_match.push_back(ffv1_checksums_match({packet->data, static_cast<size_t>(packet->size)}));
+  }
+  table.broke_off_ = demuxer.broke_off();
+  mark_corrupt(table.marks_, checksums_match);
+  table.sort_by_position();
+  return table;
+}
+
+void PacketTable::sort_by_position() {
+  by_position_.resize(marks_.size());
+  std::iota(by_position_.begin(), by_position_.end(), 0);
+  std::stable_sort(by_position_.begin(), by_position_.end(),
+                   [&](int a, int b) { return (*this)[a].file_position < (*this)[b].file_position; });
+}
+
+bool PacketTable::any_corrupt() const {
+  return std::any_of(marks_.begin(), marks_.end(), [](const PacketMark& mark) { return mark.corrupt; });
+}
+
+bool PacketTable::matches(int ordinal, const AVPacket& packet) const {
+  const PacketMark& mark = (*this)[ordinal];
+  return mark.file_position >= 0 && mark.file_position == packet.pos && mark.size == packet.size &&
+         mark.pts == packet.pts;
+}
+
+std::optional<int> PacketTable::ordinal_of(const AVPacket& packet) const {
+  const auto first =
+      std::lower_bound(by_position_.begin(), by_position_.end(), packet.pos,
+                       [&](int ordinal, int64_t position) { return (*this)[ordinal].file_position < position; });
+  std::optional<int> found;
+  for (auto it = first; it != by_position_.end() && (*this)[*it].file_position == packet.pos; ++it) {
+    if (!matches(*it, packet)) continue;
+    if (found) return {};  // an edit list may show the same bytes twice
+    found = *it;
+  }
+  return found;
+}
+
+}  // namespace sigs::libav

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "video/libav/picture_order.h"
+
+#include <algorithm>
+#include <functional>
+#include <string_view>
+
+namespace sigs::libav {
+namespace {
+
+// In these one packet is one shown picture. Not so in MPEG-4 part 2 (packed and empty pictures), VP8 (hidden ones), or
+// H.264 in fields (two packets per picture).
+bool one_picture_per_packet(const AVCodecParameters& parameters) {
+  switch (parameters.codec_id) {
+    case AV_CODEC_ID_H264:
+      return parameters.field_order == AV_FIELD_PROGRESSIVE || parameters.field_order == AV_FIELD_UNKNOWN;
+    case AV_CODEC_ID_HEVC:
+    case AV_CODEC_ID_VP9:
+    case AV_CODEC_ID_AV1:
+      return true;
+    default:
+      return is_intra_only(parameters.codec_id);
+  }
+}
+
+// Time stamps and key flags of the others are guesses.
+bool has_true_time_stamps(const AVFormatContext& format) {
+  const std::string_view name = format.iformat->name;
+  return name.starts_with("mov,mp4") || name.starts_with("matroska");
+}
+
+bool is_shown(const PacketMark& mark) {
+  return !mark.discarded && mark.size > 0;
+}
+
+// The most packets that come before another in decoding although they are shown after it.
+int reorder_depth(const PacketTable& table, const std::vector<int>& ordinals) {
+  int deepest = 0;
+  // A picture's place in presentation against its place in decoding; the depth is the greatest lag.
+  std::vector<int> shown;
+  for (int i = 0; i < table.size(); ++i)
+    if (is_shown(table[i])) shown.push_back(i);
+  for (size_t place = 0; place < ordinals.size(); ++place) {
+    const auto decoded = std::lower_bound(shown.begin(), shown.end(), ordinals[place]) - shown.begin();
+    deepest = std::max(deepest, static_cast<int>(decoded) - static_cast<int>(place));
+  }
+  return deepest;
+}
+
+std::vector<double> times_of(const std::vector<int64_t>& stamps, AVRational time_base) {
+  std::vector<double> times_s;
+  for (const int64_t stamp : stamps) times_s.push_back(static_cast<double>(stamp - stamps.front()) * av_q2d(time_base));
+  return times_s;
+}
+
+// Decoders give pictures in the order of their time stamps, so the stamps only need to be sorted. Decode times serve as
+// well: they are the same set of instants, early by a constant.
+std::optional<std::vector<int64_t>> sorted_stamps(const PacketTable& table, const std::vector<int>& ordinals,
+                                                  int64_t PacketMark::*stamp) {
+  std::vector<int64_t> stamps;
+  for (const int ordinal : ordinals) stamps.push_back(table[ordinal].*stamp);
+  std::sort(stamps.begin(), stamps.end());
+  if (stamps.empty() || stamps.front() == AV_NOPTS_VALUE) return {};
+  if (std::adjacent_find(stamps.begin(), stamps.end()) != stamps.end()) return {};
+  return stamps;
+}
+
+void set_times(PictureOrder& order, const PacketTable& table, const AVStream& stream, double frame_period_s) {
+  for (int64_t PacketMark::*stamp : {&PacketMark::pts, &PacketMark::dts})
+    if (const auto stamps = sorted_stamps(table, order.ordinals, stamp)) {
+      order.times_s = times_of(*stamps, stream.time_base);
+      return;
+    }
+  order.times_are_nominal = true;
+  for (size_t n = 0; n < order.ordinals.size(); ++n) order.times_s.push_back(static_cast<double>(n) * frame_period_s);
+}
+
+}  // namespace
+
+std::optional<PictureOrder> order_from_packets(const PacketTable& table, const AVFormatContext& format,
+                                               const AVStream& stream) {
+  if (!one_picture_per_packet(*stream.codecpar) || !has_true_time_stamps(format)) return {};
+  PictureOrder order{.intra_only = is_intra_only(stream.codecpar->codec_id)};
+  for (int i = 0; i < table.size(); ++i)
+    if (is_shown(table[i])) order.ordinals.push_back(i);
+  std::stable_sort(order.ordinals.begin(), order.ordinals.end(),
+                   [&](int a, int b) { return table[a].pts < table[b].pts; });
+  const auto stamps = sorted_stamps(table, order.ordinals, &PacketMark::pts);
+  if (!stamps) return {};
+  order.times_s = times_of(*stamps, stream.time_base);
+  for (const int ordinal : order.ordinals) order.can_start.push_back(table[ordinal].key);
+  order.reorder_depth = reorder_depth(table, order.ordinals);
+  return order;
+}
+
+Result<PictureOrder> order_from_decoding(const PacketTable& table, const AVStream& stream, PictureStream& pictures,
+                                         double frame_period_s) {
+  PictureOrder order;
+  const auto decode_all = [&](int threads) -> Result<void> {
+    order = {.intra_only = is_intra_only(stream.codecpar->codec_id)};
+    if (const Result<void> started = pictures.start(0, {.threads = threads}); !started) return fail(started.error());
+    while (true) {
+      Result<std::optional<Picture>> picture = pictures.next();
+      if (!picture) return fail(picture.error());
+      if (!*picture) return {};
+      order.ordinals.push_back((*picture)->ordinal);
+      order.can_start.push_back(is_key(*(*picture)->frame));
+    }
+  };
+  Result<void> decoded = decode_all(2);
+  // What two threads make of a damaged stream can depend on which of them is ahead.
+  if (decoded && pictures.met_damage()) decoded = decode_all(1);
+  if (!decoded) return fail(decoded.error());
+  set_times(order, table, stream, frame_period_s);
+  return order;
+}
+
+}  // namespace sigs::libav

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "video/libav/packet_table.h"
+#include "video/libav/picture_stream.h"
+
+namespace sigs::libav {
+
+// Which packet makes the n-th picture, and when it is shown.
+struct PictureOrder {
+  std::vector<int> ordinals{};  // of each picture in order of presentation
+  std::vector<bool>
+      can_start{};  // decoding can begin at this picture's packet; all before it in presentation is not needed
+  std::vector<double> times_s{};   // 0 for the first, increasing
+  bool times_are_nominal = false;  // the container's time stamps are missing or do not increase
+  bool intra_only = false;         // every picture stands alone
+  int reorder_depth = 0;           // DecoderSettings::reorder_depth
+};
+
+// From the packets alone, where each makes exactly one picture and carries its own time stamp.
+[[nodiscard]] std::optional<PictureOrder> order_from_packets(const PacketTable& table, const AVFormatContext& format,
+                                                             const AVStream& stream);
+
+// By decoding all: codecs with hidden or doubled pictures, containers without time stamps or a trustworthy index.
+[[nodiscard]] Result<PictureOrder> order_from_decoding(const PacketTable& table, const AVStream& stream,
+                                                       PictureStream& pictures, double frame_period_s);
+
+}  // namespace sigs::libav

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "video/libav/planes.h"
+
+extern "C" {
+#include <libavutil/imgutils.h>
+#include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
+}
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <vector>
+
+#include "base/ensure.h"
+#include "video/chroma.h"
+
+namespace sigs::libav {
+namespace {
+
+constexpr uint64_t kOddFlags = AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL |
+                               AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
+
+const AVPixFmtDescriptor& description_of(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  ENSURE(description != nullptr);
+  return *description;
+}
+
+bool is_rgb(const AVPixFmtDescriptor& format) {
+  return (format.flags & AV_PIX_FMT_FLAG_RGB) != 0;
+}
+
+int component_count(PixelLayout layout) {
+  return layout == PixelLayout::gray ? 1 : 3;
+}
+
+// The layout with the same components and chroma raster, if there is one.
+bool same_layout(const AVPixFmtDescriptor& format, PixelLayout& layout) {
+  const cv::Size step(1 << format.log2_chroma_w, 1 << format.log2_chroma_h);
+  if (format.nb_components < 3)
+    layout = PixelLayout::gray;
+  else if (is_rgb(format))
+    layout = PixelLayout::rgb;
+  else if (step == cv::Size(2, 2))
+    layout = PixelLayout::yuv420;
+  else if (step == cv::Size(2, 1))
+    layout = PixelLayout::yuv422;
+  else if (step == cv::Size(1, 1))
+    layout = PixelLayout::yuv444;
+  else
+    return false;
+  return true;
+}
+
+// Whether samples can be picked one by one: whole bytes, or whole 16-bit words of this machine's byte order.
+bool can_pick(const AVPixFmtDescriptor& format) {
+  PixelLayout layout{};
+  if ((format.flags & kOddFlags) != 0 || !same_layout(format, layout)) return false;
+  if (std::string_view(format.name).starts_with("xyz")) return false;
+  const int depth = format.comp[0].depth;
+  for (int i = 0; i < component_count(layout); ++i)
+    if (format.comp[i].depth != depth) return false;
+  if (depth == 8) return true;
+  const bool big_endian = (format.flags & AV_PIX_FMT_FLAG_BE) != 0;
+  return depth > 8 && depth <= 16 && big_endian == (std::endian::native == std::endian::big);
+}
+
+PixelLayout nearest_layout(const AVPixFmtDescriptor& format) {
+  PixelLayout layout{};
+  if ((format.flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER)) != 0 || is_rgb(format)) return PixelLayout::rgb;
+  if (std::string_view(format.name).starts_with("xyz")) return PixelLayout::rgb;
+  if (same_layout(format, layout)) return layout;
+  // Chroma finer in y than in x and the other way round: keep the finer of the two.
+  if (format.log2_chroma_h >= 1) return format.log2_chroma_w == 0 ? PixelLayout::yuv444 : PixelLayout::yuv420;
+  return PixelLayout::yuv422;
+}
+
+AVPixelFormat plain_format(PixelLayout layout) {
+  switch (layout) {
+    case PixelLayout::gray:
+      return AV_PIX_FMT_GRAY8;
+    case PixelLayout::yuv420:
+      return AV_PIX_FMT_YUV420P;
+    case PixelLayout::yuv422:
+      return AV_PIX_FMT_YUV422P;
+    case PixelLayout::yuv444:
+      return AV_PIX_FMT_YUV444P;
+    case PixelLayout::rgb:
+      break;
+  }
+  return AV_PIX_FMT_RGB24;
+}
+
+// Deeper codes to 8 bits within the same range. Limited range: a code of d bits is the 8-bit one times 2^(d - 8).
+// Full range: 0..2^d - 1 becomes 0..255, chroma about its own middle.
+std::vector<uchar> rounding_table(int depth, bool is_chroma, ColorRange range) {
+  const double top = (1 << depth) - 1;
+  const double middle = is_chroma ? 1 << (depth - 1) : 0;
+  const double scale = range == ColorRange::full ? 255 / top : 1.0 / (1 << (depth - 8));
+  std::vector<uchar> table(size_t{1} << depth);
+  for (size_t code = 0; code < table.size(); ++code) {
+    const double value = (static_cast<double>(code) - middle) * scale + (is_chroma ? 128 : 0);
+    table[code] = static_cast<uchar>(std::clamp(value + 0.5, 0.0, 255.0));
+  }
+  return table;
+}
+
+const uchar* sample_row(const AVFrame& picture, const AVComponentDescriptor& component, int y) {
+  return picture.data[component.plane] + static_cast<ptrdiff_t>(y) * picture.linesize[component.plane] +
+         component.offset;
+}
+
+cv::Mat picked_bytes(const AVFrame& picture, const AVComponentDescriptor& component, cv::Size size) {
+  cv::Mat plane(size, CV_8UC1);
+  for (int y = 0; y < size.height; ++y) {
+    const uchar* in = sample_row(picture, component, y);
+    uchar* out = plane.ptr<uchar>(y);
+    if (component.step == 1)
+      std::memcpy(out, in, static_cast<size_t>(size.width));
+    else
+      for (int x = 0; x < size.width; ++x) out[x] = in[x * component.step];
+  }
+  return plane;
+}
+
+cv::Mat picked_words(const AVFrame& picture, const AVComponentDescriptor& component, cv::Size size,
+                     const std::vector<uchar>& table) {
+  cv::Mat plane(size, CV_8UC1);
+  const size_t mask = table.size() - 1;
+  for (int y = 0; y < size.height; ++y) {
+    const uchar* in = sample_row(picture, component, y);
+    uchar* out = plane.ptr<uchar>(y);
+    for (int x = 0; x < size.width; ++x, in += component.step) {
+      uint16_t word = 0;
+      std::memcpy(&word, in, sizeof word);
+      out[x] = table[(word >> component.shift) & mask];
+    }
+  }
+  return plane;
+}
+
+Frame picked(const AVFrame& picture, const AVPixFmtDescriptor& format, PixelLayout layout, const ColorInfo& color) {
+  Frame frame{.layout = layout, .color = color};
+  const cv::Size size(picture.width, picture.height);
+  const ColorRange range = layout == PixelLayout::rgb ? ColorRange::full : color.range;
+  for (int i = 0; i < component_count(layout); ++i) {
+    const AVComponentDescriptor& component = format.comp[i];
+    const bool is_chroma = i > 0 && layout != PixelLayout::rgb;
+    const cv::Size plane_size = is_chroma ? chroma_size(layout, size) : size;
+    frame.planes[static_cast<size_t>(i)] =
+        component.depth == 8
+            ? picked_bytes(picture, component, plane_size)
+            : picked_words(picture, component, plane_size, rounding_table(component.depth, is_chroma, range));
+  }
+  return frame;
+}
+
+// The same range on both sides, so that swscale only moves and resamples.
+void keep_range(SwsContext& scaler, ColorRange range) {
+  const int full = range == ColorRange::full ? 1 : 0;
+  const int* coefficients = sws_getCoefficients(SWS_CS_DEFAULT);
+  sws_setColorspaceDetails(&scaler, coefficients, full, coefficients, full, 0, 1 << 16, 1 << 16);
+}
+
+Result<FramePtr> scaled(const AVFrame& picture, PixelLayout layout, ColorRange range) {
+  FramePtr plain = new_frame();
+  plain->format = plain_format(layout);
+  plain->width = picture.width;
+  plain->height = picture.height;
+  ENSURE(av_frame_get_buffer(plain.get(), 0) >= 0);
+  const ScalerPtr scaler(sws_getContext(picture.width, picture.height, static_cast<AVPixelFormat>(picture.format),
+                                        plain->width, plain->height, static_cast<AVPixelFormat>(plain->format),
+                                        SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,
+                                        nullptr, nullptr));
+  if (scaler == nullptr)
+    return fail("", std::string("the pixel format ") + av_get_pix_fmt_name(static_cast<AVPixelFormat>(picture.format)) +
+                        " cannot be converted to 8-bit planes");
+  keep_range(*scaler, range);
+  sws_scale(scaler.get(), picture.data, picture.linesize, 0, picture.height, plain->data, plain->linesize);
+  return plain;
+}
+
+}  // namespace
+
+Conversion conversion_of(AVPixelFormat pixel_format) {
+  const AVPixFmtDescriptor& format = description_of(pixel_format);
+  Conversion conversion{.layout = nearest_layout(format)};
+  const bool has_alpha = (format.flags & AV_PIX_FMT_FLAG_ALPHA) != 0 && (format.flags & AV_PIX_FMT_FLAG_PAL) == 0;
+  if (!can_pick(format))
+    conversion.text =
+        std::string(format.name) + " to " + av_get_pix_fmt_name(plain_format(conversion.layout)) + " through swscale";
+  else if (format.comp[0].depth > 8)
+    conversion.text = std::string(format.name) + " to 8 bits, rounded";
+  if (has_alpha) conversion.text += conversion.text.empty() ? "opacity is left out" : "; opacity is left out";
+  return conversion;
+}
+
+Result<Frame> frame_of(const AVFrame& picture, PixelLayout layout, const ColorInfo& color) {
+  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(picture.format));
+  if (can_pick(format) && nearest_layout(format) == layout) return picked(picture, format, layout, color);
+  const Result<FramePtr> plain = scaled(picture, layout, color.range);
+  if (!plain) return fail(plain.error());
+  return picked(**plain, description_of(plain_format(layout)), layout, color);
+}
+
+void fill(AVFrame& picture, const Frame& frame) {
+  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(picture.format));
+  for (int i = 0; i < frame.plane_count(); ++i) {
+    const AVComponentDescriptor& component = format.comp[i];
+    const cv::Mat& plane = frame.planes[static_cast<size_t>(i)];
+    for (int y = 0; y < plane.rows; ++y) {
+      const uchar* in = plane.ptr<uchar>(y);
+      uchar* out = const_cast<uchar*>(sample_row(picture, component, y));
+      for (int x = 0; x < plane.cols; ++x) out[x * component.step] = in[x];
+    }
+  }
+}
+
+}  // namespace sigs::libav

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "video/libav/stream_facts.h"
+
+extern "C" {
+#include <libavutil/display.h>
+#include <libavutil/pixdesc.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "video/libav/color_tags.h"
+#include "video/libav/planes.h"
+
+namespace sigs::libav {
+namespace {
+
+const int32_t* display_matrix(const AVStream& stream) {
+  constexpr size_t kMatrixBytes = 9 * sizeof(int32_t);
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+  const AVPacketSideData* data = av_packet_side_data_get(
+      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+  return data != nullptr && data->size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data->data) : nullptr;
+#else
+  size_t size = 0;
+  const uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
+  return data != nullptr && size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data) : nullptr;
+#endif
+}
+
+bool is_turned(const AVStream& stream) {
+  const int32_t* matrix = display_matrix(stream);
+  if (matrix == nullptr) return false;
+  return matrix[0] <= 0 || matrix[1] != 0 || matrix[3] != 0 || matrix[4] <= 0;
+}
+
+// The container rounds time stamps to its tick; more than that is a rate that varies.
+bool is_variable(const std::vector<double>& times_s, AVRational time_base) {
+  if (times_s.size() < 3) return false;
+  const double mean_s = times_s.back() / static_cast<double>(times_s.size() - 1);
+  const double slack_s = std::max(1.01 * av_q2d(time_base), 0.01 * mean_s);
+  for (size_t n = 1; n < times_s.size(); ++n)
+    if (std::abs(times_s[n] - times_s[n - 1] - mean_s) > slack_s) return true;
+  return false;
+}
+
+std::string counted(long long declared, int there) {
+  return "header declares " + std::to_string(declared) + " frames, " + std::to_string(there) + " are there";
+}
+
+void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& table, const PictureOrder& order) {
+  const auto warn = [&](std::string what) { info.warnings.push_back({info.path.string(), std::move(what)}); };
+  if (info.declared_frames > 0 && info.declared_frames != table.size() && info.declared_frames != info.frame_count())
+    warn(counted(info.declared_frames, info.frame_count()));
+  else if (table.broke_off())
+    warn("the file ends early; " + std::to_string(info.frame_count()) + " frames are there");
+  if (table.any_corrupt()) warn("some packets are damaged");
+  if (order.times_are_nominal)
+    warn("the container tells no usable times; frames are spaced evenly at the nominal rate");
+  if (is_turned(demuxer.stream()))
+    warn("the file asks players to rotate or mirror the picture; it is used as it is stored");
+}
+
+}  // namespace
+
+AVRational frame_rate_of(const Demuxer& demuxer) {
+  const AVRational rate = av_guess_frame_rate(&demuxer.format(), &demuxer.stream(), nullptr);
+  return rate.num > 0 && rate.den > 0 ? rate : AVRational{25, 1};
+}
+
+VideoInfo facts_of(const std::filesystem::path& path, const Demuxer& demuxer, const PacketTable& table,
+                   const PictureOrder& order, const AVFrame& first) {
+  const AVStream& stream = demuxer.stream();
+  const AVPixelFormat pixel_format = static_cast<AVPixelFormat>(first.format);
+  const Conversion conversion = conversion_of(pixel_format);
+  const ColorReading reading = color_of(first, stream.codecpar->codec_id, conversion.layout);
+  VideoInfo info;
+  info.path = path;
+  info.size_px = {first.width, first.height};
+  info.layout = conversion.layout;
+  info.color = reading.color;
+  info.times_s = order.times_s;
+  const AVRational rate = frame_rate_of(demuxer);
+  info.frame_rate_num = rate.num;
+  info.frame_rate_den = rate.den;
+  const AVRational aspect =
+      av_guess_sample_aspect_ratio(&demuxer.format(), &demuxer.stream(), const_cast<AVFrame*>(&first));
+  if (aspect.num > 0 && aspect.den > 0) {
+    info.pixel_aspect_num = aspect.num;
+    info.pixel_aspect_den = aspect.den;
+  }
+  info.variable_frame_rate = is_variable(order.times_s, stream.time_base);
+  info.codec = avcodec_get_name(stream.codecpar->codec_id);
+  info.pixel_format = av_get_pix_fmt_name(pixel_format);
+  info.conversion = conversion.text;
+  info.container = demuxer.format().iformat->name;
+  info.declared_frames = stream.nb_frames;
+  add_warnings(info, demuxer, table, order);
+  if (!reading.remark.empty()) info.warnings.push_back({path.string(), reading.remark});
+  return info;
+}
+
+}  // namespace sigs::libav

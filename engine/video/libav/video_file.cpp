@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "video/libav/video_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/ensure.h"
+#include "video/libav/encoder.h"
+#include "video/libav/planes.h"
+
+namespace sigs::libav {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kFinestTicksPerSecond = 60000;
+
+const char* muxer_of(Container container) {
+  switch (container) {
+    case Container::mkv:
+      return "matroska";
+    case Container::mp4:
+      return "mp4";
+    case Container::avi:
+      return "avi";
+  }
+  return "";
+}
+
+// Matroska has milliseconds, AVI frames. In MP4 a whole number of ticks is one nominal frame, and a tick is 1/60000 s
+// or finer, so that constant rates are exact and varying ones nearly so.
+AVRational tick_of(const VideoFormat& format) {
+  if (format.container == Container::mkv) return {1, 1000};
+  if (format.container == Container::avi) return {format.frame_rate_den, format.frame_rate_num};
+  const int64_t num = format.frame_rate_num;
+  return {1, static_cast<int>(num * std::max<int64_t>(1, (kFinestTicksPerSecond + num - 1) / num))};
+}
+
+Error named(Error error, const fs::path& path) {
+  if (error.where.empty()) error.where = path.string();
+  return error;
+}
+
+}  // namespace
+
+void OutputCloser::operator()(AVFormatContext* context) const {
+  avio_closep(&context->pb);
+  avformat_free_context(context);
+}
+
+VideoFile::VideoFile(fs::path path, VideoFormat format, Encoding encoding)
+    : path_(std::move(path)), format_(format), encoding_(encoding), tick_(tick_of(format)) {}
+
+Result<VideoFile> VideoFile::create(const fs::path& path, const VideoFormat& format) {
+  silence();
+  ENSURE(format.frame_rate_num > 0 && format.frame_rate_den > 0);
+  const Result<Encoding> encoding = encoding_for(format);
+  if (!encoding) return fail(named(encoding.error(), path));
+  VideoFile file(path, format, *encoding);
+  if (const Result<void> begun = file.begin(); !begun) return fail(named(begun.error(), path));
+  return file;
+}
+
+Result<void> VideoFile::begin() {
+  AVFormatContext* context = nullptr;
+  if (avformat_alloc_output_context2(&context, nullptr, muxer_of(format_.container), nullptr) < 0)
+    return fail("", std::string("this FFmpeg cannot write ") + muxer_of(format_.container), ErrorKind::unavailable);
+  output_.reset(context);
+  context->flags |= AVFMT_FLAG_BITEXACT;  // no dates, no versions, no random identifiers
+  Result<CodecPtr> encoder =
+      open_encoder(format_, encoding_, tick_, (context->oformat->flags & AVFMT_GLOBALHEADER) != 0);
+  if (!encoder) return fail(encoder.error());
+  encoder_ = std::move(*encoder);
+  AVStream* stream = avformat_new_stream(context, nullptr);
+  ENSURE(stream != nullptr && avcodec_parameters_from_context(stream->codecpar, encoder_.get()) >= 0);
+  stream->time_base = tick_;
+  stream->avg_frame_rate = encoder_->framerate;
+  stream->sample_aspect_ratio = encoder_->sample_aspect_ratio;
+  if (const int opened = avio_open(&context->pb, url_of(path_).c_str(), AVIO_FLAG_WRITE); opened < 0)
+    return fail("", "cannot be created: " + text_of(opened), ErrorKind::cannot_create);
+  return check(avformat_write_header(context, nullptr));
+}
+
+Result<int64_t> VideoFile::next_stamp(const Frame& frame) {
+  if (format_.container == Container::avi) return last_stamp_ + 1;
+  if (!std::isfinite(frame.time_s) || (first_time_s_ && !(frame.time_s > last_time_s_)))
+    return fail(path_.string(), "a frame's time does not lie after the one before: " + std::to_string(frame.time_s));
+  if (!first_time_s_) first_time_s_ = frame.time_s;
+  last_time_s_ = frame.time_s;
+  const int64_t stamp = std::llround((frame.time_s - *first_time_s_) / av_q2d(tick_));
+  return std::max(stamp, last_stamp_ + 1);
+}
+
+Result<void> VideoFile::write(const Frame& frame) {
+  ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
+  const Result<int64_t> stamp = next_stamp(frame);
+  if (!stamp) return fail(stamp.error());
+  last_stamp_ = *stamp;
+  const FramePtr picture = new_frame();
+  picture->format = encoder_->pix_fmt;
+  picture->width = encoder_->width;
+  picture->height = encoder_->height;
+  ENSURE(av_frame_get_buffer(picture.get(), 0) >= 0);
+  fill(*picture, stored(frame, encoding_));
+  picture->pts = *stamp;
+  picture->color_range = encoder_->color_range;
+  picture->colorspace = encoder_->colorspace;
+  return encode(picture.get());
+}
+
+Result<void> VideoFile::encode(const AVFrame* picture) {
+  if (const int sent = avcodec_send_frame(encoder_.get(), picture); sent < 0)
+    return fail(path_.string(), "could not be encoded: " + text_of(sent), ErrorKind::write_failed);
+  while (true) {
+    const int received = avcodec_receive_packet(encoder_.get(), packet_.get());
+    if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return {};
+    if (received < 0)
+      return fail(path_.string(), "could not be encoded: " + text_of(received), ErrorKind::write_failed);
+    const AVRational period{format_.frame_rate_den, format_.frame_rate_num};
+    if (packet_->duration == 0) packet_->duration = av_rescale_q(1, period, tick_);
+    av_packet_rescale_ts(packet_.get(), tick_, output_->streams[0]->time_base);
+    packet_->stream_index = 0;
+    if (const Result<void> written = check(av_interleaved_write_frame(output_.get(), packet_.get())); !written)
+      return written;
+  }
+}
+
+Result<void> VideoFile::finish() {
+  if (const Result<void> flushed = encode(nullptr); !flushed) return flushed;
+  if (const Result<void> written = check(av_write_trailer(output_.get())); !written) return written;
+  avio_flush(output_->pb);
+  if (const Result<void> flushed = check(0); !flushed) return flushed;
+  return check(avio_closep(&output_->pb));
+}
+
+// A full disk may show only in the buffer below the muxer.
+Result<void> VideoFile::check(int result) const {
+  if (result >= 0 && output_->pb != nullptr) result = output_->pb->error;
+  if (result >= 0) return {};
+  return fail(path_.string(), "could not be written: " + text_of(result), ErrorKind::write_failed);
+}
+
+}  // namespace sigs::libav

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/result.h"
+#include "video/libav/encoding.h"
+#include "video/libav/handles.h"
+
+namespace sigs::libav {
+
+struct OutputCloser {
+  void operator()(AVFormatContext* context) const;
+};
+using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
+
+// One video stream in one container file. See video_writer.h for what it promises.
+class VideoFile {
+ public:
+  [[nodiscard]] static Result<VideoFile> create(const std::filesystem::path& path, const VideoFormat& format);
+
+  [[nodiscard]] Result<void> write(const Frame& frame);
+  [[nodiscard]] Result<void> finish();
+
+ private:
+  VideoFile(std::filesystem::path path, VideoFormat format, Encoding encoding);
+
+  [[nodiscard]] Result<void> begin();
+  [[nodiscard]] Result<int64_t> next_stamp(const Frame& frame);
+  [[nodiscard]] Result<void> encode(const AVFrame* picture);
+  [[nodiscard]] Result<void> check(int result) const;
+
+  std::filesystem::path path_;
+  VideoFormat format_;
+  Encoding encoding_;
+  AVRational tick_{1, 1};  // of the time stamps that the encoder is given
+  OutputPtr output_;
+  CodecPtr encoder_;
+  PacketPtr packet_ = new_packet();
+  std::optional<double> first_time_s_;
+  double last_time_s_ = 0;
+  int64_t last_stamp_ = -1;
+};
+
+}  // namespace sigs::libav

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "mesh/mesh.h"
+#include "support/test_data.h"
+
+namespace sigs {
+
+TEST_CASE("real aircraft have the size and the triangles that their catalogue says") {
+  if (!test::has_real_data()) return;
+  struct Aircraft {
+    const char* file;
+    std::size_t triangles;
+    double length_m, height_m, span_m;
+  };
+  const Aircraft all[] = {{"boeing737-300/boeing737-300.obj", 5507, 33.3, 11.2, 28.4},
+                          {"cessna172p-hires/cessna172p-hires.obj", 96367, 8.2, 2.5, 11.3},
+                          {"glider-centrair101/glider-centrair101.obj", 1058, 6.8, 1.6, 15.0},
+                          {"helicopter-dauphin/helicopter-dauphin.obj", 1740, 14.2, 4.0, 11.9}};
+  for (const Aircraft& aircraft : all) {
+    CAPTURE(aircraft.file);
+    const Result<Mesh> mesh = read_obj(test::real_data() / "models" / aircraft.file, {.forward = "-x", .up = "+y"});
+    REQUIRE(mesh);
+    const glm::dvec3 size = mesh->high_m - mesh->low_m;
+    // The catalogue rounds to 0.1 m.
+    CHECK(std::abs(size.x - aircraft.length_m) < 0.0501);
+    CHECK(std::abs(size.y - aircraft.span_m) < 0.0501);
+    CHECK(std::abs(size.z - aircraft.height_m) < 0.0501);
+    // The files hold up to 1 % of faces without area (the same point three times over) or without opacity.
+    CHECK(mesh->indices.size() / 3 <= aircraft.triangles);
+    CHECK(static_cast<double>(mesh->indices.size() / 3) >= 0.99 * static_cast<double>(aircraft.triangles));
+    for (const Material& material : mesh->materials) CHECK(material.opacity >= 0);
+    for (const Vertex& vertex : mesh->vertices) REQUIRE(std::abs(glm::length(vertex.normal) - 1) < 1e-4);
+  }
+}
+
+TEST_CASE("the real light aircraft has glass and no hot spots") {
+  if (!test::has_real_data()) return;
+  const Result<Mesh> mesh = read_obj(test::real_data() / "models/cessna172p-hires/cessna172p-hires.obj",
+                                     {.forward = "-x", .up = "+y"});
+  REQUIRE(mesh);
+  int glass = 0;
+  for (const MeshPart& part : mesh->parts) {
+    const Material& material = mesh->materials[part.material];
+    CHECK(material.opacity > 0);
+    if (material.name == "material_17") glass = static_cast<int>(part.index_count) / 3;
+    if (material.name == "material_17") CHECK(material.opacity == 0.2F);
+  }
+  CHECK(glass >= 400);  // windscreen and side windows: 317 + 60 + 60, less what has no area
+}
+
+TEST_CASE("a drone of unknown unit without its MTL gets its length and a warning") {
+  if (!test::has_real_data()) return;
+  const Result<Mesh> mesh = read_obj(test::real_data() / "models/quadcopter-ratisbon/drone.obj",
+                                     {.forward = "-z", .up = "+y", .length_m = 0.6, .anchor_at_bounds = true});
+  REQUIRE(mesh);
+  CHECK(mesh->indices.size() == 3 * 308);
+  CHECK(mesh->high_m.x == doctest::Approx(0.3).epsilon(1e-5));  // float
+  REQUIRE(mesh->warnings.size() == 1);
+  CHECK(mesh->warnings[0].text().find("drone.mtl") != std::string::npos);
+}
+
+}  // namespace sigs

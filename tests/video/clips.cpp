@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "video/clips.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/imgutils.h>
+}
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+namespace sigs::test {
+namespace {
+
+Samples samples_of(const AVFrame& picture) {
+  const auto format = static_cast<AVPixelFormat>(picture.format);
+  const int size = av_image_get_buffer_size(format, picture.width, picture.height, 1);
+  Samples samples(static_cast<size_t>(size));
+  av_image_copy_to_buffer(samples.data(), size, picture.data, picture.linesize, format, picture.width, picture.height,
+                          1);
+  return samples;
+}
+
+void receive(AVCodecContext* decoder, AVFrame* picture, double tick_s, WholeDecode& decode) {
+  while (avcodec_receive_frame(decoder, picture) == 0) {
+    decode.pictures.push_back(samples_of(*picture));
+    decode.times_s.push_back(static_cast<double>(picture->best_effort_timestamp) * tick_s);
+  }
+}
+
+// 32-bit mixing of a picture's coordinates, so that the grain is the same wherever the test runs.
+uint32_t grain(uint32_t x, uint32_t y, uint32_t number) {
+  uint32_t h = x * 374761393U + y * 668265263U + number * 2246822519U;
+  h = (h ^ (h >> 13)) * 1274126177U;
+  return h ^ (h >> 16);
+}
+
+}  // namespace
+
+Samples samples_of(const Frame& frame) {
+  Samples samples;
+  for (const cv::Mat& plane : frame.planes)
+    for (int y = 0; y < plane.rows; ++y)
+      samples.insert(samples.end(), plane.ptr<uchar>(y), plane.ptr<uchar>(y) + plane.cols);
+  return samples;
+}
+
+WholeDecode whole_decode(const std::filesystem::path& path) {
+  WholeDecode decode;
+  av_log_set_level(AV_LOG_QUIET);
+  AVFormatContext* input = nullptr;
+  REQUIRE(avformat_open_input(&input, path.c_str(), nullptr, nullptr) >= 0);
+  REQUIRE(avformat_find_stream_info(input, nullptr) >= 0);
+  const AVCodec* codec = nullptr;
+  const int index = av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+  REQUIRE(index >= 0);
+  AVCodecContext* decoder = avcodec_alloc_context3(codec);
+  avcodec_parameters_to_context(decoder, input->streams[index]->codecpar);
+  decoder->thread_count = 1;
+  decoder->pkt_timebase = input->streams[index]->time_base;
+  REQUIRE(avcodec_open2(decoder, codec, nullptr) >= 0);
+  const double tick_s = av_q2d(input->streams[index]->time_base);
+  AVPacket* packet = av_packet_alloc();
+  AVFrame* picture = av_frame_alloc();
+  for (int result = 0; (result = av_read_frame(input, packet)) != AVERROR_EOF;) {
+    if (result < 0) break;
+    if (packet->stream_index == index && packet->size > 0) {
+      avcodec_send_packet(decoder, packet);
+      receive(decoder, picture, tick_s, decode);
+    }
+    av_packet_unref(packet);
+  }
+  avcodec_send_packet(decoder, nullptr);
+  receive(decoder, picture, tick_s, decode);
+  if (!decode.times_s.empty()) {
+    const double begin_s = decode.times_s.front();
+    for (double& time_s : decode.times_s) time_s -= begin_s;
+  }
+  av_frame_free(&picture);
+  av_packet_free(&packet);
+  avcodec_free_context(&decoder);
+  avformat_close_input(&input);
+  return decode;
+}
+
+bool run_ffmpeg(const std::string& arguments) {
+  const std::string command = "ffmpeg -nostdin -hide_banner -loglevel quiet -y " + arguments;
+  if (std::system(command.c_str()) == 0) return true;
+  std::printf("SKIPPED: the ffmpeg program is missing or cannot do: %s\n", arguments.c_str());
+  return false;
+}
+
+bool make_clip(const std::string& options, const std::filesystem::path& path, const std::string& filter) {
+  const std::string picture = filter.empty() ? "testsrc2=size=128x96:rate=25:duration=2" : filter;
+  return run_ffmpeg("-f lavfi -i \"" + picture + "\" -threads 1 " + options + " \"" + path.string() + "\"");
+}
+
+Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color) {
+  Frame frame;
+  frame.layout = layout;
+  frame.color = color;
+  frame.time_s = number / 25.0;
+  const cv::Size step = chroma_step(layout);
+  for (int i = 0; i < frame.plane_count(); ++i) {
+    const bool is_chroma = i > 0 && layout != PixelLayout::rgb;
+    const cv::Size size = is_chroma ? cv::Size((size_px.width + step.width - 1) / step.width,
+                                               (size_px.height + step.height - 1) / step.height)
+                                    : size_px;
+    cv::Mat plane(size, CV_8UC1);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        plane.at<uchar>(y, x) = static_cast<uchar>(
+            40 + 20 * i + (3 * x + 2 * y + 5 * number) % 120 +
+            static_cast<int>(grain(static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+                                   static_cast<uint32_t>(3 * number + i)) % 16));
+    frame.planes[static_cast<size_t>(i)] = plane;
+  }
+  return frame;
+}
+
+void write_clip(const std::filesystem::path& path, const VideoFormat& format, int count) {
+  Result<VideoWriter> writer = VideoWriter::open(path, format);
+  REQUIRE_MESSAGE(writer.has_value(), writer.error().text());
+  for (int n = 0; n < count; ++n) {
+    Frame frame = test_frame(format.layout, format.size_px, n, format.color);
+    frame.time_s = static_cast<double>(n) * format.frame_rate_den / format.frame_rate_num;
+    const Result<void> written = writer->write(frame, n);
+    REQUIRE_MESSAGE(written.has_value(), written.error().text());
+  }
+  const Result<void> finished = writer->finish();
+  REQUIRE_MESSAGE(finished.has_value(), finished.error().text());
+}
+
+FrameSource opened(const std::filesystem::path& path) {
+  Result<FrameSource> source = FrameSource::open(path);
+  REQUIRE_MESSAGE(source.has_value(), source.error().text());
+  return std::move(*source);
+}
+
+namespace {
+
+void check_frame(FrameSource& source, const WholeDecode& truth, int n) {
+  const Result<Frame> frame = source.read(n);
+  REQUIRE_MESSAGE(frame.has_value(), frame.error().text());
+  CAPTURE(n);
+  CHECK(!frame->damaged);
+  const bool same = samples_of(*frame) == truth.pictures[static_cast<size_t>(n)];
+  CHECK(same);
+}
+
+}  // namespace
+
+void check_against(FrameSource& source, const WholeDecode& truth) {
+  REQUIRE(source.info().frame_count() == static_cast<int>(truth.pictures.size()));
+  const int count = source.info().frame_count();
+  for (int n = 0; n < count; ++n) check_frame(source, truth, n);
+  for (int n = count - 1; n >= 0; --n) check_frame(source, truth, n);
+  for (const int n : shuffled(count)) check_frame(source, truth, n);
+}
+
+std::vector<uint8_t> bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::filesystem::path& path, const std::vector<uint8_t>& bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+// std::shuffle differs between standard libraries; a step that shares no factor with count visits each once.
+std::vector<int> shuffled(int count) {
+  int step = 37;
+  while (std::gcd(step, count) != 1) ++step;
+  std::vector<int> order;
+  for (int i = 0; i < count; ++i) order.push_back((i * step + count / 2) % count);
+  return order;
+}
+
+}  // namespace sigs::test

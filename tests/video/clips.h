@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "video/frame_source.h"
+#include "video/video_writer.h"
+
+namespace sigs::test {
+
+// All samples of a picture, plane after plane without gaps.
+using Samples = std::vector<uint8_t>;
+[[nodiscard]] Samples samples_of(const Frame& frame);
+
+// Every picture that FFmpeg's libraries give in one go from the start with one thread: the truth for reading. Only for
+// planar 8-bit formats, whose bytes are the samples.
+struct WholeDecode {
+  std::vector<Samples> pictures;
+  std::vector<double> times_s;  // of each picture as FFmpeg guesses it, from the first
+};
+[[nodiscard]] WholeDecode whole_decode(const std::filesystem::path& path);
+
+// Runs the ffmpeg program on a moving test picture. False, and SKIPPED printed, where there is none or it lacks a codec.
+//   filter   of the test picture, "testsrc2=size=128x96:rate=25:duration=2" if empty
+//   options  codec and muxer options; path  the output
+[[nodiscard]] bool make_clip(const std::string& options, const std::filesystem::path& path,
+                             const std::string& filter = {});
+[[nodiscard]] bool run_ffmpeg(const std::string& arguments);
+
+// A picture with structure and grain, different for every number; the same on every machine.
+[[nodiscard]] Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color = {});
+
+// Writes count test frames at the format's nominal rate. The writer's errors fail the test.
+void write_clip(const std::filesystem::path& path, const VideoFormat& format, int count);
+[[nodiscard]] FrameSource opened(const std::filesystem::path& path);
+
+// Compares each frame with the truth: in order, backwards and in a shuffled order.
+void check_against(FrameSource& source, const WholeDecode& truth);
+
+[[nodiscard]] std::vector<uint8_t> bytes_of(const std::filesystem::path& path);
+void write_bytes(const std::filesystem::path& path, const std::vector<uint8_t>& bytes);
+
+// 0..count-1 in a fixed disorder.
+[[nodiscard]] std::vector<int> shuffled(int count);
+
+}  // namespace sigs::test
