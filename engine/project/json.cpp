@@ -138,9 +138,11 @@ Result<void> put_fields(const Json& json, const std::string& file, Project& proj
 // A section written as a number or text ("camera": 5) would hide all its fields.
 Result<void> check_sections(const Json& json, const std::string& file, Project& project) {
   for (const Field& field : fields_of(project)) {
-    for (Json::json_pointer place = pointer_of(field.key).parent_pointer(); !place.empty(); place = place.parent_pointer()) {
-      if (!json.contains(place) || json.at(place).is_object() || json.at(place).is_array()) continue;
-      return fail(file + ": " + place.to_string().substr(1), "expected { ... }", ErrorKind::bad_project);
+    for (std::size_t dot = field.key.rfind('.'); dot != std::string::npos; dot = field.key.rfind('.', dot - 1)) {
+      const std::string section = field.key.substr(0, dot);
+      const Json::json_pointer place = pointer_of(section);
+      if (!json.contains(place) || json.at(place).is_object()) continue;
+      return fail(file + ": " + section, "expected { ... }", ErrorKind::bad_project);
     }
   }
   return {};

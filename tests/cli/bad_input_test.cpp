@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// One line on stderr that says it, the right exit status, and not a file left.
+void check_refused(const TinyProject& tiny, int status, const std::string& message, const std::string& more = "") {
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + more);
+  CHECK_MESSAGE(run.status == status, run.err);
+  CHECK_MESSAGE(has(run.err, message), run.err);
+  CHECK_MESSAGE(has(run.err, "error: "), run.err);
+  CHECK_MESSAGE(std::count(run.err.begin(), run.err.end(), '\n') == 1, run.err);
+  CHECK(run.out.empty());
+  CHECK(tiny.files_out() == 0);
+}
+
+void cut(const std::filesystem::path& path, double share) {
+  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(
+                                         static_cast<double>(std::filesystem::file_size(path)) * share));
+}
+
+}  // namespace
+
+TEST_CASE("a missing project ends with 66") {
+  const Run run = run_sigs("export nowhere.json");
+  CHECK(run.status == 66);
+  CHECK(run.err == "error: nowhere.json: no such file\n");
+}
+
+TEST_CASE("a project that is no JSON ends with 78 and its line") {
+  const TinyProject tiny;
+  put_text(tiny.project(), "{\n \"sigs\": 1,\n");
+  check_refused(tiny, 78, "p.json: is not JSON");
+}
+
+TEST_CASE("a missing video is named by its field") {
+  TinyProject tiny;
+  tiny.change("clip.mkv", "gone.mkv");
+  check_refused(tiny, 66, "p.json: footage.video: no such file");
+}
+
+TEST_CASE("a video that is none is named by its field") {
+  const TinyProject tiny;
+  put_text(tiny.file("clip.mkv"), "this is no video");
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK((run.status == 65 || run.status == 66));
+  CHECK_MESSAGE(has(run.err, "p.json: footage.video: "), run.err);
+  CHECK(tiny.files_out() == 0);
+}
+
+TEST_CASE("a video that ends early gives the frames that are there") {
+  TinyProject tiny;
+  cut(tiny.file("clip.mkv"), 0.6);
+  tiny.change(R"({"frame": 9,)", R"({"frame": 5,)");
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(has(run.err, "warning: "), run.err);
+  CHECK(tiny.files_out() == 3);
+}
+
+TEST_CASE("a calibration with too few numbers or NaN is named by file and key") {
+  const TinyProject tiny;
+  const std::string lens = read_text(tiny.file("lens.xml")).value();
+  std::string few = lens;
+  few.replace(few.find("23.5 0. 0. 1."), 13, "23.5");
+  put_text(tiny.file("lens.xml"), few);
+  check_refused(tiny, 65, "p.json: footage.calibration: ");
+  std::string nan = lens;
+  nan.replace(nan.find("-0.1 0.01"), 9, ".Nan 0.01");
+  put_text(tiny.file("lens.xml"), nan);
+  check_refused(tiny, 65, "lens.xml: distortion_coefficients");
+}
+
+TEST_CASE("an OBJ without faces or with indices out of range is named by its field") {
+  const TinyProject tiny;
+  put_text(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  check_refused(tiny, 65, "p.json: intruders[0].model.file: ");
+  put_text(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  check_refused(tiny, 65, "p.json: intruders[0].model.file: ");
+}
+
+TEST_CASE("a missing MTL or texture is drawn grey with a warning") {
+  const TinyProject tiny;
+  std::filesystem::remove(tiny.file("cube.mtl"));
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(has(run.err, "warning: "), run.err);
+  CHECK_MESSAGE(has(run.err, "cube.mtl"), run.err);
+  put_text(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd gone.png\n");
+  const Run textured = run_sigs("export " + tiny.project() + " --force --out " + tiny.out());
+  CHECK_MESSAGE(textured.status == 0, textured.err);
+  CHECK_MESSAGE(has(textured.err, "gone.png"), textured.err);
+}
+
+TEST_CASE("unknown keys are warned of and the export goes on") {
+  TinyProject tiny;
+  tiny.change(R"("name": "tiny",)", R"("name": "tiny", "colour": "red",)");
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK(run.status == 0);
+  CHECK_MESSAGE(has(run.err, "p.json: colour: unknown key"), run.err);
+}
+
+TEST_CASE("waypoints that are not finite or have equal frames end with 78") {
+  TinyProject tiny;
+  tiny.change(R"({"frame": 9,)", R"({"frame": 0,)");
+  check_refused(tiny, 78, "p.json: intruders[0].trajectory.waypoints[1].frame: is 0, not after waypoints[0]");
+  tiny.change("[20, 3, -150]", "[20, NaN, -150]");
+  check_refused(tiny, 78, "p.json: is not JSON");
+}
+
+TEST_CASE("waypoints without frames that crowd into one frame end with 78") {
+  TinyProject tiny;
+  tiny.change(R"({"frame": 9, )", "{");
+  check_refused(tiny, 78, "p.json: intruders[0].trajectory.waypoints", "--set footage.last_frame=0");
+}
+
+TEST_CASE("a mask of another size says both sizes") {
+  TinyProject tiny;
+  cv::imwrite(tiny.file("m.png").string(), cv::Mat::zeros(10, 10, CV_8UC1));
+  tiny.change(R"("calibration")", R"("own_body_mask": "m.png", "calibration")");
+  check_refused(tiny, 65, "p.json: footage.own_body_mask: ");
+}
+
+TEST_CASE("frames that the footage has not end with 64 and a project range beyond it with 78") {
+  const TinyProject tiny;
+  check_refused(tiny, 64, "the project has frames 0 to 9", "--frames 5-12");
+  check_refused(tiny, 64, "expected A-B", "--frames 5-x");
+  check_refused(tiny, 78, "the footage has 10 frames", "--set footage.last_frame=12");
+}
+
+TEST_CASE("a folder that cannot be made ends with 73") {
+  const TinyProject tiny;
+  put_text(tiny.file("blocked"), "a file where a folder is wanted");
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.file("blocked/out").string());
+  CHECK(run.status == 73);
+  CHECK_MESSAGE(has(run.err, "blocked/out"), run.err);
+}
+
+TEST_CASE("a disk that is full ends with 74 and leaves no file") {
+  if (!std::filesystem::exists("/dev/full")) {
+    std::printf("SKIPPED: there is no /dev/full\n");
+    return;
+  }
+  const TinyProject tiny;
+  std::filesystem::create_directories(tiny.out());
+  std::filesystem::create_symlink("/dev/full", tiny.out() + "/tiny.part.mkv");
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK_MESSAGE(run.status == 74, run.err);
+  CHECK_MESSAGE(has(run.err, "tiny.part.mkv"), run.err);
+  CHECK(tiny.files_out() == 0);
+}
+
+TEST_CASE("codec and container that do not go together end with 78 before anything is written") {
+  const TinyProject tiny;
+  check_refused(tiny, 78, "export.video.container: mp4 cannot hold ffv1", "--codec ffv1 --container mp4");
+}

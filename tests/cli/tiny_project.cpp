@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "cli/tiny_project.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "base/partial_file.h"
+#include "video/video_writer.h"
+
+namespace sigs::test {
+
+namespace {
+
+constexpr const char* kProject = R"({
+  "sigs": 1, "name": "tiny",
+  "footage": {"video": "clip.mkv", "calibration": "lens.xml"},
+  "intruders": [{"name": "cube", "model": {"file": "cube.obj"},
+    "trajectory": {"waypoints": [{"frame": 0, "position_m": [20, -3, -150]}, {"frame": 9, "position_m": [20, 3, -150]}]}}]
+})";
+
+constexpr const char* kLens = R"(<?xml version="1.0"?>
+<opencv_storage>
+<image_width>64</image_width><image_height>48</image_height>
+<camera_matrix type_id="opencv-matrix"><rows>3</rows><cols>3</cols><dt>d</dt>
+<data>60. 0. 31.5 0. 60. 23.5 0. 0. 1.</data></camera_matrix>
+<distortion_coefficients type_id="opencv-matrix"><rows>1</rows><cols>5</cols><dt>d</dt>
+<data>-0.1 0.01 0. 0. 0.</data></distortion_coefficients>
+</opencv_storage>
+)";
+
+constexpr const char* kCube = R"(mtllib cube.mtl
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+usemtl paint
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+void write_clip(const std::filesystem::path& path) {
+  const VideoFormat format{.codec = VideoCodec::ffv1, .container = Container::mkv, .size_px = {64, 48}};
+  Result<VideoWriter> writer = VideoWriter::open(path, format);
+  if (!writer) throw std::runtime_error(writer.error().text());
+  for (int n = 0; n < 10; ++n) {
+    Frame frame{.layout = format.layout, .color = format.color};
+    frame.planes = {cv::Mat(48, 64, CV_8UC1, cv::Scalar(90 + n)), cv::Mat(24, 32, CV_8UC1, cv::Scalar(128)),
+                    cv::Mat(24, 32, CV_8UC1, cv::Scalar(128))};
+    frame.time_s = n * 0.04;
+    if (!writer->write(frame, n)) throw std::runtime_error("clip");
+  }
+  if (!writer->finish()) throw std::runtime_error("clip");
+}
+
+}  // namespace
+
+void put_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+TinyProject::TinyProject() {
+  write_clip(file("clip.mkv"));
+  put_text(file("p.json"), kProject);
+  put_text(file("lens.xml"), kLens);
+  put_text(file("cube.obj"), kCube);
+  put_text(file("cube.mtl"), "newmtl paint\nKd 0.8 0.2 0.2\n");
+}
+
+void TinyProject::change(const std::string& from, const std::string& to) {
+  std::string text = read_text(file("p.json")).value();
+  const std::size_t place = text.find(from);
+  if (place == std::string::npos) throw std::runtime_error("not in the project: " + from);
+  put_text(file("p.json"), text.replace(place, from.size(), to));
+}
+
+int TinyProject::files_out() const {
+  if (!std::filesystem::exists(out())) return 0;
+  const std::filesystem::directory_iterator files(out());
+  return static_cast<int>(std::distance(begin(files), end(files)));
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "support/test_data.h"
+
+namespace sigs::test {
+
+// A whole small project in a folder of its own: 10 frames of 64x48, a lens, a cube that hovers before it.
+class TinyProject {
+ public:
+  TinyProject();
+
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string project() const { return file("p.json").string(); }
+  [[nodiscard]] std::string out() const { return file("out").string(); }
+
+  // Replaces a piece of the project file, which must be there.
+  void change(const std::string& from, const std::string& to);
+
+  // How many files lie in the output folder; 0 where it is not there.
+  [[nodiscard]] int files_out() const;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+void put_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace sigs::test

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <thread>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+int lines_in(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
+
+}  // namespace
+
+TEST_CASE("help and version go to stdout and end with 0") {
+  CHECK(run_sigs("--help").status == 0);
+  CHECK(has(run_sigs("--help").out, "Examples:"));
+  CHECK(run_sigs("export --help").status == 0);
+  CHECK(has(run_sigs("--version").out, "sigs 0."));
+}
+
+TEST_CASE("a command line that makes no sense ends with 64") {
+  for (const char* const arguments : {"", "fly", "export", "export p.json --jobs many", "frame p.json", "export p.json --nonsense"})
+    CHECK_MESSAGE(run_sigs(arguments).status == 64, arguments);
+}
+
+TEST_CASE("an export writes its three files and prints their names alone on stdout") {
+  const TinyProject tiny;
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK(run.status == 0);
+  CHECK(run.err.empty());
+  CHECK(run.out == tiny.out() + "/tiny.mkv\n" + tiny.out() + "/tiny.masks.mkv\n" + tiny.out() + "/tiny.xml\n");
+  CHECK(tiny.files_out() == 3);
+}
+
+TEST_CASE("options of the command line win over the project") {
+  const TinyProject tiny;
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() +
+                           " --codec h264 --crf 30 --container mp4 --masks none --labels none --frames 2-4 "
+                           "--method plain --set name=other");
+  CHECK(run.status == 0);
+  CHECK(run.out == tiny.out() + "/other.mp4\n");
+}
+
+TEST_CASE("pictures are numbered as the footage's frames are") {
+  const TinyProject tiny;
+  CHECK(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --codec png --masks png --frames 7-8").status == 0);
+  for (const char* const name : {"tiny/frame_000007.png", "tiny/frame_000008.png", "tiny.masks/frame_000008.png"})
+    CHECK_MESSAGE(std::filesystem::exists(std::filesystem::path(tiny.out()) / name), name);
+}
+
+TEST_CASE("existing output is refused with 73 and replaced with force") {
+  const TinyProject tiny;
+  const std::string command = "export " + tiny.project() + " --out " + tiny.out();
+  REQUIRE(run_sigs(command).status == 0);
+  const std::string before = read_text(tiny.out() + "/tiny.mkv").value();
+  const Run again = run_sigs(command + " --frames 0-3");
+  CHECK(again.status == 73);
+  CHECK(has(again.err, "tiny.mkv: exists already; --force overwrites it"));
+  CHECK(read_text(tiny.out() + "/tiny.mkv").value() == before);
+  CHECK(run_sigs(command + " --force").status == 0);
+  CHECK(read_text(tiny.out() + "/tiny.mkv").value() == before);
+}
+
+TEST_CASE("a frame and its stages are written and the frame is the export's") {
+  const TinyProject tiny;
+  const Run run = run_sigs("frame " + tiny.project() + " --frame 5 --stages --out " + tiny.out());
+  CHECK(run.status == 0);
+  CHECK(has(run.out, "frame_5.png"));
+  CHECK(has(run.out, "_output.png"));
+  REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --codec png").status == 0);
+  const cv::Mat frame = cv::imread(tiny.out() + "/frame_5.png", cv::IMREAD_UNCHANGED);
+  const cv::Mat exported = cv::imread(tiny.out() + "/tiny/frame_000005.png", cv::IMREAD_UNCHANGED);
+  REQUIRE(frame.size() == exported.size());
+  CHECK(cv::norm(frame, exported, cv::NORM_INF) == 0);
+}
+
+TEST_CASE("the classic method shows all the stages of the paper's figure 4") {
+  const TinyProject tiny;
+  const Run run =
+      run_sigs("frame " + tiny.project() + " --frame 5 --stages --set compositing.method=classic --out " + tiny.out());
+  CHECK(run.status == 0);
+  for (const char* const stage : {"input1", "input2", "_a.png", "_b.png", "_c.png", "_d.png", "_f.png", "output"})
+    CHECK_MESSAGE(has(run.out, stage), stage);
+}
+
+TEST_CASE("check finds nothing wrong with a whole project and lists what is wrong with a broken one") {
+  TinyProject tiny;
+  CHECK(run_sigs("check " + tiny.project()).status == 0);
+  tiny.change("cube.obj", "gone.obj");
+  tiny.change("lens.xml", "gone.xml");
+  const Run run = run_sigs("check " + tiny.project());
+  CHECK(run.status == 66);
+  CHECK(has(run.out, "p.json: footage.calibration: no such file"));
+  CHECK(has(run.out, "p.json: intruders[0].model.file: no such file"));
+}
+
+TEST_CASE("info says what is read in a video and a calibration and a model") {
+  const TinyProject tiny;
+  const Run video = run_sigs("info " + tiny.file("clip.mkv").string());
+  CHECK(video.status == 0);
+  CHECK(has(video.out, "64x48"));
+  CHECK(has(video.out, "frames: 10, 25/1"));
+  CHECK(has(run_sigs("info " + tiny.file("lens.xml").string()).out, "Brown-Conrady, 5 coefficients"));
+  CHECK(has(run_sigs("info " + tiny.file("cube.obj").string()).out, "12 triangles"));
+  CHECK(run_sigs("info nothing.mkv").status == 66);
+}
+
+TEST_CASE("progress as lines and as JSON goes to stderr and ends at the last frame") {
+  const TinyProject tiny;
+  const std::string command = "export " + tiny.project() + " --force --out " + tiny.out() + " --progress ";
+  CHECK(has(run_sigs(command + "plain").err, "frame 10 of 10, 0:00 left"));
+  CHECK(has(run_sigs(command + "json").err, "{\"done\": 10, \"total\": 10, "));
+  CHECK(run_sigs(command + "none").err.empty());
+}
+
+TEST_CASE("an interrupted export ends with 130 and leaves no file") {
+  TinyProject tiny;
+  const std::string slow = "--set compositing.supersampling=8 --set intruders[0].model.scale=6";
+  const std::string command = "timeout -s INT 0.4 " + (build_dir() / "sigs").string() + " export " + tiny.project() +
+                              " --method classic --out " + tiny.out() + " " + slow + " 2>/dev/null >/dev/null";
+  // Loops the ten frames' work long enough by starting it again until a run is caught in the middle.
+  for (int attempt = 0; attempt < 1; ++attempt) {
+    const int status = std::system(("sh -c '" + command + "; exit $?'").c_str());
+    const int code = WEXITSTATUS(status);
+    if (code == 0) {
+      std::printf("the export was done before the signal came\n");
+      return;
+    }
+    CHECK((code == 124 || code == 130));  // timeout says 124 for a command that its signal ended
+    CHECK(tiny.files_out() == 0);
+  }
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "project/json.h"
+
+#include <doctest/doctest.h>
+
+#include "base/partial_file.h"
+#include "project/fields.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+
+namespace {
+
+constexpr const char* kWhole = R"({
+  "sigs": 1,
+  "name": "meeting",
+  "author": "somebody",
+  "footage": {"video": "a.mkv", "first_frame": 3, "last_frame": 90, "calibration": "c.xml", "own_body_mask": "m.png"},
+  "camera": {"position_m": [1, 2, -3], "attitude_deg": {"roll": 4, "pitch": 5, "yaw": 6}, "speed_mps": 22.5,
+             "serial_number": {"of": {"lens": 7}}},
+  "light": {"position_m": [-2000, 1000, -3000], "color": [1, 0.9, 0.8], "ambient": 0.25},
+  "intruders": [
+    {"name": "first", "color_of_pilot": "blue",
+     "model": {"file": "p.obj", "forward": "-x", "up": "+y", "scale": 2, "length_m": 30, "anchor": "bounds"},
+     "trajectory": {"spline": "approximating", "timing": "constant_speed", "bank": "level", "bank_limit_deg": 30,
+                    "waypoints": [{"frame": 0, "position_m": [900, -250, -170], "note": "start"},
+                                  {"position_m": [0.1, 1e7, -165]}]}},
+    {"name": "second"}],
+  "compositing": {"method": "classic", "blend": "display", "blur_px_per_m": 0.004, "supersampling": 3},
+  "export": {"video": {"codec": "h264", "container": "mkv", "crf": 23}, "masks": "png", "labels": []}
+})";
+
+Project whole() { return parse_project(kWhole, "dir/whole.json").value().project; }
+
+std::string error_text(const std::string& json) {
+  const Result<ReadProject> read = parse_project(json, "x.json");
+  REQUIRE_FALSE(read.has_value());
+  CHECK(read.error().kind == ErrorKind::bad_project);
+  return read.error().text();
+}
+
+}  // namespace
+
+TEST_CASE("every key of a project file arrives in its place") {
+  const Project p = whole();
+  CHECK(p.name == "meeting");
+  CHECK(p.footage.video == "a.mkv");
+  CHECK(p.footage.first_frame == 3);
+  CHECK(p.footage.last_frame == 90);
+  CHECK(p.footage.own_body_mask == "m.png");
+  CHECK(p.camera.position_m == glm::dvec3(1, 2, -3));
+  CHECK(p.camera.roll_deg == 4);
+  CHECK(p.camera.pitch_deg == 5);
+  CHECK(p.camera.yaw_deg == 6);
+  CHECK(p.camera.speed_mps == 22.5);
+  CHECK(p.light.color == glm::dvec3(1, 0.9, 0.8));
+  REQUIRE(p.intruders.size() == 2);
+  CHECK(p.intruders[0].model.anchor == AnchorChoice::bounds);
+  CHECK(p.intruders[0].trajectory.spline == SplineChoice::approximating);
+  CHECK(p.intruders[0].trajectory.timing == TimingChoice::constant_speed);
+  CHECK(p.intruders[0].trajectory.bank == BankChoice::level);
+  REQUIRE(p.intruders[0].trajectory.waypoints.size() == 2);
+  CHECK(p.intruders[0].trajectory.waypoints[0].frame == 0.0);
+  CHECK_FALSE(p.intruders[0].trajectory.waypoints[1].frame.has_value());
+  CHECK(p.intruders[0].trajectory.waypoints[1].position_m == glm::dvec3(0.1, 1e7, -165));
+  CHECK(p.intruders[1].name == "second");
+  CHECK(p.compositing.method == MethodChoice::classic);
+  CHECK(p.output.codec == CodecChoice::h264);
+  CHECK(p.output.masks == MasksChoice::png);
+  CHECK(p.output.labels.empty());
+}
+
+TEST_CASE("writing and reading again changes nothing") {
+  const std::string once = text_of(whole());
+  const std::string twice = text_of(parse_project(once, "dir/whole.json").value().project);
+  CHECK(once == twice);
+}
+
+TEST_CASE("unknown keys are warned of by their whole name and kept on save") {
+  const ReadProject read = parse_project(kWhole, "w.json").value();
+  std::vector<std::string> texts;
+  for (const Warning& warning : read.warnings) texts.push_back(warning.where);
+  CHECK(texts == std::vector<std::string>{"w.json: author", "w.json: camera.serial_number.of.lens",
+                                          "w.json: intruders[0].trajectory.waypoints[0].note",
+                                          "w.json: intruders[0].color_of_pilot"});
+  const std::string saved = text_of(read.project);
+  for (const char* const kept : {"somebody", "\"lens\": 7", "\"note\": \"start\"", "color_of_pilot"})
+    CHECK_MESSAGE(saved.find(kept) != std::string::npos, kept);
+}
+
+TEST_CASE("unknown keys of an intruder go with it when others are removed") {
+  Project p = whole();
+  std::swap(p.intruders[0], p.intruders[1]);
+  const Project back = parse_project(text_of(p), "w.json").value().project;
+  CHECK(back.intruders[0].unknown_json.empty());
+  CHECK(back.intruders[1].unknown_json.find("color_of_pilot") != std::string::npos);
+}
+
+TEST_CASE("what a file leaves out has its default and null stands for none") {
+  const Project p = parse_project(R"({"sigs": 1, "footage": {"last_frame": null}})", "x.json").value().project;
+  CHECK(p.camera.position_m == glm::dvec3(0, 0, -150));
+  CHECK_FALSE(p.footage.last_frame.has_value());
+  CHECK(p.compositing.supersampling == 2);
+  CHECK(p.output.labels == std::vector<std::string>{"xml"});
+}
+
+TEST_CASE("a wrong value is named by file and field with what was found") {
+  CHECK(error_text(R"({"sigs": 1, "camera": {"speed_mps": "fast"}})") ==
+        "x.json: camera.speed_mps: expected a number, found \"fast\"");
+  CHECK(error_text(R"({"sigs": 1, "camera": {"position_m": [1, 2]}})") ==
+        "x.json: camera.position_m: expected three numbers [x, y, z], found [1,2]");
+  CHECK(error_text(R"({"sigs": 1, "intruders": [{"trajectory": {"waypoints": [{"position_m": [1, null, 2]}]}}]})") ==
+        "x.json: intruders[0].trajectory.waypoints[0].position_m: expected three numbers [x, y, z], found [1,null,2]");
+  CHECK(error_text(R"({"sigs": 1, "compositing": {"method": "magic"}})") ==
+        "x.json: compositing.method: expected one of direct, classic, plain, found \"magic\"");
+  CHECK(error_text(R"({"sigs": 1, "footage": {"first_frame": 1.5}})") ==
+        "x.json: footage.first_frame: expected a whole number, found 1.5");
+}
+
+TEST_CASE("sections and lists of the wrong kind are named") {
+  CHECK(error_text(R"({"sigs": 1, "camera": 5})") == "x.json: camera: expected { ... }");
+  CHECK(error_text(R"({"sigs": 1, "intruders": 5})") == "x.json: intruders: expected a list [ ... ]");
+  CHECK(error_text(R"({"sigs": 1, "intruders": [7]})") == "x.json: intruders[0]: expected { ... }");
+  CHECK(error_text(R"({"sigs": 1, "intruders": [{"trajectory": {"waypoints": {}}}]})") ==
+        "x.json: intruders[0].trajectory.waypoints: expected a list [ ... ]");
+  CHECK(error_text(R"({"sigs": 1, "intruders": [{"trajectory": {"waypoints": [3]}}]})").starts_with(
+      "x.json: intruders[0].trajectory.waypoints[0]"));
+}
+
+TEST_CASE("text that is no project is said with its line") {
+  CHECK(error_text("{\n  \"sigs\": 1,\n  oops\n}").find("line 3") != std::string::npos);
+  CHECK(error_text("[1, 2]").find("not a SIGS project") != std::string::npos);
+  CHECK(error_text("{}").find("begins with \"sigs\": 1") != std::string::npos);
+  CHECK(error_text(R"({"sigs": 2})").find("version 2 is not known") != std::string::npos);
+  CHECK(error_text(R"({"sigs": 1, "camera": {"speed_mps": NaN}})").find("is not JSON") != std::string::npos);
+  CHECK(error_text(R"({"sigs": 1, "camera": {"speed_mps": 1e999}})").find("too large") != std::string::npos);
+  CHECK_FALSE(error_text("").empty());
+}
+
+TEST_CASE("a missing project file cannot be read") {
+  const Result<ReadProject> read = read_project("no/such/project.json");
+  REQUIRE_FALSE(read.has_value());
+  CHECK(read.error().kind == ErrorKind::cannot_read);
+}
+
+TEST_CASE("a written project file reads back from disk") {
+  const test::TemporaryFolder folder;
+  REQUIRE(write_project(whole(), folder / "p.json", false).has_value());
+  CHECK(text_of(read_project(folder / "p.json").value().project) == text_of(whole()));
+}
+
+TEST_CASE("every field says what it is for and its key is there once") {
+  Project p = whole();
+  std::vector<std::string> keys;
+  for (const Field& field : fields_of(p)) {
+    CHECK_MESSAGE(!field.help.empty(), field.key);
+    CHECK_MESSAGE(std::find(keys.begin(), keys.end(), field.key) == keys.end(), field.key);
+    keys.push_back(field.key);
+  }
+}
+
+TEST_CASE("paths are relative to the project file's folder and absolute ones stay") {
+  const Project p = whole();
+  CHECK(resolved(p, "a.mkv") == "dir/a.mkv");
+  CHECK(resolved(p, "/x/a.mkv") == "/x/a.mkv");
+  CHECK(resolved(p, "").empty());
+}
