@@ -85,13 +85,27 @@ Result<void> make_empty_folder(const fs::path& folder) {
   return make_folder(folder);
 }
 
+// A folder of pictures is replaced whole; one that holds anything else is somebody's own.
+Result<void> check_replaceable(const fs::path& folder) {
+  std::error_code code;
+  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
+    const std::string name = it->path().filename().string();
+    if (!name.starts_with("frame_") || it->path().extension() != ".png")
+      return fail(folder.string(), "holds " + name + ", which no export wrote; choose another folder",
+                  ErrorKind::cannot_create);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const VideoFormat& format, bool overwrite) {
   Result<PartialFile> file = PartialFile::create(path, overwrite);
   if (!file) return fail(file.error());
-  if (format.codec == VideoCodec::png)
+  if (format.codec == VideoCodec::png) {
+    if (const Result<void> ours = check_replaceable(path); !ours) return fail(ours.error());
     if (const Result<void> folder = make_empty_folder(file->part()); !folder) return fail(folder.error());
+  }
   Result<VideoWriter> writer = VideoWriter::open(file->part(), format);
   if (!writer) return fail(writer.error());
   return Video{std::move(*file), std::move(*writer)};

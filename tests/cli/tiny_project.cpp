@@ -46,13 +46,13 @@ f 3 4 8 7
 f 4 1 5 8
 )";
 
-void write_clip(const std::filesystem::path& path) {
+void write_clip(const std::filesystem::path& path, int frames) {
   const VideoFormat format{.codec = VideoCodec::ffv1, .container = Container::mkv, .size_px = {64, 48}};
   Result<VideoWriter> writer = VideoWriter::open(path, format);
   if (!writer) throw std::runtime_error(writer.error().text());
-  for (int n = 0; n < 10; ++n) {
+  for (int n = 0; n < frames; ++n) {
     Frame frame{.layout = format.layout, .color = format.color};
-    frame.planes = {cv::Mat(48, 64, CV_8UC1, cv::Scalar(90 + n)), cv::Mat(24, 32, CV_8UC1, cv::Scalar(128)),
+    frame.planes = {cv::Mat(48, 64, CV_8UC1, cv::Scalar(90 + n % 10)), cv::Mat(24, 32, CV_8UC1, cv::Scalar(128)),
                     cv::Mat(24, 32, CV_8UC1, cv::Scalar(128))};
     frame.time_s = n * 0.04;
     if (!writer->write(frame, n)) throw std::runtime_error("clip");
@@ -64,8 +64,8 @@ void write_clip(const std::filesystem::path& path) {
 
 void put_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
-TinyProject::TinyProject() {
-  write_clip(file("clip.mkv"));
+TinyProject::TinyProject(int frames) {
+  write_clip(file("clip.mkv"), frames);
   put_text(file("p.json"), kProject);
   put_text(file("lens.xml"), kLens);
   put_text(file("cube.obj"), kCube);

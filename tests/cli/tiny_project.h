@@ -8,10 +8,10 @@
 
 namespace sigs::test {
 
-// A whole small project in a folder of its own: 10 frames of 64x48, a lens, a cube that hovers before it.
+// A whole small project in a folder of its own: a few frames of 64x48, a lens, a cube that crosses before it.
 class TinyProject {
  public:
-  TinyProject();
+  explicit TinyProject(int frames = 10);
 
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] std::string project() const { return file("p.json").string(); }
