@@ -53,11 +53,13 @@ Result<std::vector<DrawnView>> drawn_views(const std::vector<VirtualView>& views
   return drawn;
 }
 
-// The area of the whole silhouette. What lies within the picture is known; what reaches beyond is measured on a coarser
-// grid through the same lens.
-double whole_area_px(const SeenIntruder& seen, const Camera& camera, const cv::Rect& picture) {
+// Where the silhouette reaches beyond the pixels that were bent, its whole area is measured on a coarser grid through the
+// same lens, in views of their own.
+Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, const std::array<glm::dvec3, 8>& corners,
+                             const Mesh& mesh, const Light& light, Renderer& renderer) {
+  const cv::Rect everywhere(-1'000'000, -1'000'000, 2'000'000, 2'000'000);
   const Box& box = seen.silhouette->box;
-  const cv::Rect whole = pixels_touched(box, 1, {-1'000'000, -1'000'000, 2'000'000, 2'000'000});
+  const cv::Rect whole = pixels_touched(box, 1, everywhere);
   if ((whole & seen.sharp.rect) == whole) return area_px(seen.sharp.coverage);
   const double step = std::max({1.0, whole.width / double(kWholeAreaSteps), whole.height / double(kWholeAreaSteps)});
   LensParameters coarse = camera.lens.parameters();
@@ -65,10 +67,14 @@ double whole_area_px(const SeenIntruder& seen, const Camera& camera, const cv::R
   coarse.fy /= step;
   coarse.cx = (coarse.cx + 0.5) / step - 0.5;
   coarse.cy = (coarse.cy + 0.5) / step - 0.5;
-  const Camera coarse_camera{*Lens::make(coarse), picture.size()};
+  const Camera coarse_camera{*Lens::make(coarse), camera.size_px};
+  const Result<std::vector<DrawnView>> drawn =
+      drawn_views(aimed_views(coarse_camera, corners, std::nullopt, 2, 4 * kWholeAreaSteps), mesh, seen.placed, light,
+                  renderer);
+  if (!drawn) return fail(drawn.error());
+  if (drawn->empty()) return 0;
   const Box coarse_box{(box.x + 0.5) / step - 0.5, (box.y + 0.5) / step - 0.5, box.width / step, box.height / step};
-  const cv::Rect target = pixels_touched(coarse_box, 1, {-1'000'000, -1'000'000, 2'000'000, 2'000'000});
-  return area_px(bent(seen.views, coarse_camera, target).coverage) * step * step;
+  return area_px(bent(*drawn, coarse_camera, pixels_touched(coarse_box, 1, everywhere)).coverage) * step * step;
 }
 
 }  // namespace
@@ -92,8 +98,9 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   const cv::Rect reach =
       reach_of(seen.silhouette, placed.distance_m(), model.mesh.radius_m, blur_reach_px(seen.sigma_px), picture);
   if (reach.empty()) return seen;
-  const std::vector<VirtualView> views = aimed_views(camera, corners_in_camera(model.mesh, placed.camera_from_body),
-                                                     scene.compositing.supersampling, kLargestView_px);
+  const std::array<glm::dvec3, 8> corners = corners_in_camera(model.mesh, placed.camera_from_body);
+  const std::vector<VirtualView> views =
+      aimed_views(camera, corners, reach, scene.compositing.supersampling, kLargestView_px);
   if (views.empty()) return seen;
 
   const Result<Renderer*> renderer = bench.renderer();
@@ -106,7 +113,11 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   seen.views = std::move(*drawn);
   seen.sharp = bent(seen.views, camera, reach);
   seen.soft = hidden_by_body(clipped(blurred(seen.sharp, seen.sigma_px), picture), scene.own_body);
-  if (seen.silhouette) seen.whole_area_px = whole_area_px(seen, camera, picture);
+  if (seen.silhouette) {
+    const Result<double> area = whole_area_px(seen, camera, corners, model.mesh, light, **renderer);
+    if (!area) return fail(area.error());
+    seen.whole_area_px = *area;
+  }
   return seen;
 }
 

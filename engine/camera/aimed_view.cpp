@@ -47,6 +47,43 @@ Extent extent_in(const glm::dquat& view_from_camera, const Corners& corners) {
   return extent;
 }
 
+// Bounds of what the rays of a grid of target's pixels look at near the view's extent, in tangents.
+Extent seen_near(const Extent& near, const Camera& camera, const glm::dquat& view_from_camera, const cv::Rect& target,
+                 int steps) {
+  const glm::dvec2 half_span = 0.5 * (near.high - near.low);
+  Extent seen;
+  for (int j = 0; j <= steps; ++j)
+    for (int i = 0; i <= steps; ++i) {
+      const glm::dvec2 share = glm::dvec2(i, j) / double(steps);
+      const glm::dvec2 pixel = glm::dvec2(target.x, target.y) - 0.5 + share * glm::dvec2(target.width, target.height);
+      const std::optional<glm::dvec3> ray = camera.lens.ray(pixel);
+      const glm::dvec3 p = ray ? view_from_camera * *ray : glm::dvec3(0);
+      const glm::dvec2 tangent = p.x > 0 ? glm::dvec2(p.y, p.z) / p.x : glm::dvec2(std::numeric_limits<double>::max());
+      if (glm::any(glm::lessThan(tangent, near.low - half_span)) ||
+          glm::any(glm::greaterThan(tangent, near.high + half_span)))
+        continue;
+      seen.low = glm::min(seen.low, tangent);
+      seen.high = glm::max(seen.high, tangent);
+    }
+  return seen;
+}
+
+// The part of a view that the pixels of target look at; none where a wide view is looked at by none of them. Three steps
+// of the grid are left as a margin: tangents grow up to 2.4 times as fast at 50 degrees as at the axis.
+std::optional<Extent> cut_to(const Extent& whole, const Camera& camera, const glm::dquat& view_from_camera,
+                             const cv::Rect& target) {
+  constexpr int kSteps = 16;
+  const Extent seen = seen_near(whole, camera, view_from_camera, target, kSteps);
+  const bool wide = whole.high.x - whole.low.x > 1;
+  if (seen.low.x > seen.high.x) return wide ? std::nullopt : std::optional<Extent>(whole);
+  const double px_per_rad = camera.lens.pixels_per_radian(glm::conjugate(view_from_camera) * glm::dvec3(1, 0, 0));
+  if (px_per_rad == 0) return whole;
+  const double margin = 3.0 * std::max(target.width, target.height) / kSteps / px_per_rad;
+  const Extent cut{.low = glm::max(whole.low, seen.low - margin), .high = glm::min(whole.high, seen.high + margin)};
+  if (cut.low.x >= cut.high.x || cut.low.y >= cut.high.y) return std::nullopt;
+  return cut;
+}
+
 // The finest resolution that the picture has on a grid over the view, as focal length of the view: a pinhole picture
 // has focal * (1 + tan^2) pixels a radian at most, so the view needs no more than the lens' figure at its axis and
 // edges.
@@ -63,10 +100,14 @@ double finest_focal_px(const Camera& camera, const glm::dquat& camera_from_view,
   return finest;
 }
 
-VirtualView view_of(const glm::dquat& view_from_camera, const Extent& extent, double wanted_focal_px, int max_size_px) {
+//   body  the whole body's extent, by which the smallest resolution is set
+VirtualView view_of(const glm::dquat& view_from_camera, const Extent& extent, const Extent& body,
+                    double wanted_focal_px, int max_size_px) {
   const glm::dvec2 span = extent.high - extent.low;
+  const glm::dvec2 body_span = body.high - body.low;
   const double widest = std::max({span.x, span.y, 1e-9});  // a point has no extent
-  double focal_px = std::max(wanted_focal_px, kSmallestExtent_px / widest);
+  const double widest_of_body = std::max({body_span.x, body_span.y, 1e-9});
+  double focal_px = std::max(wanted_focal_px, kSmallestExtent_px / widest_of_body);
   focal_px = std::min(focal_px, (max_size_px - 2 * kMargin_px - 2) / widest);
   const glm::dvec2 first = glm::floor(extent.low * focal_px) - double(kMargin_px);
   const glm::dvec2 last = glm::ceil(extent.high * focal_px) + double(kMargin_px);
@@ -76,36 +117,44 @@ VirtualView view_of(const glm::dquat& view_from_camera, const Extent& extent, do
           .size_px = {static_cast<int>(last.x - first.x) + 1, static_cast<int>(last.y - first.y) + 1}};
 }
 
-// Faces of a cube around the camera, a little wider than 90 degrees so that taps at an edge find colour.
-std::vector<VirtualView> cube_views(const Camera& camera, double supersampling, int max_size_px) {
-  const double half = 1.02;
-  const Extent extent{.low = glm::dvec2(-half), .high = glm::dvec2(half)};
-  const std::array<glm::dvec3, 6> axes{glm::dvec3{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
-                                       glm::dvec3{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-  std::vector<VirtualView> views;
-  for (const glm::dvec3& axis : axes) {
-    const glm::dquat turn = turn_to_axis(axis);
-    const double finest = finest_focal_px(camera, glm::conjugate(turn), extent);
-    if (finest > 0) views.push_back(view_of(turn, extent, finest * supersampling, max_size_px));
-  }
-  return views;
+// The view that shows extent, or what target asks of it; none where the lens sees nothing of it.
+std::optional<VirtualView> cut_view(const Camera& camera, const glm::dquat& turn, const Extent& extent,
+                                    const std::optional<cv::Rect>& target, double supersampling, int max_size_px) {
+  const std::optional<Extent> asked = target ? cut_to(extent, camera, turn, *target) : extent;
+  if (!asked) return std::nullopt;
+  const double finest = finest_focal_px(camera, glm::conjugate(turn), *asked);
+  if (finest == 0) return std::nullopt;
+  return view_of(turn, *asked, extent, finest * supersampling, max_size_px);
+}
+
+// The turns to the faces of a cube around the camera.
+std::vector<glm::dquat> cube_turns() {
+  std::vector<glm::dquat> turns;
+  for (const glm::dvec3& axis : {glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0}, glm::dvec3{0, 0, 1}, glm::dvec3{-1, 0, 0},
+                                 glm::dvec3{0, -1, 0}, glm::dvec3{0, 0, -1}})
+    turns.push_back(turn_to_axis(axis));
+  return turns;
 }
 
 }  // namespace
 
-std::vector<VirtualView> aimed_views(const Camera& camera, const Corners& corners_in_camera, double supersampling,
-                                     int max_size_px) {
+std::vector<VirtualView> aimed_views(const Camera& camera, const Corners& corners_in_camera,
+                                     const std::optional<cv::Rect>& target, double supersampling, int max_size_px) {
   ENSURE(supersampling >= 1 && max_size_px >= 64);
   glm::dvec3 middle(0);
   for (const glm::dvec3& corner : corners_in_camera) middle += corner / 8.0;
   const double distance_m = glm::length(middle);
-  if (distance_m == 0) return cube_views(camera, supersampling, max_size_px);
-  const glm::dquat turn = turn_to_axis(middle / distance_m);
-  const Extent extent = extent_in(turn, corners_in_camera);
-  if (extent.too_wide) return cube_views(camera, supersampling, max_size_px);
-  const double finest = finest_focal_px(camera, glm::conjugate(turn), extent);
-  if (finest == 0) return {};
-  return {view_of(turn, extent, finest * supersampling, max_size_px)};
+  std::vector<glm::dquat> turns{turn_to_axis(distance_m > 0 ? middle / distance_m : glm::dvec3(1, 0, 0))};
+  Extent extent = extent_in(turns.front(), corners_in_camera);
+  if (extent.too_wide) {
+    // A little wider than 90 degrees, so that taps at an edge find colour.
+    extent = {.low = glm::dvec2(-1.02), .high = glm::dvec2(1.02)};
+    turns = cube_turns();
+  }
+  std::vector<VirtualView> views;
+  for (const glm::dquat& turn : turns)
+    if (const auto view = cut_view(camera, turn, extent, target, supersampling, max_size_px)) views.push_back(*view);
+  return views;
 }
 
 }  // namespace sigs

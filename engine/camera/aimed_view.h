@@ -3,6 +3,8 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "camera/camera.h"
@@ -12,6 +14,7 @@ namespace sigs {
 
 // The views in which to draw a body so that the lens can then ask them for its colours.
 //   corners_in_camera  the eight corners of a box around the body, metres, camera frame
+//   target             pixels that will be asked for; what lies outside is cut off the views. None: the whole body
 //   supersampling      drawn pixels a picture pixel, each way, where the picture is finest; >= 1
 //   max_size_px        largest side of a view; a body that would need more is drawn coarser
 // One view that just holds the box where it spans less than about 100 degrees; else the six faces of a cube around the
@@ -19,6 +22,7 @@ namespace sigs {
 // None where the camera sees no part of the body's surroundings at all.
 [[nodiscard]] std::vector<VirtualView> aimed_views(const Camera& camera,
                                                    const std::array<glm::dvec3, 8>& corners_in_camera,
-                                                   double supersampling, int max_size_px);
+                                                   const std::optional<cv::Rect>& target, double supersampling,
+                                                   int max_size_px);
 
 }  // namespace sigs

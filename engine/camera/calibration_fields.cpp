@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 4> kSizeNames{"image_size", "image_Size",
 constexpr std::array<std::string_view, 4> kWidthNames{"image_width", "image_Width", "imageWidth", "width"};
 constexpr std::array<std::string_view, 4> kHeightNames{"image_height", "image_Height", "imageHeight", "height"};
 constexpr std::array<std::string_view, 3> kFisheyeNames{"fisheye_model", "fisheye", "fisheyeModel"};
-constexpr std::array<std::string_view, 2> kModelNames{"distortion_model", "lens_model"};
+constexpr std::array<std::string_view, 1> kModelNames{"distortion_model"};
 
 std::string joined(Names names) {
   std::string text;
@@ -117,8 +117,6 @@ Result<void> Reader::read_coefficients(LensParameters& lens) const {
   if (field == nullptr) return fail(file, "no distortion coefficients; looked for " + joined(kCoefficientNames));
   if (const auto good = check_numbers(*field); !good) return fail(good.error());
   lens.coefficients = field->numbers;
-  const auto made = Lens::make(lens);  // knows how many there may be
-  if (!made) return fail(where(*field), made.error().what);
   return {};
 }
 
@@ -159,7 +157,8 @@ std::string size_names() {
 }  // namespace
 
 std::string text_of(double number) {
-  std::array<char, 32> digits{};  // the longest shortest text of a double has 24 characters
+  if (std::isnan(number)) return "nan";  // whose sign says nothing
+  std::array<char, 32> digits{};         // the longest shortest text of a double has 24 characters
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
   return {digits.data(), end};
 }
@@ -180,8 +179,14 @@ Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
   if (!own_size_px) return fail(own_size_px.error());
   if (!*own_size_px && !footage_size_px)
     return fail(file_name, "no image size, and no footage to take it from; looked for " + size_names());
-  return scaled_calibration(std::move(lens), own_size_px->value_or(footage_size_px.value_or(cv::Size{})),
-                            footage_size_px, file_name);
+  const cv::Size from_px = own_size_px->value_or(footage_size_px.value_or(cv::Size{}));
+  const cv::Size to_px = footage_size_px.value_or(from_px);
+  Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, to_px, file_name);
+  if (!scaled) return fail(scaled.error());
+  Result<Lens> made = Lens::make(*std::move(scaled));
+  // The matrix is in order by now: what is left to be wrong are the coefficients.
+  if (!made) return fail(reader.where(*found(fields, kCoefficientNames)), made.error().what);
+  return Camera{.lens = *std::move(made), .size_px = to_px};
 }
 
 }  // namespace sigs::calibration

@@ -87,8 +87,8 @@ std::optional<glm::dvec2> Lens::pixel(const glm::dvec3& p_in_camera) const {
   return result;
 }
 
-// The forward map must return to the pixel: within 1e-9 px or, where a step of the doubles that hold the pixel or the ray
-// is worth more than that, within some such steps.
+// The forward map must return to the pixel: within 1e-9 px or, where a step of the doubles that hold the pixel or the
+// ray is worth more than that, within some such steps.
 bool Lens::comes_back(const glm::dvec3& ray, const glm::dvec2& pixel_px) const {
   constexpr double kTolerancePx = 1e-9;
   constexpr double kSteps = 64 * std::numeric_limits<double>::epsilon();

@@ -26,26 +26,22 @@ bool same_shape(cv::Size a, cv::Size b) {
 
 }  // namespace
 
-Result<Camera> scaled_calibration(LensParameters lens, cv::Size own_size_px, std::optional<cv::Size> footage_size_px,
-                                  const std::string& file_name) {
-  const cv::Size to = footage_size_px.value_or(own_size_px);
-  if (to.width < 1 || to.height < 1) return fail(file_name, "cannot be scaled to footage of " + text_of(to));
-  if (!same_shape(own_size_px, to))
+Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px, cv::Size to_px,
+                                          const std::string& file_name) {
+  if (to_px.width < 1 || to_px.height < 1) return fail(file_name, "cannot be scaled to footage of " + text_of(to_px));
+  if (to_px == from_px) return lens;
+  if (!same_shape(from_px, to_px))
     return fail(file_name,
-                "made for " + text_of(own_size_px) + ", which is not the shape of the footage, " + text_of(to));
-  // Pixel centres are whole numbers, so the picture's left edge is at -0.5 and stays there: x' + 0.5 = (x + 0.5) *
-  // scale. A side that was rounded to whole pixels has its own scale.
-  const double x = static_cast<double>(to.width) / own_size_px.width;
-  const double y = static_cast<double>(to.height) / own_size_px.height;
-  if (to != own_size_px) {
-    lens.fx *= x;
-    lens.fy *= y;
-    lens.cx = (lens.cx + 0.5) * x - 0.5;
-    lens.cy = (lens.cy + 0.5) * y - 0.5;
-  }
-  Result<Lens> made = Lens::make(std::move(lens));
-  if (!made) return fail(file_name, made.error().what);
-  return Camera{.lens = *std::move(made), .size_px = to};
+                "made for " + text_of(from_px) + ", which is not the shape of the footage, " + text_of(to_px));
+  // Pixel centres are whole numbers, so the picture's left edge is at -0.5 and stays there: with the scale s,
+  // x' + 0.5 = (x + 0.5) s. A side that was rounded to whole pixels has its own scale.
+  const double x = static_cast<double>(to_px.width) / from_px.width;
+  const double y = static_cast<double>(to_px.height) / from_px.height;
+  lens.fx *= x;
+  lens.fy *= y;
+  lens.cx = (lens.cx + 0.5) * x - 0.5;
+  lens.cy = (lens.cy + 0.5) * y - 0.5;
+  return lens;
 }
 
 }  // namespace sigs::calibration

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "base/result.h"
-#include "camera/camera.h"
+#include "camera/lens.h"
 
 namespace sigs::calibration {
 
-// The camera that a calibration made at own_size_px describes once its pictures are resized to the footage. Shapes
-// count as the same where one size follows from the other within half a pixel of rounding; else an error names both.
-[[nodiscard]] Result<Camera> scaled_calibration(LensParameters lens, cv::Size own_size_px,
-                                                std::optional<cv::Size> footage_size_px, const std::string& file_name);
+// The lens that a calibration for pictures of one size describes once they are resized to another. Shapes count as the
+// same where one size follows from the other within half a pixel of rounding; else an error names both.
+[[nodiscard]] Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px, cv::Size to_px,
+                                                        const std::string& file_name);
 
 }  // namespace sigs::calibration

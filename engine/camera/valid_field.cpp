@@ -24,10 +24,7 @@ struct Harmonics {
   Complex first;
   Complex second;
 
-  [[nodiscard]] double at(double phi) const {
-    const Complex turn = std::polar(1.0, phi);
-    return mean + (first * turn + second * turn * turn).real();
-  }
+  [[nodiscard]] double at(Complex turn) const { return mean + (first * turn + second * turn * turn).real(); }
 };
 
 // Smallest value of a function between two places that enclose one dip, by golden section; and where.
@@ -56,19 +53,39 @@ Lowest bottom_of_dip(const Function& f, double a, double b) {
   return f1 < f2 ? Lowest{x1, f1} : Lowest{x2, f2};
 }
 
+constexpr int kSamples = 32;
+
+std::array<Complex, kSamples> turns_of_samples() {
+  std::array<Complex, kSamples> turns;
+  for (int i = 0; i < kSamples; ++i) turns[i] = std::polar(1.0, i * 2 * std::numbers::pi / kSamples);
+  return turns;
+}
+
+// Value at the bottom of the dip near a turn, by Newton's method on the derivative.
+double bottom_near(const Harmonics& h, Complex turn) {
+  constexpr int kSteps = 4;  // from a 64th of a circle, each squares the error
+  constexpr double kFarthest_rad = 2 * std::numbers::pi / kSamples;
+  for (int step = 0; step < kSteps; ++step) {
+    const Complex first = h.first * turn;
+    const Complex second = h.second * turn * turn;
+    const double slope = -(first + 2.0 * second).imag();
+    const double curvature = -(first + 4.0 * second).real();
+    if (!(curvature > 0)) break;
+    turn *= std::polar(1.0, std::clamp(-slope / curvature, -kFarthest_rad, kFarthest_rad));
+  }
+  return h.at(turn);
+}
+
 // At most two dips lie on the circle, so 32 samples see each of them.
 double smallest(const Harmonics& h) {
-  constexpr int kSamples = 32;
-  constexpr double kStep = 2 * std::numbers::pi / kSamples;
+  static const std::array<Complex, kSamples> turns = turns_of_samples();
   std::array<double, kSamples> sample{};
-  for (int i = 0; i < kSamples; ++i) sample[i] = h.at(i * kStep);
+  for (int i = 0; i < kSamples; ++i) sample[i] = h.at(turns[i]);
   double result = *std::ranges::min_element(sample);
   for (int i = 0; i < kSamples; ++i) {
     const double before = sample[(i + kSamples - 1) % kSamples];
     const double after = sample[(i + 1) % kSamples];
-    if (sample[i] > before || sample[i] > after) continue;
-    const auto value = [&h](double phi) { return h.at(phi); };
-    result = std::min(result, bottom_of_dip(value, (i - 1) * kStep, (i + 1) * kStep).value);
+    if (sample[i] <= before && sample[i] < after) result = std::min(result, bottom_near(h, turns[i]));
   }
   return result;
 }

@@ -1,1 +1,257 @@
 // SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/camera.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+namespace {
+
+using Coefficients = std::vector<double>;
+
+Result<Camera> read(const std::string& text, std::optional<cv::Size> footage_px = std::nullopt,
+                    const std::string& name = "camera.any") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / name, std::ios::binary) << text;
+  return read_calibration(folder / name, footage_px);
+}
+
+// fx 500, fy 510, cx 320, cy 240 and the given coefficients, whatever the flavour.
+void check_reads_as(const std::string& text, LensModel model, const Coefficients& coefficients,
+                    cv::Size size_px = {640, 480}) {
+  INFO(text);
+  const auto camera = read(text);
+  if (!camera) FAIL_CHECK(camera.error().text());
+  if (!camera) return;
+  const LensParameters& lens = camera->lens.parameters();
+  CHECK(lens.model == model);
+  CHECK(lens.fx == 500);
+  CHECK(lens.fy == 510);
+  CHECK(lens.cx == 320);
+  CHECK(lens.cy == 240);
+  CHECK(lens.coefficients == coefficients);
+  CHECK(camera->size_px == size_px);
+}
+
+constexpr auto kBrown = LensModel::brown_conrady;
+constexpr auto kFisheye = LensModel::kannala_brandt;
+const std::string kMatrixYaml = "[500, 0, 320, 0, 510, 240, 0, 0, 1]";
+const std::string kMatrixXml =
+    " type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols><dt>d</dt>\n"
+    "<data>500. 0. 320. 0. 5.1e2 240. 0. 0. 1.</data></";
+
+std::string xml(const std::string& matrix_key, const std::string& coefficient_key, const std::string& rest) {
+  return "<?xml version=\"1.0\"?>\n<opencv_storage>\n<" + matrix_key + kMatrixXml + matrix_key + ">\n<" +
+         coefficient_key +
+         " type_id=\"opencv-matrix\"><rows>1</rows><cols>4</cols><dt>d</dt><data>-0.25 0.125 0. 0.5e-3</data></" +
+         coefficient_key + ">\n" + rest + "</opencv_storage>\n";
+}
+
+const std::string kSizeXml = "<image_width>640</image_width><image_height>480</image_height>";
+
+}  // namespace
+
+TEST_CASE("what OpenCV writes is read back") {
+  const cv::Mat matrix = (cv::Mat_<double>(3, 3) << 500, 0, 320, 0, 510, 240, 0, 0, 1);
+  const Coefficients coefficients{-0.25, 0.125, 0.001, -0.002, 1.0 / 3};
+  for (const char* extension : {".xml", ".yml", ".json"})
+    for (const bool base64 : {false, true}) {
+      cv::FileStorage out(extension,
+                          cv::FileStorage::WRITE | cv::FileStorage::MEMORY | (base64 ? cv::FileStorage::BASE64 : 0));
+      out << "calibration_time"
+          << "Tue 07 Aug 2018"
+          << "image_width" << 640 << "image_height" << 480;
+      out << "flags" << 6158 << "fisheye_model" << 0 << "camera_matrix" << matrix;
+      out << "distortion_coefficients" << cv::Mat(coefficients) << "rms" << 0.39;
+      if (base64 && std::string(extension) == ".json") continue;  // its own reader knows how, JSON's does not
+      check_reads_as(out.releaseAndGetString(), kBrown, coefficients);
+    }
+}
+
+TEST_CASE("an empty list of coefficients is a pinhole") {
+  check_reads_as("K: " + kMatrixYaml + "\nD: []\nwidth: 640\nheight: 480\n", kBrown, {});
+}
+
+TEST_CASE("all names of matrix and coefficients are known in XML") {
+  for (const char* matrix : {"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "M1"})
+    for (const char* coefficients : {"distortion_coefficients", "Distortion_Coefficients", "dist_coeffs", "dist_coefs",
+                                     "dist_coeff", "distCoeffs", "D", "D1"})
+      check_reads_as(xml(matrix, coefficients, kSizeXml), kBrown, {-0.25, 0.125, 0, 0.5e-3});
+}
+
+TEST_CASE("all ways to state the size are known") {
+  const Coefficients four{-0.25, 0.125, 0, 0.5e-3};
+  for (const char* size : {
+           "<image_Width>640</image_Width><image_Height>480</image_Height>",
+           "<imageWidth>640</imageWidth><imageHeight>480</imageHeight>",
+           "<width>640</width><height>480</height>",
+           "<image_size>640 480</image_size>",
+           "<imageSize>\n  640 480</imageSize>",
+           "<image_Size>640. 480.</image_Size>",
+       })
+    check_reads_as(xml("camera_matrix", "D", size), kBrown, four);
+}
+
+TEST_CASE("the fisheye flag chooses the model") {
+  const Coefficients four{-0.25, 0.125, 0, 0.5e-3};
+  check_reads_as(xml("K", "D", kSizeXml + "<fisheye_model>1</fisheye_model>"), kFisheye, four);
+  check_reads_as(xml("K", "D", kSizeXml + "<fisheye_model>0</fisheye_model>"), kBrown, four);
+  const std::string yaml = "K: " + kMatrixYaml + "\nD: [1, 2, 3, 4]\nimage_size: [640, 480]\nfisheye: ";
+  check_reads_as(yaml + "true\n", kFisheye, {1, 2, 3, 4});
+  check_reads_as(yaml + "false\n", kBrown, {1, 2, 3, 4});
+}
+
+TEST_CASE("YAML of ROS and of scripts is read") {
+  const std::string head = "image_width: 640\nimage_height: 480\ncamera_name: nose\n";
+  const std::string matrix = "camera_matrix:\n  rows: 3\n  cols: 3\n  data: " + kMatrixYaml + "\n";
+  const std::string five = "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.25, 0.125, 0, 0, 1e-3]\n";
+  const std::string four = "distortion_coefficients:\n  rows: 1\n  cols: 4\n  data: [-0.25, 0.125, 0, 0]\n";
+  const std::string eight =
+      "distortion_coefficients:\n  rows: 1\n  cols: 8\n  data: [1, 2, 3, 4, 5, 6, 7, 8]\n"
+      "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n";
+  check_reads_as(head + matrix + "distortion_model: plumb_bob\n" + five, kBrown, {-0.25, 0.125, 0, 0, 1e-3});
+  check_reads_as(head + matrix + "distortion_model: rational_polynomial\n" + eight, kBrown, {1, 2, 3, 4, 5, 6, 7, 8});
+  check_reads_as(head + matrix + "distortion_model: equidistant\n" + four, kFisheye, {-0.25, 0.125, 0, 0});
+  check_reads_as(head + matrix + "distortion_model: fisheye\n" + four, kFisheye, {-0.25, 0.125, 0, 0});
+  check_reads_as("height: 480\nwidth: 640\ndistortion_model: plumb_bob\nd: [-0.25, 0.125, 0, 0]\nk: " + kMatrixYaml,
+                 kBrown, {-0.25, 0.125, 0, 0});
+  check_reads_as("%YAML 1.2\n---\n" + head + "camera_matrix:\n- [500.0, 0.0, 320.0]\n- [0.0, 510.0, 240.0]\n" +
+                     "- [0.0, 0.0, 1.0]\ndist_coefs:\n- [-0.25, 0.125, 0, 0,\n  1e-3]\n",
+                 kBrown, {-0.25, 0.125, 0, 0, 1e-3});
+}
+
+TEST_CASE("YAML with OpenCV tags is read with its own header and without") {
+  const std::string body =
+      "image_width: 640\nimage_height: 480\n"
+      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., 0., 320., 0.,\n"
+      "       5.1e+02, 240., 0., 0., 1. ]\n"
+      "distortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.25, 0.125, 0., .5 ]\n";
+  for (const char* head : {"%YAML:1.0\n---\n", "%YAML:1.0\n", "", "---\n", "\xEF\xBB\xBF", "\n\n  \n"})
+    check_reads_as(head + body, kBrown, {-0.25, 0.125, 0, 0.5});
+}
+
+TEST_CASE("line ends of Windows do not matter") {
+  std::string text = "%YAML:1.0\n---\nK: " + kMatrixYaml + "\nD: [1, 2, 3, 4]\nimage_size: [640, 480]\n";
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
+  check_reads_as(text, kBrown, {1, 2, 3, 4});
+  check_reads_as(text.substr(16), kBrown, {1, 2, 3, 4});
+}
+
+TEST_CASE("plain JSON is read by the same names") {
+  check_reads_as(
+      "{\n\t\"camera_matrix\": [[500, 0, 320], [0, 510, 240], [0, 0, 1]],\n\t\"dist_coeff\": [[1, 2, 3, 4]],\n"
+      "\t\"image_size\": [640, 480], \"note\": null}",
+      kBrown, {1, 2, 3, 4});
+}
+
+TEST_CASE("a Gyroflow lens profile is a fisheye") {
+  const std::string head = R"({"name": "x", "calib_dimension": {"w": 640, "h": 480}, "orig_dimension": {"w": 9, "h": 9},
+    "fisheye_params": {"camera_matrix": [[500, 0, 320], [0, 510, 240], [0, 0, 1]], "distortion_coeffs": [1, 2, 3, 4]})";
+  for (const char* rest : {"}", ", \"distortion_model\": null}", ", \"distortion_model\": \"opencv_fisheye\"}",
+                           ", \"digital_lens\": null, \"input_horizontal_stretch\": 1.0}"})
+    check_reads_as(head + rest, kFisheye, {1, 2, 3, 4});
+}
+
+TEST_CASE("the first camera of a stereo pair is read") {
+  check_reads_as("K: " + kMatrixYaml + "\nM2: [1]\nD: [1, 2, 3, 4]\nD2: [7]\nimage_size: [640, 480]\n", kBrown,
+                 {1, 2, 3, 4});
+}
+
+TEST_CASE("a calibration without a size is made for the footage") {
+  const std::string text = "K: " + kMatrixYaml + "\nD: [1, 2, 3, 4]\n";
+  const auto camera = read(text, cv::Size(1234, 777));
+  REQUIRE(camera.has_value());
+  CHECK(camera->size_px == cv::Size(1234, 777));
+  CHECK(camera->lens.parameters().fx == 500);
+  CHECK(camera->lens.parameters().cy == 240);
+}
+
+TEST_CASE("a calibration is scaled to footage of the same shape") {
+  const std::string text = "K: " + kMatrixYaml + "\nD: [-0.2, 0.1, 0, 0]\nimage_size: [640, 480]\n";
+  const auto own = read(text);
+  const auto same = read(text, cv::Size(640, 480));
+  const auto doubled = read(text, cv::Size(1280, 960));
+  REQUIRE(own.has_value());
+  REQUIRE(same.has_value());
+  REQUIRE(doubled.has_value());
+  CHECK(same->lens.parameters().cx == 320);
+  CHECK(doubled->size_px == cv::Size(1280, 960));
+  // The picture's edges and middle stay where they are: -0.5 is the left edge at any size.
+  for (const glm::dvec3& at : {glm::dvec3{1, 0, 0}, glm::dvec3{1, 0.3, -0.2}, glm::dvec3{1, -0.4, 0.3}}) {
+    const glm::dvec2 small = *own->lens.pixel(at);
+    const glm::dvec2 large = *doubled->lens.pixel(at);
+    CHECK(glm::distance(large + 0.5, 2.0 * (small + 0.5)) < 1e-10);  // rounding
+  }
+}
+
+TEST_CASE("a side may be rounded by half a pixel") {
+  const std::string text = "K: " + kMatrixYaml + "\nD: []\nimage_size: [1920, 1080]\n";
+  CHECK(read(text, cv::Size(854, 480)).has_value());  // 854 / 1920 * 1080 = 480.4
+  CHECK(read(text, cv::Size(640, 360)).has_value());
+  CHECK(read(text, cv::Size(3840, 2160)).has_value());
+  const auto camera = read(text, cv::Size(854, 480));
+  CHECK(camera->lens.parameters().fx == doctest::Approx(500 * 854.0 / 1920).epsilon(1e-15));
+  CHECK(camera->lens.parameters().fy == doctest::Approx(510 * 480.0 / 1080).epsilon(1e-15));
+  CHECK_FALSE(read(text, cv::Size(856, 480)).has_value());
+  CHECK_FALSE(read(text, cv::Size(1920, 1088)).has_value());
+}
+
+TEST_CASE("all real calibrations are read") {
+  if (!has_real_data()) return;
+  struct Expected {
+    const char* name;
+    LensModel model;
+    std::size_t coefficients;
+    double fx;
+    cv::Size size_px;  // empty: the file states none
+  };
+  for (const Expected& expected : {
+           Expected{"ar_drone_RIGHTBLACKBOX_oldkeys.xml", kBrown, 5, 870.30170819798286, {640, 480}},
+           Expected{"gopro_hero3plus_fisheye4_1280x960_derived.xml", kFisheye, 4, 558.3350517012582, {1280, 960}},
+           Expected{"gyroflow_gopro_hero3plus_1440_4by3_fisheye4.json", kFisheye, 4, 837.5025775518873, {1920, 1440}},
+           Expected{"hpfily_out_camera_data_oldkeys.xml", kBrown, 5, 632.56509667425644, {640, 480}},
+           Expected{"ntu_mecatron_out_camera_data.xml", kBrown, 5, 560.83562584146046, {640, 480}},
+           Expected{"opencv_doc_left_intrinsics.yml", kBrown, 5, 535.91573396163199, {640, 480}},
+           Expected{"opencv_doc_stereo_intrinsics_M1D1.yml", kBrown, 5, 534.80326845051309, {}},
+           Expected{"opencv_doc_tutorial_camera_params.yml", kBrown, 5, 628.158, {}},
+           Expected{"opencv_left_plus_12coef_derived.yml", kBrown, 12, 535.91573396163199, {640, 480}},
+           Expected{"opencv_left_plus_14coef_derived.yml", kBrown, 14, 535.91573396163199, {640, 480}},
+           Expected{"rational8_oakd_250_derived.yml", kBrown, 8, 202.61964416503906, {250, 250}},
+           Expected{"ros_camera_info_plumb_bob.yaml", kBrown, 5, 1168.68, {640, 480}},
+           Expected{"uav_skyeye_out_camera_data.xml", kBrown, 5, 233.64878280783012, {640, 480}},
+           Expected{"video2calibration_gopro_plain.yaml", kBrown, 5, 774.5585769798772, {}},
+       }) {
+    INFO(expected.name);
+    const auto path = real_data() / "calibrations" / expected.name;
+    const auto alone = read_calibration(path);
+    CHECK(alone.has_value() == !expected.size_px.empty());
+    const cv::Size footage_px = expected.size_px.empty() ? cv::Size(1280, 720) : expected.size_px;
+    const auto camera = read_calibration(path, footage_px);
+    REQUIRE(camera.has_value());
+    CHECK(camera->lens.parameters().model == expected.model);
+    CHECK(camera->lens.parameters().coefficients.size() == expected.coefficients);
+    CHECK(camera->lens.parameters().fx == expected.fx);
+    CHECK(camera->size_px == footage_px);
+  }
+}
+
+TEST_CASE("a real Gyroflow profile and the same lens in XML agree once scaled") {
+  if (!has_real_data()) return;
+  const auto folder = real_data() / "calibrations";
+  const auto a = read_calibration(folder / "gyroflow_gopro_hero3plus_1440_4by3_fisheye4.json", cv::Size(1280, 960));
+  const auto b = read_calibration(folder / "gopro_hero3plus_fisheye4_1280x960_derived.xml");
+  REQUIRE(a.has_value());
+  REQUIRE(b.has_value());
+  // The XML's principal point was scaled without the half pixel, which is 0.5 - 0.5 * 2/3 = 1/6 px.
+  for (const glm::dvec3& at : {glm::dvec3{1, 0, 0}, glm::dvec3{1, 0.5, 0.3}, glm::dvec3{1, -1, 0.8}})
+    CHECK(glm::distance(*a->lens.pixel(at), *b->lens.pixel(at) - 1.0 / 6) < 1e-6);  // digits of the XML
+}
+
+}  // namespace sigs::test

@@ -64,6 +64,17 @@ TEST_CASE("the tilt is undone by its inverse") {
     }
 }
 
+TEST_CASE("beyond the horizon of a tilted sensor there is nothing to undo") {
+  std::vector<double> coefficients(14, 0.0);
+  coefficients[12] = 0.3;
+  const BrownConrady model = BrownConrady::of(coefficients);
+  // A point whose plane coordinates go through infinity: y of the plane grows without limit towards the horizon.
+  const double near_horizon = model.distorted({0, -1e9}).y;
+  const double step = near_horizon > 0 ? 1e-3 : -1e-3;
+  CHECK(model.untilted({0, near_horizon - step}).has_value());
+  CHECK_FALSE(model.untilted({0, near_horizon + step}).has_value());
+}
+
 TEST_CASE("the first fall of a polynomial is its smallest root") {
   // (u - 0.5) (u - 2) (u - 3), made positive at 0
   CHECK(distortion::first_fall(Polynomial{3, -8.5, 5.5, -1}, 1e16) == doctest::Approx(0.5).epsilon(1e-14));

@@ -49,6 +49,12 @@ std::vector<ExampleLens> example_lenses() {
       {"12 coefficients", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, twelve), vga},
       {"12, strong prism",
        lens_of(kBrown, 500, 500, {320, 240}, {-0.2, 0.05, 0, 0, 0, 0, 0, 0, 0.1, -0.02, 0.05, 0.03}), vga},
+      // Bent so much that Newton's method from the radial answer misses parts of the field.
+      {"12, wild",
+       lens_of(kBrown, 500, 600, {320, 240},
+               {-2.31165, 0.535954, 1.95676, 0.00111828, -5.10527, 0.00055061, 2.78996, 1.27892, 1.88511, -1.49008,
+                -6.21959, 0.0733618}),
+       vga},
       {"14 coefficients", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, tilted_slightly), vga},
       {"14, tilted far", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, tilted_far), vga},
       {"14, tilt alone", lens_of(kBrown, 400, 400, {320, 240}, tilt_alone), vga},
@@ -98,17 +104,20 @@ std::vector<glm::dvec3> directions_over(const Lens& lens, int rings, int spokes,
   return directions;
 }
 
-glm::dvec2 opencv_pixel(const Lens& lens, const glm::dvec3& p) {
+std::vector<glm::dvec2> opencv_pixels(const Lens& lens, const std::vector<glm::dvec3>& p_in_camera) {
   const LensParameters& l = lens.parameters();
   const cv::Matx33d matrix(l.fx, 0, l.cx, 0, l.fy, l.cy, 0, 0, 1);
-  const std::vector<cv::Point3d> points{{p.y, p.z, p.x}};
-  std::vector<cv::Point2d> pixels;
+  std::vector<cv::Point3d> points;
+  for (const glm::dvec3& p : p_in_camera) points.emplace_back(p.y, p.z, p.x);
+  std::vector<cv::Point2d> projected;
   const cv::Vec3d none(0, 0, 0);
   if (l.model == LensModel::kannala_brandt)
-    cv::fisheye::projectPoints(points, pixels, none, none, matrix, l.coefficients);
+    cv::fisheye::projectPoints(points, projected, none, none, matrix, l.coefficients);
   else
-    cv::projectPoints(points, none, none, matrix, l.coefficients, pixels);
-  return {pixels[0].x, pixels[0].y};
+    cv::projectPoints(points, none, none, matrix, l.coefficients, projected);
+  std::vector<glm::dvec2> pixels;
+  for (const cv::Point2d& pixel : projected) pixels.emplace_back(pixel.x, pixel.y);
+  return pixels;
 }
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {

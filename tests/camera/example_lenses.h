@@ -34,8 +34,8 @@ struct ExampleLens {
 // Directions over the whole valid field (up to share of its angle), axis first.
 [[nodiscard]] std::vector<glm::dvec3> directions_over(const Lens& lens, int rings, int spokes, double share);
 
-// What OpenCV makes of a point in front of the camera, whether or not it lies in the field.
-[[nodiscard]] glm::dvec2 opencv_pixel(const Lens& lens, const glm::dvec3& p_in_camera);
+// What OpenCV makes of points in front of the camera, whether or not they lie in the field.
+[[nodiscard]] std::vector<glm::dvec2> opencv_pixels(const Lens& lens, const std::vector<glm::dvec3>& p_in_camera);
 
 // Angle between two directions, good for small ones too.
 [[nodiscard]] double angle_between(const glm::dvec3& a, const glm::dvec3& b);

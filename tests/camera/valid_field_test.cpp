@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -30,20 +31,24 @@ Camera real_camera(const std::string& name) {
   return *std::move(camera);
 }
 
-// Area that OpenCV makes of a small square of the plane at distance 1, against the square's own, in px^2.
-double opencv_determinant(const Lens& lens, glm::dvec2 p) {
-  const double h = 1e-5 * std::max(0.1, glm::length(p));
-  const auto at = [&](double x, double y) { return opencv_pixel(lens, {1, p.x + x, p.y + y}); };
-  const glm::dvec2 by_x = (at(h, 0) - at(-h, 0)) / (2 * h);
-  const glm::dvec2 by_y = (at(0, h) - at(0, -h)) / (2 * h);
-  return by_x.x * by_y.y - by_x.y * by_y.x;
-}
-
+// Smallest area, round a circle of the plane at distance 1, that OpenCV makes of a small square there, against the
+// square's own; px^2, negative where it is turned over.
 double smallest_opencv_determinant(const Lens& lens, double radius) {
-  double smallest = opencv_determinant(lens, {radius, 0});
-  for (int i = 1; i < 360; ++i) {
-    const double phi = i * std::numbers::pi / 180;
-    smallest = std::min(smallest, opencv_determinant(lens, radius * glm::dvec2{std::cos(phi), std::sin(phi)}));
+  constexpr int kSpokes = 360;
+  const double h = 1e-5 * std::max(0.1, radius);
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < kSpokes; ++i) {
+    const glm::dvec3 p = radius * direction(std::numbers::pi / 2, 2 * std::numbers::pi * i / kSpokes);
+    for (const glm::dvec3& step :
+         {glm::dvec3{0, h, 0}, glm::dvec3{0, -h, 0}, glm::dvec3{0, 0, h}, glm::dvec3{0, 0, -h}})
+      corners.push_back(glm::dvec3{1, p.y, p.z} + step);
+  }
+  const std::vector<glm::dvec2> at = opencv_pixels(lens, corners);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < at.size(); i += 4) {
+    const glm::dvec2 by_x = (at[i] - at[i + 1]) / (2 * h);
+    const glm::dvec2 by_y = (at[i + 2] - at[i + 3]) / (2 * h);
+    smallest = std::min(smallest, by_x.x * by_y.y - by_x.y * by_y.x);
   }
   return smallest;
 }
@@ -119,6 +124,19 @@ TEST_CASE("a narrow fold that only the tangential terms make is seen") {
   CHECK(valid_radius(lens) > 0.95);
   CHECK(smallest_opencv_determinant(lens, valid_radius(lens) * 0.999) > 0);
   CHECK(smallest_opencv_determinant(lens, valid_radius(lens) * 1.001) < 0);
+}
+
+TEST_CASE("a fold of a twenty thousandth that only the tangential terms make is seen") {
+  // The slope is ((u - 1.7)^2 + d) / (1.7^2 + d) with d = 1e-6. With R = N / D the determinant towards the worst side
+  // is R (slope - 6 |p| r) but for |p|^2; p is chosen so that it is negative where (u - 1.7)^2 < 0.01 d = 1e-8.
+  constexpr double kMiddle = 1.7;
+  constexpr double kDepth = 1e-6;
+  constexpr double kScale = 1 / (kMiddle * kMiddle + kDepth);
+  const std::vector<double> radial{-2 * kMiddle * kScale / 3, kScale / 5, 0, 0};
+  CHECK(valid_radius(brown(radial)) > 1e7);
+  std::vector<double> tangential = radial;
+  tangential[3] = 1.01 * kDepth * kScale / (6 * std::sqrt(kMiddle));
+  CHECK(valid_radius(brown(tangential)) == doctest::Approx(std::sqrt(kMiddle - 1e-4)).epsilon(1e-5));  // |p|^2
 }
 
 TEST_CASE("pincushion sees nearly everything before it") {
