@@ -10,8 +10,8 @@ namespace {
 
 // Share of the mean speed below which rounding decides where the curve's velocity points.
 constexpr double kStanding = 1e-9;
-// How far to look beyond such a point for the direction, as a share of the whole time.
-constexpr double kLookAhead = 1e-6;
+// Where to begin to look beside such a point, as a share of the whole time.
+constexpr double kNearest = 1e-7;
 
 }  // namespace
 
@@ -19,12 +19,18 @@ ConstantSpeed::ConstantSpeed(PiecewiseCubic curve) : way_(std::move(curve)) {
   if (way_.total_m() > 0) speed_mps_ = way_.total_m() / (last_s() - first_s());
 }
 
-glm::dvec3 ConstantSpeed::tangent_at(double parameter_s) const {
-  const double step_s = kLookAhead * (last_s() - first_s());
-  const bool at_end = parameter_s + step_s > last_s();
-  const glm::dvec3 velocity_mps = way_.curve().motion_at(parameter_s + (at_end ? -step_s : step_s)).velocity_mps;
-  const double curve_mps = length(velocity_mps);
-  return curve_mps > 0 ? velocity_mps / curve_mps : glm::dvec3(0);
+// Where the curve itself stands: the direction in which it goes on, else the one in which it came. Looked for nearby,
+// and farther away only where more than the velocity vanishes and the direction changes the less.
+glm::dvec3 ConstantSpeed::tangent_beside(double parameter_s) const {
+  for (double share = kNearest; share < 1; share *= 10) {
+    const double step_s = share * (last_s() - first_s());
+    for (const double beside_s : {parameter_s + step_s, parameter_s - step_s}) {
+      const glm::dvec3 velocity_mps = way_.curve().motion_at(beside_s).velocity_mps;
+      const double curve_mps = length(velocity_mps);
+      if (curve_mps > kStanding * speed_mps_) return velocity_mps / curve_mps;
+    }
+  }
+  return {0, 0, 0};
 }
 
 Motion ConstantSpeed::motion_at(double time_s) const {
@@ -36,7 +42,7 @@ Motion ConstantSpeed::motion_at(double time_s) const {
   const double curve_mps = length(on_curve.velocity_mps);
   const bool standing = curve_mps <= kStanding * speed_mps_;
 
-  const glm::dvec3 tangent = standing ? tangent_at(parameter_s) : on_curve.velocity_mps / curve_mps;
+  const glm::dvec3 tangent = standing ? tangent_beside(parameter_s) : on_curve.velocity_mps / curve_mps;
   Motion motion{on_curve.position_m + (time_s - inside_s) * speed_mps_ * tangent, speed_mps_ * tangent, {0, 0, 0}};
   if (standing || inside_s != time_s) return motion;
   const glm::dvec3 across_mps2 = on_curve.acceleration_mps2 - dot(on_curve.acceleration_mps2, tangent) * tangent;

@@ -24,7 +24,7 @@ class ConstantSpeed {
   [[nodiscard]] std::vector<double> sample_times_s(int per_piece) const;
 
  private:
-  [[nodiscard]] glm::dvec3 tangent_at(double parameter_s) const;
+  [[nodiscard]] glm::dvec3 tangent_beside(double parameter_s) const;
 
   ArcLength way_;
   double speed_mps_ = 0;

@@ -2,6 +2,7 @@
 #include "spline/nose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -40,48 +41,38 @@ glm::dvec3 Nose::Turn::nose_at(double time_s) const {
 }
 
 Nose::Nose(const Course& course, const Probes& probes) {
-  const double begin_s = probes.all.front().time_s;
-  const double end_s = probes.all.back().time_s;
-  const std::vector<Gap> gaps = gaps_in(probes);
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const double from_s = gaps[i].from->time_s;
-    const double to_s = gaps[i].to->time_s;
-    const bool first = i == 0;
-    const bool last = i + 1 == gaps.size();
-    const double earliest_s = first ? begin_s : std::midpoint(gaps[i - 1].to->time_s, from_s);
-    const double latest_s = last ? end_s : std::midpoint(to_s, gaps[i + 1].from->time_s);
-    const bool at_an_end = gaps[i].from->stands() || gaps[i].to->stands();
-    turns_.push_back(at_an_end ? held(gaps[i]) : turn_over(gaps[i], earliest_s, latest_s, course));
+  for (const Span& span : unclear_spans(probes)) turns_.push_back(turn_over(span, course, probes));
+}
+
+// Widened to the time that their turns take, and none over another.
+std::vector<Nose::Span> Nose::unclear_spans(const Probes& probes) {
+  const std::vector<Probe>& all = probes.all;
+  std::vector<Span> spans;
+  for (std::size_t first = 0, past = 0; first + 1 < all.size(); first = past + 1) {
+    past = first;
+    while (past + 1 < all.size() && probes.unclear_after(past)) ++past;
+    if (past == first) continue;
+    const double half_s = angle_between(all[first].nose, all[past].nose) / std::numbers::pi * kAboutTurn_s / 2;
+    const double middle_s = std::midpoint(all[first].time_s, all[past].time_s);
+    const Span span{std::max(std::min(all[first].time_s, middle_s - half_s), all.front().time_s),
+                    std::min(std::max(all[past].time_s, middle_s + half_s), all.back().time_s)};
+    if (!spans.empty() && span.from_s <= spans.back().to_s)
+      spans.back().to_s = std::max(spans.back().to_s, span.to_s);
+    else
+      spans.push_back(span);
   }
+  return spans;
 }
 
-std::vector<Nose::Gap> Nose::gaps_in(const Probes& probes) {
-  std::vector<Gap> gaps;
-  for (std::size_t i = 0; i + 1 < probes.all.size(); ++i) {
-    if (!probes.unclear_after(i)) continue;
-    const bool goes_on = !gaps.empty() && gaps.back().to == &probes.all[i];
-    if (!goes_on) gaps.push_back({&probes.all[i], nullptr});
-    gaps.back().to = &probes.all[i + 1];
-  }
-  return gaps;
-}
-
-// A gap that begins or ends standing still lies at the beginning or the end of the whole course.
-Nose::Turn Nose::held(const Gap& gap) {
-  const glm::dvec3 known = gap.from->stands() ? gap.to->nose : gap.from->nose;
-  const glm::dvec3 nose = known == glm::dvec3(0) ? kForward : known;
-  return {gap.from->time_s, gap.to->time_s, nose, nose, nose};
-}
-
-Nose::Turn Nose::turn_over(const Gap& gap, double earliest_s, double latest_s, const Course& course) {
-  const double about_turns = angle_between(gap.from->nose, gap.to->nose) / std::numbers::pi;
-  const double middle_s = std::midpoint(gap.from->time_s, gap.to->time_s);
-  const double half_s = about_turns * kAboutTurn_s / 2;
-  const double from_s = std::max(std::min(gap.from->time_s, middle_s - half_s), earliest_s);
-  const double to_s = std::min(std::max(gap.to->time_s, middle_s + half_s), latest_s);
-  const glm::dvec3 from_nose = direction_of(motion_at(course, from_s).velocity_mps);
-  const glm::dvec3 to_nose = direction_of(motion_at(course, to_s).velocity_mps);
-  return {from_s, to_s, from_nose, half_way(from_nose, to_nose), to_nose};
+Nose::Turn Nose::turn_over(const Span& span, const Course& course, const Probes& probes) {
+  const bool stands_before = span.from_s == probes.all.front().time_s && probes.all.front().stands();
+  const bool stands_after = span.to_s == probes.all.back().time_s && probes.all.back().stands();
+  glm::dvec3 from = direction_of(motion_at(course, span.from_s).velocity_mps);
+  glm::dvec3 to = direction_of(motion_at(course, span.to_s).velocity_mps);
+  if (stands_before && stands_after) from = to = kForward;
+  if (stands_before) from = to;
+  if (stands_after) to = from;
+  return {span.from_s, span.to_s, from, half_way(from, to), to};
 }
 
 const Nose::Turn* Nose::turn_at(double time_s) const {
@@ -103,7 +94,7 @@ std::vector<double> Nose::sample_times_s(const Probes& probes) const {
     if (!turning_at(probe.time_s)) times_s.push_back(probe.time_s);
   for (const Turn& turn : turns_)
     for (int i = 0; i <= kSamplesPerTurn; ++i)
-      times_s.push_back(turn.from_s + (turn.to_s - turn.from_s) * i / kSamplesPerTurn);
+      times_s.push_back(std::lerp(turn.from_s, turn.to_s, static_cast<double>(i) / kSamplesPerTurn));
   std::sort(times_s.begin(), times_s.end());
   times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
   return times_s;

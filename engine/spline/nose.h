@@ -10,9 +10,9 @@ namespace sigs {
 
 // Where the nose points at any time: along the velocity, save where the course stands or has a corner. Those moments
 // lie in a Turn: there the nose goes along a great circle from the last good direction to the next one, a full
-// about-turn by way of the right-hand side. A turn takes as long as the course stands, and at least 0.2 s for 180
-// degrees, in proportion, as far as the next turn leaves the room. Standing at the beginning or the end the nose waits
-// in the next or rests in the last direction; where there is none at all it points along world X.
+// about-turn by way of the right-hand side. A turn takes as long as the course stands, and no less than 0.2 s for 180
+// degrees, in proportion; turns that would overlap are one. Standing at the beginning or the end the nose waits in the
+// next or rests in the last direction; where there is none at all it points along world X.
 class Nose {
  public:
   Nose(const Course& course, const Probes& probes);
@@ -37,15 +37,13 @@ class Nose {
     [[nodiscard]] glm::dvec3 nose_at(double time_s) const;
   };
 
-  // A stretch of time between two probes in which the velocity does not tell the nose.
-  struct Gap {
-    const Probe* from;
-    const Probe* to;
+  struct Span {
+    double from_s;
+    double to_s;
   };
 
-  [[nodiscard]] static std::vector<Gap> gaps_in(const Probes& probes);
-  [[nodiscard]] static Turn held(const Gap& gap);
-  [[nodiscard]] static Turn turn_over(const Gap& gap, double earliest_s, double latest_s, const Course& course);
+  [[nodiscard]] static std::vector<Span> unclear_spans(const Probes& probes);
+  [[nodiscard]] static Turn turn_over(const Span& span, const Course& course, const Probes& probes);
   [[nodiscard]] const Turn* turn_at(double time_s) const;
 
   std::vector<Turn> turns_;  // in order of time, none over another

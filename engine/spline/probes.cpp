@@ -2,7 +2,7 @@
 #include "spline/probes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "base/angles.h"
 #include "spline/directions.h"
@@ -25,9 +25,12 @@ constexpr double kFinestForForce_s = 10e-3;  // well below the time in which the
 constexpr double kSmallestGap_s = 1e-7;      // nearer moments are one
 
 constexpr double kTolerance_rad = rad_of_deg(2.0);
+
+// The first look, before it is refined: so many equal parts of a piece, fewer where there are very many pieces.
 constexpr double kMostPartsPerPiece = 32;
 constexpr double kFewestPartsPerPiece = 4;
-constexpr double kMostParts = 2e5;  // of the whole course, as far as the fewest per piece allow
+constexpr double kMostParts = 2e5;              // of the whole course, as far as the fewest per piece allow
+constexpr std::size_t kMostProbesPerPart = 16;  // wild flights take 4; beyond, rounding is looked at ever closer
 
 std::vector<double> spread(std::vector<double> times_s) {
   std::vector<double> kept_s;
@@ -50,9 +53,9 @@ std::vector<double> coarse_times_s(const Course& course) {
 class Prober {
  public:
   explicit Prober(const Course& course) : course_(course) {
-    const double thousands = static_cast<double>(piece_count(course)) / 1000;
-    probes_.tolerance_rad =
-        kTolerance_rad * std::clamp(thousands, 1.0, 4.0);  // long courses are looked at less closely
+    const double thousands =
+        static_cast<double>(piece_count(course)) / 1000;  // long courses are looked at less closely
+    probes_.tolerance_rad = kTolerance_rad * std::clamp(thousands, 1.0, 4.0);
   }
 
   [[nodiscard]] Probes run() && {
@@ -60,6 +63,7 @@ class Prober {
     double fastest_mps = 0;
     for (const double time_s : times_s)
       fastest_mps = std::max(fastest_mps, length(motion_at(course_, time_s).velocity_mps));
+    most_ = kMostProbesPerPart * times_s.size();
     standing_mps_ = std::max(kStanding_mps, kStandingShare * fastest_mps);
     probes_.all.push_back(probe_at(times_s.front()));
     for (std::size_t i = 1; i < times_s.size(); ++i) append(probe_at(times_s[i]));
@@ -87,7 +91,7 @@ class Prober {
 
   [[nodiscard]] bool too_coarse(const Probe& a, const Probe& b) const {
     const double gap_s = b.time_s - a.time_s;
-    if (gap_s < 2 * kFinest_s || (a.stands() && b.stands())) return false;
+    if (probes_.all.size() > most_ || gap_s < 2 * kFinest_s || (a.stands() && b.stands())) return false;
     if (a.stands() != b.stands() || angle_between(a.nose, b.nose) > probes_.tolerance_rad) return true;
     const glm::dvec3 force_a = specific_force_mps2(a.motion);
     const glm::dvec3 force_b = specific_force_mps2(b.motion);
@@ -96,6 +100,7 @@ class Prober {
 
   const Course& course_;
   double standing_mps_ = 0;
+  std::size_t most_ = 0;
   Probes probes_;
 };
 

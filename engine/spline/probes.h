@@ -28,7 +28,7 @@ struct Probes {
 };
 
 // From a little before the first waypoint to a little after the last one, closely enough for nose and specific force to
-// turn by a few degrees at most from probe to probe. Their number is bounded by how much a cubic piece can turn.
+// turn by a few degrees at most from probe to probe; at most some 500 for each piece of the course.
 [[nodiscard]] Probes probes_of(const Course& course);
 
 }  // namespace sigs

@@ -86,13 +86,14 @@ TEST_CASE("a fast loop is flown upside down at its top and upright before and af
 TEST_CASE("a path bent down hard is pushed over upright and not flown upside down") {
   std::vector<TimedWaypoint> hill;
   for (int i = 0; i <= 10; ++i) hill.push_back({i * 1.0, {60.0 * i, 0, -15 * (i % 2)}});
-  const Trajectory trajectory = made(hill);
-  bool pushed = false;
-  for (double time_s = 0; time_s < 10; time_s += 0.01) {
-    pushed = pushed || trajectory.acceleration_mps2(time_s).z > 2 * kGravity_mps2;
-    CHECK(std::abs(attitude_at(trajectory, time_s).roll_rad) < 1e-6);
+  std::vector<TimedWaypoint> all_the_way;
+  for (int i = 0; i <= 12; ++i) all_the_way.push_back({i * 0.5, {50.0 * i, 0, 10 * std::pow(0.5 * i - 3, 2)}});
+  for (const auto& waypoints : {hill, all_the_way}) {
+    const Trajectory trajectory = made(waypoints);
+    CHECK(trajectory.acceleration_mps2(5).z > 1.5 * kGravity_mps2);
+    for (double time_s = 0; time_s < waypoints.back().time_s; time_s += 0.01)
+      CHECK(std::abs(attitude_at(trajectory, time_s).roll_rad) < 1e-6);
   }
-  CHECK(pushed);
 }
 
 TEST_CASE("wings are level on request") {
@@ -136,6 +137,14 @@ TEST_CASE("a hovering intruder is level and looks along world X") {
     }
 }
 
+TEST_CASE("too slow to have a direction is level along world X at every time") {
+  for (double last_s = 28; last_s < 33; last_s += 0.0137)  // whatever way the ends of time are rounded
+    for (const double time_s : {-100.0, 0.0, 10.0, last_s, last_s + 1.999, last_s + 2, last_s + 100}) {
+      const Trajectory trajectory = made({{-7.7, {0, 0, -30}}, {last_s, {0, 0, -30.5}}});
+      CHECK(rotation_between_rad(trajectory.world_from_body(time_s).rotation, {1, 0, 0, 0}) < 1e-12);
+    }
+}
+
 TEST_CASE("a straight line is flown level and straight up as if pitched up from world X") {
   const Attitude line = attitude_at(made({{0, {0, 0, 0}}, {10, {300, 400, -100}}}), 4);
   CHECK(std::abs(line.roll_rad) < 1e-12);
@@ -150,6 +159,7 @@ TEST_CASE("a level reversal is turned through to the right in a fifth of a secon
   CHECK(distance(nose_in_world(trajectory, 3.89), {1, 0, 0}) < 1e-12);
   CHECK(distance(nose_in_world(trajectory, 4), {0, 1, 0}) < 1e-6);
   CHECK(distance(nose_in_world(trajectory, 4.11), {-1, 0, 0}) < 1e-12);
+  for (const double time_s : {3.92, 4.0, 4.08}) CHECK(std::abs(attitude_at(trajectory, time_s).roll_rad) < 1e-6);
 }
 
 TEST_CASE("standing at the beginning the nose waits in the direction of departure") {

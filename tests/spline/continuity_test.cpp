@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flights.h"
+#include "spline/attitude.h"
 #include "spline/trajectory.h"
 
 namespace sigs {
@@ -69,6 +70,22 @@ TEST_CASE("attitude is continuous in many wild flights") {
     const auto settings = all_settings()[seed % 8];
     check_continuous(made(waypoints, settings), -1, waypoints.back().time_s + 1);
   }
+}
+
+TEST_CASE("two reversals close together are both turned through") {
+  // Velocity along X is 0.01 (s - 102) (s - 108): backward for 6 s in a piece of 320 s, between two of its 32 first
+  // probes, and so gently that the force tells nothing.
+  const CubicPiece piece{{{0, 0, 0}, {110.16, 0, 0}, {-1.05, 0, 0}, {0.01 / 3, 0, 0}}};
+  const PiecewiseCubic curve({0, 320}, {piece}, {320 * 110.16 - 320 * 320 * 1.05 + 320 * 320 * 320 * 0.01 / 3, 0, 0});
+  const AttitudeTable attitude(curve, Bank::coordinated, 1);
+  const auto nose_at = [&](double time_s) {
+    return attitude.world_from_body(time_s, curve.motion_at(time_s).velocity_mps) * glm::dvec3(1, 0, 0);
+  };
+  CHECK(distance(nose_at(101), {1, 0, 0}) < 1e-12);
+  CHECK(distance(nose_at(105), {-1, 0, 0}) < 1e-12);
+  CHECK(distance(nose_at(109), {1, 0, 0}) < 1e-12);
+  for (double time_s = 100; time_s < 110; time_s += 1e-4)
+    CHECK(distance(nose_at(time_s), nose_at(time_s + 1e-4)) < 24 * 1e-4);  // pi in 0.2 s, half as fast again half-way
 }
 
 TEST_CASE("a fast loop and a push-over turn no faster than their paths ask for") {

@@ -76,9 +76,17 @@ std::vector<TimedWaypoint> pause() {
           {14, {200, 200, -170}}};
 }
 
+std::vector<TimedWaypoint> cusp() {
+  const glm::dvec3 corner_m{200, 0, kHeight_z_m};
+  return {{0, {0, 0, kHeight_z_m}},     {2, {100, 0, kHeight_z_m}}, {4, corner_m}, {6, corner_m}, {8, corner_m},
+          {10, {150, 50, kHeight_z_m}}, {12, {100, 100, -160}}};
+}
+
 std::vector<TimedWaypoint> wild(int count, unsigned seed) {
   std::mt19937 random(seed);
-  const auto unit = [&random] { return random() / 4294967296.0; };  // std distributions differ between libraries
+  const auto unit = [&random] {
+    return static_cast<double>(random()) / 4294967296.0;
+  };  // std distributions differ between libraries
   std::vector<TimedWaypoint> flight;
   double time_s = 0;
   for (int i = 0; i < count; ++i, time_s += 0.4 + 3.6 * unit()) {
@@ -97,6 +105,7 @@ std::vector<Flight> all_flights() {
           {"reversal", reversal({300, 40, 0})},
           {"reversal straight up", reversal({0, 0, -100})},
           {"pause", pause()},
+          {"cusp", cusp()},
           {"wild", wild(12, 1)},
           {"wild too", wild(12, 2)},
           {"one waypoint", {{3, here_m}}},

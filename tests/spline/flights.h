@@ -25,6 +25,9 @@ namespace sigs::test {
 // Several waypoints at the same place, in the middle of a flight.
 [[nodiscard]] std::vector<TimedWaypoint> pause();
 
+// Three waypoints at the same place: the approximating spline stops there for no time and goes back at 45 degrees.
+[[nodiscard]] std::vector<TimedWaypoint> cusp();
+
 // count waypoints anywhere in a cube of 400 m, 0.4 to 4 s apart; the same for the same seed.
 [[nodiscard]] std::vector<TimedWaypoint> wild(int count, unsigned seed);
 
