@@ -12,8 +12,8 @@ namespace sigs::footage {
 
 namespace {
 
-constexpr int kCube = 96;               // cells along one side of the noise cube
-constexpr float kExtinction = 0.030F;   // 1/m in the thick of a cloud
+constexpr int kCube = 96;              // cells along one side of the noise cube
+constexpr float kExtinction = 0.026F;  // 1/m in the thick of a cloud
 constexpr double kReach_m = 42000;
 
 // Distance to the nearest of one jittered point in each of count^3 boxes of a cube of side 1 that repeats.
@@ -47,7 +47,9 @@ float heaps(const glm::vec3& p) {
 }
 
 // Light that a thickness of cloud passes on: the straight part, and the part that wanders through by many bounces.
-float passed(float thickness) { return 0.62F * std::exp(-thickness) + 0.38F * std::exp(-0.16F * thickness); }
+float passed(float thickness) {
+  return 0.62F * std::exp(-thickness) + 0.38F * std::exp(-0.16F * thickness);
+}
 
 }  // namespace
 
@@ -55,7 +57,8 @@ Clouds::Clouds() : billows_(static_cast<std::size_t>(kCube) * kCube * kCube) {
   for_each_row(kCube, [&](int z) {
     for (int y = 0; y < kCube; ++y)
       for (int x = 0; x < kCube; ++x)
-        billows_[(static_cast<std::size_t>(z) * kCube + y) * kCube + x] = heaps(glm::vec3(x, y, z) / static_cast<float>(kCube));
+        billows_[(static_cast<std::size_t>(z) * kCube + y) * kCube + x] =
+            heaps(glm::vec3(x, y, z) / static_cast<float>(kCube));
   });
 }
 
@@ -77,11 +80,11 @@ float Clouds::billows(const glm::dvec3& p) const {
 }
 
 float Clouds::cover(const glm::dvec2& p_m) const {
-  const float shape = fractal_noise(p_m / 2300.0, 3, 111) + 0.35F * fractal_noise(p_m / 9000.0, 2, 115);
-  return smooth(0.02F, 0.62F, shape);
+  const float shape = fractal_noise(p_m / 2800.0, 3, 111) + 0.35F * fractal_noise(p_m / 9000.0, 2, 115);
+  return smooth(0.0F, 0.62F, shape);
 }
 
-float Clouds::density(const glm::dvec3& p_m, float cover_here, bool detail) const {
+float Clouds::density(const glm::dvec3& p_m, float cover_here, float detail) const {
   const float h = static_cast<float>((p_m.z - kBase_m) / (kTop_m - kBase_m));
   if (h <= 0 || h >= 1 || cover_here <= 0) return 0;
   const float top = 0.12F + 0.88F * cover_here;
@@ -89,10 +92,13 @@ float Clouds::density(const glm::dvec3& p_m, float cover_here, bool detail) cons
   const float body = cover_here * profile;
   if (body <= 0.01F) return 0;
   const float coarse = billows(p_m / 1500.0);
-  float dense = body * 1.5F + coarse - 1.02F;
+  float dense = body * 1.5F + coarse - 0.94F;
   if (dense <= 0) return 0;
-  if (detail) dense -= 0.34F * (0.85F - billows(glm::dvec3(p_m.y, p_m.z, p_m.x) / 330.0)) * (1 - std::min(dense * 1.5F, 0.8F));
-  return std::clamp(dense * 4.5F, 0.0F, 1.0F);
+  constexpr float kMeanBillow = 0.52F;
+  const float fine =
+      detail <= 0 ? kMeanBillow : glm::mix(kMeanBillow, billows(glm::dvec3(p_m.y, p_m.z, p_m.x) / 360.0), detail);
+  dense -= 0.46F * (0.80F - fine) * (1 - std::min(dense * 1.5F, 0.8F));
+  return std::clamp(dense * 2.8F, 0.0F, 1.0F);
 }
 
 float Clouds::depth_to_sun(const glm::dvec3& p_m) const {
@@ -101,7 +107,7 @@ float Clouds::depth_to_sun(const glm::dvec3& p_m) const {
   double behind = 0;
   for (const double step : {35.0, 60.0, 110.0, 190.0, 320.0}) {
     const glm::dvec3 there = p_m + up * (behind + 0.5 * step);
-    depth += density(there, cover(glm::dvec2(there)), false) * static_cast<float>(step);
+    depth += density(there, cover(glm::dvec2(there)), 0) * static_cast<float>(step);
     behind += step;
   }
   return depth * kExtinction;
@@ -119,17 +125,19 @@ glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dve
   if (climb < 0.02) return glm::vec4(0);
   const double enter_m = (kBase_m - height_m) / climb, leave_m = std::min((kTop_m - height_m) / climb, kReach_m);
   if (enter_m >= kReach_m) return glm::vec4(0);
-  const double step_m = std::max((leave_m - enter_m) / 72, 22.0);
+  const double step_m = std::max((leave_m - enter_m) / 90, 20.0);
+  const float detail = std::min(1.0F, 60.0F / static_cast<float>(step_m));  // finer than the steps would be speckle
   glm::vec3 light{0};
   float clear = 1;
   float depth_weight = 0, depth_sum = 0;
   for (double t = enter_m + dither * step_m; t < leave_m && clear > 0.015F; t += step_m) {
     const glm::dvec3 p{eye_m.x + t * ray.x, eye_m.y + t * ray.y, height_m + t * climb};
-    const float here = density(p, cover(glm::dvec2(p)), true);
+    const float here = density(p, cover(glm::dvec2(p)), detail);
     if (here <= 0) continue;
     const float h = static_cast<float>((p.z - kBase_m) / (kTop_m - kBase_m));
     const glm::vec3 sun = kSunlight * (1.12F * passed(depth_to_sun(p)));
-    const glm::vec3 sky = glm::mix(glm::vec3(0.20F, 0.235F, 0.28F), glm::vec3(0.36F, 0.42F, 0.52F), smooth(0.0F, 0.7F, h));
+    const glm::vec3 sky =
+        glm::mix(glm::vec3(0.20F, 0.235F, 0.28F), glm::vec3(0.36F, 0.42F, 0.52F), smooth(0.0F, 0.7F, h));
     const float kept = std::exp(-here * kExtinction * static_cast<float>(step_m));
     const float share = clear * (1 - kept);
     light += share * (sun + sky);
@@ -139,7 +147,8 @@ glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dve
   }
   if (depth_weight <= 0) return glm::vec4(0);
   const double distance_m = depth_sum / depth_weight;
-  const float opacity = (1 - clear) * (1 - smooth(0.55F * float(kReach_m), float(kReach_m), static_cast<float>(distance_m)));
+  const float opacity =
+      (1 - clear) * (1 - smooth(0.55F * float(kReach_m), float(kReach_m), static_cast<float>(distance_m)));
   const glm::vec3 through = clear_share(0.55 * distance_m);  // the air up there is thinner than at the ground
   const glm::vec3 behind = clear_sky(static_cast<float>(climb));
   return {(light / (1 - clear) * through + behind * (1.0F - through)) * opacity, opacity};

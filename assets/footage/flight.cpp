@@ -29,16 +29,17 @@ cv::Mat_<cv::Vec3d> rays_of(const Camera& camera) {
 std::vector<glm::vec3> painted_row(const Clouds& clouds, const GroundMap::Layer& layer, int row) {
   std::vector<glm::vec3> colors(layer.color.cols);
   for (int i = 0; i < layer.color.cols; ++i) {
-    glm::vec3 sum{0};
-    for (int k = 0; k < 4; ++k) {
-      const glm::dvec2 fine{0.5 * (k % 2) - 0.25, 0.5 * (k / 2) - 0.25};
-      const glm::dvec2 p_m = layer.origin_m + layer.cell_m * (glm::dvec2(row, i) + fine);
-      const float shade = layer.cell_m < 25 ? wood_shadow(p_m) : 1.0F;
-      sum += ground_albedo(p_m, layer.cell_m) * (kSunlight * (shade * static_cast<float>(-kToSun.z) * 1.25F) + kSkylight);
-    }
-    // A cloud's shadow is softer than any cell; once a cell is enough.
     const glm::dvec2 middle_m = layer.origin_m + layer.cell_m * glm::dvec2(row, i);
-    colors[i] = 0.25F * sum * glm::mix(glm::vec3(0.42F, 0.46F, 0.53F), glm::vec3(1), clouds.sun_share(middle_m));
+    glm::vec3 albedo{0};
+    const int samples = layer.cell_m < 2 ? 4 : 2;
+    for (int k = 0; k < samples; ++k) {
+      const int corner = samples == 4 ? k : 3 * k;
+      const glm::dvec2 fine{0.5 * (corner % 2) - 0.25, 0.5 * (corner / 2) - 0.25};
+      albedo += ground_albedo(middle_m + layer.cell_m * fine, layer.cell_m) / static_cast<float>(samples);
+    }
+    const float shade = layer.cell_m < 12 ? wood_shadow(middle_m) : 1.0F;
+    const glm::vec3 light = kSunlight * (shade * static_cast<float>(-kToSun.z) * 1.25F) + kSkylight;
+    colors[i] = albedo * light * glm::mix(glm::vec3(0.42F, 0.46F, 0.53F), glm::vec3(1), clouds.sun_share(middle_m));
   }
   return colors;
 }
@@ -53,7 +54,9 @@ glm::dvec2 on_ground(double x_m, const glm::dvec3& ray) {
 
 Attitude tremble(int frame) {
   // Whole numbers of periods over the clip, so that the mean is zero. Amplitudes below a pixel of 1.8 mrad.
-  const auto wave = [&](double periods, double phase) { return std::sin(2 * std::numbers::pi * (periods * frame / kFrames + phase)); };
+  const auto wave = [&](double periods, double phase) {
+    return std::sin(2 * std::numbers::pi * (periods * frame / kFrames + phase));
+  };
   return {.roll_rad = 0.0011 * wave(5, 0.1) + 0.0006 * wave(19, 0.5) + 0.0003 * wave(71, 0.9),
           .pitch_rad = 0.0007 * wave(4, 0.3) + 0.0004 * wave(23, 0.2) + 0.00035 * wave(83, 0.6),
           .yaw_rad = 0.0006 * wave(3, 0.7) + 0.0003 * wave(17, 0.4) + 0.00025 * wave(61, 0.1)};
@@ -63,7 +66,9 @@ Flight::Flight(const Camera& camera)
     : body_(own_body(camera)),
       rays_(rays_of(camera)),
       sky_(clouds_, kFlight_m, kHeight_m),
-      ground_(kFlight_m, [this](const GroundMap::Layer& layer, int row) { return painted_row(clouds_, layer, row); }, draw_objects) {}
+      ground_(
+          kFlight_m, [this](const GroundMap::Layer& layer, int row) { return painted_row(clouds_, layer, row); },
+          draw_objects) {}
 
 glm::vec3 Flight::scenery(int x, int y, double x_m, const glm::dmat3& world_from_camera) const {
   const auto ray_at = [&](int i, int j) {

@@ -15,7 +15,8 @@ constexpr float kUnit = 65535.0F / 2;
 
 GroundMap::Layer empty_layer(int k, double flight_m) {
   const double cell_m = GroundMap::kFinestCell_m * (1 << k), reach_m = kFinestReach_m * (1 << k);
-  const int rows = static_cast<int>((flight_m + reach_m) / cell_m) + 4, columns = static_cast<int>(2 * reach_m / cell_m) + 4;
+  const int rows = static_cast<int>((flight_m + reach_m) / cell_m) + 4,
+            columns = static_cast<int>(2 * reach_m / cell_m) + 4;
   return {cell_m, {-2 * cell_m, -0.5 * cell_m * columns}, cv::Mat_<cv::Vec3w>(rows, columns)};
 }
 
@@ -65,9 +66,9 @@ glm::vec3 GroundMap::mean(const glm::dvec2& p_m, const glm::dvec2& step_right_m,
   const double area_m2 = std::abs(step_right_m.x * step_down_m.y - step_right_m.y * step_down_m.x);
   const double width_m = std::max(area_m2 / length_m, length_m / 16);
   const int taps = std::clamp(static_cast<int>(std::ceil(length_m / width_m)), 1, 16);
-  // A layer holds p only as far as it reaches; further out the next one is coarse enough anyway.
-  const double reach = std::max({std::abs(p_m.y), p_m.x}) / kFinestReach_m;
-  const double level = std::max(std::log2(width_m / kFinestCell_m), std::log2(std::max(reach, 1e-9)));
+  // The finer of the two layers that are mixed must reach as far as p.
+  const double reach = std::max({std::abs(p_m.y), p_m.x, 1.0}) / kFinestReach_m;
+  const double level = std::max(std::log2(width_m / kFinestCell_m), std::log2(reach) + 1);
   glm::vec3 sum{0};
   for (int i = 0; i < taps; ++i) sum += between_layers(p_m + longer * ((i + 0.5) / taps - 0.5), level);
   return sum / static_cast<float>(taps);

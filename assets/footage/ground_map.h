@@ -8,8 +8,8 @@
 
 namespace sigs::footage {
 
-// The level ground, painted once in nested squares: each layer has cells twice as wide as the one before and reaches twice
-// as far. A pixel is then the mean over its own footprint, so nothing flickers however flat the view.
+// The level ground, painted once in nested squares: each layer has cells twice as wide as the one before and reaches
+// twice as far. A pixel is then the mean over its own footprint, so nothing flickers however flat the view.
 class GroundMap {
  public:
   static constexpr double kFinestCell_m = 0.35;
@@ -17,7 +17,7 @@ class GroundMap {
 
   struct Layer {
     double cell_m = 1;
-    glm::dvec2 origin_m{0};  // world X, Y of the centre of the first cell; rows run along X, columns along Y
+    glm::dvec2 origin_m{0};     // world X, Y of the centre of the first cell; rows run along X, columns along Y
     cv::Mat_<cv::Vec3w> color;  // linear light, 65535 is 2.0
   };
 
@@ -28,7 +28,8 @@ class GroundMap {
   GroundMap(double flight_m, const PaintRow& paint, const Finish& finish);
 
   // Mean colour over the parallelogram at p_m spanned by the steps to the next pixels.
-  [[nodiscard]] glm::vec3 mean(const glm::dvec2& p_m, const glm::dvec2& step_right_m, const glm::dvec2& step_down_m) const;
+  [[nodiscard]] glm::vec3 mean(const glm::dvec2& p_m, const glm::dvec2& step_right_m,
+                               const glm::dvec2& step_down_m) const;
 
  private:
   [[nodiscard]] glm::vec3 between_layers(const glm::dvec2& p_m, double level) const;

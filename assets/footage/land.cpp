@@ -35,13 +35,14 @@ struct Crop {
 };
 
 Crop crop_of(std::uint32_t id) {
-  static const Crop kCrops[] = {
-      {{0.095F, 0.150F, 0.040F}, 0.05F, 0.45F}, {{0.120F, 0.175F, 0.052F}, 0.05F, 0.40F}, {{0.070F, 0.135F, 0.030F}, 0.25F, 0.25F},
-      {{0.375F, 0.300F, 0.140F}, 0.30F, 0.20F}, {{0.300F, 0.245F, 0.120F}, 0.35F, 0.25F}, {{0.170F, 0.118F, 0.072F}, 0.20F, 0.35F},
-      {{0.215F, 0.160F, 0.098F}, 0.20F, 0.35F}, {{0.150F, 0.205F, 0.075F}, 0.30F, 0.30F}, {{0.060F, 0.105F, 0.030F}, 0.30F, 0.20F},
-      {{0.105F, 0.165F, 0.045F}, 0.10F, 0.45F}, {{0.240F, 0.235F, 0.100F}, 0.25F, 0.30F}, {{0.430F, 0.370F, 0.050F}, 0.15F, 0.15F}};
+  static const Crop kCrops[] = {{{0.095F, 0.150F, 0.040F}, 0.05F, 0.45F}, {{0.120F, 0.175F, 0.052F}, 0.05F, 0.40F},
+                                {{0.070F, 0.135F, 0.030F}, 0.25F, 0.25F}, {{0.375F, 0.300F, 0.140F}, 0.30F, 0.20F},
+                                {{0.300F, 0.245F, 0.120F}, 0.35F, 0.25F}, {{0.170F, 0.118F, 0.072F}, 0.20F, 0.35F},
+                                {{0.215F, 0.160F, 0.098F}, 0.20F, 0.35F}, {{0.150F, 0.205F, 0.075F}, 0.30F, 0.30F},
+                                {{0.060F, 0.105F, 0.030F}, 0.30F, 0.20F}, {{0.105F, 0.165F, 0.045F}, 0.10F, 0.45F},
+                                {{0.240F, 0.235F, 0.100F}, 0.25F, 0.30F}, {{0.400F, 0.345F, 0.075F}, 0.15F, 0.15F}};
   const float pick = chance(hash(id, 3, 11));
-  const int kind = pick > 0.985F ? 11 : static_cast<int>(pick * 11.0F / 0.985F);
+  const int kind = pick > 0.996F ? 11 : static_cast<int>(pick * 11.0F / 0.996F);
   Crop crop = kCrops[kind];
   crop.color *= 0.85F + 0.3F * chance(hash(id, 5, 12));
   return crop;
@@ -53,7 +54,9 @@ float texture(const glm::dvec2& p_m, double size_m, int octaves, double cell_m, 
   return affordable <= 0 ? 0.0F : fractal_noise(p_m / size_m, std::min(octaves, affordable), seed);
 }
 
-float fading(double size_m, double cell_m) { return smooth(1.0F, 3.0F, static_cast<float>(size_m / cell_m)); }
+float fading(double size_m, double cell_m) {
+  return smooth(1.0F, 3.0F, static_cast<float>(size_m / cell_m));
+}
 
 glm::vec3 field_albedo(const glm::dvec2& p_m, const Field& field, double cell_m) {
   const Crop crop = crop_of(field.id);
@@ -62,7 +65,8 @@ glm::vec3 field_albedo(const glm::dvec2& p_m, const Field& field, double cell_m)
   const float fine = std::cos(field.across_m * (6.2832F / 2.9F) + 2 * texture(p_m, 30, 1, cell_m, 23));
   float shade = 1 + crop.mottled * growth - crop.rows * smooth(0.93F, 1.0F, tram) * 0.8F * fading(3.0, cell_m) +
                 0.28F * crop.rows * fine * fading(1.4, cell_m);
-  shade *= 1 - 0.25F * crop.rows * smooth(0.0F, 1.0F, std::cos(field.across_m * (6.2832F / 63.0F))) * fading(20, cell_m);
+  shade *=
+      1 - 0.25F * crop.rows * smooth(0.0F, 1.0F, std::cos(field.across_m * (6.2832F / 63.0F))) * fading(20, cell_m);
   const glm::vec3 tint{1 + 0.12F * growth, 1.0F, 1 + 0.05F * growth};
   return crop.color * tint * glm::max(shade, 0.3F);
 }
@@ -103,7 +107,8 @@ Field field_at(const glm::dvec2& p_m) {
   const glm::dvec2 bent = p_m + 22.0 * glm::dvec2(gradient_noise(p_m / 420.0, 61), gradient_noise(p_m / 420.0, 62));
   const CellHit block = cell_at(bent / kBlock_m, 63);
   const double turn = 6.2832 * chance(hash(block.id));
-  const double u = std::cos(turn) * bent.x + std::sin(turn) * bent.y, v = std::cos(turn) * bent.y - std::sin(turn) * bent.x;
+  const double u = std::cos(turn) * bent.x + std::sin(turn) * bent.y,
+               v = std::cos(turn) * bent.y - std::sin(turn) * bent.x;
   const Strip strip = strip_at(u, 130, block.id);
   const std::uint32_t along = hash(strip.number, 1, block.id);
   const Strip piece = strip_at(v, 270, along);
@@ -129,7 +134,9 @@ float distance_to_river_m(const glm::dvec2& p_m) {
   return static_cast<float>(std::abs(p_m.x - middle) / std::sqrt(1 + slope * slope));
 }
 
-float river_half_width_m(const glm::dvec2& p_m) { return 15 + 6 * gradient_noise(p_m / 130.0, 52); }
+float river_half_width_m(const glm::dvec2& p_m) {
+  return 15 + 6 * gradient_noise(p_m / 130.0, 52);
+}
 
 float distance_to_road_m(const glm::dvec2& p_m) {
   const double x = p_m.x;

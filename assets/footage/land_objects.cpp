@@ -40,33 +40,57 @@ const glm::vec2 kAwayFromSun = -glm::vec2(kToSun) / static_cast<float>(-kToSun.z
 void draw_shadow(Brush& brush, const glm::dvec2& middle_m, float radius_m, float height_m) {
   const glm::vec2 throw_m = kAwayFromSun * height_m;
   const float length = glm::length(throw_m);
-  brush.touch(middle_m + 0.5 * glm::dvec2(throw_m), radius_m + 0.5 * length, [&](const glm::vec2& at, const glm::vec3& old) {
-    const glm::vec2 along = throw_m / length;
-    const float u = glm::max(std::abs(glm::dot(at, along)) - 0.5F * length, 0.0F), v = at.x * along.y - at.y * along.x;
-    const float inside = 1 - smooth(radius_m - brush.soft_m(), radius_m + 0.5F * brush.soft_m(), std::hypot(u, v));
-    return old * (1 - 0.62F * inside);
-  });
+  brush.touch(
+      middle_m + 0.5 * glm::dvec2(throw_m), radius_m + 0.5 * length, [&](const glm::vec2& at, const glm::vec3& old) {
+        const glm::vec2 along = throw_m / length;
+        const float u = glm::max(std::abs(glm::dot(at, along)) - 0.5F * length, 0.0F),
+                    v = at.x * along.y - at.y * along.x;
+        const float inside = 1 - smooth(radius_m - brush.soft_m(), radius_m + 0.5F * brush.soft_m(), std::hypot(u, v));
+        return old * (1 - 0.52F * inside);
+      });
 }
 
-void draw_tree(Brush& brush, const glm::dvec2& middle_m, std::uint32_t id) {
-  const float radius_m = 2.2F + 3.2F * chance(hash(id)), height_m = 1.9F * radius_m;
-  draw_shadow(brush, middle_m, 0.9F * radius_m, height_m);
-  const glm::vec3 leaf = glm::mix(glm::vec3(0.040F, 0.070F, 0.020F), glm::vec3(0.085F, 0.115F, 0.034F), chance(hash(id, 1, 1)));
+// The map is flat, but a tree is seen from the side: its top hides the ground behind it. Each is drawn as it hides that
+// ground from the middle of the flight.
+glm::vec2 hidden_for_each_metre(const glm::dvec2& p_m) {
+  constexpr double kEyeHeight_m = 150, kMiddle_x_m = 88, kMost = 7;
+  const glm::dvec2 lean = (p_m - glm::dvec2(kMiddle_x_m, 0)) / kEyeHeight_m;
+  return glm::vec2(lean * std::min(1.0, kMost / std::max(glm::length(lean), 1e-9)));
+}
+
+void draw_tree(Brush& brush, const glm::dvec2& foot_m, std::uint32_t id) {
+  const float radius_m = 2.2F + 3.0F * chance(hash(id)), height_m = radius_m * (1.7F + 0.7F * chance(hash(id, 6, 1)));
+  draw_shadow(brush, foot_m, 0.9F * radius_m, height_m);
+  const glm::vec3 leaf =
+      glm::mix(glm::vec3(0.040F, 0.070F, 0.020F), glm::vec3(0.085F, 0.112F, 0.034F), chance(hash(id, 1, 1)));
+  const glm::vec2 lean = hidden_for_each_metre(foot_m), crown = lean * std::max(height_m - radius_m, 0.1F);
   const glm::vec2 to_sun = glm::normalize(glm::vec2(kToSun));
-  brush.touch(middle_m, 1.3F * radius_m, [&](const glm::vec2& at, const glm::vec3& old) {
-    const float ragged = radius_m * (1 + 0.5F * gradient_noise((middle_m + glm::dvec2(at)) / 2.1, 91));
-    const float inside = 1 - smooth(ragged - brush.soft_m(), ragged + 0.3F * brush.soft_m(), glm::length(at));
-    const float bumps = 1 + 0.5F * gradient_noise((middle_m + glm::dvec2(at)) / 1.3, 92);
-    const float lit = glm::clamp(0.75F + 0.62F * glm::dot(at, to_sun) / radius_m, 0.18F, 1.4F) * bumps;
-    return glm::mix(old, leaf * lit * (kSunlight + kSkylight), inside);
-  });
+  brush.touch(
+      foot_m + 0.5 * glm::dvec2(crown), 0.5F * glm::length(crown) + 1.4F * radius_m,
+      [&](const glm::vec2& at, const glm::vec3& old) {
+        const glm::vec2 from_foot = at + 0.5F * crown;
+        const float up = glm::clamp(glm::dot(from_foot, crown) / std::max(glm::dot(crown, crown), 1e-4F), 0.0F, 1.0F);
+        const glm::vec2 aside = from_foot - up * crown;
+        // Along the line of sight everything is drawn out by the lean, the leaves' pattern too.
+        const glm::dvec2 pattern = glm::dvec2(aside) + glm::dvec2(foot_m) + glm::dvec2(2.5 * up, 3.5 * up);
+        const float ragged = radius_m * (1 + 0.5F * gradient_noise(pattern / 2.1, 91));
+        const float inside = 1 - smooth(ragged - brush.soft_m(), ragged + 0.3F * brush.soft_m(), glm::length(aside));
+        const float bumps = 1 + 0.6F * gradient_noise(pattern / 1.3, 92);
+        const float lit =
+            glm::clamp(0.38F + 0.50F * up + 0.40F * glm::dot(aside, to_sun) / radius_m, 0.15F, 1.4F) * bumps;
+        return glm::mix(old, leaf * lit * (kSunlight + kSkylight), inside);
+      });
 }
 
 void draw_house(Brush& brush, const glm::dvec2& middle_m, std::uint32_t id) {
   const double turn = 6.2832 * chance(hash(id, 1, 5));
-  const glm::vec2 ridge{static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn))}, side{-ridge.y, ridge.x};
+  const glm::vec2 ridge{static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn))},
+      side{-ridge.y, ridge.x};
   const glm::vec2 half{5.0F + 4.5F * chance(hash(id, 2, 5)), 3.8F + 1.8F * chance(hash(id, 3, 5))};
-  static const glm::vec3 kRoofs[] = {{0.36F, 0.155F, 0.095F}, {0.30F, 0.13F, 0.085F}, {0.20F, 0.115F, 0.09F}, {0.15F, 0.15F, 0.16F},
+  static const glm::vec3 kRoofs[] = {{0.36F, 0.155F, 0.095F},
+                                     {0.30F, 0.13F, 0.085F},
+                                     {0.20F, 0.115F, 0.09F},
+                                     {0.15F, 0.15F, 0.16F},
                                      {0.42F, 0.24F, 0.16F}};
   const glm::vec3 roof = kRoofs[hash(id, 4, 5) % 5] * (0.85F + 0.3F * chance(hash(id, 5, 5)));
   draw_shadow(brush, middle_m, half.y * 1.05F, 6.5F);
@@ -88,7 +112,7 @@ bool tree_stands(const glm::dvec2& p_m, float draw) {
   if (field.to_lane_m < 10) return field.to_lane_m > 4 && draw < 0.42F;
   if (field.hedged && field.to_edge_m < 6) return draw < 0.8F;
   if (wood_at(p_m) > -0.03F && wood_at(p_m) < 0.01F) return draw < 0.8F;
-  return draw < 0.012F;
+  return draw < 0.0015F;
 }
 
 bool house_stands(const glm::dvec2& p_m, float draw) {
@@ -97,11 +121,12 @@ bool house_stands(const glm::dvec2& p_m, float draw) {
   return draw < 0.75F * village_at(p_m) || draw > 0.9994F;
 }
 
-// Calls visit(place, id) for one jittered place in each square of spacing_m that the layer holds.
+// Calls visit(place, id) for one jittered place in each square of spacing_m that the layer holds, the farthest first.
 template <class Visit>
 void for_each_place(const GroundMap::Layer& layer, double spacing_m, std::uint32_t seed, const Visit& visit) {
   const glm::dvec2 far = layer.origin_m + layer.cell_m * glm::dvec2(layer.color.rows, layer.color.cols);
-  for (int i = int(std::floor(layer.origin_m.x / spacing_m)) - 1; i * spacing_m < far.x; ++i)
+  const int first = static_cast<int>(std::floor(layer.origin_m.x / spacing_m)) - 1;
+  for (int i = static_cast<int>(std::ceil(far.x / spacing_m)); i >= first; --i)
     for (int j = int(std::floor(layer.origin_m.y / spacing_m)) - 1; j * spacing_m < far.y; ++j) {
       const std::uint32_t id = hash(i, j, seed);
       visit(spacing_m * (glm::dvec2(i, j) + glm::dvec2(chance(hash(id, 1, 1)), chance(hash(id, 2, 1)))), id);

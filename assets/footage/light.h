@@ -17,7 +17,7 @@ inline constexpr glm::vec3 kHaze{0.66F, 0.76F, 0.87F};      // what distance fad
 // Share of light that comes through distance_m of the lower air. Blue is scattered first.
 [[nodiscard]] inline glm::vec3 clear_share(double distance_m) {
   const float d = static_cast<float>(distance_m);
-  return {std::exp(-d / 21000.0F), std::exp(-d / 16000.0F), std::exp(-d / 11500.0F)};
+  return {std::exp(-d / 14500.0F), std::exp(-d / 11500.0F), std::exp(-d / 8500.0F)};
 }
 
 // The cloudless sky seen along a direction that points up by sine_up (0 level, 1 zenith).

@@ -20,8 +20,12 @@ namespace sigs::footage {
   return hash(hash(hash(seed) + static_cast<std::uint32_t>(x)) + static_cast<std::uint32_t>(y));
 }
 // 0..1
-[[nodiscard]] inline float chance(std::uint32_t bits) { return static_cast<float>(bits >> 8) * (1.0F / 16777216.0F); }
-[[nodiscard]] inline float chance(int x, int y, std::uint32_t seed) { return chance(hash(x, y, seed)); }
+[[nodiscard]] inline float chance(std::uint32_t bits) {
+  return static_cast<float>(bits >> 8) * (1.0F / 16777216.0F);
+}
+[[nodiscard]] inline float chance(int x, int y, std::uint32_t seed) {
+  return chance(hash(x, y, seed));
+}
 
 [[nodiscard]] inline float smooth(float low, float high, float x) {
   const float t = glm::clamp((x - low) / (high - low), 0.0F, 1.0F);
@@ -37,9 +41,9 @@ namespace sigs::footage {
 // Voronoi cells around one jittered point in each unit square.
 struct CellHit {
   std::uint32_t id = 0;
-  float to_centre = 0;   // distance to the nearest point
-  float to_border = 0;   // distance to the border with the next cell
-  glm::vec2 offset{0};   // from the nearest point to p
+  float to_centre = 0;  // distance to the nearest point
+  float to_border = 0;  // distance to the border with the next cell
+  glm::vec2 offset{0};  // from the nearest point to p
 };
 [[nodiscard]] CellHit cell_at(const glm::dvec2& p, std::uint32_t seed);
 

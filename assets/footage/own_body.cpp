@@ -46,7 +46,9 @@ double distance_to_body(const glm::dvec3& p) {
 
 glm::dvec3 normal_at(const glm::dvec3& p) {
   constexpr double kStep_m = 1e-4;
-  const auto slope = [&](const glm::dvec3& axis) { return distance_to_body(p + kStep_m * axis) - distance_to_body(p - kStep_m * axis); };
+  const auto slope = [&](const glm::dvec3& axis) {
+    return distance_to_body(p + kStep_m * axis) - distance_to_body(p - kStep_m * axis);
+  };
   return glm::normalize(glm::dvec3(slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})));
 }
 
@@ -57,10 +59,10 @@ glm::vec3 paint_at(const glm::dvec3& p) {
   }
   const double side = p.y - kNoseMiddle.y;
   const float worn = 1 + 0.07F * fractal_noise({p.x * 30, p.y * 30}, 4, 151);
-  if (std::abs(p.x - 0.262) < 0.0011) return glm::vec3(0.16F);                                  // seam of the nose cap
-  if (std::hypot(std::abs(side) - 0.052, p.x - 0.247) < 0.0032) return glm::vec3(0.22F);        // its screws
+  if (std::abs(p.x - 0.262) < 0.0011) return glm::vec3(0.16F);                            // seam of the nose cap
+  if (std::hypot(std::abs(side) - 0.052, p.x - 0.247) < 0.0032) return glm::vec3(0.22F);  // its screws
   if (p.x > 0.262) return glm::vec3(0.66F, 0.17F, 0.045F) * worn;
-  if (std::abs(side) < 0.007) return glm::vec3(0.045F) * worn;                                 // grip tape
+  if (std::abs(side) < 0.007) return glm::vec3(0.045F) * worn;  // grip tape
   return glm::vec3(0.56F, 0.56F, 0.545F) * worn;
 }
 
@@ -72,7 +74,8 @@ glm::vec3 shaded(const glm::dvec3& p, const glm::dvec3& ray) {
   const glm::vec3 half = glm::normalize(glm::vec3(kToSun - ray));
   const float gloss = 0.22F * std::pow(std::max(glm::dot(glm::vec3(normal), half), 0.0F), 34.0F);
   const float grazing = std::pow(1 - std::min(1.0F, static_cast<float>(-glm::dot(normal, ray))), 4.0F);
-  return paint_at(p) * (kSunlight * sun + glm::mix(ground, kSkylight * 1.3F, up)) + kSunlight * gloss + kHaze * 0.14F * grazing;
+  return paint_at(p) * (kSunlight * sun + glm::mix(ground, kSkylight * 1.3F, up)) + kSunlight * gloss +
+         kHaze * 0.14F * grazing;
 }
 
 // Colour and 1, or nothing and 0.

@@ -14,20 +14,22 @@ namespace sigs::footage {
 namespace {
 
 constexpr float kExposure = 0.98F;
+constexpr float kVeil = 0.010F;  // stray light in a cheap lens
 
 // Display value of a linear one: a shoulder for the highlights, a toe for the shadows.
 float toned(float linear) {
-  const float exposed = std::max(linear, 0.0F) * kExposure;
+  const float exposed = std::max(linear, 0.0F) * kExposure + kVeil;
   const float shouldered = exposed < 0.55F ? exposed : 0.55F + 0.45F * (1 - std::exp(-(exposed - 0.55F) / 0.45F));
   const float display = display_of_linear(std::min(shouldered, 1.0F));
-  return display + 0.16F * (display - 0.5F) * 4 * display * (1 - display);
+  return display + 0.07F * (display - 0.5F) * 4 * display * (1 - display);
 }
 
 // The curve by table: 4096 steps in the square root of the light up to 4 are finer than an 8-bit code.
 class ToneTable {
  public:
   ToneTable() : values_(kSteps + 2) {
-    for (int i = 0; i < kSteps + 2; ++i) values_[i] = toned(4.0F * static_cast<float>(i) * static_cast<float>(i) / (kSteps * kSteps));
+    for (int i = 0; i < kSteps + 2; ++i)
+      values_[i] = toned(4.0F * static_cast<float>(i) * static_cast<float>(i) / (kSteps * kSteps));
   }
   [[nodiscard]] float operator()(float linear) const {
     const float at = std::sqrt(std::clamp(linear * 0.25F, 0.0F, 1.0F)) * kSteps;
@@ -69,7 +71,7 @@ Planes ycbcr(const cv::Mat_<cv::Vec3f>& light) {
       const cv::Vec3f& c = light(y, x);
       const float r = tone(c[0] * dim), g = tone(c[1] * dim), b = tone(c[2] * dim);
       const float luma = 0.2126F * r + 0.7152F * g + 0.0722F * b;
-      constexpr float kVivid = 1.12F;
+      constexpr float kVivid = 0.90F;
       planes.luma(y, x) = luma;
       planes.blue(y, x) = kVivid * (b - luma) / 1.8556F;
       planes.red(y, x) = kVivid * (r - luma) / 1.5748F;
@@ -82,7 +84,7 @@ cv::Mat_<float> sharpened(const cv::Mat_<float>& luma) {
   cv::Mat_<float> soft;
   cv::GaussianBlur(luma, soft, {}, 1.2);
   cv::Mat_<float> sharp;
-  cv::addWeighted(luma, 1.45, soft, -0.45, 0, sharp);
+  cv::addWeighted(luma, 1.3, soft, -0.3, 0, sharp);
   return sharp;
 }
 
@@ -112,7 +114,8 @@ std::vector<std::uint8_t> developed(const cv::Mat_<cv::Vec3f>& light, int frame)
       const float value = std::clamp(luma(y, x), 0.0F, 1.0F);
       const float deviation = 1.7F - 1.0F * value;  // the curve lifts the shadows, and their noise with them
       const float code = 16 + 219 * value + deviation * grain(x, y, seed);
-      bytes[static_cast<std::size_t>(y) * light.cols + x] = cv::saturate_cast<std::uint8_t>(std::clamp(code, 16.0F, 235.0F));
+      bytes[static_cast<std::size_t>(y) * light.cols + x] =
+          cv::saturate_cast<std::uint8_t>(std::clamp(code, 16.0F, 235.0F));
     }
   });
   write_chroma(planes.blue, seed + 1, bytes.data() + pixels);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "light.h"
 #include "noise.h"
@@ -37,7 +38,8 @@ SkyMap::SkyMap(const Clouds& clouds, double flight_m, double height_m) : height_
 }
 
 cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
-  cv::Mat_<cv::Vec4f> picture(static_cast<int>(kHeight_rad * kPixelsPerRadian), static_cast<int>(2 * kHalfWidth_rad * kPixelsPerRadian));
+  cv::Mat_<cv::Vec4f> picture(static_cast<int>(kHeight_rad * kPixelsPerRadian),
+                              static_cast<int>(2 * kHalfWidth_rad * kPixelsPerRadian));
   for_each_row(picture.rows, [&](int row) {
     for (int i = 0; i < picture.cols; ++i) {
       const double up = row / kPixelsPerRadian, azimuth = i / kPixelsPerRadian - kHalfWidth_rad;
@@ -46,6 +48,7 @@ cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
       picture(row, i) = {c.r, c.g, c.b, c.a};
     }
   });
+  cv::GaussianBlur(picture, picture, {}, 0.9);  // takes the dither's grain out
   return picture;
 }
 
@@ -75,7 +78,8 @@ glm::vec3 SkyMap::color(double x_m, const glm::dvec3& ray) const {
   sky = glm::mix(sky, glm::vec3(0.93F, 0.95F, 0.98F), cirrus(ray, x_m));
   const double where = std::clamp(x_m / spacing_m_, 0.0, static_cast<double>(places_.size()) - 1.001);
   const int place = static_cast<int>(where);
-  const glm::vec4 cloud = glm::mix(clouds_from(place, x_m, ray), clouds_from(place + 1, x_m, ray), static_cast<float>(where - place));
+  const glm::vec4 cloud =
+      glm::mix(clouds_from(place, x_m, ray), clouds_from(place + 1, x_m, ray), static_cast<float>(where - place));
   sky = sky * (1 - cloud.a) + glm::vec3(cloud);
   sky = glm::mix(sky, far_hills, smooth(-kSoft, kSoft, far_height - climb));
   return glm::mix(sky, near_hills, smooth(-kSoft, kSoft, near_height - climb));

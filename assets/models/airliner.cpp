@@ -14,9 +14,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-glm::dvec3 at(double s_m, double y_m, double z_m) { return {kAirlinerNose_m - s_m, y_m, z_m}; }
+glm::dvec3 at(double s_m, double y_m, double z_m) {
+  return {kAirlinerNose_m - s_m, y_m, z_m};
+}
 
-Patch both_sides(const Patch& left, bool flip_v) { return joined(left, mirrored(left, flip_v)); }
+Patch both_sides(const Patch& left, bool flip_v) {
+  return joined(left, mirrored(left, flip_v));
+}
 
 // Half a fuselage ring on the left, from the crown down to the belly.
 Ring half_ring(double s, double half_width, double top, double bottom) {
@@ -31,19 +35,52 @@ Ring half_ring(double s, double half_width, double top, double bottom) {
 }
 
 Patch fuselage() {
-  const SmoothCurve half_width({{0, 0}, {0.04, 0.19}, {0.15, 0.37}, {0.4, 0.61}, {0.9, 0.93}, {1.6, 1.25}, {2.4, 1.50},
-                                {3.3, 1.72}, {4.4, 1.88}, {5.6, 1.955}, {7, 1.975}, {23.5, 1.975}, {26, 1.93}, {28, 1.82},
-                                {30, 1.62}, {32, 1.33}, {34, 0.97}, {36, 0.58}, {37.2, 0.33}, {kAirlinerLength_m, 0.24}});
-  const SmoothCurve top({{0, -0.55}, {0.04, -0.38}, {0.15, -0.22}, {0.4, 0.0}, {0.9, 0.30}, {1.5, 0.58}, {2.0, 0.92},
-                         {2.6, 1.36}, {3.3, 1.70}, {4.4, 1.95}, {5.6, 2.05}, {7, 2.07}, {26, 2.07}, {30, 2.03},
-                         {33, 1.90}, {36, 1.66}, {37.2, 1.52}, {kAirlinerLength_m, 1.45}});
-  const SmoothCurve bottom({{0, -0.55}, {0.04, -0.73}, {0.15, -0.90}, {0.4, -1.10}, {0.9, -1.36}, {1.6, -1.59}, {2.6, -1.81},
-                            {3.8, -1.97}, {5.2, -2.06}, {7, -2.07}, {23.5, -2.07}, {25.5, -1.94}, {28, -1.58}, {30, -1.20},
-                            {32, -0.76}, {34, -0.27}, {36, 0.28}, {37.2, 0.70}, {kAirlinerLength_m, 0.86}});
+  const SmoothCurve half_width({{0, 0},      {0.04, 0.19},  {0.15, 0.37}, {0.4, 0.61},  {0.9, 0.93},
+                                {1.6, 1.25}, {2.4, 1.50},   {3.3, 1.72},  {4.4, 1.88},  {5.6, 1.955},
+                                {7, 1.975},  {23.5, 1.975}, {26, 1.93},   {28, 1.82},   {30, 1.62},
+                                {32, 1.33},  {34, 0.97},    {36, 0.58},   {37.2, 0.33}, {kAirlinerLength_m, 0.24}});
+  const SmoothCurve top({{0, -0.55},
+                         {0.04, -0.38},
+                         {0.15, -0.22},
+                         {0.4, 0.0},
+                         {0.9, 0.30},
+                         {1.5, 0.58},
+                         {2.0, 0.92},
+                         {2.6, 1.36},
+                         {3.3, 1.70},
+                         {4.4, 1.95},
+                         {5.6, 2.05},
+                         {7, 2.07},
+                         {26, 2.07},
+                         {30, 2.03},
+                         {33, 1.90},
+                         {36, 1.66},
+                         {37.2, 1.52},
+                         {kAirlinerLength_m, 1.45}});
+  const SmoothCurve bottom({{0, -0.55},
+                            {0.04, -0.73},
+                            {0.15, -0.90},
+                            {0.4, -1.10},
+                            {0.9, -1.36},
+                            {1.6, -1.59},
+                            {2.6, -1.81},
+                            {3.8, -1.97},
+                            {5.2, -2.06},
+                            {7, -2.07},
+                            {23.5, -2.07},
+                            {25.5, -1.94},
+                            {28, -1.58},
+                            {30, -1.20},
+                            {32, -0.76},
+                            {34, -0.27},
+                            {36, 0.28},
+                            {37.2, 0.70},
+                            {kAirlinerLength_m, 0.86}});
   std::vector<Ring> rings;
-  for (const double s : {0.0, 0.04, 0.15, 0.27, 0.4, 0.62, 0.9, 1.2, 1.5, 1.75, 2.0, 2.3, 2.6, 2.95, 3.3, 3.8, 4.4, 5.0, 5.6,
-                         6.3, 7.0, 11.0, 15.0, 19.0, 23.5, 24.8, 26.0, 27.0, 28.0, 29.0, 30.0, 31.0, 32.0, 33.0, 34.0, 35.0,
-                         36.0, 36.7, 37.2, kAirlinerLength_m})
+  for (const double s : {0.0,  0.04, 0.15, 0.27, 0.4,  0.62, 0.9,  1.2,  1.5,  1.75,
+                         2.0,  2.3,  2.6,  2.95, 3.3,  3.8,  4.4,  5.0,  5.6,  6.3,
+                         7.0,  11.0, 15.0, 19.0, 23.5, 24.8, 26.0, 27.0, 28.0, 29.0,
+                         30.0, 31.0, 32.0, 33.0, 34.0, 35.0, 36.0, 36.7, 37.2, kAirlinerLength_m})
     rings.push_back(half_ring(s, half_width(s), top(s), bottom(s)));
   rings.emplace_back(rings.back().size(), at(kAirlinerLength_m - 0.15, 0, 1.155));  // the exhaust of the auxiliary unit
   const int last = static_cast<int>(rings.size()) - 2;
@@ -68,7 +105,8 @@ Patch belly_fairing() {
   }
   // The open upper side lies within the fuselage; a lid keeps the body closed.
   for (Ring& ring : rings) ring.push_back(ring.front());
-  return turned_outwards(skin(rings, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, "belly"));
+  return turned_outwards(skin(
+      rings, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, "belly"));
 }
 
 // Leading edge sweep 27.5 degrees, 5 degrees of dihedral, a kink at the engines, and a blended winglet.
@@ -89,7 +127,8 @@ Patch left_wing() {
   const glm::dvec3 tip = stations.back().leading_edge_m;
   const auto winglet = [&](double back, double out, double up, double chord, double cant_deg) {
     const double cant = cant_deg * kPi / 180;
-    stations.push_back({tip + glm::dvec3(-back, out, up), chord, 0.10, -0.01, {0, -std::sin(cant), std::cos(cant)}, 0.01});
+    stations.push_back(
+        {tip + glm::dvec3(-back, out, up), chord, 0.10, -0.01, {0, -std::sin(cant), std::cos(cant)}, 0.01});
   };
   winglet(0.34, 0.55, 0.10, 1.50, 20);
   winglet(0.66, 0.95, 0.36, 1.28, 48);
@@ -111,17 +150,12 @@ Patch fin() {
   const auto station = [](double z, double s, double chord, double thickness) {
     return WingStation{at(s, 0, z), chord, thickness, 0, {0, 1, 0}, 0};
   };
-  const std::vector<WingStation> stations = {
-      station(1.2, 27.3, 8.6, 0.055), station(1.95, 28.1, 7.6, 0.07), station(2.35, 29.25, 6.48, 0.085),
-      station(2.9, 30.05, 5.72, 0.095), station(4.5, 31.42, 4.56, 0.10), station(6.6, 33.22, 3.03, 0.10),
-      station(7.75, 34.2, 2.2, 0.095), station(7.95, 34.55, 1.8, 0.08)};
-  Patch whole = wing(stations, 8, "fin");
-  for (std::size_t i = 0; i < whole.uv.size(); ++i) {
-    whole.uv[i] = kAirlinerFin.uv(whole.position_m[i]);
-    // The rim belongs to either side; every ring runs over the left side first.
-    if (i % 17 > 8) whole.uv[i].y = 1 - whole.uv[i].y;
-  }
-  return whole;
+  const std::vector<WingStation> stations = {station(1.2, 27.3, 8.6, 0.055),    station(1.95, 28.1, 7.6, 0.07),
+                                             station(2.35, 29.25, 6.48, 0.085), station(2.9, 30.05, 5.72, 0.095),
+                                             station(4.5, 31.42, 4.56, 0.10),   station(6.6, 33.22, 3.03, 0.10),
+                                             station(7.75, 34.2, 2.2, 0.095),   station(7.95, 34.55, 1.8, 0.08)};
+  const Patch whole = wing(stations, 8, "fin");
+  return papered(whole, kAirlinerFin);
 }
 
 // Cowl with a dark intake, fan, core nozzle and plug; hung on a pylon.
@@ -130,12 +164,22 @@ std::vector<Patch> left_engine() {
   const glm::dvec3 hub = at(10.9, kEngineY_m, -1.98);
   const glm::dmat3 straight(1.0);
   const auto place = [&](const Patch& patch) { return moved(patch, straight, hub); };
-  const Patch cowl = revolved({{-0.22, 0.92}, {-0.08, 0.93}, {-0.02, 0.965}, {0, 1.0}, {-0.03, 1.05}, {-0.14, 1.105},
-                               {-0.5, 1.165}, {-1.1, 1.19}, {-1.9, 1.17}, {-2.6, 1.09}, {-3.3, 0.93}, {-3.3, 0.89}},
+  const Patch cowl = revolved({{-0.22, 0.92},
+                               {-0.08, 0.93},
+                               {-0.02, 0.965},
+                               {0, 1.0},
+                               {-0.03, 1.05},
+                               {-0.14, 1.105},
+                               {-0.5, 1.165},
+                               {-1.1, 1.19},
+                               {-1.9, 1.17},
+                               {-2.6, 1.09},
+                               {-3.3, 0.93},
+                               {-3.3, 0.89}},
                               kSides, "nacelle");
   const Patch lip = revolved({{-0.9, 0.86}, {-0.5, 0.87}, {-0.22, 0.92}}, kSides, "intake");
-  const Patch core = revolved({{-2.9, 0.89}, {-3.1, 0.66}, {-3.9, 0.52}, {-4.3, 0.44}, {-4.25, 0.36}, {-4.6, 0.2},
-                               {-4.9, 0}}, kSides, "metal");
+  const Patch core = revolved(
+      {{-2.9, 0.89}, {-3.1, 0.66}, {-3.9, 0.52}, {-4.3, 0.44}, {-4.25, 0.36}, {-4.6, 0.2}, {-4.9, 0}}, kSides, "metal");
   const Patch duct = revolved({{-2.9, 0.89}, {-3.3, 0.89}}, kSides, "dark");
   Patch fan = disc(0.86, kSides, "fan");
   fan = moved(fan, straight, {-0.9, 0, 0});

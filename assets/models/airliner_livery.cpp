@@ -12,7 +12,9 @@ namespace {
 constexpr Colour kWhite{0.93, 0.94, 0.95}, kBelly{0.66, 0.68, 0.71}, kNavy{0.05, 0.14, 0.36}, kOrange{0.93, 0.45, 0.10};
 constexpr Colour kGlass{0.05, 0.06, 0.08}, kSeam{0.62, 0.64, 0.67}, kMetal{0.70, 0.71, 0.73}, kWing{0.70, 0.72, 0.74};
 
-bool within(double x, double low, double high) { return x >= low && x < high; }
+bool within(double x, double low, double high) {
+  return x >= low && x < high;
+}
 
 bool on_cabin_window(const SidePlace& at) {
   constexpr double kPitch_m = 0.533, kHalfWidth_m = 0.125, kHalfHeight_m = 0.18, kMiddle_z_m = 0.40;
@@ -33,8 +35,8 @@ bool on_cockpit_window(const SidePlace& at) {
 
 bool on_outline(const SidePlace& at, double back_m, double z_m, double half_width_m, double half_height_m) {
   const double x = std::abs(at.back_m - back_m) / half_width_m, y = std::abs(at.z_m - z_m) / half_height_m;
-  return std::max(x, y) < 1 && (std::abs(at.back_m - back_m) > half_width_m - 0.035 ||
-                                std::abs(at.z_m - z_m) > half_height_m - 0.035);
+  return std::max(x, y) < 1 &&
+         (std::abs(at.back_m - back_m) > half_width_m - 0.035 || std::abs(at.z_m - z_m) > half_height_m - 0.035);
 }
 
 bool on_door(const SidePlace& at) {
@@ -43,7 +45,9 @@ bool on_door(const SidePlace& at) {
 }
 
 // The line along the cabin rises behind the wing and runs up into the fin.
-double cheat_line_z(double back_m) { return -0.42 + 0.012 * std::pow(std::max(0.0, back_m - 21.5), 2); }
+double cheat_line_z(double back_m) {
+  return -0.42 + 0.012 * std::pow(std::max(0.0, back_m - 21.5), 2);
+}
 
 Colour fuselage_colour(const SidePlace& at) {
   static const Lettering title("SIGS AIR"), registration("EC-SGS");

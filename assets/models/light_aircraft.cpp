@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A high-wing four-seater with a strut each side and fixed tricycle gear: 8.3 m long, 11.0 m of span, 2.7 m high.
-// Proportions after public three-view drawings of that class; shape, numbers and livery are our own. "s" is metres behind
-// the spinner's tip.
+// Proportions after public three-view drawings of that class; shape, numbers and livery are our own. "s" is metres
+// behind the spinner's tip.
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const glm::dmat3 kStraight(1.0);
 
-glm::dvec3 at(double s_m, double y_m, double z_m) { return {kLightNose_m - s_m, y_m, z_m}; }
+glm::dvec3 at(double s_m, double y_m, double z_m) {
+  return {kLightNose_m - s_m, y_m, z_m};
+}
 
 // A section of the fuselage: a superellipse with the two heights between which the side windows lie.
 struct Section {
@@ -69,7 +71,9 @@ bool is_glass(int r, int c) {
   return s > 4.18 && s < 4.82 && c < kHead + 2;
 }
 
-Patch both_sides(const Patch& left) { return joined(left, mirrored(left, true)); }
+Patch both_sides(const Patch& left) {
+  return joined(left, mirrored(left, true));
+}
 
 Patch fuselage() {
   std::vector<Ring> rings;
@@ -136,22 +140,23 @@ Patch fin() {
   const auto station = [](double z, double s, double chord, double thickness) {
     return WingStation{at(s, 0, z), chord, thickness, 0, {0, 1, 0}, 0};
   };
-  Patch whole = wing({station(0.24, 5.15, 3.05, 0.015), station(0.46, 5.5, 2.71, 0.022), station(0.56, 6.12, 2.10, 0.04),
-                      station(0.68, 6.62, 1.61, 0.06), station(0.85, 6.82, 1.42, 0.07), station(1.30, 7.25, 1.02, 0.08),
-                      station(1.37, 7.34, 0.93, 0.07), station(1.40, 7.46, 0.78, 0.04)},
-                     8, "fin");
-  for (std::size_t i = 0; i < whole.uv.size(); ++i) {
-    whole.uv[i] = kLightFin.uv(whole.position_m[i]);
-    // Every ring runs over the left side first.
-    if (i % 17 > 8) whole.uv[i].y = 1 - whole.uv[i].y;
-  }
-  return whole;
+  const Patch whole =
+      wing({station(0.24, 5.15, 3.05, 0.015), station(0.46, 5.5, 2.71, 0.022), station(0.56, 6.12, 2.10, 0.04),
+            station(0.68, 6.62, 1.61, 0.06), station(0.85, 6.82, 1.42, 0.07), station(1.30, 7.25, 1.02, 0.08),
+            station(1.37, 7.34, 0.93, 0.07), station(1.40, 7.46, 0.78, 0.04)},
+           8, "fin");
+  return papered(whole, kLightFin);
 }
 
 Patch wheel(double s, double y, double z, double radius, double half_width) {
-  const Patch lying = revolved({{-half_width, 0}, {-half_width, 0.55 * radius}, {-half_width, 0.8 * radius},
-                                {-0.6 * half_width, radius}, {0.6 * half_width, radius}, {half_width, 0.8 * radius},
-                                {half_width, 0.55 * radius}, {half_width, 0}},
+  const Patch lying = revolved({{-half_width, 0},
+                                {-half_width, 0.55 * radius},
+                                {-half_width, 0.8 * radius},
+                                {-0.6 * half_width, radius},
+                                {0.6 * half_width, radius},
+                                {half_width, 0.8 * radius},
+                                {half_width, 0.55 * radius},
+                                {half_width, 0}},
                                16, "tyre");
   const glm::dmat3 x_to_y(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1));
   return moved(lying, x_to_y, at(s, y, z));
@@ -162,13 +167,13 @@ Patch spat(double s, double y, double z, double scale) {
 }
 
 std::vector<Patch> nose_parts() {
-  const Patch spinner = revolved({{0, 0}, {-0.015, 0.045}, {-0.06, 0.09}, {-0.14, 0.135}, {-0.24, 0.16}, {-0.31, 0.165}},
-                                 20, "red");
+  const Patch spinner =
+      revolved({{0, 0}, {-0.015, 0.045}, {-0.06, 0.09}, {-0.14, 0.135}, {-0.24, 0.16}, {-0.31, 0.165}}, 20, "red");
   const Patch blades = revolved({{0.006, 0.16}, {0.006, 0.88}, {-0.006, 0.88}, {-0.006, 0.16}}, 36, "propeller");
   const Patch tips = revolved({{0.006, 0.88}, {0.006, 0.96}, {-0.006, 0.96}, {-0.006, 0.88}}, 36, "propeller_tips");
   return {moved(spinner, kStraight, at(0, 0, 0.05)), moved(blades, kStraight, at(0.2, 0, 0.05)),
-          moved(tips, kStraight, at(0.2, 0, 0.05)), strut(at(0.95, 0, -0.5), at(0.88, 0, -1.1), 0.09, 0.07, "white"),
-          wheel(0.88, 0, -1.13, 0.19, 0.065), spat(0.92, 0, -1.06, 0.88)};
+          moved(tips, kStraight, at(0.2, 0, 0.05)),  strut(at(0.95, 0, -0.5), at(0.88, 0, -1.1), 0.09, 0.07, "white"),
+          wheel(0.88, 0, -1.13, 0.19, 0.065),        spat(0.92, 0, -1.06, 0.88)};
 }
 
 std::vector<Patch> left_parts() {

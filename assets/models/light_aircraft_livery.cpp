@@ -11,7 +11,9 @@ namespace {
 
 constexpr Colour kWhite{0.94, 0.94, 0.92}, kRed{0.70, 0.07, 0.09}, kBlue{0.07, 0.16, 0.38}, kSeam{0.66, 0.66, 0.65};
 
-bool within(double x, double low, double high) { return x >= low && x < high; }
+bool within(double x, double low, double high) {
+  return x >= low && x < high;
+}
 
 // Two stripes from the cowl to the tail, swept up behind the cabin.
 double stripe_z(double back_m) {
@@ -21,7 +23,8 @@ double stripe_z(double back_m) {
 
 bool on_seam(const SidePlace& at) {
   const bool cowl = std::abs(at.back_m - 1.5) < 0.012;
-  const bool door = (std::abs(at.back_m - 2.36) < 0.010 || std::abs(at.back_m - 3.28) < 0.010) && within(at.z_m, -0.42, 0.8);
+  const bool door =
+      (std::abs(at.back_m - 2.36) < 0.010 || std::abs(at.back_m - 3.28) < 0.010) && within(at.z_m, -0.42, 0.8);
   const bool sill = within(at.back_m, 2.36, 3.28) && std::abs(at.z_m + 0.42) < 0.010;
   return cowl || door || sill;
 }
@@ -69,20 +72,21 @@ Colour tailplane_colour(const glm::dvec2& place) {
 }  // namespace
 
 std::vector<MaterialSpec> light_aircraft_materials() {
-  return {{.name = "fuselage", .specular = 0.25, .shininess = 60, .texture = "fuselage.png"},
-          {.name = "fin", .specular = 0.25, .shininess = 60, .texture = "fin.png"},
-          {.name = "wing", .specular = 0.20, .shininess = 40, .texture = "wing.png"},
-          {.name = "tailplane", .specular = 0.20, .shininess = 40, .texture = "tailplane.png"},
-          {.name = "white", .diffuse = kWhite, .specular = 0.20, .shininess = 40},
-          {.name = "red", .diffuse = kRed, .specular = 0.30, .shininess = 60},
-          {.name = "tyre", .diffuse = {0.06, 0.06, 0.06}, .specular = 0.03, .shininess = 5},
-          {.name = "dark", .diffuse = {0.05, 0.05, 0.05}, .specular = 0, .shininess = 1},
-          {.name = "interior", .diffuse = {0.20, 0.19, 0.18}, .specular = 0, .shininess = 1},
-          {.name = "seats", .diffuse = {0.33, 0.24, 0.17}, .specular = 0.02, .shininess = 5},
-          {.name = "crew", .diffuse = {0.14, 0.17, 0.25}, .specular = 0.02, .shininess = 5},
-          {.name = "glass", .diffuse = {0.12, 0.15, 0.18}, .specular = 0.60, .shininess = 120, .opacity = 0.35},
-          {.name = "propeller", .diffuse = {0.22, 0.22, 0.23}, .specular = 0.05, .shininess = 10, .opacity = 0.18},
-          {.name = "propeller_tips", .diffuse = {0.80, 0.66, 0.18}, .specular = 0.05, .shininess = 10, .opacity = 0.22}};
+  return {
+      {.name = "fuselage", .specular = 0.25, .shininess = 60, .texture = "fuselage.png"},
+      {.name = "fin", .specular = 0.25, .shininess = 60, .texture = "fin.png"},
+      {.name = "wing", .specular = 0.20, .shininess = 40, .texture = "wing.png"},
+      {.name = "tailplane", .specular = 0.20, .shininess = 40, .texture = "tailplane.png"},
+      {.name = "white", .diffuse = kWhite, .specular = 0.20, .shininess = 40},
+      {.name = "red", .diffuse = kRed, .specular = 0.30, .shininess = 60},
+      {.name = "tyre", .diffuse = {0.06, 0.06, 0.06}, .specular = 0.03, .shininess = 5},
+      {.name = "dark", .diffuse = {0.05, 0.05, 0.05}, .specular = 0, .shininess = 1},
+      {.name = "interior", .diffuse = {0.20, 0.19, 0.18}, .specular = 0, .shininess = 1},
+      {.name = "seats", .diffuse = {0.33, 0.24, 0.17}, .specular = 0.02, .shininess = 5},
+      {.name = "crew", .diffuse = {0.14, 0.17, 0.25}, .specular = 0.02, .shininess = 5},
+      {.name = "glass", .diffuse = {0.12, 0.15, 0.18}, .specular = 0.60, .shininess = 120, .opacity = 0.35},
+      {.name = "propeller", .diffuse = {0.22, 0.22, 0.23}, .specular = 0.05, .shininess = 10, .opacity = 0.18},
+      {.name = "propeller_tips", .diffuse = {0.80, 0.66, 0.18}, .specular = 0.05, .shininess = 10, .opacity = 0.22}};
 }
 
 std::vector<Texture> light_aircraft_textures() {

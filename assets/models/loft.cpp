@@ -77,8 +77,8 @@ Patch revolved(const std::vector<glm::dvec2>& profile, int sides, const std::str
     rings.push_back(std::move(ring));
   }
   const double last = static_cast<double>(profile.size()) - 1;
-  return turned_outwards(
-      skin(rings, [&](const glm::dvec3&, int r, int c) { return glm::dvec2(r / last, double(c) / sides); }, material));
+  return turned_outwards(skin(
+      rings, [&](const glm::dvec3&, int r, int c) { return glm::dvec2(r / last, double(c) / sides); }, material));
 }
 
 Patch disc(double radius_m, int sides, const std::string& material) {

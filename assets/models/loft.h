@@ -22,18 +22,18 @@ class SmoothCurve {
 struct WingStation {
   glm::dvec3 leading_edge_m;
   double chord_m = 1;
-  double thickness = 0.12;    // share of the chord
-  double incidence_rad = 0;   // nose up
-  glm::dvec3 up{0, 0, 1};     // unit, across the chord
-  double camber = 0.015;      // share of the chord
+  double thickness = 0.12;   // share of the chord
+  double incidence_rad = 0;  // nose up
+  glm::dvec3 up{0, 0, 1};    // unit, across the chord
+  double camber = 0.015;     // share of the chord
 };
 
 // Trailing edge, over the upper side to the nose, back along the lower side; 2 * points + 1 points.
 // Thickness after NACA 4-digit with a closed trailing edge (Abbott and von Doenhoff, 1959).
 [[nodiscard]] Ring airfoil(const WingStation& station, int points);
 
-// A lofted wing with both ends closed. Texture: u runs from the first station to the last, v around the airfoil from the
-// upper trailing edge (1) over the nose (0.5) to the lower one (0).
+// A lofted wing with both ends closed. Texture: u runs from the first station to the last, v around the airfoil from
+// the upper trailing edge (1) over the nose (0.5) to the lower one (0).
 [[nodiscard]] Patch wing(const std::vector<WingStation>& stations, int points, const std::string& material);
 
 // A body of revolution around x: profile points are (x, radius). Texture: u along the profile, v around.
@@ -47,6 +47,7 @@ struct WingStation {
                           const std::string& material);
 
 // An egg: half axes in metres, blunt in front, drawn out behind (tail_stretch times as long behind as before).
-[[nodiscard]] Patch teardrop(const glm::dvec3& half_axes_m, double tail_stretch, int sides, const std::string& material);
+[[nodiscard]] Patch teardrop(const glm::dvec3& half_axes_m, double tail_stretch, int sides,
+                             const std::string& material);
 
 }  // namespace sigs::models

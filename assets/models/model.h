@@ -16,8 +16,8 @@ struct MaterialSpec {
   glm::dvec3 diffuse{1, 1, 1};  // display code values 0..1
   double specular = 0.2;        // grey, display code value
   double shininess = 40;
-  double opacity = 1;           // MTL's d
-  std::string texture = "";     // file beside the OBJ; empty: none
+  double opacity = 1;        // MTL's d
+  std::string texture = "";  // file beside the OBJ; empty: none
 };
 
 struct Texture {

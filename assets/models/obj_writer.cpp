@@ -32,7 +32,8 @@ std::string fixed_line(const char* tag, const std::vector<double>& numbers, int 
   for (const double number : numbers) {
     char text[32];
     std::snprintf(text, sizeof text, " %.*f", decimals, number);
-    line += std::string(text) == std::string(" -0.") + std::string(decimals, '0') ? std::string(text).erase(1, 1) : text;
+    line +=
+        std::string(text) == std::string(" -0.") + std::string(decimals, '0') ? std::string(text).erase(1, 1) : text;
   }
   return line;
 }
@@ -58,8 +59,8 @@ class ObjText {
 
   [[nodiscard]] std::string text(const Model& model) const {
     std::string all = "# " + model.name + ": made by generate_models, MIT licence\n" +
-                      "# metres; +x out of the nose, +y left wing, +z up; origin at the centre of gravity\n" + "mtllib " +
-                      model.name + ".mtl\n" + positions_.text() + uvs_.text() + normals_.text();
+                      "# metres; +x out of the nose, +y left wing, +z up; origin at the centre of gravity\n" +
+                      "mtllib " + model.name + ".mtl\n" + positions_.text() + uvs_.text() + normals_.text();
     for (const MaterialSpec& m : model.materials)
       if (faces_.contains(m.name)) all += "usemtl " + m.name + '\n' + faces_.at(m.name);
     return all;
@@ -107,7 +108,8 @@ bool write_model(const Model& model, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, code);
   ObjText obj;
   for (const Patch& patch : model.patches) obj.add(patch);
-  bool good = write(folder / (model.name + ".obj"), obj.text(model)) && write(folder / (model.name + ".mtl"), mtl_text(model));
+  bool good =
+      write(folder / (model.name + ".obj"), obj.text(model)) && write(folder / (model.name + ".mtl"), mtl_text(model));
   for (const Texture& texture : model.textures) good = write_picture(folder / texture.file, texture.bgr) && good;
   return good;
 }

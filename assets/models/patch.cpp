@@ -116,7 +116,8 @@ std::vector<std::array<glm::dvec3, 3>> smooth_normals(const Patch& patch) {
   for (int f = 0; f < static_cast<int>(patch.faces.size()); ++f) {
     flat.push_back(glm::normalize(area_vector(patch, patch.faces[f])));
     for (int k = 0; k < 3; ++k)
-      around[key_of(patch.position_m[patch.faces[f].corner[k]])].emplace_back(f, corner_angle(patch, patch.faces[f], k));
+      around[key_of(patch.position_m[patch.faces[f].corner[k]])].emplace_back(f,
+                                                                              corner_angle(patch, patch.faces[f], k));
   }
   std::vector<std::array<glm::dvec3, 3>> normals(patch.faces.size());
   for (int f = 0; f < static_cast<int>(patch.faces.size()); ++f)

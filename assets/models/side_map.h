@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <glm/glm.hpp>
 
 #include "paint.h"
+#include "patch.h"
 
 namespace sigs::models {
 
-// How a body is papered from its sides. Seen from the left the nose is at the left edge of the picture's upper half; the
-// lower half is the right side turned by 180 degrees, so that the two meet along the belly and letters read on both.
+// How a body is papered from its sides. Seen from the left the nose is at the left edge of the picture's upper half;
+// the lower half is the right side turned by 180 degrees, so that the two meet along the belly and letters read on
+// both.
 struct SideMap {
   double nose_x_m = 0;    // model x at the picture's left edge
   double length_m = 1;    // from there back
@@ -21,6 +22,24 @@ struct SideMap {
     return {(nose_x_m - p_m.x) / length_m, 1 - 0.5 * (top_z_m - p_m.z) / (top_z_m - bottom_z_m)};
   }
 };
+
+// Papers both sides of a body whose surface runs around from left to right. Each side gets corners of its own.
+[[nodiscard]] inline Patch papered(const Patch& body, const SideMap& map) {
+  Patch paper = joined(body, body);
+  const std::size_t count = body.position_m.size();
+  paper.faces = body.faces;
+  for (std::size_t i = 0; i < count; ++i) {
+    paper.uv[i] = map.uv(body.position_m[i]);
+    paper.uv[i + count] = {paper.uv[i].x, 1 - paper.uv[i].y};
+  }
+  for (Face& face : paper.faces) {
+    double side = 0;
+    for (const int corner : face.corner) side += body.position_m[corner].y;
+    if (side < 0)
+      for (int& corner : face.corner) corner += static_cast<int>(count);
+  }
+  return paper;
+}
 
 // A place on the side of a body, as somebody sees it who looks at that side.
 struct SidePlace {
@@ -35,8 +54,8 @@ struct SidePlace {
   return {left, place.x * map.length_m, map.top_z_m + down * (map.bottom_z_m - map.top_z_m)};
 }
 
-// Text whose box begins back_m behind the nose edge and ends where its letters end, upper edge at top_z_m; it reads from
-// left to right on both sides.
+// Text whose box begins back_m behind the nose edge and ends where its letters end, upper edge at top_z_m; it reads
+// from left to right on both sides.
 [[nodiscard]] inline bool on_text(const Lettering& text, const SidePlace& at, double back_m, double top_z_m,
                                   double height_m) {
   const double along = (at.back_m - back_m) / (height_m * text.aspect());

@@ -22,9 +22,9 @@ uniform float light_scale;
 uniform vec3 eye_scaled;
 uniform float eye_scale;
 
-centroid in vec3 surface_m;
+in vec3 surface_m;
 centroid in vec3 surface_normal;
-centroid in vec2 surface_uv;
+in vec2 surface_uv;
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out float coverage;

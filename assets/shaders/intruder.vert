@@ -10,9 +10,11 @@ layout(location = 0) in vec3 position_m;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 
-centroid out vec3 surface_m;
+out vec3 surface_m;
+// At rims the middle of the pixel may lie outside the triangle, where a normal could point anywhere. The picture on the
+// surface wants the very middle: drivers take any covered sample for the centroid, which would shift it.
 centroid out vec3 surface_normal;
-centroid out vec2 surface_uv;
+out vec2 surface_uv;
 
 void main() {
   gl_Position = clip_from_body * vec4(position_m, 1.0);
