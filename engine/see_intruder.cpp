@@ -15,7 +15,8 @@ namespace sigs {
 
 namespace {
 
-constexpr int kLargestView_px = 2048;  // some 400 MB of samples; a nearer intruder is drawn coarser
+constexpr int kLargestView_px = 4096;  // some 300 MB; a larger picture of a nearer intruder is drawn coarser
+constexpr double kLeastFraction = 1e-6;  // what is visible of less is the rounding of sums of floats
 constexpr int kWholeAreaSteps = 256;   // pixels across in which a silhouette beyond the picture's edge is measured
 
 cv::Rect picture_of(const Scene& scene) { return {{0, 0}, scene.footage.size_px}; }
@@ -61,7 +62,8 @@ Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, con
   const Box& box = seen.silhouette->box;
   const cv::Rect whole = pixels_touched(box, 1, everywhere);
   if ((whole & seen.sharp.rect) == whole) return area_px(seen.sharp.coverage);
-  const double step = std::max({1.0, whole.width / double(kWholeAreaSteps), whole.height / double(kWholeAreaSteps)});
+  // By the box itself, not by its clamped pixels: near the plane of a pinhole's lens it can be 1e9 px wide.
+  const double step = std::max({1.0, box.width / kWholeAreaSteps, box.height / kWholeAreaSteps});
   LensParameters coarse = camera.lens.parameters();
   coarse.fx /= step;
   coarse.fy /= step;
@@ -132,14 +134,17 @@ std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIn
                         .attitude = seen.placed.attitude};
     if (seen.silhouette) truth.silhouette = seen.silhouette->box;
     const Layer inside = clipped(seen.sharp, picture_of(scene));
-    truth.in_picture = !inside.empty() && covered_box(inside.coverage, inside.rect).has_value();
+    const double inside_px = area_px(inside.coverage);
+    const double whole_px = std::max(seen.whole_area_px, inside_px);
+    // A distant one may leave less than a code value in any pixel; it is in the picture by its own measure.
+    truth.in_picture = inside_px > 0 && (inside_px >= kLeastCoverage * whole_px || covered_box(inside.coverage, inside.rect));
     if (truth.in_picture && !seen.soft.empty()) {
       cv::Mat visible = seen.soft.coverage.clone();
       for (std::size_t j = i + 1; j < far_to_near.size(); ++j)
         hide_coverage(visible, seen.soft.rect, far_to_near[j].soft);
       truth.box = covered_box(visible, seen.soft.rect);
-      const double whole = std::max(seen.whole_area_px, area_px(inside.coverage));
-      truth.visible_fraction = whole > 0 ? std::clamp(area_px(visible) / whole, 0.0, 1.0) : 0.0;
+      const double fraction = std::min(area_px(visible) / whole_px, 1.0);
+      truth.visible_fraction = fraction < kLeastFraction ? 0.0 : fraction;
     }
     truths.push_back(std::move(truth));
   }

@@ -105,8 +105,8 @@ MtlMaterials read_libraries(const std::vector<std::string>& libraries, const fs:
 }
 
 float opacity_of(const MtlMaterial& source) {
-  const float written = source.aside.has_dissolve ? source.material.dissolve
-                                                  : source.aside.fourth_of_diffuse.value_or(1.0F);
+  const float written =
+      source.aside.has_dissolve ? source.material.dissolve : source.aside.fourth_of_diffuse.value_or(1.0F);
   return written >= 0 ? std::min(written, 1.0F) : 0.0F;
 }
 
@@ -125,7 +125,8 @@ class Painter {
                     .shininess = source.material.shininess,
                     .opacity = opacity_of(source)};
     result.texture = texture_of(source, source.material.diffuse_texname);
-    const bool is_grey = result.texture.empty() && (!source.aside.has_diffuse || !source.material.diffuse_texname.empty());
+    const bool is_grey =
+        result.texture.empty() && (!source.aside.has_diffuse || !source.material.diffuse_texname.empty());
     if (!is_grey) result.diffuse = source.aside.has_diffuse ? color_of(source.material.diffuse) : glm::vec3(1.0F);
     thin_out(result, source);
     return result;
@@ -138,8 +139,8 @@ class Painter {
     const cv::Mat texture = path.empty() ? cv::Mat() : shelf_.picture(path);
     if (texture.empty() && !is_known(written)) {
       reported_.push_back(written);
-      warnings_.push_back({obj_name_, "texture " + written + (path.empty() ? " is missing" : " cannot be read") +
-                                          "; drawn grey"});
+      warnings_.push_back(
+          {obj_name_, "texture " + written + (path.empty() ? " is missing" : " cannot be read") + "; drawn grey"});
     }
     return texture;
   }
@@ -150,8 +151,7 @@ class Painter {
     if (written.empty() || written == source.material.diffuse_texname) return;
     const cv::Mat opacity_map = texture_of(source, written);
     if (opacity_map.empty()) return;
-    if (material.texture.empty())
-      material.texture = cv::Mat(opacity_map.size(), CV_8UC4, cv::Scalar::all(255));
+    if (material.texture.empty()) material.texture = cv::Mat(opacity_map.size(), CV_8UC4, cv::Scalar::all(255));
     material.texture = with_opacity_map(material.texture, opacity_map);
   }
 

@@ -42,26 +42,29 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
   std::vector<MeshPart> parts;
   std::vector<Material> materials;
-  std::vector<Warning> warnings;       // missing MTL or texture, faces left out
+  std::vector<Warning> warnings;  // missing MTL or texture, faces left out
 
-  glm::vec3 low_m{0, 0, 0};            // corners of the bounds
+  glm::vec3 low_m{0, 0, 0};  // corners of the bounds
   glm::vec3 high_m{0, 0, 0};
-  float radius_m = 0;                  // of the smallest sphere around the origin that holds every vertex
+  float radius_m = 0;  // of the smallest sphere around the origin that holds every vertex
 };
 
 // How a model file lies: which of its axes point out of the nose and up, and how large it is.
 struct ModelAxes {
-  std::string forward = "+x";  // one of +x -x +y -y +z -z
-  std::string up = "+z";       // the same, not along forward
-  double scale = 1.0;          // metres a unit; ignored where length_m is set
-  double length_m = 0;         // wanted extent along forward; 0: use scale
+  std::string forward = "+x";     // one of +x -x +y -y +z -z
+  std::string up = "+z";          // the same, not along forward
+  double scale = 1.0;             // metres a unit; ignored where length_m is set
+  double length_m = 0;            // wanted extent along forward; 0: use scale
   bool anchor_at_bounds = false;  // false: the file's origin is the reference point; true: the centre of its bounds
 };
 
 // Reads Wavefront OBJ with its MTL and textures. Normals are made (averaged over the faces around a vertex, weighted by
-// corner angle, across edges of less than 60 degrees) where the file has none. A file that mirrors (forward and up are
-// right-handed by construction) never happens; a missing MTL or texture is drawn grey, with a warning.
-// Errors: cannot_read; bad_data (no faces, indices out of range, coordinates not finite, forward along up, no extent).
+// corner angle, across edges of less than 60 degrees) where the file has none or none of any length. Forward and up
+// make a right-handed turn, so nothing is ever mirrored. A missing MTL or texture is drawn grey, with a warning. Faces
+// without area are left out; so are those of a wholly transparent material, with a warning (how opacity is read:
+// materials.h). Errors: cannot_read; bad_data (no faces, indices out of range, coordinates not finite, no extent for
+// length_m); bad_project with the setting as its place ("forward", "up", "scale", "length_m") where the axes make no
+// sense.
 [[nodiscard]] Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes = {});
 
 }  // namespace sigs

@@ -148,8 +148,7 @@ class MeshBuilder {
   void add_triangle(Mesh& mesh, std::size_t triangle) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Vertex vertex = vertex_of(triangle, corner);
-      const auto [entry, is_first] =
-          index_of_vertex_.emplace(vertex, static_cast<std::uint32_t>(mesh.vertices.size()));
+      const auto [entry, is_first] = index_of_vertex_.emplace(vertex, static_cast<std::uint32_t>(mesh.vertices.size()));
       if (is_first) mesh.vertices.push_back(vertex);
       mesh.indices.push_back(entry->second);
     }

@@ -56,7 +56,9 @@ void on_normal(void* user, float x, float y, float z) {
   static_cast<Reading*>(user)->file.normals.emplace_back(x, y, z);
 }
 
-void on_uv(void* user, float u, float v, float) { static_cast<Reading*>(user)->file.uvs.emplace_back(u, v); }
+void on_uv(void* user, float u, float v, float) {
+  static_cast<Reading*>(user)->file.uvs.emplace_back(u, v);
+}
 
 void on_face(void* user, tinyobj::index_t* indices, int count) {
   if (count < 3) return;

@@ -21,7 +21,9 @@ struct Door {
   EGLDisplay display = EGL_NO_DISPLAY;
 };
 
-bool has_client_extension(const char* name) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, name); }
+bool has_client_extension(const char* name) {
+  return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
+}
 
 std::optional<Door> surfaceless_door() {
   if (!has_client_extension("EGL_EXT_platform_base") || !has_client_extension("EGL_MESA_platform_surfaceless"))
@@ -61,13 +63,9 @@ EGLConfig config_of(EGLDisplay display) {
 }
 
 EGLContext context_of(EGLDisplay display, EGLint major, EGLint minor) {
-  const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                         major,
-                                         EGL_CONTEXT_MINOR_VERSION,
-                                         minor,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                         EGL_NONE};
+  const std::array<EGLint, 7> attributes{
+      EGL_CONTEXT_MAJOR_VERSION,           major,   EGL_CONTEXT_MINOR_VERSION, minor, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   return eglCreateContext(display, config_of(display), EGL_NO_CONTEXT, attributes.data());
 }
 
@@ -84,7 +82,9 @@ std::string description_of(const Door& door) {
 
 // The context, current, or why there is none.
 Result<EGLContext> opened(const Door& door) {
-  const auto failed = [&](const char* step) { return fail(door.name, step + (" (" + hexadecimal(eglGetError()) + ")")); };
+  const auto failed = [&](const char* step) {
+    return fail(door.name, step + (" (" + hexadecimal(eglGetError()) + ")"));
+  };
   if (door.display == EGL_NO_DISPLAY) return failed("no display");
   EGLint major = 0;
   EGLint minor = 0;
@@ -120,10 +120,7 @@ Result<EglContext> EglContext::create() {
 }
 
 EglContext::EglContext(void* display, void* context, std::string description)
-    : display_(display),
-      context_(context),
-      description_(std::move(description)),
-      thread_(std::this_thread::get_id()) {}
+    : display_(display), context_(context), description_(std::move(description)), thread_(std::this_thread::get_id()) {}
 
 EglContext::EglContext(EglContext&& other) noexcept
     : display_(other.display_),
@@ -141,7 +138,9 @@ EglContext& EglContext::operator=(EglContext&& other) noexcept {
   return *this;
 }
 
-EglContext::~EglContext() { destroy(); }
+EglContext::~EglContext() {
+  destroy();
+}
 
 bool EglContext::make_current() const {
   ENSURE(thread_ == std::this_thread::get_id());

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <opencv2/imgproc.hpp>
 
+#include "base/ensure.h"
 #include "base/transfer.h"
 
 namespace sigs {
@@ -35,11 +37,13 @@ cv::Mat fitting(const cv::Mat& picture) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (picture.cols <= largest && picture.rows <= largest) return picture;
   cv::Mat smaller;
-  cv::resize(picture, smaller, {std::min(picture.cols, largest), std::min(picture.rows, largest)}, 0, 0, cv::INTER_AREA);
+  cv::resize(picture, smaller, {std::min(picture.cols, largest), std::min(picture.rows, largest)}, 0, 0,
+             cv::INTER_AREA);
   return smaller;
 }
 
 GLuint uploaded(const cv::Mat& picture) {
+  ENSURE(picture.type() == CV_8UC4);
   const cv::Mat texels = premultiplied(fitting(picture));
   GLuint name = 0;
   glGenTextures(1, &name);
@@ -71,13 +75,54 @@ void upload(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usa
   glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
+// FNV-1a (Fowler, Noll, Vo), word by word.
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001B3ULL; }
+  void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
+  void add(const glm::vec3& v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325ULL;
+};
+
+void add_texture(Fingerprint& print, const cv::Mat& texture) {
+  constexpr int kLooksASide = 16;
+  print.add(std::uint64_t{texture.total()});
+  for (int y = 0; y < texture.rows; y += texture.rows / kLooksASide + 1)
+    for (int x = 0; x < texture.cols; x += texture.cols / kLooksASide + 1)
+      for (const uchar value : texture.at<cv::Vec4b>(y, x).val) print.add(std::uint64_t{value});
+}
+
+std::uint64_t fingerprint_of(const Mesh& mesh) {
+  constexpr std::size_t kLooks = 4096;
+  Fingerprint print;
+  print.add(std::uint64_t{mesh.vertices.size()});
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += mesh.vertices.size() / kLooks + 1) {
+    print.add(mesh.vertices[i].position_m);
+    print.add(mesh.vertices[i].normal);
+    print.add(glm::vec3(mesh.vertices[i].uv, 0));
+  }
+  print.add(std::uint64_t{mesh.indices.size()});
+  for (std::size_t i = 0; i < mesh.indices.size(); i += mesh.indices.size() / kLooks + 1)
+    print.add(std::uint64_t{mesh.indices[i]});
+  for (const MeshPart& part : mesh.parts) {
+    print.add(static_cast<std::uint64_t>(part.material));
+    print.add(std::uint64_t{part.index_count});
+  }
+  for (const Material& material : mesh.materials) {
+    print.add(material.opacity);
+    add_texture(print, material.texture);
+  }
+  return print.value();
+}
+
 }  // namespace
 
-GpuMesh::GpuMesh(const Mesh& mesh)
-    : vertices_(mesh.vertices.data()),
-      indices_(mesh.indices.data()),
-      vertex_count_(mesh.vertices.size()),
-      index_count_(mesh.indices.size()) {
+GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)) {
   const std::vector<Surface> surfaces = surfaces_of(mesh);
   const DrawList solid = solid_list(mesh, surfaces);
   solid_runs_ = solid.runs;
@@ -107,8 +152,7 @@ void GpuMesh::upload_pictures(const Mesh& mesh) {
 }
 
 bool GpuMesh::is_copy_of(const Mesh& mesh) const {
-  return vertices_ == mesh.vertices.data() && indices_ == mesh.indices.data() &&
-         vertex_count_ == mesh.vertices.size() && index_count_ == mesh.indices.size();
+  return fingerprint_ == fingerprint_of(mesh);
 }
 
 void GpuMesh::release() {

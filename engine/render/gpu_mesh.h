@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -14,7 +15,8 @@ class GpuMesh {
  public:
   explicit GpuMesh(const Mesh& mesh);
 
-  // False where the mesh at the same address is another one than that which was uploaded.
+  // False where the mesh at the same address is another one than that which was uploaded (a model read again with other
+  // axes, say). Looks at every material and part, but only at some thousand vertices, indices and texels.
   [[nodiscard]] bool is_copy_of(const Mesh& mesh) const;
 
   // Returns what was uploaded to the driver.
@@ -34,17 +36,14 @@ class GpuMesh {
  private:
   void upload_pictures(const Mesh& mesh);
 
-  const Vertex* vertices_;
-  const std::uint32_t* indices_;
-  std::size_t vertex_count_;
-  std::size_t index_count_;
+  std::uint64_t fingerprint_;
   std::vector<Run> solid_runs_;
   std::vector<SeeThrough> see_through_;
   unsigned int vertex_array_ = 0;
   unsigned int vertex_buffer_ = 0;
   unsigned int solid_indices_ = 0;
   unsigned int sorted_indices_ = 0;
-  std::vector<unsigned int> pictures_;             // by material
+  std::vector<unsigned int> pictures_;                              // by material
   std::map<const unsigned char*, unsigned int> picture_of_pixels_;  // each picture once; null: white
 };
 

@@ -26,25 +26,20 @@ class TransparentTexels {
     const auto [left, right] = span({uvs[0].x, uvs[1].x, uvs[2].x}, size_.width);
     const auto [top, bottom] = span({1 - uvs[0].y, 1 - uvs[1].y, 1 - uvs[2].y}, size_.height);
     return sums_.at<int>(bottom, right) - sums_.at<int>(top, right) - sums_.at<int>(bottom, left) +
-               sums_.at<int>(top, left) > 0;
+               sums_.at<int>(top, left) >
+           0;
   }
 
  private:
   // First texel and one past the last that coordinates reach, with a neighbour for linear filtering. All of them where
   // the coordinates run over the edge and the texture repeats.
   static std::pair<int, int> span(const std::array<float, 3>& coordinates, int count) {
-    const auto [low, high] = std::minmax_element(coordinates.begin(), coordinates.end());
-    const double tile = std::floor(*low);
-    const double first = (*low - tile) * count - 1;
-    const double last = (*high - tile) * count + 1;
-    if (!(first >= 0 && last <= count - 1)) return touches_edge(*low - tile, *high - tile, count);
-    return {static_cast<int>(first), static_cast<int>(last) + 1};
-  }
-
-  static std::pair<int, int> touches_edge(double low, double high, int count) {
+    const auto [least, most] = std::minmax_element(coordinates.begin(), coordinates.end());
+    const double tile = std::floor(double{*least});
+    const double low = *least - tile;
+    const double high = *most - tile;
     if (!(high <= 1)) return {0, count};
-    // Within one tile: the neighbour beyond the edge is on the far side of the texture, and is left to the filter.
-    return {std::max(0, static_cast<int>(low * count - 1)), std::min(count, static_cast<int>(high * count + 1) + 1)};
+    return {std::max(0, static_cast<int>(low * count) - 1), std::min(count, static_cast<int>(high * count) + 2)};
   }
 
   cv::Size size_;

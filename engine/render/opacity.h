@@ -15,8 +15,8 @@ enum class Surface {
 
 inline constexpr float kSolidOpacity = 0.999F;  // of a material: that or more is solid
 
-// One for each triangle, in the order of the mesh's parts. Only a triangle over texels that are not opaque is a cutout, so
-// that one transparent corner of an atlas does not cost a whole aircraft its depth buffer.
+// One for each triangle, in the order of the mesh's parts. Only a triangle over texels that are not opaque is a cutout,
+// so that one transparent corner of an atlas does not cost a whole aircraft its depth buffer.
 [[nodiscard]] std::vector<Surface> surfaces_of(const Mesh& mesh);
 
 }  // namespace sigs

@@ -64,7 +64,9 @@ Result<Program> Program::create() {
 
 Program::Program(unsigned int name) : name_(name), locations_(locations_of(name)) {}
 
-void Program::use() const { glUseProgram(name_); }
+void Program::use() const {
+  glUseProgram(name_);
+}
 
 int Program::location(const char* name) const {
   const auto found = locations_.find(std::string_view(name));
@@ -72,8 +74,12 @@ int Program::location(const char* name) const {
   return found->second;
 }
 
-void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
-void Program::set(const char* name, bool value) const { glUniform1i(location(name), value ? 1 : 0); }
+void Program::set(const char* name, float value) const {
+  glUniform1f(location(name), value);
+}
+void Program::set(const char* name, bool value) const {
+  glUniform1i(location(name), value ? 1 : 0);
+}
 void Program::set(const char* name, const glm::vec3& value) const {
   glUniform3fv(location(name), 1, glm::value_ptr(value));
 }

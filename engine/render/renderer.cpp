@@ -31,13 +31,15 @@ struct Renderer::State {
 namespace {
 
 constexpr int kLargestView_px = 16384;
-constexpr float kOpaque = 254.5F / 255.0F;      // a cutout's texel at or above is solid
-constexpr float kSeen = 1.0F / 255.0F;          // below, light passes as if nothing were there
+constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
+constexpr float kSeen = 1.0F / 255.0F;      // below, light passes as if nothing were there
 constexpr float kAnyOpacity = 1e9F;
 
 using ViewFromBody = Pose<frame::View, frame::Body>;
 
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // p = scaled / scale, with a length whose square fits a float.
 struct ScaledPoint {
@@ -58,8 +60,7 @@ glm::vec3 linear_color(const glm::vec3& display) {
 
 void set_light(const Program& program, const Light& light, const ViewFromBody& view_from_body,
                const Pose<frame::View, frame::Camera>& view_from_camera) {
-  const ScaledPoint lamp =
-      scaled_point(view_from_camera * light.p_in_camera - view_from_body.translation_m);
+  const ScaledPoint lamp = scaled_point(view_from_camera * light.p_in_camera - view_from_body.translation_m);
   const ScaledPoint eye = scaled_point(-view_from_body.translation_m);
   program.set("light_color", glm::vec3(light.color));
   program.set("ambient", static_cast<float>(std::clamp(light.ambient, 0.0, 1.0)));
@@ -162,9 +163,13 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-const std::string& Renderer::description() const { return state_->context.description(); }
+const std::string& Renderer::description() const {
+  return state_->context.description();
+}
 
-int Renderer::max_size_px() const { return kLargestView_px; }
+int Renderer::max_size_px() const {
+  return kLargestView_px;
+}
 
 Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                              const Light& light, const VirtualView& view) {

@@ -40,8 +40,11 @@ class Renderer {
 
   // The mesh as the view sees it, covering the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
   // 4 samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and kept
-  // for as long as the renderer lives, by the address of the mesh: keep meshes alive and where they are.
-  // Depth and position are relative to the camera, so nothing shakes far from the world's origin.
+  // for as long as the renderer lives, by the address of the mesh: keep meshes alive and where they are. A mesh that
+  // has changed is uploaded again, as far as a look at some thousand of its vertices and texels tells. Depth and
+  // position are relative to the camera, so nothing shakes far from the world's origin. Everything given must be
+  // finite. A view of no size gives an empty layer. Errors: bad_data where the view is larger than max_size_px();
+  // unavailable where the driver fails.
   [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                                    const Light& light, const VirtualView& view);
 

@@ -49,8 +49,10 @@ Result<Target::Buffers> Target::make(const cv::Size& size, int samples, unsigned
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && glGetError() == GL_NO_ERROR)
     return buffers;
   release(buffers);
-  return fail("OpenGL", "cannot draw to floating-point buffers of " + std::to_string(size.width) + " x " +
-                            std::to_string(size.height) + " pixels", ErrorKind::unavailable);
+  return fail("OpenGL",
+              "cannot draw to floating-point buffers of " + std::to_string(size.width) + " x " +
+                  std::to_string(size.height) + " pixels",
+              ErrorKind::unavailable);
 }
 
 void Target::release(const Buffers& buffers) {

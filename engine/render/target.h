@@ -7,11 +7,12 @@
 
 namespace sigs {
 
-// What is drawn into: 4 samples a pixel of colour (RGBA), coverage and depth, all floating point, in the current context,
-// which owns them. Made once and grown when a larger piece is asked for.
+// What is drawn into: 4 samples a pixel of colour (RGBA), coverage and depth, all floating point, in the current
+// context, which owns them. Made once and grown when a larger piece is asked for.
 class Target {
  public:
-  // Pieces of a view are drawn one after the other, so that a large view needs no more memory than this many pixels a side.
+  // Pieces of a view are drawn one after the other, so that a large view needs no more memory than this many pixels a
+  // side.
   static constexpr int kLargestPiece_px = 1024;
 
   // Makes room for size and clears it. Error unavailable where the driver cannot draw to such buffers.

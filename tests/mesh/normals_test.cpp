@@ -15,7 +15,7 @@ namespace {
 
 Result<Mesh> mesh_of(const std::string& text) {
   const test::TemporaryFolder folder;
-  return read_obj(test::written(folder / "model.obj", text));
+  return read_obj(test::written(folder / "model.obj", text), {.forward = "+x", .up = "-z"});  // model axes = body axes
 }
 
 // A sphere of radius 1 cut along parallels and meridians, without normals.

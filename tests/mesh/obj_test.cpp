@@ -95,7 +95,8 @@ TEST_CASE("a polygon of three hundred corners keeps its area") {
 TEST_CASE("negative indices count back from the end") {
   const Result<Mesh> mesh = mesh_of(std::string(kTriangle) + "f -3 -2 -1\nv 9 9 9\n");
   REQUIRE(mesh);
-  CHECK(mesh->high_m == glm::vec3{1, 1, 0});
+  CHECK(mesh->low_m == glm::vec3{0, -1, 0});  // by default +y of the model is the left wing
+  CHECK(mesh->high_m == glm::vec3{1, 0, 0});
 }
 
 TEST_CASE("Windows line ends and continued lines and blanks are read") {
@@ -114,7 +115,8 @@ TEST_CASE("faces without area are left out and the others stay") {
 TEST_CASE("vertices that no face uses do not count for the bounds") {
   const Result<Mesh> mesh = mesh_of(std::string(kTriangle) + "v 100 100 100\nf 1 2 3\n");
   REQUIRE(mesh);
-  CHECK(mesh->high_m == glm::vec3{1, 1, 0});
+  CHECK(mesh->low_m == glm::vec3{0, -1, 0});
+  CHECK(mesh->high_m == glm::vec3{1, 0, 0});
   CHECK(mesh->radius_m == 1);
 }
 

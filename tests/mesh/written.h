@@ -13,7 +13,8 @@ inline std::filesystem::path written(const std::filesystem::path& path, const st
   return path;
 }
 
-// A box of 4 x 2 x 1 units along x, y, z with its lower corner at the origin, wound counter-clockwise seen from outside.
+// A box of 4 x 2 x 1 units along x, y, z with its lower corner at the origin, wound counter-clockwise seen from
+// outside.
 inline std::string box_obj() {
   return "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1\n"
          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
