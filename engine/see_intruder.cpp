@@ -16,7 +16,7 @@ namespace sigs {
 namespace {
 
 constexpr int kLargestView_px = 4096;  // some 300 MB; a larger picture of a nearer intruder is drawn coarser
-constexpr double kLeastFraction = 1e-6;  // what is visible of less is the rounding of sums of floats
+constexpr double kRounding = 1e-6;     // of sums of floats: a visible share below it is none
 constexpr int kWholeAreaSteps = 256;   // pixels across in which a silhouette beyond the picture's edge is measured
 
 cv::Rect picture_of(const Scene& scene) { return {{0, 0}, scene.footage.size_px}; }
@@ -143,8 +143,8 @@ std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIn
       for (std::size_t j = i + 1; j < far_to_near.size(); ++j)
         hide_coverage(visible, seen.soft.rect, far_to_near[j].soft);
       truth.box = covered_box(visible, seen.soft.rect);
-      const double fraction = std::min(area_px(visible) / whole_px, 1.0);
-      truth.visible_fraction = fraction < kLeastFraction ? 0.0 : fraction;
+      const double visible_px = area_px(visible);
+      truth.visible_fraction = visible_px < kRounding * inside_px ? 0.0 : std::min(visible_px / whole_px, 1.0);
     }
     truths.push_back(std::move(truth));
   }

@@ -56,10 +56,18 @@ std::optional<Corners> corners_in_view(const VirtualView& view, const std::array
   return corners;
 }
 
+// Longest side of a pixel's image, in view pixels.
+double span_of(const Corners& c) {
+  return std::max(
+      {glm::distance(c[0], c[1]), glm::distance(c[2], c[3]), glm::distance(c[0], c[2]), glm::distance(c[1], c[3])});
+}
+
+// Bilinear reading reaches a texel beyond the layer, and a texel is no more than the pixel's image or one view pixel.
 bool misses(const Corners& corners, const cv::Size& size) {
+  const double margin = std::max(1.0, span_of(corners));
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x, corners[3].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y, corners[3].y});
-  return right < -1 || bottom < -1 || left > size.width + 1 || top > size.height + 1;
+  return right < -margin || bottom < -margin || left > size.width + margin || top > size.height + margin;
 }
 
 // Adds weight times the bilinear value at (x, y), in texels from the corner of the level; outside is empty.
@@ -79,15 +87,16 @@ void add_bilinear(const LayerPyramid::Level& level, double x, double y, float we
     }
 }
 
-// Mean over the quadrilateral. The level is chosen so that it spans two to four texels; taps half a texel apart or closer
-// make the bilinear tents add up to one to within 1 %.
+// Mean over the quadrilateral. The level is chosen so that it spans two to four texels. With taps half a texel apart or
+// closer, what one texel adds up to over all pixels is right to within 2 / (2.5 pi)^2 = 3 % each way (the spectrum of its
+// tent at the taps' frequency), and without that limit over several texels; a surface of one colour is always exact.
 Sample mean_over(const LayerPyramid& pyramid, const Corners& c) {
-  const double span = std::max({glm::distance(c[0], c[1]), glm::distance(c[2], c[3]), glm::distance(c[0], c[2]),
-                                glm::distance(c[1], c[3])});
+  const double span = span_of(c);
   const int wanted = span > 4 ? static_cast<int>(std::ceil(std::log2(span / 4))) : 0;
   const int n = std::min(wanted, pyramid.level_count() - 1);
   const double texel = std::ldexp(1.0, n);
-  const int taps = std::clamp(static_cast<int>(std::ceil(2 * span / texel)), 1, 64);
+  constexpr double kRounding = 1e-6;  // must not make a third tap of a span of one texel
+  const int taps = std::clamp(static_cast<int>(std::ceil(2 * span / texel - kRounding)), 1, 64);
   const LayerPyramid::Level& level = pyramid.level(n);
   const float weight = 1.0F / static_cast<float>(taps * taps);
   Sample sum;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "base/angles.h"
 #include "project/validate.h"
+#include "scene/measuring_points.h"
 #include "scene/own_body_mask.h"
 #include "scene/waypoint_times.h"
 
@@ -70,18 +70,6 @@ std::string key_of(const std::filesystem::path& file, const ModelSettings& model
          std::to_string(model.length_m) + (model.anchor == AnchorChoice::bounds ? 'b' : 'o');
 }
 
-std::vector<glm::vec3> distinct_points(const Mesh& mesh) {
-  std::vector<glm::vec3> points;
-  points.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) points.push_back(vertex.position_m);
-  const auto before = [](const glm::vec3& a, const glm::vec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
 class ModelShelf {
  public:
   explicit ModelShelf(Scene& scene) : scene_(scene) {}
@@ -92,7 +80,7 @@ class ModelShelf {
     Result<Mesh> mesh = read_obj(file, axes_of(model));
     if (!mesh) return fail(mesh.error());
     scene_.warnings.insert(scene_.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
-    std::vector<glm::vec3> points_m = distinct_points(*mesh);
+    std::vector<glm::vec3> points_m = measuring_points(*mesh);
     scene_.models.push_back(std::make_unique<const Model>(Model{std::move(*mesh), std::move(points_m)}));
     return models_[key] = scene_.models.back().get();
   }

@@ -29,7 +29,7 @@ struct SceneLight {
   double ambient = 0.35;
 };
 
-// An aircraft to draw, and its vertices' places, each once, to measure it by.
+// An aircraft to draw, and the points to measure it by (scene/measuring_points.h).
 struct Model {
   Mesh mesh;
   std::vector<glm::vec3> points_m;  // body axes

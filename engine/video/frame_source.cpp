@@ -34,15 +34,11 @@ int drop_undecodable_head(libav::PictureOrder& order, int first_ordinal) {
   return n;
 }
 
-double period_s(AVRational rate) {
-  return av_q2d(AVRational{rate.den, rate.num});
-}
-
 // From the packets where that is sure, else by decoding everything.
 Result<libav::PictureOrder> order_of(const libav::PacketTable& table, libav::PictureStream& stream) {
   const libav::Demuxer& source = stream.demuxer();
   if (auto order = libav::order_from_packets(table, source.format(), source.stream())) return std::move(*order);
-  return libav::order_from_decoding(table, source.stream(), stream, period_s(libav::frame_rate_of(source)));
+  return libav::order_from_decoding(table, stream, libav::frame_rate_of(source));
 }
 
 Result<libav::Picture> first_picture(libav::PictureStream& stream, const libav::PictureOrder& order) {

@@ -111,8 +111,17 @@ Result<void> PictureSeeker::advance_to(int n) {
   return {};
 }
 
+// How a decoder patches a damaged picture depends on those before it. Only if a whole group of pictures was sound is
+// the patch that of a whole decode.
+bool PictureSeeker::is_damaged_at_once() const {
+  const std::optional<int> damaged = stream_.first_damage();
+  return damaged && std::none_of(starts_.begin(), starts_.end(), [&](const Start& start) {
+           return start.ordinal > start_.ordinal && start.ordinal <= *damaged;
+         });
+}
+
 bool PictureSeeker::start_was_wrong() const {
-  return !start_seen_ || kept_.empty();
+  return !start_seen_ || kept_.empty() || is_damaged_at_once();
 }
 
 Result<PictureSeeker::Found> PictureSeeker::find(int n) {
@@ -123,7 +132,7 @@ Result<PictureSeeker::Found> PictureSeeker::find(int n) {
     if (moved) moved = advance_to(n);
     if (!moved) return fail(moved.error());
     go_on = false;
-    if (stream_.met_damage() && threads_ > 1) {
+    if (stream_.first_damage() && threads_ > 1) {
       threads_ = 1;  // what two threads make of a damaged stream can depend on which of them is ahead
     } else if (start_was_wrong() && start_.ordinal > 0) {
       wrong_starts_.insert(start_.ordinal);

@@ -45,6 +45,7 @@ class PictureSeeker {
   [[nodiscard]] Result<void> advance_to(int n);
   [[nodiscard]] Result<void> look_ahead();
   [[nodiscard]] bool start_was_wrong() const;
+  [[nodiscard]] bool is_damaged_at_once() const;
   [[nodiscard]] const Placed* kept(int n) const;
   void keep(Placed placed);
   [[nodiscard]] std::optional<int> place_of(int ordinal);

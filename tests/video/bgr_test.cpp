@@ -1,1 +1,158 @@
 // SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "video/clips.h"
+#include "video/frame.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+constexpr std::array kLayouts{PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444,
+                              PixelLayout::rgb};
+constexpr std::array kSites{ChromaSite::left, ChromaSite::center, ChromaSite::top_left};
+
+ColorInfo meaning(ColorRange range, ColorMatrix matrix, ChromaSite site = ChromaSite::left) {
+  ColorInfo color;
+  color.range = range;
+  color.matrix = matrix;
+  color.chroma_site = site;
+  return color;
+}
+
+cv::Mat smooth_bgr(cv::Size size) {
+  cv::Mat bgr(size, CV_8UC3);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      bgr.at<cv::Vec3b>(y, x) = {static_cast<uchar>(40 + 2 * x), static_cast<uchar>(60 + 3 * y),
+                                 static_cast<uchar>(180 - x - y)};
+  return bgr;
+}
+
+double largest_difference(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_INF);
+}
+
+}  // namespace
+
+TEST_CASE("one colour everywhere stays that colour whatever the layout size and siting") {
+  const cv::Vec3b colour(60, 130, 200);
+  for (const PixelLayout layout : kLayouts)
+    for (const ChromaSite site : kSites)
+      for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 2), cv::Size(7, 5), cv::Size(16, 9)}) {
+        const ColorInfo color = meaning(ColorRange::full, ColorMatrix::bt709, site);
+        const cv::Mat bgr(size, CV_8UC3, cv::Scalar(colour));
+        const cv::Mat back = bgr_of(frame_of_bgr(bgr, layout, color));
+        REQUIRE(back.size() == size);
+        const double gray = 0.2126 * 200 + 0.7152 * 130 + 0.0722 * 60;
+        const cv::Scalar expected = layout == PixelLayout::gray ? cv::Scalar::all(gray) : cv::Scalar(colour);
+        // Half a code of rounding in luma and in chroma, the latter times 1.8556 for blue.
+        CHECK(largest_difference(back, cv::Mat(size, CV_8UC3, expected)) <= 1.5);
+      }
+}
+
+TEST_CASE("without subsampling a picture comes back within rounding") {
+  const cv::Mat bgr = smooth_bgr({50, 40});
+  for (const ColorMatrix matrix : {ColorMatrix::bt601, ColorMatrix::bt709, ColorMatrix::bt2020}) {
+    const cv::Mat full = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::full, matrix)));
+    CHECK(largest_difference(full, bgr) <= 2);  // 0.5 luma + 0.5 * 1.88 chroma + 0.5 at the end
+    const cv::Mat limited = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::limited, matrix)));
+    CHECK(largest_difference(limited, bgr) <= 2);  // the same, times 255 / 219, still below 2.5
+  }
+  CHECK(largest_difference(bgr_of(frame_of_bgr(bgr, PixelLayout::rgb, {})), bgr) == 0);
+}
+
+TEST_CASE("limited BT601 agrees with OpenCV") {
+  // OpenCV's I420 is BT.601 limited range with chroma repeated, not interpolated: equal where chroma does not change.
+  cv::Mat bgr = cv::Mat(20, 30, CV_8UC3, cv::Scalar(50, 120, 190));
+  bgr(cv::Rect(0, 0, 30, 8)).setTo(cv::Scalar(70, 140, 210));  // the same chroma, brighter
+  const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv420, meaning(ColorRange::limited, ColorMatrix::bt601));
+  cv::Mat theirs;
+  cv::cvtColor(bgr, theirs, cv::COLOR_BGR2YUV_I420);
+  CHECK(largest_difference(frame.planes[0], theirs.rowRange(0, 20)) <= 1);  // its coefficients have 20 bits
+  cv::Mat joined(30, 30, CV_8UC1);
+  std::copy_n(frame.planes[0].data, 600, joined.data);
+  std::copy_n(frame.planes[1].data, 150, joined.data + 600);
+  std::copy_n(frame.planes[2].data, 150, joined.data + 750);
+  cv::Mat their_bgr;
+  cv::cvtColor(joined, their_bgr, cv::COLOR_YUV2BGR_I420);
+  CHECK(largest_difference(bgr_of(frame), their_bgr) <= 1);
+}
+
+TEST_CASE("full BT601 agrees with OpenCV") {
+  const cv::Mat bgr = smooth_bgr({33, 21});
+  cv::Mat ycrcb;
+  cv::cvtColor(bgr, ycrcb, cv::COLOR_BGR2YCrCb);  // Y, Cr, Cb of JPEG
+  const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::full, ColorMatrix::bt601));
+  for (const auto& [plane, channel] : {std::pair{0, 0}, std::pair{1, 2}, std::pair{2, 1}}) {
+    cv::Mat theirs;
+    cv::extractChannel(ycrcb, theirs, channel);
+    CHECK(largest_difference(frame.planes[static_cast<size_t>(plane)], theirs) <= 1);  // its coefficients are rounded
+  }
+}
+
+TEST_CASE("chroma is read and written where its siting says") {
+  // Cb is a ramp over x and y. A ramp is its own linear interpolation, and its own mean about the sample's place, so a
+  // chroma sample must hold the ramp's value at its place, and every luma pixel inside must read the ramp's value.
+  const cv::Size size(40, 24);
+  const auto ramp = [](double x, double y) { return 100 + 1.0 * x + 2.0 * y; };
+  for (const ChromaSite site : kSites) {
+    const double dx = site == ChromaSite::center ? 0.5 : 0;
+    const double dy = site == ChromaSite::top_left ? 0 : 0.5;
+    const ColorInfo color = meaning(ColorRange::full, ColorMatrix::bt601, site);
+    Frame frame;
+    frame.layout = PixelLayout::yuv420;
+    frame.color = color;
+    frame.planes[0] = cv::Mat(size, CV_8UC1, cv::Scalar(90));
+    frame.planes[2] = cv::Mat(12, 20, CV_8UC1, cv::Scalar(128));
+    frame.planes[1] = cv::Mat(12, 20, CV_8UC1);
+    for (int y = 0; y < 12; ++y)
+      for (int x = 0; x < 20; ++x)
+        frame.planes[1].at<uchar>(y, x) = static_cast<uchar>(ramp(2 * x + dx, 2 * y + dy) + 0.25);
+    const cv::Mat bgr = bgr_of(frame);
+    for (int y = 2; y < 22; ++y)
+      for (int x = 2; x < 38; ++x) {
+        const double blue = 90 + 1.772 * (ramp(x, y) - 128);
+        if (blue < 1 || blue > 254) continue;
+        // The ramp is stored with an error of at most 0.5, times 1.772, and the result is rounded.
+        CHECK(std::abs(bgr.at<cv::Vec3b>(y, x)[0] - blue) <= 0.5 * 1.772 + 0.5 + 1e-3);
+      }
+  }
+}
+
+TEST_CASE("shrinking keeps a ramp where the siting says") {
+  cv::Mat bgr(20, 40, CV_8UC3);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 40; ++x) bgr.at<cv::Vec3b>(y, x) = {static_cast<uchar>(4 * x + 2 * y + 20), 90, 90};
+  for (const ChromaSite site : kSites) {
+    const double dx = site == ChromaSite::center ? 0.5 : 0;
+    const double dy = site == ChromaSite::top_left ? 0 : 0.5;
+    const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv420, meaning(ColorRange::full, ColorMatrix::bt601, site));
+    REQUIRE(frame.planes[1].size() == cv::Size(20, 10));
+    for (int y = 1; y < 9; ++y)
+      for (int x = 1; x < 19; ++x) {
+        const double blue = 4 * (2 * x + dx) + 2 * (2 * y + dy) + 20;
+        const double cb = 128 + (blue - 90) * 0.5;                            // JFIF: 0.5 B - 0.168736 R - 0.331264 G
+        CHECK(std::abs(frame.planes[1].at<uchar>(y, x) - cb) <= 0.5 + 1e-3);  // rounded to a code
+      }
+  }
+}
+
+TEST_CASE("values beyond the gamut are clipped and not wrapped") {
+  Frame frame;
+  frame.layout = PixelLayout::yuv444;
+  frame.color = meaning(ColorRange::limited, ColorMatrix::bt709);
+  frame.planes = {cv::Mat(1, 2, CV_8UC1, cv::Scalar(255)), cv::Mat(1, 2, CV_8UC1, cv::Scalar(255)),
+                  cv::Mat(1, 2, CV_8UC1, cv::Scalar(255))};
+  frame.planes[0].at<uchar>(0, 1) = 0;
+  const cv::Mat bgr = bgr_of(frame);
+  CHECK(bgr.at<cv::Vec3b>(0, 0)[0] == 255);
+  CHECK(bgr.at<cv::Vec3b>(0, 0)[2] == 255);
+  CHECK(bgr.at<cv::Vec3b>(0, 1)[1] == 0);
+}

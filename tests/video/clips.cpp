@@ -18,7 +18,7 @@ extern "C" {
 namespace sigs::test {
 namespace {
 
-Samples samples_of(const AVFrame& picture) {
+Samples picture_samples(const AVFrame& picture) {
   const auto format = static_cast<AVPixelFormat>(picture.format);
   const int size = av_image_get_buffer_size(format, picture.width, picture.height, 1);
   Samples samples(static_cast<size_t>(size));
@@ -29,7 +29,7 @@ Samples samples_of(const AVFrame& picture) {
 
 void receive(AVCodecContext* decoder, AVFrame* picture, double tick_s, WholeDecode& decode) {
   while (avcodec_receive_frame(decoder, picture) == 0) {
-    decode.pictures.push_back(samples_of(*picture));
+    decode.pictures.push_back(picture_samples(*picture));
     decode.times_s.push_back(static_cast<double>(picture->best_effort_timestamp) * tick_s);
   }
 }
@@ -117,8 +117,8 @@ Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorIn
       for (int x = 0; x < size.width; ++x)
         plane.at<uchar>(y, x) = static_cast<uchar>(
             40 + 20 * i + (3 * x + 2 * y + 5 * number) % 120 +
-            static_cast<int>(grain(static_cast<uint32_t>(x), static_cast<uint32_t>(y),
-                                   static_cast<uint32_t>(3 * number + i)) % 16));
+            static_cast<int>(
+                grain(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(3 * number + i)) % 16));
     frame.planes[static_cast<size_t>(i)] = plane;
   }
   return frame;

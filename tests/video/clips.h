@@ -24,7 +24,8 @@ struct WholeDecode {
 };
 [[nodiscard]] WholeDecode whole_decode(const std::filesystem::path& path);
 
-// Runs the ffmpeg program on a moving test picture. False, and SKIPPED printed, where there is none or it lacks a codec.
+// Runs the ffmpeg program on a moving test picture. False, and SKIPPED printed, where there is none or it lacks a
+// codec.
 //   filter   of the test picture, "testsrc2=size=128x96:rate=25:duration=2" if empty
 //   options  codec and muxer options; path  the output
 [[nodiscard]] bool make_clip(const std::string& options, const std::filesystem::path& path,

@@ -83,7 +83,7 @@ TEST_CASE("every real clip can be read to its last frame and back") {
     size_t frames;
   };
   for (const Clip& clip : {Clip{"video/ground_udacity_road_540p.mp4", 221}, Clip{"track/V_AIRPLANE_001.mp4", 0}}) {
-    CAPTURE(clip.file);
+    CAPTURE(std::string(clip.file));
     const WholeDecode truth = whole_decode(real_data() / clip.file);
     if (clip.frames > 0) CHECK(truth.pictures.size() == clip.frames);
     FrameSource source = opened(real_data() / clip.file);

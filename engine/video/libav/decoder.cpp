@@ -8,7 +8,8 @@
 
 namespace sigs::libav {
 
-Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings) {
+Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings,
+                              Complaint& complaint) {
   const AVCodec* codec = avcodec_find_decoder(parameters.codec_id);
   if (codec == nullptr)
     return fail("", std::string("no decoder for the codec ") + avcodec_get_name(parameters.codec_id),
@@ -16,6 +17,7 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   CodecPtr context(avcodec_alloc_context3(codec));
   ENSURE(context != nullptr);
   int error = avcodec_parameters_to_context(context.get(), &parameters);
+  context->opaque = &complaint;
   context->thread_count = settings.threads;
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);

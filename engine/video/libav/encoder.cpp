@@ -20,9 +20,7 @@ constexpr int kH264Threads = 4;
 constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
 constexpr int kH264KeyInterval = 60;  // about two seconds: an editor scrubs through it
 
-constexpr int kFfv1Slices = 4;
-constexpr int kFfv1SmallestSliced = 64;  // px; below, slices cost more than they give
-constexpr int kMjpegQuality = 2;         // the finest scale that FFmpeg's rate control takes
+constexpr int kMjpegQuality = 2;  // the finest scale that FFmpeg's rate control takes
 
 int frame_threads(int wanted) {
   return std::max(wanted, 1);
@@ -31,9 +29,8 @@ int frame_threads(int wanted) {
 void set_up_ffv1(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
   context.level = 3;  // slices with checksums
   context.gop_size = 1;
-  const bool small = std::min(format.size_px.width, format.size_px.height) < kFfv1SmallestSliced;
-  context.slices = small ? 1 : kFfv1Slices;
-  context.thread_count = std::min(frame_threads(format.threads), context.slices);
+  context.slices = 0;  // chosen by the encoder from the picture's size alone: four, more where that is not possible
+  context.thread_count = frame_threads(format.threads);
   context.thread_type = FF_THREAD_SLICE;
   av_dict_set(options, "slicecrc", "1", 0);
 }

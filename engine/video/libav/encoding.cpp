@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/encoding.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/ensure.h"
@@ -33,10 +34,16 @@ std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
+// FFmpeg's FFV1 cuts every picture into slices and does not give back those that are one sample wide or high.
+constexpr int kSmallestFfv1_px = 4;
+
 // H.264's 4:2:0 and 4:2:2 pictures are whole chroma samples wide and high.
 Result<void> check_size(const VideoFormat& format, const Encoding& encoding) {
   if (format.size_px.width <= 0 || format.size_px.height <= 0)
     return fail("", "the picture is empty: " + size_text(format.size_px), ErrorKind::usage);
+  if (format.codec == VideoCodec::ffv1 && std::min(format.size_px.width, format.size_px.height) < kSmallestFfv1_px)
+    return fail("", "ffv1 cannot hold a picture as small as " + size_text(format.size_px) + "; 4x4 is the least",
+                ErrorKind::usage);
   if (format.codec != VideoCodec::h264) return {};
   const cv::Size step = chroma_step(encoding.layout);
   if (format.size_px.width % step.width == 0 && format.size_px.height % step.height == 0) return {};

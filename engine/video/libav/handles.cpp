@@ -2,10 +2,28 @@
 #include "video/libav/handles.h"
 
 #include <array>
+#include <cstdarg>
+#include <string_view>
 
 #include "base/ensure.h"
 
 namespace sigs::libav {
+namespace {
+
+// Patching up the macroblocks of a damaged picture is no more than information to FFmpeg.
+bool is_complaint(int level, const char* format) {
+  return level <= AV_LOG_ERROR || std::string_view(format).starts_with("concealing");
+}
+
+// Called from FFmpeg's own threads. A threaded decoder's contexts are copies of the one that was opened.
+void note_complaint(void* source, int level, const char* format, va_list /*values*/) {
+  if (source == nullptr || !is_complaint(level, format)) return;
+  if (*static_cast<const AVClass**>(source) != avcodec_get_class()) return;
+  const auto* context = static_cast<const AVCodecContext*>(source);
+  if (context->opaque != nullptr) static_cast<Complaint*>(context->opaque)->store(true);
+}
+
+}  // namespace
 
 void Deleter::operator()(AVFormatContext* context) const {
   avformat_close_input(&context);
@@ -46,7 +64,7 @@ std::string url_of(const std::filesystem::path& path) {
 }
 
 void silence() {
-  av_log_set_level(AV_LOG_QUIET);
+  av_log_set_callback(note_complaint);
 }
 
 }  // namespace sigs::libav

@@ -11,6 +11,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -41,7 +42,9 @@ using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 // The path as FFmpeg takes it literally: "a:b.mkv" is a file, not a protocol.
 [[nodiscard]] std::string url_of(const std::filesystem::path& path);
 
-// FFmpeg reports to stderr, which belongs to the program's own log and progress. Errors come back as values anyway.
+// FFmpeg reports to stderr, which belongs to the program's own log and progress. Errors come back as values; those a
+// decoder only talks of raise the flag that its context's `opaque` points to, if any.
+using Complaint = std::atomic<bool>;
 void silence();
 
 }  // namespace sigs::libav

@@ -47,9 +47,14 @@ int reorder_depth(const PacketTable& table, const std::vector<int>& ordinals) {
   return deepest;
 }
 
-std::vector<double> times_of(const std::vector<int64_t>& stamps, AVRational time_base) {
+struct StreamBasics {
+  double tick_s = 0;  // of its time stamps
+  double frame_period_s = 0;
+};
+
+std::vector<double> times_of(const std::vector<int64_t>& stamps, double tick_s) {
   std::vector<double> times_s;
-  for (const int64_t stamp : stamps) times_s.push_back(static_cast<double>(stamp - stamps.front()) * av_q2d(time_base));
+  for (const int64_t stamp : stamps) times_s.push_back(static_cast<double>(stamp - stamps.front()) * tick_s);
   return times_s;
 }
 
@@ -65,14 +70,15 @@ std::optional<std::vector<int64_t>> sorted_stamps(const PacketTable& table, cons
   return stamps;
 }
 
-void set_times(PictureOrder& order, const PacketTable& table, const AVStream& stream, double frame_period_s) {
+void set_times(PictureOrder& order, const PacketTable& table, const StreamBasics& stream) {
   for (int64_t PacketMark::*stamp : {&PacketMark::pts, &PacketMark::dts})
     if (const auto stamps = sorted_stamps(table, order.ordinals, stamp)) {
-      order.times_s = times_of(*stamps, stream.time_base);
+      order.times_s = times_of(*stamps, stream.tick_s);
       return;
     }
   order.times_are_nominal = true;
-  for (size_t n = 0; n < order.ordinals.size(); ++n) order.times_s.push_back(static_cast<double>(n) * frame_period_s);
+  for (size_t n = 0; n < order.ordinals.size(); ++n)
+    order.times_s.push_back(static_cast<double>(n) * stream.frame_period_s);
 }
 
 }  // namespace
@@ -87,17 +93,20 @@ std::optional<PictureOrder> order_from_packets(const PacketTable& table, const A
                    [&](int a, int b) { return table[a].pts < table[b].pts; });
   const auto stamps = sorted_stamps(table, order.ordinals, &PacketMark::pts);
   if (!stamps) return {};
-  order.times_s = times_of(*stamps, stream.time_base);
+  order.times_s = times_of(*stamps, av_q2d(stream.time_base));
   for (const int ordinal : order.ordinals) order.can_start.push_back(table[ordinal].key);
   order.reorder_depth = reorder_depth(table, order.ordinals);
   return order;
 }
 
-Result<PictureOrder> order_from_decoding(const PacketTable& table, const AVStream& stream, PictureStream& pictures,
-                                         double frame_period_s) {
+Result<PictureOrder> order_from_decoding(const PacketTable& table, PictureStream& pictures, AVRational frame_rate) {
+  // Taken out first: each start may open the file anew, and then the stream of the last opening is gone.
+  const AVStream& stream = pictures.demuxer().stream();
+  const StreamBasics basics{.tick_s = av_q2d(stream.time_base), .frame_period_s = 1 / av_q2d(frame_rate)};
+  const bool intra_only = is_intra_only(stream.codecpar->codec_id);
   PictureOrder order;
   const auto decode_all = [&](int threads) -> Result<void> {
-    order = {.intra_only = is_intra_only(stream.codecpar->codec_id)};
+    order = {.intra_only = intra_only};
     if (const Result<void> started = pictures.start(0, {.threads = threads}); !started) return fail(started.error());
     while (true) {
       Result<std::optional<Picture>> picture = pictures.next();
@@ -109,9 +118,9 @@ Result<PictureOrder> order_from_decoding(const PacketTable& table, const AVStrea
   };
   Result<void> decoded = decode_all(2);
   // What two threads make of a damaged stream can depend on which of them is ahead.
-  if (decoded && pictures.met_damage()) decoded = decode_all(1);
+  if (decoded && pictures.first_damage()) decoded = decode_all(1);
   if (!decoded) return fail(decoded.error());
-  set_times(order, table, stream, frame_period_s);
+  set_times(order, table, basics);
   return order;
 }
 

@@ -25,7 +25,7 @@ struct PictureOrder {
                                                              const AVStream& stream);
 
 // By decoding all: codecs with hidden or doubled pictures, containers without time stamps or a trustworthy index.
-[[nodiscard]] Result<PictureOrder> order_from_decoding(const PacketTable& table, const AVStream& stream,
-                                                       PictureStream& pictures, double frame_period_s);
+[[nodiscard]] Result<PictureOrder> order_from_decoding(const PacketTable& table, PictureStream& pictures,
+                                                       AVRational frame_rate);
 
 }  // namespace sigs::libav

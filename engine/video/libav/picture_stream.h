@@ -27,20 +27,25 @@ class PictureStream {
   // Empty at the end.
   [[nodiscard]] Result<std::optional<Picture>> next();
 
-  // Ordinal of the last packet that went in since start(), and whether anything was damaged since.
+  // Ordinal of the last packet that went in since start(), and of the first that was damaged, as far as met.
   [[nodiscard]] int fed() const { return fed_; }
-  [[nodiscard]] bool met_damage() const { return met_damage_; }
+  [[nodiscard]] std::optional<int> first_damage() const { return first_damage_; }
 
  private:
   [[nodiscard]] Result<void> feed();
   [[nodiscard]] Picture taken(FramePtr frame);
+  void note_damage(int ordinal);
+  void note_complaint();
 
   PacketReader reader_;
   const PacketTable* table_;
+  // What the decoder talks of. With several threads flags on pictures get lost in FFmpeg 5.1; this does not.
+  std::unique_ptr<Complaint> complaint_ = std::make_unique<Complaint>(false);
   CodecPtr decoder_;
   PacketPtr packet_ = new_packet();
   int fed_ = -1;
-  bool met_damage_ = false;
+  std::optional<int> first_damage_;
+  int complained_of_ = -1;  // an intra-only codec's packet; others flag their pictures themselves
 };
 
 }  // namespace sigs::libav

@@ -156,6 +156,22 @@ Frame picked(const AVFrame& picture, const AVPixFmtDescriptor& format, PixelLayo
   return frame;
 }
 
+// data[1] holds 256 words of opacity, red, green and blue, from the highest byte down.
+Frame looked_up(const AVFrame& picture, const ColorInfo& color) {
+  Frame frame{.layout = PixelLayout::rgb, .color = color};
+  for (cv::Mat& plane : frame.planes) plane.create(picture.height, picture.width, CV_8UC1);
+  for (int y = 0; y < picture.height; ++y) {
+    const uchar* in = picture.data[0] + static_cast<ptrdiff_t>(y) * picture.linesize[0];
+    for (int x = 0; x < picture.width; ++x) {
+      uint32_t word = 0;
+      std::memcpy(&word, picture.data[1] + 4 * in[x], sizeof word);
+      for (int i = 0; i < 3; ++i)
+        frame.planes[static_cast<size_t>(i)].at<uchar>(y, x) = static_cast<uchar>(word >> (16 - 8 * i));
+    }
+  }
+  return frame;
+}
+
 // The same range on both sides, so that swscale only moves and resamples.
 void keep_range(SwsContext& scaler, ColorRange range) {
   const int full = range == ColorRange::full ? 1 : 0;
@@ -187,7 +203,9 @@ Conversion conversion_of(AVPixelFormat pixel_format) {
   const AVPixFmtDescriptor& format = description_of(pixel_format);
   Conversion conversion{.layout = nearest_layout(format)};
   const bool has_alpha = (format.flags & AV_PIX_FMT_FLAG_ALPHA) != 0 && (format.flags & AV_PIX_FMT_FLAG_PAL) == 0;
-  if (!can_pick(format))
+  if (pixel_format == AV_PIX_FMT_PAL8)
+    conversion.text = "pal8 to RGB through its palette";
+  else if (!can_pick(format))
     conversion.text =
         std::string(format.name) + " to " + av_get_pix_fmt_name(plain_format(conversion.layout)) + " through swscale";
   else if (format.comp[0].depth > 8)
@@ -199,6 +217,7 @@ Conversion conversion_of(AVPixelFormat pixel_format) {
 Result<Frame> frame_of(const AVFrame& picture, PixelLayout layout, const ColorInfo& color) {
   const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(picture.format));
   if (can_pick(format) && nearest_layout(format) == layout) return picked(picture, format, layout, color);
+  if (picture.format == AV_PIX_FMT_PAL8 && layout == PixelLayout::rgb) return looked_up(picture, color);
   const Result<FramePtr> plain = scaled(picture, layout, color.range);
   if (!plain) return fail(plain.error());
   return picked(**plain, description_of(plain_format(layout)), layout, color);

@@ -49,11 +49,23 @@ std::string counted(long long declared, int there) {
   return "header declares " + std::to_string(declared) + " frames, " + std::to_string(there) + " are there";
 }
 
+// Seconds that the header promises beyond the last frame. Sound may last longer than the picture, so only video alone
+// tells; and only a header, not a guess from the bit rate.
+double missing_s(const VideoInfo& info, const AVFormatContext& format) {
+  if (format.nb_streams != 1 || format.duration <= 0 || info.times_s.empty() ||
+      format.duration_estimation_method != AVFMT_DURATION_FROM_STREAM)
+    return 0;
+  const double promised_s = static_cast<double>(format.duration) / AV_TIME_BASE;
+  return promised_s - info.times_s.back() - static_cast<double>(info.frame_rate_den) / info.frame_rate_num;
+}
+
+constexpr double kMissingWorthTelling_s = 0.1;
+
 void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& table, const PictureOrder& order) {
   const auto warn = [&](std::string what) { info.warnings.push_back({info.path.string(), std::move(what)}); };
   if (info.declared_frames > 0 && info.declared_frames != table.size() && info.declared_frames != info.frame_count())
     warn(counted(info.declared_frames, info.frame_count()));
-  else if (table.broke_off())
+  else if (table.broke_off() || missing_s(info, demuxer.format()) > kMissingWorthTelling_s)
     warn("the file ends early; " + std::to_string(info.frame_count()) + " frames are there");
   if (table.any_corrupt()) warn("some packets are damaged");
   if (order.times_are_nominal)

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+namespace sigs::test {
+
+// Whether the act ends its process by SIGABRT, as ENSURE does. It runs in a child process, whose messages are dropped.
+[[nodiscard]] bool aborts(const std::function<void()>& act);
+
+}  // namespace sigs::test

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "base/layer.h"
+#include "video/frame.h"
+
+namespace sigs::test {
+
+// One way in which the samples of a picture lie and what they mean.
+struct Sort {
+  std::string name;
+  PixelLayout layout = PixelLayout::yuv420;
+  cv::Size step{1, 1};  // luma samples a chroma sample
+  bool is_limited = true;
+  ColorMatrix matrix = ColorMatrix::bt709;
+};
+
+// Every layout in both ranges and all matrices.
+[[nodiscard]] std::vector<Sort> all_sorts();
+
+[[nodiscard]] Frame grainy(const Sort& sort, cv::Size size_px);
+
+// One luma code everywhere (for rgb: in all three planes), no colour.
+[[nodiscard]] Frame even(const Sort& sort, cv::Size size_px, uchar code);
+
+// IEC 61966-2-1 and Rec. ITU-R BT.601, 709 and 2020 written out again, in doubles.
+[[nodiscard]] double display_value(double linear);
+[[nodiscard]] double linear_value(double display);
+[[nodiscard]] cv::Vec3d codes_of(const Sort& sort, const cv::Vec3d& display);  // not rounded; luma alone counts for gray
+
+// Whether a sample of a plane has any pixel of opacity above 0.
+[[nodiscard]] bool is_covered(const Layer& layer, int x, int y, cv::Size step);
+
+}  // namespace sigs::test

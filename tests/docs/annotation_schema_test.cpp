@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "annotation/sigs_xml.h"
+#include "base/angles.h"
+#include "base/partial_file.h"
+#include "docs/markdown.h"
+#include "docs/process.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+namespace {
+
+bool has_xmllint() {
+  static const bool there = run("xmllint --version").status == 0;
+  if (!there) std::printf("SKIPPED: xmllint (libxml2-utils) is absent\n");
+  return there;
+}
+
+Finished checked(const std::string& xml) {
+  const TemporaryFolder folder;
+  REQUIRE(write_text(folder / "truth.xml", xml, false).has_value());
+  return run("xmllint --noout --nonet --schema '" + (source_dir() / "docs/sigs-annotations.xsd").string() + "' '" +
+             (folder / "truth.xml").string() + "'");
+}
+
+void check_valid(const std::string& xml) {
+  const Finished finished = checked(xml);
+  CHECK_MESSAGE(finished.status == 0, finished.output);
+}
+
+// Exit status 3 is "does not validate"; anything else would mean that the schema or the XML itself is broken.
+void check_invalid(const std::string& xml, const std::string& why) {
+  const Finished finished = checked(xml);
+  CHECK_MESSAGE(finished.status == 3, why << " gives " << finished.status << "\n" << finished.output);
+}
+
+IntruderTruth seen(int id) {
+  return {.id = id,
+          .name = "airliner <\"A&B\">",
+          .position_m = {899.25, -1e8, -20},
+          .attitude = {rad_of_deg(180), rad_of_deg(-90), rad_of_deg(-179.9999999)},
+          .in_picture = true,
+          .visible_fraction = 0.5,
+          .box = cv::Rect(0, 7, 41, 13),
+          .silhouette = Box{-1e6, 0.00004, 2e6, 0}};
+}
+
+IntruderTruth unseen(int id) {
+  return {.id = id, .position_m = {-5, 0, 0}};
+}
+
+std::string written() {
+  const TemporaryFolder folder;
+  const FootageTruth footage{.video = "flight.mp4", .size_px = {1280, 960}, .first_frame = 4, .last_frame = 6};
+  Result<SigsXmlWriter> writer = SigsXmlWriter::open(folder / "truth.xml", footage);
+  REQUIRE(writer.has_value());
+  REQUIRE(writer->write({.index = 4, .time_s = 0.16, .camera_position_m = {3.2, 0, -150}}).has_value());
+  REQUIRE(writer->write({.index = 5, .time_s = 0.2, .intruders = {seen(0)}}).has_value());
+  REQUIRE(writer->write({.index = 6, .time_s = 0.24, .intruders = {unseen(0), seen(1)}}).has_value());
+  REQUIRE(writer->finish().has_value());
+  return *read_text(folder / "truth.xml");
+}
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t place = text.find(from);
+  REQUIRE_MESSAGE(place != std::string::npos, from);
+  return text.replace(place, from.size(), to);
+}
+
+struct Change {
+  const char* from;
+  const char* to;
+};
+
+const std::vector<Change> kBroken{
+    {"version=\"1\">", "version=\"2\">"},
+    {" width=\"1280\"", ""},
+    {" width=\"1280\"", " width=\"0\""},
+    {"frame_rate=\"25/1\"", "frame_rate=\"25\""},
+    {"frame_rate=\"25/1\"", "frame_rate=\"25/0\""},
+    {"index=\"4\"", "index=\"5\""},
+    {"index=\"4\"", "index=\"-4\""},
+    {"time_s=\"0.16\"", "time_s=\"nan\""},
+    {"time_s=\"0.16\"", "time_s=\"1.6e-1\""},
+    {"time_s=\"0.16\"", "time_s=\"0,16\""},
+    {"time_s=\"0.16\"", "time_s=\"0.1234567\""},
+    {"y_m=\"0\"", "y_m=\"-0\""},
+    {"y_m=\"0\"", "y_m=\"inf\""},
+    {" z_m=\"-150\"", ""},
+    {"z_m=\"-150\"", "z_m=\"-150\" w_m=\"0\""},
+    {"roll_deg=\"180\"", "roll_deg=\"180.5\""},
+    {"pitch_deg=\"-90\"", "pitch_deg=\"-91\""},
+    {"in_picture=\"true\"", "in_picture=\"1\""},
+    {"visible_fraction=\"0.5\"", "visible_fraction=\"1.5\""},
+    {"visible_fraction=\"0.5\"", "visible_fraction=\"-0.5\""},
+    {"<distance", "<range"},
+    {"<distance m=\"", "<distance m=\"-"},
+    {"<box x=\"0\" y=\"7\" width=\"41\"", "<box x=\"0.5\" y=\"7\" width=\"41\""},
+    {"<box x=\"0\" y=\"7\" width=\"41\"", "<box x=\"-1\" y=\"7\" width=\"41\""},
+    {"<box x=\"0\" y=\"7\" width=\"41\"", "<box x=\"0\" y=\"7\" width=\"0\""},
+    {"<silhouette x=\"-1000000\" y=\"0\" width=\"2000000\"", "<silhouette x=\"-1000000\" y=\"0\" width=\"-1\""},
+    {"id=\"1\"", "id=\"0\""},
+    {" name=\"airliner", " title=\"airliner"},
+    {"</sigs>", "<extra/></sigs>"},
+    {"</sigs>", "<footage/></sigs>"},
+};
+
+}  // namespace
+
+TEST_CASE("a written annotation file keeps to the schema") {
+  if (!has_xmllint()) return;
+  check_valid(written());
+}
+
+TEST_CASE("the example on the annotation format's page keeps to the schema") {
+  if (!has_xmllint()) return;
+  const std::vector<std::string> examples = blocks(page("annotation-format.md"), "xml");
+  REQUIRE(!examples.empty());
+  for (const std::string& example : examples) check_valid(example);
+}
+
+TEST_CASE("the schema refuses what the annotation format does not allow") {
+  if (!has_xmllint()) return;
+  const std::string good = written();
+  for (const auto& [from, to] : kBroken) check_invalid(changed(good, from, to), std::string(from) + " -> " + to);
+}
+
+TEST_CASE("the schema refuses elements out of order and a file without its footage") {
+  if (!has_xmllint()) return;
+  const std::string good = written();
+  const std::size_t begin = good.find("      <position");
+  const std::size_t middle = good.find("      <distance");
+  const std::size_t end = good.find("      <attitude");
+  check_invalid(
+      good.substr(0, begin) + good.substr(middle, end - middle) + good.substr(begin, middle - begin) + good.substr(end),
+      "distance before position");
+  const std::size_t footage = good.find("  <footage");
+  check_invalid(good.substr(0, footage) + good.substr(good.find("  <frame")), "no footage");
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <regex>
+#include <set>
+#include <string>
+
+#include "docs/markdown.h"
+#include "docs/process.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+namespace {
+
+std::string help_of(const std::string& verb) {
+  const Finished finished = run("'" + (build_dir() / "sigs").string() + "' " + verb + " --help");
+  REQUIRE_MESSAGE(finished.status == 0, finished.output);
+  return finished.output;
+}
+
+std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
+  std::set<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.insert((*it)[1]);
+  return found;
+}
+
+std::set<std::string> options_in(const std::string& text) {
+  return matches(text, std::regex("(--[a-z][a-z-]*)"));
+}
+
+std::set<std::string> verbs() {
+  const std::string help = help_of("");
+  const std::size_t begin = help.find("Subcommands:");
+  const std::size_t end = help.find("Examples:");
+  return matches(help.substr(begin, end - begin), std::regex("\n  ([a-z]+) "));
+}
+
+// The part of the page below "## sigs VERB".
+std::string section(const std::string& verb) {
+  const std::string text = page("command-line.md");
+  const std::size_t begin = text.find("\n## sigs " + verb + "\n");
+  REQUIRE_MESSAGE(begin != std::string::npos, "no section on " << verb);
+  return text.substr(begin, text.find("\n## ", begin + 1) - begin);
+}
+
+}  // namespace
+
+TEST_CASE("the command line's page has a section on every verb with exactly its options") {
+  REQUIRE(verbs().size() >= 4);
+  for (const std::string& verb : verbs()) {
+    std::set<std::string> on_page;
+    for (const auto& row : table_rows(section(verb), "| option | default | meaning |"))
+      on_page.merge(options_in(row.front()));
+    std::set<std::string> in_program = options_in(help_of(verb).substr(0, help_of(verb).find("Examples:")));
+    in_program.erase("--help");
+    for (const std::string& option : in_program) CHECK_MESSAGE(on_page.contains(option), verb << " " << option);
+    for (const std::string& option : on_page) CHECK_MESSAGE(in_program.contains(option), verb << " " << option);
+  }
+}
+
+TEST_CASE("the command line's page has the exit statuses that the program names") {
+  const std::string help = help_of("");
+  const std::set<std::string> in_program =
+      matches(help.substr(help.find("Exit status:")), std::regex("[:,]\\s+([0-9]+) "));
+  REQUIRE(in_program.size() >= 9);
+  std::set<std::string> on_page;
+  for (const auto& row : table_rows(page("command-line.md"), "| status | meaning |")) on_page.insert(row.front());
+  CHECK(on_page == in_program);
+}
+
+}  // namespace sigs::test

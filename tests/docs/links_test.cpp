@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <regex>
+#include <string>
+
+#include "base/partial_file.h"
+#include "docs/markdown.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.push_back((*it)[1]);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("every link in the documentation leads to a file") {
+  for (const fs::path& path : pages()) {
+    const std::string text = *read_text(path);
+    for (const std::string& target : matches(text, std::regex("\\]\\(([^)#]+)[^)]*\\)"))) {
+      if (target.starts_with("http")) continue;
+      CHECK_MESSAGE(fs::exists(path.parent_path() / target), path.filename() << " links to " << target);
+    }
+  }
+}
+
+TEST_CASE("every file of ours that the documentation names is there") {
+  int named = 0;
+  for (const fs::path& path : pages()) {
+    const std::string text = *read_text(path);
+    for (const std::string& name : matches(text, std::regex("`((?:engine|cli|tests|docs)/[A-Za-z0-9_./-]+)`"))) {
+      CHECK_MESSAGE(fs::exists(source_dir() / name), path.filename() << " names " << name);
+      ++named;
+    }
+  }
+  CHECK(named > 20);
+}
+
+TEST_CASE("the index of the documentation names every page") {
+  const std::string index = page("README.md");
+  for (const auto& entry : fs::directory_iterator(source_dir() / "docs")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && name != "README.md")
+      CHECK_MESSAGE(index.find("(" + name + ")") != std::string::npos, name);
+  }
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/made_scenes.h"
+#include "engine/raw_video.h"
+#include "export.h"
+
+namespace sigs::test {
+namespace {
+
+constexpr int kFrames = 31;  // 0 to 30
+
+struct Exported {
+  ExportReport report;
+  RawVideo source;
+  RawVideo picture;
+  RawVideo masks;
+};
+
+Exported exported(Lot& lot, const std::filesystem::path& clip, MethodChoice method) {
+  lot.project.footage.video = clip.string();
+  lot.project.compositing.method = method;
+  lot.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video};
+  const ExportRequest request{
+      .project = lot.project, .folder = lot.path("out"), .frames = FrameRange{0, kFrames - 1}, .jobs = 2, .overwrite = true};
+  const Result<ExportReport> report = export_project(request, {});
+  REQUIRE_MESSAGE(report.has_value(), report.error().text());
+  return {*report, raw_video(clip, kFrames), raw_video(lot.path("out/lot.mkv"), kFrames),
+          raw_video(lot.path("out/lot.masks.mkv"), kFrames)};
+}
+
+struct Count {
+  long long changed_outside = 0;  // where no mask is
+  long long changed_inside = 0;
+  long long kept_luma = 0;
+  long long kept_chroma = 0;
+};
+
+// A luma sample is free where its pixel's mask is 0; a chroma sample where those of all four of its pixels are.
+bool is_free(const cv::Mat& mask, int x, int y, int step) {
+  for (int j = y * step; j < std::min((y + 1) * step, mask.rows); ++j)
+    for (int i = x * step; i < std::min((x + 1) * step, mask.cols); ++i)
+      if (mask.at<uchar>(j, i) != 0) return false;
+  return true;
+}
+
+void count_plane(const cv::Mat& before, const cv::Mat& after, const cv::Mat& mask, int step, Count& count) {
+  REQUIRE(before.size() == after.size());
+  for (int y = 0; y < before.rows; ++y)
+    for (int x = 0; x < before.cols; ++x) {
+      const bool same = before.at<uchar>(y, x) == after.at<uchar>(y, x);
+      if (!is_free(mask, x, y, step))
+        count.changed_inside += same ? 0 : 1;
+      else if (!same)
+        ++count.changed_outside;
+      else
+        ++(step == 1 ? count.kept_luma : count.kept_chroma);
+    }
+}
+
+Count count_of(const Exported& clip) {
+  Count count;
+  REQUIRE(clip.source.pictures.size() == kFrames);
+  REQUIRE(clip.picture.pictures.size() == kFrames);
+  REQUIRE(clip.masks.pictures.size() == kFrames);
+  for (std::size_t n = 0; n < kFrames; ++n) {
+    REQUIRE(clip.source.pictures[n].planes.size() == 3);
+    REQUIRE(clip.picture.pictures[n].planes.size() == 3);
+    for (std::size_t plane = 0; plane < 3; ++plane)
+      count_plane(clip.source.pictures[n].planes[plane], clip.picture.pictures[n].planes[plane],
+                  clip.masks.pictures[n].planes[0], plane == 0 ? 1 : 2, count);
+  }
+  return count;
+}
+
+void check_tags(const Exported& clip) {
+  CHECK(clip.picture.is_full_range == clip.source.is_full_range);
+  CHECK(clip.picture.matrix == clip.source.matrix);
+  CHECK(clip.picture.primaries == clip.source.primaries);
+  CHECK(clip.picture.transfer == clip.source.transfer);
+}
+
+// Matroska counts in milliseconds.
+void check_times(const Exported& clip) {
+  const double begin_s = clip.source.pictures.front().time_s - clip.picture.pictures.front().time_s;
+  for (std::size_t n = 0; n < clip.source.pictures.size(); ++n)
+    CHECK(std::abs(clip.source.pictures[n].time_s - begin_s - clip.picture.pictures[n].time_s) < 0.0011);
+}
+
+// An aircraft that crosses the picture, blurred with distance as by default.
+void fly_across(Lot& lot) {
+  write_obj(lot.path("aircraft.obj"), aircraft(), 1);
+  lot.project.compositing.blur_px_per_m = CompositingSettings{}.blur_px_per_m * 10;  // 1.6 px at 80 m
+  IntruderSettings& intruder = lot.add("aircraft.obj", {});
+  intruder.trajectory.waypoints = {{.frame = 0, .position_m = {70, -45, -160}},
+                                   {.frame = 15, .position_m = {80, 0, -148}},
+                                   {.frame = 30, .position_m = {90, 70, -150}}};
+}
+
+struct Clip {
+  const char* file;
+  cv::Size size_px;
+};
+const Clip kClips[] = {{"video/air_karma_gopro_coast.mp4", {854, 480}},
+                           {"video/ground_udacity_road_540p.mp4", {960, 540}}};
+
+// A lens that bends, for pictures of the clip's size.
+void bend(Lot& lot, cv::Size size_px) {
+  write_calibration(lot.path("lens.xml"),
+                    {450, 0, size_px.width / 2.0 + 3, 0, 452, size_px.height / 2.0 - 5, 0, 0, 1},
+                    {-0.12, 0.02, 0.0005, -0.001, 0}, size_px);
+  lot.project.footage.calibration = "lens.xml";
+}
+
+}  // namespace
+
+TEST_CASE("samples of a real clip that no intruder covers come out bit for bit") {
+  if (!has_real_data()) return;
+  for (const Clip& clip : kClips)
+    for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic, MethodChoice::plain}) {
+      CAPTURE(clip.file);
+      CAPTURE(static_cast<int>(method));
+      Lot lot(clip.size_px);
+      bend(lot, clip.size_px);
+      fly_across(lot);
+      const Exported result = exported(lot, real_data() / clip.file, method);
+      const Count count = count_of(result);
+      CHECK(count.changed_outside == 0);
+      CHECK(count.changed_inside > 1000);
+      CHECK(count.kept_luma > 0.8 * kFrames * clip.size_px.area());
+      CHECK(count.kept_chroma > 0.8 * kFrames * clip.size_px.area() / 2);
+      CHECK(!result.report.drawn_with.empty());
+      check_tags(result);
+      check_times(result);
+    }
+}
+
+TEST_CASE("a real clip that no intruder enters comes out bit for bit and nothing is drawn") {
+  if (!has_real_data()) return;
+  for (const Clip& clip : kClips)
+    for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic, MethodChoice::plain}) {
+      CAPTURE(clip.file);
+      CAPTURE(static_cast<int>(method));
+      Lot lot(clip.size_px);
+      bend(lot, clip.size_px);
+      write_obj(lot.path("aircraft.obj"), aircraft(), 1);
+      lot.add("aircraft.obj", {-300, 20, -140});  // behind the camera
+      lot.add("aircraft.obj", {100, 900, -150});  // far to the right of the picture
+      const Exported result = exported(lot, real_data() / clip.file, method);
+      const Count count = count_of(result);
+      CHECK(count.changed_outside == 0);
+      CHECK(count.changed_inside == 0);
+      CHECK(count.kept_luma == static_cast<long long>(kFrames) * clip.size_px.area());
+      CHECK(result.report.drawn_with == "");
+      check_tags(result);
+    }
+}
+
+}  // namespace sigs::test
