@@ -41,9 +41,17 @@ std::string json_list(const std::string& comma_separated) {
   return comma_separated.empty() ? "[]" : list + "\"]";
 }
 
+std::string given(const ExportOptions& options, const std::string& key) {
+  const auto setting = options.settings.find(key);
+  return setting == options.settings.end() ? std::string() : setting->second;
+}
+
 Result<ExportRequest> request_of(const ExportOptions& options) {
   Result<Project> project = project_of(options.project);
   if (!project) return fail(project.error());
+  // Another codec asks for a container of its own, not for the one that the project has for its codec.
+  const bool codec_alone = !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
+  if (codec_alone) project->output.container = ContainerChoice::automatic;
   for (const auto& [key, value] : options.settings)
     if (!value.empty())
       if (const Result<void> set = set_field(*project, key + "=" + value); !set) return fail(set.error());

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/angles.h"
@@ -86,15 +87,35 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-// A calibration may lack a size; then the numbers are shown for any size.
-Result<void> info_of_calibration(const std::filesystem::path& path) {
-  Result<Camera> camera = read_calibration(path);
+// "1280x960". Error usage.
+Result<cv::Size> size_of(const std::string& text) {
+  cv::Size size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 || size.height < 1)
+    return fail("--size " + text, "expected WIDTHxHEIGHT, as in 1280x960", ErrorKind::usage);
+  return size;
+}
+
+Result<void> info_of_calibration(const std::filesystem::path& path, const std::string& size_text) {
+  std::optional<cv::Size> size;
+  if (!size_text.empty()) {
+    const Result<cv::Size> given = size_of(size_text);
+    if (!given) return fail(given.error());
+    size = *given;
+  }
+  const Result<Camera> camera = read_calibration(path, size);
   if (!camera) return fail(camera.error());
   print_camera(*camera);
   return {};
 }
 
-Result<void> info(const std::filesystem::path& path) {
+struct InfoOptions {
+  std::filesystem::path path;
+  std::string size;
+};
+
+Result<void> info(const InfoOptions& options) {
+  const std::filesystem::path& path = options.path;
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
   const std::string extension = lower_extension(path);
@@ -105,7 +126,7 @@ Result<void> info(const std::filesystem::path& path) {
     return {};
   }
   if (extension == ".xml" || extension == ".yml" || extension == ".yaml" || extension == ".json")
-    return info_of_calibration(path);
+    return info_of_calibration(path, options.size);
   const Result<FrameSource> video = FrameSource::open(path);
   if (!video) return fail(video.error());
   print_video(video->info());
@@ -116,9 +137,11 @@ Result<void> info(const std::filesystem::path& path) {
 
 std::function<Result<void>()> add_info_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("info", "say what is read in a video, calibration or model");
-  const auto path = std::make_shared<std::filesystem::path>();
-  command->add_option("FILE", *path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")->required();
-  return [path] { return info(*path); };
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("FILE", options->path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")->required();
+  command->add_option("--size", options->size, "of the footage, for a calibration that states none or another")
+      ->option_text("WxH");
+  return [options] { return info(*options); };
 }
 
 }  // namespace sigs::cli

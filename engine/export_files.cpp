@@ -97,6 +97,21 @@ Result<void> check_replaceable(const fs::path& folder) {
   return {};
 }
 
+// An output may replace an older one, but nothing that this export reads.
+Result<void> check_not_read(const Project& project, const fs::path& output) {
+  std::vector<fs::path> inputs{project.file};
+  for (const std::string& input :
+       {project.footage.video, project.footage.calibration, project.footage.own_body_mask})
+    inputs.push_back(resolved(project, input));
+  for (const IntruderSettings& intruder : project.intruders) inputs.push_back(resolved(project, intruder.model.file));
+  std::error_code code;
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(input, output, code))
+      return fail(output.string(), "is read by this export; choose another folder or project name",
+                  ErrorKind::cannot_create);
+  return {};
+}
+
 }  // namespace
 
 Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const VideoFormat& format, bool overwrite) {
@@ -126,15 +141,20 @@ Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoI
   const ExportSettings& output = request.project.output;
   const fs::path base = request.folder / request.project.name;
   const VideoFormat format = picture_format(output, footage, request.jobs);
+  const VideoFormat masks = mask_format(format, output.masks);
+  const fs::path video_path = with_extension(base.string(), format);
+  const fs::path masks_path = with_extension(base.string() + ".masks", masks);
+  const fs::path labels_path = base.string() + ".xml";
+  for (const fs::path& path : {video_path, masks_path, labels_path})
+    if (const Result<void> free = check_not_read(request.project, path); !free) return fail(free.error());
   ExportFiles files;
 
-  Result<Video> video = open_video(with_extension(base.string(), format), format, request.overwrite);
+  Result<Video> video = open_video(video_path, format, request.overwrite);
   if (!video) return fail(video.error());
   files.video_.emplace(std::move(*video));
 
   if (output.masks != MasksChoice::none) {
-    const VideoFormat masks = mask_format(format, output.masks);
-    Result<Video> opened = open_video(with_extension(base.string() + ".masks", masks), masks, request.overwrite);
+    Result<Video> opened = open_video(masks_path, masks, request.overwrite);
     if (!opened) return fail(opened.error());
     files.masks_.emplace(std::move(*opened));
   }
@@ -145,7 +165,7 @@ Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoI
                              .last_frame = range.last,
                              .frame_rate_num = footage.frame_rate_num,
                              .frame_rate_den = footage.frame_rate_den};
-    Result<Labels> labels = open_labels(base.string() + ".xml", truth, request.overwrite);
+    Result<Labels> labels = open_labels(labels_path, truth, request.overwrite);
     if (!labels) return fail(labels.error());
     files.labels_.emplace(std::move(*labels));
   }

@@ -46,7 +46,8 @@ struct FrameTimes {
 struct ComposedFrame {
   Frame picture;
   // CV_8UC1 of the picture's size: opacity with which intruders were laid on, 255 opaque; at least 1 where a pixel was
-  // touched at all, 0 where the footage is untouched. Empty: no pixel was touched.
+  // touched at all, 0 where it was not (its luma has the footage's bits; a chroma sample that it shares with a touched
+  // neighbour may have changed). Empty: no pixel was touched.
   cv::Mat mask;
   FrameTruth truth;
   std::vector<Stage> stages;  // where asked for

@@ -49,9 +49,9 @@ cv::Mat shown(const Layer& layer, cv::Size picture_size_px) {
 
 cv::Mat shown_view(const DrawnView& drawn) { return shown(drawn.layer, drawn.view.size_px); }
 
-// "2_bent" of the second intruder; plain "bent" where there is only one.
-std::string stage_name(const std::string& name, std::size_t index, std::size_t count) {
-  return count == 1 ? name : std::to_string(index) + "_" + name;
+// "1_bent" for the intruder with id 1; plain "bent" where there is only one.
+std::string stage_name(const std::string& name, const SeenIntruder& seen, const Scene& scene) {
+  return scene.intruders.size() == 1 ? name : std::to_string(seen.placed.id) + "_" + name;
 }
 
 void lay_direct(ComposedFrame& composed, const Scene& scene, const SeenIntruder& seen) {
@@ -61,12 +61,11 @@ void lay_direct(ComposedFrame& composed, const Scene& scene, const SeenIntruder&
   add_to_mask(composed.mask, scene.footage.size_px, seen.soft.rect, opacity_of(seen.soft));
 }
 
-void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const SeenIntruder& seen, std::size_t index,
-                        std::size_t count) {
+void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const SeenIntruder& seen) {
   const cv::Size size = scene.footage.size_px;
-  for (const DrawnView& view : seen.views) stages.push_back({stage_name("layer", index, count), shown_view(view)});
-  stages.push_back({stage_name("bent", index, count), shown(seen.sharp, size)});
-  stages.push_back({stage_name("hidden", index, count), shown(seen.soft, size)});
+  for (const DrawnView& view : seen.views) stages.push_back({stage_name("layer", seen, scene), shown_view(view)});
+  stages.push_back({stage_name("bent", seen, scene), shown(seen.sharp, size)});
+  stages.push_back({stage_name("hidden", seen, scene), shown(seen.soft, size)});
 }
 
 // What the own body leaves of the pixels that the classic methods changed: CV_32FC1, 0 where nothing is to change.
@@ -110,13 +109,14 @@ ClassicStages lay_classic(ComposedFrame& composed, const Scene& scene, const See
   return stages;
 }
 
-void keep_classic_stages(std::vector<Stage>& kept, const ClassicStages& stages, std::size_t index, std::size_t count) {
+void keep_classic_stages(std::vector<Stage>& kept, const ClassicStages& stages, const Scene& scene,
+                         const SeenIntruder& seen) {
   const std::pair<const char*, const cv::Mat*> all[] = {{"input1", &stages.input1}, {"input2", &stages.input2},
                                                         {"a", &stages.a},           {"b", &stages.b},
                                                         {"c", &stages.c},           {"d", &stages.d},
                                                         {"f", &stages.f},           {"keyed", &stages.output}};
   for (const auto& [name, picture] : all)
-    if (!picture->empty()) kept.push_back({stage_name(name, index, count), *picture});
+    if (!picture->empty()) kept.push_back({stage_name(name, seen, scene), *picture});
 }
 
 }  // namespace
@@ -127,15 +127,14 @@ ComposedFrame laid_on(const Frame& background, const Scene& scene, const std::ve
   const bool keep = stages == Stages::keep;
   const bool direct = scene.compositing.method == MethodChoice::direct;
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(background)});
-  for (std::size_t i = 0; i < far_to_near.size(); ++i) {
-    const SeenIntruder& seen = far_to_near[i];
+  for (const SeenIntruder& seen : far_to_near) {
     if (seen.views.empty()) continue;
     if (direct) {
       if (!seen.soft.empty()) lay_direct(composed, scene, seen);
-      if (keep) keep_direct_stages(composed.stages, scene, seen, i, far_to_near.size());
+      if (keep) keep_direct_stages(composed.stages, scene, seen);
     } else {
       const ClassicStages classic = lay_classic(composed, scene, seen, bench);
-      if (keep) keep_classic_stages(composed.stages, classic, i, far_to_near.size());
+      if (keep) keep_classic_stages(composed.stages, classic, scene, seen);
     }
   }
   if (keep) {

@@ -34,8 +34,26 @@ vec3 unit_or(vec3 v, vec3 fallback) {
   return size > 1e-12 ? v / size : fallback;
 }
 
+// Anisotropic filtering: up to 16 trilinear taps along the longer axis of the pixel's footprint. Written out, because
+// software drivers walk every texel of a footprint, and one at a grazing angle then takes seconds.
+vec4 filtered(vec2 uv) {
+  vec2 size = vec2(textureSize(picture, 0));
+  vec2 across = dFdx(uv) * size;
+  vec2 down = dFdy(uv) * size;
+  bool wide = dot(across, across) > dot(down, down);
+  vec2 axis = wide ? across : down;
+  float longer = length(axis);
+  float shorter = length(wide ? down : across);
+  if (!(longer < 1e5)) return textureLod(picture, uv, 100.0);
+  float taps = clamp(ceil(longer / max(shorter, 1.0)), 1.0, 16.0);
+  float level = log2(max(longer / taps, 1.0));
+  vec4 sum = vec4(0.0);
+  for (float i = 0.5; i < taps; i += 1.0) sum += textureLod(picture, uv + axis / size * (i / taps - 0.5), level);
+  return sum / taps;
+}
+
 void main() {
-  vec4 texel = texture(picture, surface_uv);
+  vec4 texel = filtered(surface_uv);
   if (solid) texel = vec4(texel.rgb / max(texel.a, 1e-4), 1.0);
   float alpha = texel.a * opacity;
   if (alpha < lowest_opacity || alpha >= highest_opacity) discard;

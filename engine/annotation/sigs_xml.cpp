@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "annotation/number_text.h"
+#include "annotation/xml_text.h"
 #include "base/angles.h"
 
 namespace sigs {
@@ -57,7 +58,7 @@ void add_boxes(pugi::xml_node node, const IntruderTruth& truth) {
 void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   pugi::xml_node node = frame.append_child("intruder");
   node.append_attribute("id") = truth.id;
-  node.append_attribute("name") = truth.name.c_str();
+  node.append_attribute("name") = xml_text(truth.name).c_str();
   node.append_attribute("in_picture") = truth.in_picture;
   set(node, "visible_fraction", truth.visible_fraction, kFractionDecimals);
   set_position(node.append_child("position"), truth.position_m);
@@ -69,7 +70,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
 std::string head_of(const FootageTruth& footage) {
   pugi::xml_document document;
   pugi::xml_node node = document.append_child("footage");
-  node.append_attribute("video") = footage.video.c_str();
+  node.append_attribute("video") = xml_text(footage.video).c_str();
   node.append_attribute("width") = footage.size_px.width;
   node.append_attribute("height") = footage.size_px.height;
   node.append_attribute("first_frame") = footage.first_frame;

@@ -52,7 +52,7 @@ Result<void> set_field(Project& project, const std::string& assignment) {
   const auto field = std::find_if(fields.begin(), fields.end(), [&key](const Field& f) { return f.key == key; });
   if (field == fields.end())
     return fail(where, "no such setting; did you mean " + nearest_key(fields, key) + "?", ErrorKind::usage);
-  const bool takes_text = std::holds_alternative<std::string*>(field->value);
+  const bool takes_text = std::holds_alternative<std::string*>(field->value) && !(field->is_path && text == "null");
   const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
   if (!wrong.empty()) return fail(where, wrong, ErrorKind::usage);
   return {};

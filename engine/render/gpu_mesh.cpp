@@ -16,8 +16,6 @@
 namespace sigs {
 namespace {
 
-constexpr GLfloat kAnisotropy = 16;
-
 // Colour times opacity, in linear light, so that filtering lets no colour of transparent texels bleed in.
 cv::Mat premultiplied(const cv::Mat& rgba) {
   std::array<float, 256> linear{};
@@ -56,11 +54,6 @@ GLuint uploaded(const cv::Mat& picture) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-    GLfloat largest = 1;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &largest);
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(largest, kAnisotropy));
-  }
   return name;
 }
 

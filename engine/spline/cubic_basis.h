@@ -6,7 +6,7 @@
 namespace sigs {
 
 // The uniform cubic B-spline basis, equation (2) of the paper, with the factor 1/(6 h^3) that makes the basis sum to
-// one. (The printed factor 1/h does so for no h.)
+// one. (With the printed factor 1/h the sum is 6 h^2.)
 
 // The function's four polynomials, from its first knot to its fifth: row j holds the coefficients 1, x, x^2, x^3 on the
 // stretch from knot j to knot j + 1, where x runs from 0 to 1. Equation (2) in x = (t - knot) / h.

@@ -130,6 +130,20 @@ TEST_CASE("info says what is read in a video and a calibration and a model") {
   CHECK(run_sigs("info nothing.mkv").status == 66);
 }
 
+TEST_CASE("info reads a calibration for the size that is asked for") {
+  const TinyProject tiny;
+  CHECK(has(run_sigs("info " + tiny.file("lens.xml").string() + " --size 128x96").out, "size: 128x96"));
+  CHECK(run_sigs("info " + tiny.file("lens.xml").string() + " --size 128").status == 64);
+  CHECK(run_sigs("info " + tiny.file("lens.xml").string() + " --size 100x96").status == 65);
+}
+
+TEST_CASE("another codec on the command line comes with its own container") {
+  TinyProject tiny;
+  tiny.change(R"("intruders")", R"("export": {"video": {"codec": "ffv1", "container": "mkv"}}, "intruders")");
+  const Run run = run_sigs("export " + tiny.project() + " --codec png --masks none --labels none --out " + tiny.out());
+  CHECK_MESSAGE(run.status == 0, run.err);
+}
+
 TEST_CASE("progress as lines and as JSON goes to stderr and ends at the last frame") {
   const TinyProject tiny;
   const std::string command = "export " + tiny.project() + " --force --out " + tiny.out() + " --progress ";

@@ -42,6 +42,13 @@ TEST_CASE("numbers and vectors and names and texts are set by their key") {
   CHECK(p.intruders[0].trajectory.waypoints[1].position_m == glm::dvec3(1, 2, 3));
 }
 
+TEST_CASE("null takes a path away") {
+  Project p = with_one_intruder();
+  p.footage.own_body_mask = "mask.png";
+  REQUIRE(set_field(p, "footage.own_body_mask=null").has_value());
+  CHECK(p.footage.own_body_mask.empty());
+}
+
 TEST_CASE("a misspelt key is answered with the nearest one") {
   CHECK(refusal("camera.sped_mps=30").find("did you mean camera.speed_mps?") != std::string::npos);
   CHECK(refusal("intruders[7].name=x").find("intruders[0].name") != std::string::npos);
