@@ -60,7 +60,9 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
     if (const Result<void> set = set_field(*project, "export.labels=" + list); !set) return fail(set.error());
   }
   ExportRequest request{.project = std::move(*project), .folder = options.folder, .overwrite = options.force};
-  request.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  // Decoding and writing take a core of their own.
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
   if (!options.frames.empty()) {
     const Result<FrameRange> range = frame_range_of(options.frames);
     if (!range) return fail(range.error());
@@ -121,7 +123,7 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
     command->add_option(option, options->settings[key], help.at(option))->option_text("NAME");
   command->add_option("--labels", options->labels, "annotation formats, separated by commas: xml; none")
       ->option_text("NAMES");
-  command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one a processor core")
+  command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--force", options->force, "overwrite what is there");

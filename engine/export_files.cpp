@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace sigs {
@@ -34,6 +35,9 @@ Container container_of(const ExportSettings& output) {
     default: return Container::mkv;
   }
 }
+
+// The bytes do not depend on it.
+int encoder_threads() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)); }
 
 VideoFormat picture_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
   return {.codec = codec_of(output.codec),
@@ -140,7 +144,7 @@ Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoI
   if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
   const ExportSettings& output = request.project.output;
   const fs::path base = request.folder / request.project.name;
-  const VideoFormat format = picture_format(output, footage, request.jobs);
+  const VideoFormat format = picture_format(output, footage, encoder_threads());
   const VideoFormat masks = mask_format(format, output.masks);
   const fs::path video_path = with_extension(base.string(), format);
   const fs::path masks_path = with_extension(base.string() + ".masks", masks);

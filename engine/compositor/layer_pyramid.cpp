@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/layer_pyramid.h"
 
-#include <cstddef>
 #include <opencv2/imgproc.hpp>
 
 namespace sigs {
 
 namespace {
-
-constexpr std::size_t kLevels = 33;  // a texel of the last is 4e9 of the first across
 
 cv::Mat halved(const cv::Mat& image) {
   cv::Mat even = image;
@@ -25,9 +22,6 @@ LayerPyramid::LayerPyramid(const Layer& layer) {
   levels_.push_back({layer.color, layer.coverage});
   while (levels_.back().color.cols > 1 || levels_.back().color.rows > 1)
     levels_.push_back({halved(levels_.back().color), halved(levels_.back().coverage)});
-  // A layer far smaller than a pixel is a quarter as strong in each texel of twice the side.
-  while (levels_.size() < kLevels)
-    levels_.push_back({cv::Mat(levels_.back().color * 0.25), cv::Mat(levels_.back().coverage * 0.25)});
 }
 
 }  // namespace sigs

@@ -8,9 +8,9 @@
 
 namespace sigs {
 
-// A layer at full, half, quarter ... size: each texel is the mean of four below it, what lies outside counts as empty, so
-// every level holds the same energy. Texel (i, j) of level n covers the square [i, i + 1) x [j, j + 1) times 2^n of the
-// layer's pixels, measured from its upper left corner. Goes on beyond the level that is a single texel.
+// A layer at full, half, quarter ... size: each texel is the mean of four below it, what lies outside counts as empty,
+// so every level holds the same energy. Texel (i, j) of level n covers the square [i, i + 1) x [j, j + 1) times 2^n of
+// the layer's pixels, measured from its upper left corner. The last level is a single texel.
 class LayerPyramid {
  public:
   explicit LayerPyramid(const Layer& layer);
