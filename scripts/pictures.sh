@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Makes the pictures of README.md and docs/ anew: scripts/pictures.sh (after scripts/demo.sh).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# The head-on encounter at frame 148; below, the intruder and its mask, four times enlarged.
+build/release/sigs frame projects/head-on/head-on.json --frame 148 --stages --out "$work" >/dev/null
+mkdir -p docs/pictures
+ffmpeg -v error -y -i "$work/frame_148.png" -i "$work"/frame_148_*_mask.png -filter_complex "
+  [0]split[whole][part];
+  [whole]crop=1280:640:0:240,scale=960:480[top];
+  [part]crop=180:90:575:680,scale=480:240:flags=neighbor[left];
+  [1]format=rgb24,crop=180:90:575:680,scale=480:240:flags=neighbor[right];
+  [left][right]hstack[bottom];
+  [top][bottom]vstack" -q:v 3 docs/pictures/head-on.jpg
+
+# The paper's figure 4: every stage of the classic method at frame 140.
+build/release/sigs frame projects/crossing/crossing.json --frame 140 --stages --out "$work" \
+  --set compositing.method=classic >/dev/null
+stages=()
+for stage in input1 input2 a b c d f output; do
+  stages+=(-i "$(ls "$work"/frame_140_*_"$stage".png)")
+done
+ffmpeg -v error -y "${stages[@]}" -filter_complex "
+  [0]scale=400:-1[s0];[1]scale=400:-1[s1];[2]scale=400:-1[s2];[3]scale=400:-1[s3];
+  [4]scale=400:-1[s4];[5]scale=400:-1[s5];[6]scale=400:-1[s6];[7]scale=400:-1[s7];
+  [s0][s1][s2][s3]hstack=4[upper];[s4][s5][s6][s7]hstack=4[lower];[upper][lower]vstack" \
+  -q:v 4 docs/pictures/classic-stages.jpg
