@@ -60,7 +60,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& 
     seen.push_back(std::move(*intruder));
   }
   ComposedFrame composed = laid_on(background, scene, seen, bench, stages);
-  composed.truth = truth_of(moment, frame, measured(scene, seen));
+  composed.truth = truth_of(moment, frame, measured(scene, seen, composed.mask));
   composed.times = {draw_s, seconds_since(start) - draw_s};
   return composed;
 }

@@ -123,7 +123,8 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   return seen;
 }
 
-std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIntruder>& far_to_near) {
+std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIntruder>& far_to_near,
+                                    const cv::Mat& mask) {
   std::vector<IntruderTruth> truths;
   for (std::size_t i = 0; i < far_to_near.size(); ++i) {
     const SeenIntruder& seen = far_to_near[i];
@@ -136,13 +137,15 @@ std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIn
     const Layer inside = clipped(seen.sharp, picture_of(scene));
     const double inside_px = area_px(inside.coverage);
     const double whole_px = std::max(seen.whole_area_px, inside_px);
-    // A distant one may leave less than a code value in any pixel; it is in the picture by its own measure.
-    truth.in_picture = inside_px > 0 && (inside_px >= kLeastCoverage * whole_px || covered_box(inside.coverage, inside.rect));
-    if (truth.in_picture && !seen.soft.empty()) {
+    // By its own measure: a distant one may cover no pixel by more than a hundredth.
+    const float least = kLeastShare * strongest(seen.sharp.coverage);
+    truth.in_picture = covered_box(inside.coverage, inside.rect, least).has_value();
+    if (truth.in_picture && !seen.soft.empty() && !mask.empty()) {
       cv::Mat visible = seen.soft.coverage.clone();
+      visible.setTo(0, mask(seen.soft.rect) == 0);
       for (std::size_t j = i + 1; j < far_to_near.size(); ++j)
         hide_coverage(visible, seen.soft.rect, far_to_near[j].soft);
-      truth.box = covered_box(visible, seen.soft.rect);
+      truth.box = covered_box(visible, seen.soft.rect, std::max(least, kLeastVisible));
       const double visible_px = area_px(visible);
       truth.visible_fraction = visible_px < kRounding * inside_px ? 0.0 : std::min(visible_px / whole_px, 1.0);
     }

@@ -25,12 +25,20 @@ std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_bod
   return Silhouette{{low.x, low.y, high.x - low.x, high.y - low.y}, all_have_image};
 }
 
-std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rect) {
+float strongest(const cv::Mat& coverage) {
+  if (coverage.empty()) return 0;
+  double largest = 0;
+  cv::minMaxIdx(coverage, nullptr, &largest);
+  return static_cast<float>(largest);
+}
+
+std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rect, float least) {
   cv::Point low(rect.width, rect.height);
   cv::Point high(-1, -1);
   for (int j = 0; j < rect.height; ++j)
     for (int i = 0; i < rect.width; ++i) {
-      if (coverage.at<float>(j, i) < kLeastCoverage) continue;
+      const float covered = coverage.at<float>(j, i);
+      if (covered < least || covered <= 0) continue;
       low = {std::min(low.x, i), std::min(low.y, j)};
       high = {std::max(high.x, i), std::max(high.y, j)};
     }

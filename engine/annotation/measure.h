@@ -25,11 +25,19 @@ struct Silhouette {
                                                       const Pose<frame::Camera, frame::Body>& camera_from_body,
                                                       const Lens& lens);
 
-// A pixel is the intruder's where at least this share of it is covered: what rounds to one code value of a mask.
-inline constexpr float kLeastCoverage = 0.5F / 255.0F;
+// A pixel is the intruder's where its coverage is at least this share of what its most covered pixel has: one sixteenth,
+// what drawing at twice the picture's resolution may spill into a pixel that the silhouette just does not reach.
+inline constexpr float kLeastShare = 1.0F / 16.0F;
 
-// Smallest box of whole pixels around those covered by at least kLeastCoverage; coverage is CV_32FC1 over rect.
-[[nodiscard]] std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rect);
+// Nobody sees less than half a code value.
+inline constexpr float kLeastVisible = 0.5F / 255.0F;
+
+// Largest coverage of any pixel, 0 for none. coverage is CV_32FC1.
+[[nodiscard]] float strongest(const cv::Mat& coverage);
+
+// Smallest box of whole pixels around those covered by at least `least` and by more than nothing; coverage is CV_32FC1
+// over rect.
+[[nodiscard]] std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rect, float least);
 
 // Sum of the coverage, in pixels.
 [[nodiscard]] double area_px(const cv::Mat& coverage);

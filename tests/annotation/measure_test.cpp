@@ -41,13 +41,15 @@ void check_edges(const Box& box, const cv::Point2d& low, const cv::Point2d& high
   CHECK(std::abs(box.y + box.height - high.y) < tolerance_px);
 }
 
+constexpr float kLeast = 0.05F;
+
 cv::Mat some_coverage(int width, int height, unsigned seed, double share) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> uniform(0, 1);
   cv::Mat coverage = cv::Mat::zeros(height, width, CV_32FC1);
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i)
-      if (uniform(random) < share) coverage.at<float>(j, i) = uniform(random) * 4 * kLeastCoverage;
+      if (uniform(random) < share) coverage.at<float>(j, i) = uniform(random) * 4 * kLeast;
   return coverage;
 }
 
@@ -160,23 +162,31 @@ TEST_CASE("points beyond the field of the lens are left out of the silhouette") 
 }
 
 TEST_CASE("nothing covered has no box") {
-  CHECK_FALSE(covered_box(cv::Mat(), cv::Rect()).has_value());
-  CHECK_FALSE(covered_box(cv::Mat::zeros(4, 6, CV_32FC1), {10, 20, 6, 4}).has_value());
+  CHECK_FALSE(covered_box(cv::Mat(), cv::Rect(), kLeast).has_value());
+  CHECK_FALSE(covered_box(cv::Mat::zeros(4, 6, CV_32FC1), {10, 20, 6, 4}, kLeast).has_value());
 }
 
 TEST_CASE("the box of one covered pixel is that pixel of the picture") {
   cv::Mat coverage = cv::Mat::zeros(4, 6, CV_32FC1);
   coverage.at<float>(2, 5) = 1;
-  CHECK(covered_box(coverage, {10, 20, 6, 4}) == cv::Rect(15, 22, 1, 1));
+  CHECK(covered_box(coverage, {10, 20, 6, 4}, kLeast) == cv::Rect(15, 22, 1, 1));
 }
 
-TEST_CASE("a pixel counts from the least coverage on") {
+TEST_CASE("a pixel counts from the least coverage on and never where nothing covers it") {
   cv::Mat coverage = cv::Mat::zeros(1, 3, CV_32FC1);
-  coverage.at<float>(0, 0) = std::nextafter(kLeastCoverage, 0.0F);
-  coverage.at<float>(0, 1) = kLeastCoverage;
-  CHECK(covered_box(coverage, {0, 0, 3, 1}) == cv::Rect(1, 0, 1, 1));
-  CHECK(std::lround(255 * kLeastCoverage) == 1);
-  CHECK(std::lround(255 * coverage.at<float>(0, 0)) == 0);
+  coverage.at<float>(0, 0) = std::nextafter(kLeast, 0.0F);
+  coverage.at<float>(0, 1) = kLeast;
+  CHECK(covered_box(coverage, {0, 0, 3, 1}, kLeast) == cv::Rect(1, 0, 1, 1));
+  CHECK(covered_box(coverage, {0, 0, 3, 1}, 0) == cv::Rect(0, 0, 2, 1));
+  CHECK_FALSE(covered_box(cv::Mat::zeros(2, 3, CV_32FC1), {0, 0, 3, 2}, 0).has_value());
+}
+
+TEST_CASE("the strongest coverage is the largest and nothing for no pixels") {
+  CHECK(strongest(cv::Mat()) == 0);
+  CHECK(strongest(cv::Mat::zeros(2, 3, CV_32FC1)) == 0);
+  cv::Mat coverage = cv::Mat::zeros(2, 3, CV_32FC1);
+  coverage.at<float>(1, 2) = 0.25F;
+  CHECK(strongest(coverage) == 0.25F);
 }
 
 TEST_CASE("the box is the one that OpenCV finds around the pixels that count") {
@@ -184,8 +194,8 @@ TEST_CASE("the box is the one that OpenCV finds around the pixels that count") {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const cv::Rect rect(int(seed) - 100, 7, 1 + int(seed % 23), 1 + int(seed % 17));
     const cv::Mat coverage = some_coverage(rect.width, rect.height, seed, 0.02);
-    const cv::Mat counts = coverage >= kLeastCoverage;
-    const auto box = covered_box(coverage, rect);
+    const cv::Mat counts = coverage >= kLeast;
+    const auto box = covered_box(coverage, rect, kLeast);
     REQUIRE(box.has_value() == (cv::countNonZero(counts) > 0));
     if (!box) continue;
     CHECK(*box == cv::boundingRect(counts) + rect.tl());
@@ -197,7 +207,7 @@ TEST_CASE("the box is the one that OpenCV finds around the pixels that count") {
 TEST_CASE("a part of a larger coverage is measured alone") {
   const cv::Mat whole = cv::Mat::ones(10, 10, CV_32FC1);
   const cv::Mat part = whole(cv::Rect(3, 4, 2, 5));
-  CHECK(covered_box(part, {3, 4, 2, 5}) == cv::Rect(3, 4, 2, 5));
+  CHECK(covered_box(part, {3, 4, 2, 5}, kLeast) == cv::Rect(3, 4, 2, 5));
   CHECK(area_px(part) == 10);
 }
 

@@ -26,7 +26,9 @@ Camera pinhole(double focal_px, const glm::dvec2& center_px) {
   return {*lens, kSize};
 }
 
-cv::Scalar sum_of(const Layer& layer) { return cv::sum(layer.color); }
+cv::Scalar sum_of(const Layer& layer) {
+  return cv::sum(layer.color);
+}
 
 // Where OpenCV's own model throws a direction (x right, y down, z forward).
 cv::Point2d thrown(const Lens& lens, const cv::Point3d& direction) {
@@ -58,7 +60,8 @@ TEST_CASE("a pinhole picture of a pinhole view keeps the energy at every ratio o
   for (const double ratio : {3.0, 1.7, 1.0, 0.61, 0.5, 0.23, 0.07, 0.013}) {
     CAPTURE(ratio);
     const int side = static_cast<int>(std::clamp(180 / ratio, 48.0, 4000.0));
-    const DrawnView drawn = view_ahead(cloudy_layer({0, 0, side, side}, 7), 250 / ratio, {side / 2.0 - 0.3, side / 2.0});
+    const DrawnView drawn =
+        view_ahead(cloudy_layer({0, 0, side, side}, 7), 250 / ratio, {side / 2.0 - 0.3, side / 2.0});
     const Layer layer = bent(std::vector<DrawnView>{drawn}, pinhole(250, {161.2, 118.6}), kPicture);
     REQUIRE(is_sound(layer));
     const double area = ratio * ratio;
@@ -90,8 +93,7 @@ TEST_CASE("a single texel keeps its energy within some percent wherever it lies"
       layer.coverage.setTo(0);
       layer.color.at<cv::Vec4f>(30, 31) = {0.25F, 0.5F, 0.75F, 1};
       const DrawnView drawn = view_ahead(layer, 200 / ratio, {30.5, 31});
-      const Layer out =
-          bent(std::vector<DrawnView>{drawn}, pinhole(200, {160 + 0.19 * i, 120 + 0.13 * i}), kPicture);
+      const Layer out = bent(std::vector<DrawnView>{drawn}, pinhole(200, {160 + 0.19 * i, 120 + 0.13 * i}), kPicture);
       CHECK(sum_of(out)[3] == doctest::Approx(ratio * ratio).epsilon(0.067));
       CHECK(sum_of(out)[0] == doctest::Approx(0.25 * ratio * ratio).epsilon(0.067));
     }
@@ -162,8 +164,8 @@ TEST_CASE("a pinhole with the focal length of the view gives the view back but f
 }
 
 TEST_CASE("the faces of a cube around the camera join without a seam") {
-  const std::array<glm::dvec3, 8> around{glm::dvec3(-1, -1, -1), {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
-                                         {-1, -1, 1},            {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+  const std::array<glm::dvec3, 8> around{
+      glm::dvec3(-1, -1, -1), {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}};
   std::vector<NamedCamera> cameras = bending_cameras(kSize);
   cameras.push_back({"pinhole of 130 degrees", pinhole(75, {160, 120})});
   cameras.push_back(

@@ -64,8 +64,9 @@ TEST_CASE("samples that a layer does not cover keep their bits in every layout")
 }
 
 TEST_CASE("an opaque layer gives its own colour whatever lies below") {
-  const std::vector<cv::Vec3d> colors{{1, 1, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
-                                      {0.2, 0.5, 0.05}, {0.003, 0.001, 0.002}, {0.7, 0.68, 0.71}};
+  const std::vector<cv::Vec3d> colors{
+      {1, 1, 1},        {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.5, 0.05}, {0.003, 0.001, 0.002},
+      {0.7, 0.68, 0.71}};
   int compared = 0;
   for (const Sort& sort : all_sorts())
     for (const cv::Vec3d& linear : colors)
@@ -126,8 +127,9 @@ TEST_CASE("a vanishing opacity leaves the picture as it was") {
         blend_over(frame, opaque({0, 0, 37, 23}, {1, 0.5, 0.25}, opacity), space);
         int most = 0;
         for (int plane = 0; plane < frame.plane_count(); ++plane)
-          most = std::max(most, static_cast<int>(cv::norm(frame.planes[static_cast<std::size_t>(plane)],
-                                                          before.planes[static_cast<std::size_t>(plane)], cv::NORM_INF)));
+          most =
+              std::max(most, static_cast<int>(cv::norm(frame.planes[static_cast<std::size_t>(plane)],
+                                                       before.planes[static_cast<std::size_t>(plane)], cv::NORM_INF)));
         CHECK(most <= (opacity > 1e-6 ? 1 : 0));
       }
 }
@@ -159,7 +161,8 @@ TEST_CASE("the chroma of a block moves by the share of its pixels that are cover
       blend_over(frame, layer, BlendSpace::linear);
       for (int plane = 1; plane < 3; ++plane) {
         const double wanted = 128 + (red[plane] - 128) * covered / pixels;
-        const int code = frame.planes[static_cast<std::size_t>(plane)].at<uchar>(4 / sort.step.height, 4 / sort.step.width);
+        const int code =
+            frame.planes[static_cast<std::size_t>(plane)].at<uchar>(4 / sort.step.height, 4 / sort.step.width);
         CHECK(std::abs(code - wanted) < 0.501);
         CHECK(frame.planes[static_cast<std::size_t>(plane)].at<uchar>(0, 0) == 128);
       }
@@ -178,14 +181,16 @@ TEST_CASE("a block cut by the edge of an odd picture takes the whole colour") {
       CHECK(std::abs(frame.planes[0].at<uchar>(corner) - blue[0]) < 0.501);
       if (frame.plane_count() == 1) continue;
       // How many pixels of the picture lie in the corner's block.
-      const int wide = corner.x == 6 ? (7 % sort.step.width == 0 ? sort.step.width : 7 % sort.step.width) : sort.step.width;
-      const int high = corner.y == 4 ? (5 % sort.step.height == 0 ? sort.step.height : 5 % sort.step.height) : sort.step.height;
+      const int wide =
+          corner.x == 6 ? (7 % sort.step.width == 0 ? sort.step.width : 7 % sort.step.width) : sort.step.width;
+      const int high =
+          corner.y == 4 ? (5 % sort.step.height == 0 ? sort.step.height : 5 % sort.step.height) : sort.step.height;
       const bool is_rgb = sort.layout == PixelLayout::rgb;
       for (int plane = 1; plane < 3; ++plane) {
         const double old_code = is_rgb ? 80 : 128;
         const double wanted = old_code + (blue[plane] - old_code) / (wide * high);
         const int code = frame.planes[static_cast<std::size_t>(plane)].at<uchar>(corner.y / sort.step.height,
-                                                                               corner.x / sort.step.width);
+                                                                                 corner.x / sort.step.width);
         CHECK(std::abs(code - std::min(wanted, 255.0)) < 0.501);
       }
     }
@@ -202,7 +207,8 @@ TEST_CASE("code values beyond black and white survive where nothing is added") {
       const Frame before = cloned(frame);
       blend_over(frame, opaque({0, 0, 6, 6}, {1, 1, 1}, 1e-9), BlendSpace::linear);
       for (int plane = 0; plane < frame.plane_count(); ++plane)
-        CHECK(same_bytes(frame.planes[static_cast<std::size_t>(plane)], before.planes[static_cast<std::size_t>(plane)]));
+        CHECK(
+            same_bytes(frame.planes[static_cast<std::size_t>(plane)], before.planes[static_cast<std::size_t>(plane)]));
     }
 }
 

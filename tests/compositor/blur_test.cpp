@@ -61,8 +61,7 @@ TEST_CASE("blur keeps the energy and leaves the truth sharp") {
     CHECK(out.rect == cv::Rect(10 - reach, -20 - reach, 50 + 2 * reach, 40 + 2 * reach));
     REQUIRE(out.color.size() == out.rect.size());
     REQUIRE(out.coverage.size() == out.rect.size());
-    for (int c = 0; c < 4; ++c)
-      CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
+    for (int c = 0; c < 4; ++c) CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
     CHECK(is_sound(out));
     CHECK(same_bytes(out.coverage(cv::Rect(reach, reach, 50, 40)), layer.coverage));
     CHECK(cv::countNonZero(out.coverage) == cv::countNonZero(layer.coverage));

@@ -96,9 +96,9 @@ cv::Mat textured(cv::Size size) {
   cv::normalize(noise, noise, 0, 255, cv::NORM_MINMAX);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
-      noise.at<cv::Vec3b>(y, x) = noise.at<cv::Vec3b>(y, x) * 0.4 +
-                                  cv::Vec3b(cv::saturate_cast<uchar>(140.0 * x / size.width),
-                                            cv::saturate_cast<uchar>(140.0 * y / size.height), 60);
+      noise.at<cv::Vec3b>(y, x) =
+          noise.at<cv::Vec3b>(y, x) * 0.4 + cv::Vec3b(cv::saturate_cast<uchar>(140.0 * x / size.width),
+                                                      cv::saturate_cast<uchar>(140.0 * y / size.height), 60);
   return noise;
 }
 
@@ -138,8 +138,7 @@ void check_stage(const char* name, const cv::Mat& ours, const cv::Mat& papers, D
 Difference check_stages(const NamedCamera& named, const cv::Mat& input1, const cv::Mat& input2, double sigma_px) {
   const Paper paper(named.camera);
   const Stages wanted = paper.stages(input1, input2, sigma_px);
-  const ClassicStages stages =
-      classic_stages(input1, input2, named.camera, distort_maps(named.camera), sigma_px);
+  const ClassicStages stages = classic_stages(input1, input2, named.camera, distort_maps(named.camera), sigma_px);
   Difference worst;
   check_stage("a", stages.a, wanted.a, worst);
   check_stage("b", stages.b, wanted.b, worst);
@@ -173,8 +172,8 @@ TEST_CASE("the classic stages are those of the paper on a real picture too") {
   for (const NamedCamera& named : bending_cameras(whole.size())) {
     CAPTURE(named.name);
     const Difference worst = check_stages(named, whole, green_screen(whole.size()), 1.2);
-    MESSAGE(named.name << ": " << worst.samples << " of " << 6 * whole.total() * 3 << " samples differ at all, by at most "
-                       << worst.most);
+    MESSAGE(named.name << ": " << worst.samples << " of " << 6 * whole.total() * 3
+                       << " samples differ at all, by at most " << worst.most);
   }
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 cv::Size plane_size(const Sort& sort, cv::Size size, int plane) {
   if (plane == 0) return size;
-  return {(size.width + sort.step.width - 1) / sort.step.width, (size.height + sort.step.height - 1) / sort.step.height};
+  return {(size.width + sort.step.width - 1) / sort.step.width,
+          (size.height + sort.step.height - 1) / sort.step.height};
 }
 
 Frame frame_of(const Sort& sort) {
@@ -87,7 +88,8 @@ cv::Vec3d codes_of(const Sort& sort, const cv::Vec3d& display) {
 bool is_covered(const Layer& layer, int x, int y, cv::Size step) {
   for (int j = y * step.height; j < (y + 1) * step.height; ++j)
     for (int i = x * step.width; i < (x + 1) * step.width; ++i)
-      if (layer.rect.contains({i, j}) && layer.color.at<cv::Vec4f>(j - layer.rect.y, i - layer.rect.x)[3] > 0) return true;
+      if (layer.rect.contains({i, j}) && layer.color.at<cv::Vec4f>(j - layer.rect.y, i - layer.rect.x)[3] > 0)
+        return true;
   return false;
 }
 

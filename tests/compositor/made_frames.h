@@ -30,7 +30,8 @@ struct Sort {
 // IEC 61966-2-1 and Rec. ITU-R BT.601, 709 and 2020 written out again, in doubles.
 [[nodiscard]] double display_value(double linear);
 [[nodiscard]] double linear_value(double display);
-[[nodiscard]] cv::Vec3d codes_of(const Sort& sort, const cv::Vec3d& display);  // not rounded; luma alone counts for gray
+[[nodiscard]] cv::Vec3d codes_of(const Sort& sort,
+                                 const cv::Vec3d& display);  // not rounded; luma alone counts for gray
 
 // Whether a sample of a plane has any pixel of opacity above 0.
 [[nodiscard]] bool is_covered(const Layer& layer, int x, int y, cv::Size step);

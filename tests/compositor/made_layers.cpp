@@ -59,7 +59,8 @@ std::vector<NamedCamera> bending_cameras(cv::Size size_px) {
   return {{"Brown-Conrady 5", {lens_of(brown, focal_px, center_px, {-0.18, 0.05, 0.001, -0.0015, -0.004}), size_px}},
           {"Brown-Conrady 8",
            {lens_of(brown, focal_px, center_px, {0.4, 0.12, -0.0008, 0.0006, 0.01, 0.62, 0.2, 0.02}), size_px}},
-          {"fisheye", {lens_of(LensModel::kannala_brandt, 0.7 * focal_px, center_px, {0.04, 0.01, -0.01, 0.002}), size_px}}};
+          {"fisheye",
+           {lens_of(LensModel::kannala_brandt, 0.7 * focal_px, center_px, {0.04, 0.01, -0.01, 0.002}), size_px}}};
 }
 
 bool is_sound(const Layer& layer) {

@@ -26,7 +26,9 @@ void add_aircraft(Lot& lot, const glm::dvec3& position_m) {
   lot.add("aircraft.obj", position_m);
 }
 
-ComposedFrame composed(const Lot& lot) { return test::composed(lot.opened(), 1, grainy_frame(lot.size_px(), 1)); }
+ComposedFrame composed(const Lot& lot) {
+  return test::composed(lot.opened(), 1, grainy_frame(lot.size_px(), 1));
+}
 
 // A made 200 degree fisheye.
 void see_nearly_all(Lot& lot) {
@@ -90,6 +92,7 @@ TEST_CASE("an aircraft half a metre ahead is drawn") {
     CAPTURE(wide);
     Lot lot(wide ? cv::Size(640, 480) : cv::Size(320, 240));
     if (wide) see_nearly_all(lot);
+    lot.project.compositing.supersampling = 1;  // six large faces
     add_aircraft(lot, {6.5, 0, -150});  // the tail is 0.5 m ahead
     const ComposedFrame frame = composed(lot);
     CHECK(frame.truth.intruders.front().in_picture);
@@ -101,10 +104,12 @@ TEST_CASE("an aircraft half a metre ahead is drawn") {
 TEST_CASE("a sphere around the camera covers every pixel without a seam") {
   for (const bool wide : {false, true})
     for (const glm::dvec3 offset : {glm::dvec3(0, 0, 0), glm::dvec3(1, -2, 3)}) {
+      if (!wide && offset.x != 0) continue;
       CAPTURE(wide);
       CAPTURE(offset.x);
       Lot lot(wide ? cv::Size(640, 480) : cv::Size(320, 240));
       if (wide) see_nearly_all(lot);
+      lot.project.compositing.supersampling = 1;  // six large faces
       write_sphere_obj(lot.path("sphere.obj"), 8);
       lot.add("sphere.obj", glm::dvec3(0, 0, -150) + offset);
       const ComposedFrame frame = composed(lot);
@@ -179,7 +184,8 @@ TEST_CASE("ten thousand kilometres from the origin the picture is the same bit f
 }
 
 TEST_CASE("an intruder that passes abeam of a pinhole costs no more than any other") {
-  // A corner a ten thousandth or a millionth of a millimetre before the plane of the lens has its image up to 1e11 px away.
+  // A corner a ten thousandth or a millionth of a millimetre before the plane of the lens has its image up to 1e11 px
+  // away.
   for (const double ahead_m : {1e-4, 1e-6, 1e-8}) {
     CAPTURE(ahead_m);
     Lot lot;
@@ -203,7 +209,8 @@ TEST_CASE("an intruder across the plane of a pinhole is drawn where it is ahead"
     CHECK(is_finite(truth));
     CHECK(truth.in_picture);
     REQUIRE(truth.box);
-    // Its far end: 2.5 m below the axis and 30 m ahead is 25 px below the middle; from there it reaches down to the edge.
+    // Its far end: 2.5 m below the axis and 30 m ahead is 25 px below the middle; from there it reaches down to the
+    // edge.
     CHECK(std::abs(truth.box->y - (119.5 + 0.5 + 25)) <= 1.5);
     CHECK(truth.box->br().y == 240);
   }

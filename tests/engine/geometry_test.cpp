@@ -20,10 +20,10 @@
 namespace sigs::test {
 namespace {
 
-// What the annotation may be off by (issue's own bound), and what it is held to: vertices are floats, 1e-6 m at the
-// tips of a 30 m aircraft, which spans some 40 px; OpenCV's own arithmetic is exact to about 1e-9 px.
+// What the annotation may be off by, and what it is held to: OpenCV is asked for the vertices alone,
+// and close to a fold of the lens the edge between two of them bows out by some 4e-4 px. Elsewhere it is 1e-12 px.
 constexpr double kAllowed_px = 0.5;
-constexpr double kHeldTo_px = 1e-4;
+constexpr double kHeldTo_px = 1e-3;
 
 constexpr int kWantedExtent_px = 40;
 
@@ -149,8 +149,8 @@ double apart(const Box& a, const cv::Rect2d& b) {
 }
 
 int apart(const cv::Rect& a, const cv::Rect& b) {
-  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.br().x - b.br().x),
-                   std::abs(a.br().y - b.br().y)});
+  return std::max(
+      {std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.br().x - b.br().x), std::abs(a.br().y - b.br().y)});
 }
 
 cv::Rect grown(const cv::Rect& rect, int by) {
@@ -180,7 +180,6 @@ void check_drawn(const ComposedFrame& frame, const Expected& expected, const Len
   const cv::Rect picture({0, 0}, frame.picture.size_px());
   const cv::Rect box = box_of(frame.mask);
   const cv::Rect wanted = touched(*expected.box);
-  if (!expected.whole) return;  // edges_test.cpp is about those
   if (!box.empty()) CHECK((grown(wanted, 1) & box) == box);
   if ((grown(wanted, 1) & picture) != grown(wanted, 1) || !all_reachable(wanted, lens)) return;
   // Rounding to whole pixels: an edge that reaches a few hundredths into a pixel may meet none of its 16 samples, and
@@ -201,14 +200,21 @@ void check_frame(const ComposedFrame& frame, const Expected& expected, const Len
   tally.position_m = std::max(tally.position_m, cv::norm(position - expected.position_in_camera));
   const auto center = lens.pixel(truth.position_m);
   REQUIRE(center);
-  tally.center_px = std::max(
-      tally.center_px, std::hypot(center->x - expected.center_px.x, center->y - expected.center_px.y));
+  tally.center_px =
+      std::max(tally.center_px, std::hypot(center->x - expected.center_px.x, center->y - expected.center_px.y));
   REQUIRE(truth.silhouette.has_value() == expected.box.has_value());
   if (!expected.box) return;
-  const double silhouette_px = apart(*truth.silhouette, *expected.box);
+  ++tally.measured;
+  const Box& silhouette = *truth.silhouette;
+  if (!expected.whole) {  // edges beyond the last point that has an image count too: edges_test.cpp
+    const cv::Rect2d box(silhouette.x - kHeldTo_px, silhouette.y - kHeldTo_px, silhouette.width + 2 * kHeldTo_px,
+                         silhouette.height + 2 * kHeldTo_px);
+    CHECK((box & *expected.box) == *expected.box);
+    return;
+  }
+  const double silhouette_px = apart(silhouette, *expected.box);
   CHECK(silhouette_px < kAllowed_px);
   tally.silhouette_px = std::max(tally.silhouette_px, silhouette_px);
-  ++tally.measured;
   check_drawn(frame, expected, lens, tally);
 }
 
@@ -226,8 +232,7 @@ const std::array<cv::Vec3d, 3> kHeadings{cv::Vec3d(0.2, 1, -0.1), cv::Vec3d(-1, 
 
 Tally tally_of(Lot& lot, const Calibration& calibration, const TestModel& model) {
   lot.project.footage.calibration = (real_data() / "calibrations" / calibration.name).string();
-  lot.project.camera = {
-      .position_m = {40, -30, -150}, .roll_deg = 4, .pitch_deg = -7, .yaw_deg = 25, .speed_mps = 30};
+  lot.project.camera = {.position_m = {40, -30, -150}, .roll_deg = 4, .pitch_deg = -7, .yaw_deg = 25, .speed_mps = 30};
   lot.project.compositing.method = MethodChoice::direct;
   lot.project.intruders.clear();
   lot.add(model.settings.file, {500, 0, -150}).model = model.settings;

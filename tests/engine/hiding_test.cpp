@@ -11,8 +11,8 @@
 namespace sigs::test {
 namespace {
 
-// A plate 20.67 m square across the axis of Lot's camera at 200 m, f = 300 px: 31 px square around (159.5, 119.5), so its
-// edges cut the middle of pixels 144 and 175, 104 and 135.
+// A plate 20.67 m square across the axis of Lot's camera at 200 m, f = 300 px: 31 px square around (159.5, 119.5), so
+// its edges cut the middle of pixels 144 and 175, 104 and 135.
 constexpr double kHalfPlate_m = 15.5 * 200 / 300;
 const cv::Rect kPlateBox(144, 104, 32, 32);
 

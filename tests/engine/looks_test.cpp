@@ -88,7 +88,8 @@ TEST_CASE("the nose leads in the direction of flight") {
 }
 
 TEST_CASE("up on the aircraft is up in the picture") {
-  for (const glm::dvec3& step : {glm::dvec3(0, 2, 0), glm::dvec3(0, -2, 0), glm::dvec3(2, 0, 0), glm::dvec3(-2, 0, 0)}) {
+  for (const glm::dvec3& step :
+       {glm::dvec3(0, 2, 0), glm::dvec3(0, -2, 0), glm::dvec3(2, 0, 0), glm::dvec3(-2, 0, 0)}) {
     const ComposedFrame frame = painted(kTopAndBelly, along(step));
     CHECK(middle_of(frame, 2).y < middle_of(frame, 1).y - 5);
   }
@@ -106,8 +107,8 @@ TEST_CASE("an aircraft that turns right has its right wing low") {
   std::vector<WaypointSettings> turn;
   for (int i = -2; i <= 2; ++i) {
     const double angle = 0.2 * i;
-    turn.push_back({.frame = 25.0 * i + 1,
-                    .position_m = {100 + 400 * std::sin(angle), 400 * (1 - std::cos(angle)), -150}});
+    turn.push_back(
+        {.frame = 25.0 * i + 1, .position_m = {100 + 400 * std::sin(angle), 400 * (1 - std::cos(angle)), -150}});
   }
   const ComposedFrame frame = painted(kRightAndLeft, turn);
   CHECK(frame.truth.intruders.front().attitude.roll_rad > 0.5);

@@ -63,7 +63,8 @@ cv::Mat grainy_plane(cv::Size size, int number, int plane) {
     for (int x = 0; x < size.width; ++x) {
       const double wave = std::sin(0.05 * (x + 3 * number) + plane) * std::cos(0.07 * (y - number));
       const auto noise = static_cast<int>(grain(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                                                static_cast<std::uint32_t>(3 * number + plane)) % 17);
+                                                static_cast<std::uint32_t>(3 * number + plane)) %
+                                          17);
       out.at<uchar>(y, x) = cv::saturate_cast<uchar>(middle + swing * wave + noise - 8);
     }
   return out;
@@ -130,7 +131,9 @@ void write_calibration(const std::filesystem::path& path, const cv::Matx33d& mat
   file << "distortion_coefficients" << cv::Mat(coefficients, true);
 }
 
-ColorInfo stated_color() { return {.matrix = ColorMatrix::bt601, .matrix_stated = true, .range_stated = true}; }
+ColorInfo stated_color() {
+  return {.matrix = ColorMatrix::bt601, .matrix_stated = true, .range_stated = true};
+}
 
 Frame grainy_frame(cv::Size size_px, int number, PixelLayout layout, const ColorInfo& color) {
   Frame frame{.layout = layout, .color = color, .time_s = number / 25.0};
@@ -195,7 +198,9 @@ ComposedFrame composed(const Scene& scene, int frame, const Frame& background) {
   return std::move(*result);
 }
 
-cv::Rect box_of(const cv::Mat& mask) { return mask.empty() ? cv::Rect() : cv::boundingRect(mask); }
+cv::Rect box_of(const cv::Mat& mask) {
+  return mask.empty() ? cv::Rect() : cv::boundingRect(mask);
+}
 
 bool same_bytes(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != b.type()) return false;
