@@ -14,7 +14,9 @@ namespace sigs::cli {
 
 namespace {
 
-void print(const Error& error) { std::printf("%s\n", error.text().c_str()); }
+void print(const Error& error) {
+  std::printf("%s\n", error.text().c_str());
+}
 
 // What can be seen without opening anything; then what only opening shows.
 Result<void> check(const ProjectOptions& options) {
@@ -23,7 +25,8 @@ Result<void> check(const ProjectOptions& options) {
   const std::vector<Problem> problems = validate(*project);
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
-    return fail(project->file.string(), std::to_string(problems.size()) + (problems.size() == 1 ? " problem" : " problems"),
+    return fail(project->file.string(),
+                std::to_string(problems.size()) + (problems.size() == 1 ? " problem" : " problems"),
                 problems.front().kind);
   const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);

@@ -50,7 +50,8 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   Result<Project> project = project_of(options.project);
   if (!project) return fail(project.error());
   // Another codec asks for a container of its own, not for the one that the project has for its codec.
-  const bool codec_alone = !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
+  const bool codec_alone =
+      !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
   if (codec_alone) project->output.container = ContainerChoice::automatic;
   for (const auto& [key, value] : options.settings)
     if (!value.empty())
@@ -74,11 +75,13 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
 void print_times(const ExportReport& report) {
   const StopTimes& times = report.times;
   const double per_frame_ms = 1000.0 / std::max(1, report.frames);
-  std::fprintf(stderr, "%d frames in %s, %.1f frames/s; per frame: decode %.2f ms, draw %.2f ms, composite %.2f ms, "
-               "encode %.2f ms%s%s\n", report.frames, clock_text(times.wall_s).c_str(),
-               report.frames / std::max(times.wall_s, 1e-6), times.decode_s * per_frame_ms,
-               times.draw_s * per_frame_ms, times.composite_s * per_frame_ms, times.encode_s * per_frame_ms,
-               report.drawn_with.empty() ? "" : "; drawn with ", report.drawn_with.c_str());
+  std::fprintf(stderr,
+               "%d frames in %s, %.1f frames/s; per frame: decode %.2f ms, draw %.2f ms, composite %.2f ms, "
+               "encode %.2f ms%s%s\n",
+               report.frames, clock_text(times.wall_s).c_str(), report.frames / std::max(times.wall_s, 1e-6),
+               times.decode_s * per_frame_ms, times.draw_s * per_frame_ms, times.composite_s * per_frame_ms,
+               times.encode_s * per_frame_ms, report.drawn_with.empty() ? "" : "; drawn with ",
+               report.drawn_with.c_str());
 }
 
 Result<void> run(const ExportOptions& options) {
@@ -107,7 +110,8 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
       program.add_subcommand("export", "write a project's video, masks and annotations; prints the files written");
   const auto options = std::make_shared<ExportOptions>();
   add_project_options(*command, options->project);
-  command->add_option("--out", options->folder, "folder to write into; made where it is not there")->capture_default_str();
+  command->add_option("--out", options->folder, "folder to write into; made where it is not there")
+      ->capture_default_str();
   command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
   const std::pair<const char*, const char*> settings[] = {{"--codec", "export.video.codec"},
                                                           {"--crf", "export.video.crf"},

@@ -74,8 +74,11 @@ std::function<Result<void>()> add_frame_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("frame", "write one composited frame as PNG");
   const auto options = std::make_shared<FrameOptions>();
   add_project_options(*command, options->project);
-  command->add_option("--frame", options->frame, "which one, counted from 0 in the footage")->required()->option_text("N");
-  command->add_option("--out", options->folder, "folder to write into; made where it is not there")->capture_default_str();
+  command->add_option("--frame", options->frame, "which one, counted from 0 in the footage")
+      ->required()
+      ->option_text("N");
+  command->add_option("--out", options->folder, "folder to write into; made where it is not there")
+      ->capture_default_str();
   command->add_flag("--stages", options->stages, "write every intermediate picture too");
   command->add_flag("--force", options->force, "overwrite what is there");
   return [options] { return run(*options); };

@@ -21,20 +21,28 @@ namespace {
 
 const char* name_of(PixelLayout layout) {
   switch (layout) {
-    case PixelLayout::gray: return "gray";
-    case PixelLayout::yuv420: return "Y'CbCr 4:2:0";
-    case PixelLayout::yuv422: return "Y'CbCr 4:2:2";
-    case PixelLayout::yuv444: return "Y'CbCr 4:4:4";
-    case PixelLayout::rgb: return "RGB";
+    case PixelLayout::gray:
+      return "gray";
+    case PixelLayout::yuv420:
+      return "Y'CbCr 4:2:0";
+    case PixelLayout::yuv422:
+      return "Y'CbCr 4:2:2";
+    case PixelLayout::yuv444:
+      return "Y'CbCr 4:4:4";
+    case PixelLayout::rgb:
+      return "RGB";
   }
   return "";
 }
 
 const char* name_of(ColorMatrix matrix) {
   switch (matrix) {
-    case ColorMatrix::bt601: return "BT.601";
-    case ColorMatrix::bt709: return "BT.709";
-    case ColorMatrix::bt2020: return "BT.2020";
+    case ColorMatrix::bt601:
+      return "BT.601";
+    case ColorMatrix::bt709:
+      return "BT.709";
+    case ColorMatrix::bt2020:
+      return "BT.2020";
   }
   return "";
 }
@@ -138,7 +146,8 @@ Result<void> info(const InfoOptions& options) {
 std::function<Result<void>()> add_info_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("info", "say what is read in a video, calibration or model");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("FILE", options->path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")->required();
+  command->add_option("FILE", options->path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")
+      ->required();
   command->add_option("--size", options->size, "of the footage, for a calibration that states none or another")
       ->option_text("WxH");
   return [options] { return info(*options); };

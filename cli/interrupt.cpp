@@ -16,7 +16,9 @@ void on_signal(int signal) {
 
 }  // namespace
 
-const std::atomic<bool>& interrupt_flag() { return interrupted; }
+const std::atomic<bool>& interrupt_flag() {
+  return interrupted;
+}
 
 void listen_for_interrupts() {
   std::signal(SIGINT, on_signal);

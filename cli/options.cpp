@@ -49,8 +49,12 @@ Result<FrameRange> frame_range_of(const std::string& text) {
   return FrameRange{*first, *last};
 }
 
-void print_warning(const Warning& warning) { std::fprintf(stderr, "warning: %s\n", warning.text().c_str()); }
+void print_warning(const Warning& warning) {
+  std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+}
 
-void print_error(const Error& error) { std::fprintf(stderr, "error: %s\n", error.text().c_str()); }
+void print_error(const Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.text().c_str());
+}
 
 }  // namespace sigs::cli

@@ -40,7 +40,8 @@ Progress::Progress(ProgressStyle style) : style_(style) {
 void Progress::update(int done, int total) {
   const bool last = done == total;
   const Clock::time_point now = Clock::now();
-  if (!last && drawn_ != Clock::time_point::min() && now - drawn_ < std::chrono::milliseconds(bar_ ? 100 : 1000)) return;
+  if (!last && drawn_ != Clock::time_point::min() && now - drawn_ < std::chrono::milliseconds(bar_ ? 100 : 1000))
+    return;
   drawn_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const double left_s = elapsed_s * (total - done) / done;
@@ -49,8 +50,8 @@ void Progress::update(int done, int total) {
   } else if (style_ == ProgressStyle::plain) {
     std::fprintf(stderr, "frame %d of %d, %s left\n", done, total, clock_text(left_s).c_str());
   } else if (style_ == ProgressStyle::json) {
-    std::fprintf(stderr, "{\"done\": %d, \"total\": %d, \"elapsed_s\": %.3f, \"left_s\": %.3f}\n", done, total, elapsed_s,
-                 left_s);
+    std::fprintf(stderr, "{\"done\": %d, \"total\": %d, \"elapsed_s\": %.3f, \"left_s\": %.3f}\n", done, total,
+                 elapsed_s, left_s);
   }
 }
 

@@ -18,7 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 struct DecodedFrame {
   int number = 0;
@@ -92,8 +94,8 @@ class Pipeline {
 
 Result<FrameRange> range_of(const ExportRequest& request, const Scene& scene) {
   const FrameRange range = request.frames.value_or(FrameRange{scene.first_frame, scene.last_frame});
-  const std::string held = "the project has frames " + std::to_string(scene.first_frame) + " to " +
-                           std::to_string(scene.last_frame);
+  const std::string held =
+      "the project has frames " + std::to_string(scene.first_frame) + " to " + std::to_string(scene.last_frame);
   if (range.first > range.last || range.first < scene.first_frame || range.last > scene.last_frame)
     return fail("--frames " + std::to_string(range.first) + "-" + std::to_string(range.last), held, ErrorKind::usage);
   return range;
@@ -104,7 +106,9 @@ void say(const ExportControl& control, ExportReport& report, const Warning& warn
   if (control.warn) control.warn(warning);
 }
 
-bool cancelled(const ExportControl& control) { return control.cancel != nullptr && control.cancel->load(); }
+bool cancelled(const ExportControl& control) {
+  return control.cancel != nullptr && control.cancel->load();
+}
 
 void count(const ComposedFrame& frame, ExportReport& report) {
   ++report.frames;
@@ -113,8 +117,8 @@ void count(const ComposedFrame& frame, ExportReport& report) {
   report.times.composite_s += frame.times.composite_s;
 }
 
-Result<void> write_frames(Pipeline& pipeline, const FrameRange& range, ExportFiles& files,
-                          const ExportControl& control, ExportReport& report) {
+Result<void> write_frames(Pipeline& pipeline, const FrameRange& range, ExportFiles& files, const ExportControl& control,
+                          ExportReport& report) {
   const int total = range.last - range.first + 1;
   for (int done = 1; done <= total; ++done) {
     if (cancelled(control)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
@@ -169,9 +173,9 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   report.written = std::move(*written);
   report.times.wall_s = seconds_since(start);
   if (report.damaged_frames > 0)
-    say(control, report, {video.path.string(), std::to_string(report.damaged_frames) + " of " +
-                                                   std::to_string(report.frames) + " frames are damaged; " +
-                                                   "what could be decoded of them is used"});
+    say(control, report,
+        {video.path.string(), std::to_string(report.damaged_frames) + " of " + std::to_string(report.frames) +
+                                  " frames are damaged; " + "what could be decoded of them is used"});
   return report;
 }
 

@@ -51,8 +51,8 @@ struct ExportControl {
   const std::atomic<bool>* cancel = nullptr;          // set: stop soon, error interrupted, nothing is left behind
 };
 
-// All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of pictures), NAME.masks.mkv (or a
-// folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
+// All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of pictures), NAME.masks.mkv (or
+// a folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
 // What a scene has to know of a video.

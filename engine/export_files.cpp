@@ -14,30 +14,43 @@ namespace fs = std::filesystem;
 
 VideoCodec codec_of(CodecChoice choice) {
   switch (choice) {
-    case CodecChoice::ffv1: return VideoCodec::ffv1;
-    case CodecChoice::h264: return VideoCodec::h264;
-    case CodecChoice::mjpeg: return VideoCodec::mjpeg;
-    case CodecChoice::png: return VideoCodec::png;
+    case CodecChoice::ffv1:
+      return VideoCodec::ffv1;
+    case CodecChoice::h264:
+      return VideoCodec::h264;
+    case CodecChoice::mjpeg:
+      return VideoCodec::mjpeg;
+    case CodecChoice::png:
+      return VideoCodec::png;
   }
   return VideoCodec::ffv1;
 }
 
 Container container_of(const ExportSettings& output) {
   switch (output.container) {
-    case ContainerChoice::mkv: return Container::mkv;
-    case ContainerChoice::mp4: return Container::mp4;
-    case ContainerChoice::avi: return Container::avi;
-    case ContainerChoice::automatic: break;
+    case ContainerChoice::mkv:
+      return Container::mkv;
+    case ContainerChoice::mp4:
+      return Container::mp4;
+    case ContainerChoice::avi:
+      return Container::avi;
+    case ContainerChoice::automatic:
+      break;
   }
   switch (output.codec) {
-    case CodecChoice::h264: return Container::mp4;
-    case CodecChoice::mjpeg: return Container::avi;
-    default: return Container::mkv;
+    case CodecChoice::h264:
+      return Container::mp4;
+    case CodecChoice::mjpeg:
+      return Container::avi;
+    default:
+      return Container::mkv;
   }
 }
 
 // The bytes do not depend on it.
-int encoder_threads() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)); }
+int encoder_threads() {
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
+}
 
 VideoFormat picture_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
   return {.codec = codec_of(output.codec),
@@ -104,8 +117,7 @@ Result<void> check_replaceable(const fs::path& folder) {
 // An output may replace an older one, but nothing that this export reads.
 Result<void> check_not_read(const Project& project, const fs::path& output) {
   std::vector<fs::path> inputs{project.file};
-  for (const std::string& input :
-       {project.footage.video, project.footage.calibration, project.footage.own_body_mask})
+  for (const std::string& input : {project.footage.video, project.footage.calibration, project.footage.own_body_mask})
     inputs.push_back(resolved(project, input));
   for (const IntruderSettings& intruder : project.intruders) inputs.push_back(resolved(project, intruder.model.file));
   std::error_code code;
@@ -139,8 +151,7 @@ Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const
   return Labels{std::move(*file), std::move(*writer)};
 }
 
-Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage,
-                                      const FrameRange& range) {
+Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const FrameRange& range) {
   if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
   const ExportSettings& output = request.project.output;
   const fs::path base = request.folder / request.project.name;

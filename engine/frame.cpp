@@ -15,7 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 FrameTruth truth_of(const SceneMoment& moment, int frame, std::vector<IntruderTruth> intruders) {
   std::sort(intruders.begin(), intruders.end(),
@@ -43,7 +45,9 @@ const DistortMaps& Bench::maps_of(const Camera& camera) {
   return *maps_;
 }
 
-std::string Bench::renderer_description() const { return renderer_ ? renderer_->description() : std::string(); }
+std::string Bench::renderer_description() const {
+  return renderer_ ? renderer_->description() : std::string();
+}
 
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, Bench& bench,
                                     Stages stages) {

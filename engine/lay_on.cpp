@@ -47,7 +47,9 @@ cv::Mat shown(const Layer& layer, cv::Size picture_size_px) {
   return picture;
 }
 
-cv::Mat shown_view(const DrawnView& drawn) { return shown(drawn.layer, drawn.view.size_px); }
+cv::Mat shown_view(const DrawnView& drawn) {
+  return shown(drawn.layer, drawn.view.size_px);
+}
 
 // "1_bent" for the intruder with id 1; plain "bent" where there is only one.
 std::string stage_name(const std::string& name, const SeenIntruder& seen, const Scene& scene) {
@@ -55,8 +57,7 @@ std::string stage_name(const std::string& name, const SeenIntruder& seen, const 
 }
 
 void lay_direct(ComposedFrame& composed, const Scene& scene, const SeenIntruder& seen) {
-  const BlendSpace space =
-      scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
+  const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
   blend_over(composed.picture, seen.soft, space);
   add_to_mask(composed.mask, scene.footage.size_px, seen.soft.rect, opacity_of(seen.soft));
 }
@@ -100,8 +101,8 @@ ClassicStages lay_classic(ComposedFrame& composed, const Scene& scene, const See
   const cv::Mat input1 = bgr_of(composed.picture);
   const cv::Mat input2 = on_green_screen(pinhole_layer(scene, seen), scene.footage.size_px);
   const DistortMaps maps = bends ? bench.maps_of(scene.camera) : DistortMaps{};
-  ClassicStages stages = bends ? classic_stages(input1, input2, scene.camera, maps, seen.sigma_px)
-                               : plain_stages(input1, input2);
+  ClassicStages stages =
+      bends ? classic_stages(input1, input2, scene.camera, maps, seen.sigma_px) : plain_stages(input1, input2);
   const cv::Mat weight = weight_of(stages.changed, scene.own_body);
   replace_pixels(composed.picture, stages.output, weight);
   const cv::Mat opacity = classic_opacity(stages, maps, seen.sigma_px, bends).mul(weight);
@@ -111,10 +112,9 @@ ClassicStages lay_classic(ComposedFrame& composed, const Scene& scene, const See
 
 void keep_classic_stages(std::vector<Stage>& kept, const ClassicStages& stages, const Scene& scene,
                          const SeenIntruder& seen) {
-  const std::pair<const char*, const cv::Mat*> all[] = {{"input1", &stages.input1}, {"input2", &stages.input2},
-                                                        {"a", &stages.a},           {"b", &stages.b},
-                                                        {"c", &stages.c},           {"d", &stages.d},
-                                                        {"f", &stages.f},           {"keyed", &stages.output}};
+  const std::pair<const char*, const cv::Mat*> all[] = {
+      {"input1", &stages.input1}, {"input2", &stages.input2}, {"a", &stages.a}, {"b", &stages.b},
+      {"c", &stages.c},           {"d", &stages.d},           {"f", &stages.f}, {"keyed", &stages.output}};
   for (const auto& [name, picture] : all)
     if (!picture->empty()) kept.push_back({stage_name(name, seen, scene), *picture});
 }

@@ -52,8 +52,8 @@ class BoundedQueue {
   bool closed_ = false;
 };
 
-// Takes numbered items in any order and gives them out by number. put() waits while its number is `ahead` or more beyond
-// the next one due, so memory stays bounded; the next one due never waits.
+// Takes numbered items in any order and gives them out by number. put() waits while its number is `ahead` or more
+// beyond the next one due, so memory stays bounded; the next one due never waits.
 template <class T>
 class InOrder {
  public:

@@ -19,9 +19,12 @@ constexpr int kLargestView_px = 4096;  // some 300 MB; a larger picture of a nea
 constexpr double kRounding = 1e-6;     // of sums of floats: a visible share below it is none
 constexpr int kWholeAreaSteps = 256;   // pixels across in which a silhouette beyond the picture's edge is measured
 
-cv::Rect picture_of(const Scene& scene) { return {{0, 0}, scene.footage.size_px}; }
+cv::Rect picture_of(const Scene& scene) {
+  return {{0, 0}, scene.footage.size_px};
+}
 
-std::array<glm::dvec3, 8> corners_in_camera(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body) {
+std::array<glm::dvec3, 8> corners_in_camera(const Mesh& mesh,
+                                            const Pose<frame::Camera, frame::Body>& camera_from_body) {
   std::array<glm::dvec3, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) {
     const glm::dvec3 corner((i & 1) ? mesh.high_m.x : mesh.low_m.x, (i & 2) ? mesh.high_m.y : mesh.low_m.y,
@@ -54,8 +57,8 @@ Result<std::vector<DrawnView>> drawn_views(const std::vector<VirtualView>& views
   return drawn;
 }
 
-// Where the silhouette reaches beyond the pixels that were bent, its whole area is measured on a coarser grid through the
-// same lens, in views of their own.
+// Where the silhouette reaches beyond the pixels that were bent, its whole area is measured on a coarser grid through
+// the same lens, in views of their own.
 Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, const std::array<glm::dvec3, 8>& corners,
                              const Mesh& mesh, const Light& light, Renderer& renderer) {
   const cv::Rect everywhere(-1'000'000, -1'000'000, 2'000'000, 2'000'000);
@@ -70,9 +73,8 @@ Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, con
   coarse.cx = (coarse.cx + 0.5) / step - 0.5;
   coarse.cy = (coarse.cy + 0.5) / step - 0.5;
   const Camera coarse_camera{*Lens::make(coarse), camera.size_px};
-  const Result<std::vector<DrawnView>> drawn =
-      drawn_views(aimed_views(coarse_camera, corners, std::nullopt, 2, 4 * kWholeAreaSteps), mesh, seen.placed, light,
-                  renderer);
+  const Result<std::vector<DrawnView>> drawn = drawn_views(
+      aimed_views(coarse_camera, corners, std::nullopt, 2, 4 * kWholeAreaSteps), mesh, seen.placed, light, renderer);
   if (!drawn) return fail(drawn.error());
   if (drawn->empty()) return 0;
   const Box coarse_box{(box.x + 0.5) / step - 0.5, (box.y + 0.5) / step - 0.5, box.width / step, box.height / step};

@@ -30,7 +30,8 @@ struct SeenIntruder {
                                                 const PlacedIntruder& placed, Bench& bench);
 
 // The truth of every intruder, given far to near: nearer ones hide farther ones.
-//   mask  ComposedFrame::mask; what was not laid on the picture is not visible in it (the classic method cannot show what
+//   mask  ComposedFrame::mask; what was not laid on the picture is not visible in it (the classic method cannot show
+//   what
 //         lies beyond the edge of its undistorted picture)
 [[nodiscard]] std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIntruder>& far_to_near,
                                                   const cv::Mat& mask);

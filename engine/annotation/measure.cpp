@@ -46,6 +46,8 @@ std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rec
   return cv::Rect(low + rect.tl(), high + rect.tl() + cv::Point(1, 1));
 }
 
-double area_px(const cv::Mat& coverage) { return coverage.empty() ? 0.0 : cv::sum(coverage)[0]; }
+double area_px(const cv::Mat& coverage) {
+  return coverage.empty() ? 0.0 : cv::sum(coverage)[0];
+}
 
 }  // namespace sigs

@@ -12,7 +12,8 @@ namespace sigs {
 std::string number_text(double number, int decimals) {
   ENSURE(std::isfinite(number));
   std::array<char, 400> buffer{};  // 309 digits before the point at most
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::fixed, decimals);
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::fixed, decimals);
   std::string text(buffer.data(), end.ptr);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);

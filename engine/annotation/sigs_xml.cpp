@@ -112,7 +112,9 @@ Result<SigsXmlWriter> SigsXmlWriter::open(const std::filesystem::path& path, con
   return writer;
 }
 
-Result<void> SigsXmlWriter::write(const FrameTruth& truth) { return put(xml_of(truth)); }
+Result<void> SigsXmlWriter::write(const FrameTruth& truth) {
+  return put(xml_of(truth));
+}
 
 Result<void> SigsXmlWriter::finish() {
   const Result<void> end = put("</sigs>\n");

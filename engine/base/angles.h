@@ -6,7 +6,11 @@
 namespace sigs {
 
 // Degrees live in files and on screen only; these are the doors.
-[[nodiscard]] constexpr double rad_of_deg(double deg) { return deg * (std::numbers::pi / 180.0); }
-[[nodiscard]] constexpr double deg_of_rad(double rad) { return rad * (180.0 / std::numbers::pi); }
+[[nodiscard]] constexpr double rad_of_deg(double deg) {
+  return deg * (std::numbers::pi / 180.0);
+}
+[[nodiscard]] constexpr double deg_of_rad(double rad) {
+  return rad * (180.0 / std::numbers::pi);
+}
 
 }  // namespace sigs

@@ -37,7 +37,9 @@ PartialFile& PartialFile::operator=(PartialFile&& other) noexcept {
   return *this;
 }
 
-PartialFile::~PartialFile() { discard(); }
+PartialFile::~PartialFile() {
+  discard();
+}
 
 void PartialFile::discard() noexcept {
   std::error_code code;

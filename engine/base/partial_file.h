@@ -9,8 +9,9 @@
 
 namespace sigs {
 
-// An output that appears under its final name only when it is complete. Write to part(), then keep(); without keep() the
-// part is removed when this goes out of scope. The part lies beside the final file, so that the last step is a rename.
+// An output that appears under its final name only when it is complete. Write to part(), then keep(); without keep()
+// the part is removed when this goes out of scope. The part lies beside the final file, so that the last step is a
+// rename.
 class PartialFile {
  public:
   // Error cannot_create where the final file exists and overwrite is false, or the folder is not there.

@@ -46,6 +46,8 @@ using Result = tl::expected<T, Error>;
 }
 
 // Hands an error on to the caller: if (!camera) return fail(camera.error());
-[[nodiscard]] inline tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+[[nodiscard]] inline tl::unexpected<Error> fail(Error error) {
+  return tl::unexpected<Error>(std::move(error));
+}
 
 }  // namespace sigs

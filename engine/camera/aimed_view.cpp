@@ -68,8 +68,8 @@ Extent seen_near(const Extent& near, const Camera& camera, const glm::dquat& vie
   return seen;
 }
 
-// The part of a view that the pixels of target look at; none where a wide view is looked at by none of them. Three steps
-// of the grid are left as a margin: tangents grow up to 2.4 times as fast at 50 degrees as at the axis.
+// The part of a view that the pixels of target look at; none where a wide view is looked at by none of them. Three
+// steps of the grid are left as a margin: tangents grow up to 2.4 times as fast at 50 degrees as at the axis.
 std::optional<Extent> cut_to(const Extent& whole, const Camera& camera, const glm::dquat& view_from_camera,
                              const cv::Rect& target) {
   constexpr int kSteps = 16;

@@ -16,11 +16,11 @@ struct DrawnView {
   Layer layer;
 };
 
-// The intruder as the camera sees it, over the pixels of target (which may reach beyond the picture): each pixel asks the
-// lens for the rays of its four corners and takes the mean of what the view shows between them. Pixels that have no ray
-// stay empty. Several views (the faces of a cube around the camera) must not overlap in direction; each ray asks the one
-// whose axis it is nearest to.
-// Energy is kept: the sum over pixels is the sum over the view, times the ratio of their pixel areas.
+// The intruder as the camera sees it, over the pixels of target (which may reach beyond the picture): each pixel asks
+// the lens for the rays of its four corners and takes the mean of what the view shows between them. Pixels that have no
+// ray stay empty. Several views (the faces of a cube around the camera) must not overlap in direction; each ray asks
+// the one whose axis it is nearest to. Energy is kept: the sum over pixels is the sum over the view, times the ratio of
+// their pixel areas.
 [[nodiscard]] Layer bent(std::span<const DrawnView> views, const Camera& camera, const cv::Rect& target);
 
 }  // namespace sigs

@@ -36,7 +36,9 @@ cv::Mat is_not_green(const cv::Mat& bgr) {
   return ~green;
 }
 
-cv::Matx33d matrix_of(const LensParameters& lens) { return {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1}; }
+cv::Matx33d matrix_of(const LensParameters& lens) {
+  return {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1};
+}
 
 // Stage A, equations (3) and (4), with the camera matrix kept.
 cv::Mat undistorted(const cv::Mat& picture, const Camera& camera) {
@@ -71,7 +73,8 @@ cv::Mat on_green_screen(const Layer& layer, cv::Size picture_size_px) {
 
 DistortMaps distort_maps(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
-  DistortMaps maps{cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1)), cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1))};
+  DistortMaps maps{cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1)),
+                   cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1))};
   for (int v = 0; v < camera.size_px.height; ++v)
     for (int u = 0; u < camera.size_px.width; ++u) {
       const std::optional<glm::dvec3> ray = camera.lens.ray({u, v});

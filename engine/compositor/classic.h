@@ -31,8 +31,8 @@ struct ClassicStages {
   cv::Mat changed;  // CV_8UC1, 255 where F is not pure green
 };
 
-// For every pixel of the distorted picture, where it comes from in the undistorted one (CV_32FC1 each; -1 where the lens
-// has no ray). Depends on the camera alone.
+// For every pixel of the distorted picture, where it comes from in the undistorted one (CV_32FC1 each; -1 where the
+// lens has no ray). Depends on the camera alone.
 struct DistortMaps {
   cv::Mat x;
   cv::Mat y;

@@ -81,12 +81,24 @@ std::string put(const Json& json, const Choice& choice) {
   return mismatch(("one of " + wanted).c_str(), json);
 }
 
-Json json_of_value(const double* value) { return *value; }
-Json json_of_value(const int* value) { return *value; }
-Json json_of_value(const std::string* value) { return *value; }
-Json json_of_value(const std::vector<std::string>* value) { return *value; }
-Json json_of_value(const glm::dvec3* value) { return Json::array({value->x, value->y, value->z}); }
-Json json_of_value(const Choice& choice) { return choice.names.at(static_cast<std::size_t>(choice.get())); }
+Json json_of_value(const double* value) {
+  return *value;
+}
+Json json_of_value(const int* value) {
+  return *value;
+}
+Json json_of_value(const std::string* value) {
+  return *value;
+}
+Json json_of_value(const std::vector<std::string>* value) {
+  return *value;
+}
+Json json_of_value(const glm::dvec3* value) {
+  return Json::array({value->x, value->y, value->z});
+}
+Json json_of_value(const Choice& choice) {
+  return choice.names.at(static_cast<std::size_t>(choice.get()));
+}
 template <class T>
 Json json_of_value(const std::optional<T>* value) {
   return *value ? Json(**value) : Json(nullptr);

@@ -54,7 +54,8 @@ void add_footage(FieldList list, FootageSettings& footage) {
 }
 
 void add_camera(FieldList list, CameraSettings& camera) {
-  list.number("position_m", &camera.position_m, "m", -kFarthest_m, kFarthest_m, "where the camera is at frame 0, in the world");
+  list.number("position_m", &camera.position_m, "m", -kFarthest_m, kFarthest_m,
+              "where the camera is at frame 0, in the world");
   list.number("attitude_deg.roll", &camera.roll_deg, "deg", -180, 180, "right side down");
   list.number("attitude_deg.pitch", &camera.pitch_deg, "deg", -90, 90, "axis up");
   list.number("attitude_deg.yaw", &camera.yaw_deg, "deg", -180, 180, "axis to the right of world X");
@@ -62,7 +63,8 @@ void add_camera(FieldList list, CameraSettings& camera) {
 }
 
 void add_light(FieldList list, LightSettings& light) {
-  list.number("position_m", &light.position_m, "m", -1e12, 1e12, "where the light is, in the world; it shines every way");
+  list.number("position_m", &light.position_m, "m", -1e12, 1e12,
+              "where the light is, in the world; it shines every way");
   list.number("color", &light.color, "", 0, 100, "red, green, blue in linear light; 1: white faces become white");
   list.number("ambient", &light.ambient, "", 0, 1, "share of the light that comes from everywhere");
 }
@@ -101,7 +103,8 @@ void add_output(FieldList list, ExportSettings& output) {
   list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi"}), "",
            "auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
   list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
-  list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "", "opacity of the intruders, as video or pictures");
+  list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "",
+           "opacity of the intruders, as video or pictures");
   list.add("labels", &output.labels, "", "annotation formats to write: xml");
 }
 

@@ -29,8 +29,8 @@ using FieldValue = std::variant<double*, int*, std::optional<double>*, std::opti
 struct Field {
   std::string key;  // "intruders[0].model.scale"
   FieldValue value;
-  std::string_view unit;  // "" where it has none
-  std::string_view help;  // one line
+  std::string_view unit;                                      // "" where it has none
+  std::string_view help;                                      // one line
   double minimum = -std::numeric_limits<double>::infinity();  // of numbers, and of each part of a vector
   double maximum = std::numeric_limits<double>::infinity();
   bool is_path = false;

@@ -27,8 +27,7 @@ Json::json_pointer pointer_of(const std::string& key) {
 Result<std::size_t> list_size(const Json& json, const char* pointer, const std::string& where) {
   const Json::json_pointer place(pointer);
   if (!json.contains(place)) return std::size_t{0};
-  if (!json.at(place).is_array())
-    return fail(where, "expected a list [ ... ]", ErrorKind::bad_project);
+  if (!json.at(place).is_array()) return fail(where, "expected a list [ ... ]", ErrorKind::bad_project);
   return json.at(place).size();
 }
 
@@ -83,8 +82,8 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
     Json& json = intruders.at(i);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j)
       intruder.trajectory.waypoints[j].unknown_json =
-          kept(json.at("trajectory").at("waypoints").at(j),
-               where + "trajectory.waypoints[" + std::to_string(j) + "].", warnings);
+          kept(json.at("trajectory").at("waypoints").at(j), where + "trajectory.waypoints[" + std::to_string(j) + "].",
+               warnings);
     if (json.contains("trajectory")) json.at("trajectory").erase("waypoints");
     intruder.unknown_json = kept(std::move(json), where, warnings);
   }

@@ -15,8 +15,8 @@ struct ReadProject {
   std::vector<Warning> warnings;  // unknown keys; they are kept on save
 };
 
-// Reads the form of a project file; validate() looks at what it says. Errors name file and field: cannot_read where there
-// is no such file, else bad_project.
+// Reads the form of a project file; validate() looks at what it says. Errors name file and field: cannot_read where
+// there is no such file, else bad_project.
 [[nodiscard]] Result<ReadProject> read_project(const std::filesystem::path& path);
 
 // The same from text; path stands for the file in messages and for relative paths.

@@ -73,8 +73,7 @@ void check_axes(const ModelSettings& model, const std::string& key, Problems& pr
 }
 
 void check_waypoints(const TrajectoryPlan& plan, const std::string& key, Problems& problems) {
-  if (plan.waypoints.empty())
-    problems.push_back({key, "is empty; an intruder needs at least one waypoint"});
+  if (plan.waypoints.empty()) problems.push_back({key, "is empty; an intruder needs at least one waypoint"});
   std::optional<double> last_frame;
   std::size_t last_index = 0;
   for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {

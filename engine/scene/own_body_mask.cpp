@@ -9,7 +9,9 @@ namespace sigs {
 
 namespace {
 
-std::string text_of(cv::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+std::string text_of(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
 cv::Mat gray_of(const cv::Mat& picture) {
   if (picture.channels() == 1) return picture;

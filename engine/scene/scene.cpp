@@ -16,7 +16,9 @@ namespace sigs {
 namespace {
 
 // The project's own words for where something is: "x.json: footage.calibration".
-std::string place(const Project& project, const std::string& field) { return project.file.string() + ": " + field; }
+std::string place(const Project& project, const std::string& field) {
+  return project.file.string() + ": " + field;
+}
 
 // What a room says of a file, said of the field that names the file.
 Error in_field(const Project& project, const std::string& field, const Error& error) {
@@ -36,8 +38,7 @@ Result<void> set_range(const Project& project, const FootageShape& footage, Scen
 }
 
 Result<void> set_camera(const Project& project, const FootageShape& footage, Scene& scene) {
-  const Result<Camera> camera =
-      read_calibration(resolved(project, project.footage.calibration), footage.size_px);
+  const Result<Camera> camera = read_calibration(resolved(project, project.footage.calibration), footage.size_px);
   if (!camera) return fail(in_field(project, "footage.calibration", camera.error()));
   scene.camera = *camera;
   const CameraSettings& settings = project.camera;
@@ -49,8 +50,7 @@ Result<void> set_camera(const Project& project, const FootageShape& footage, Sce
 
 Result<void> set_own_body(const Project& project, const FootageShape& footage, Scene& scene) {
   if (project.footage.own_body_mask.empty()) return {};
-  const Result<cv::Mat> mask =
-      read_own_body_mask(resolved(project, project.footage.own_body_mask), footage.size_px);
+  const Result<cv::Mat> mask = read_own_body_mask(resolved(project, project.footage.own_body_mask), footage.size_px);
   if (!mask) return fail(in_field(project, "footage.own_body_mask", mask.error()));
   scene.own_body = *mask;
   return {};

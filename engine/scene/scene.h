@@ -19,8 +19,8 @@ namespace sigs {
 // What a scene has to know of its footage.
 struct FootageShape {
   cv::Size size_px;
-  std::vector<double> times_s;    // presentation time of each frame, from 0
-  double frame_interval_s = 0.04; // nominal; carries on before the first and after the last frame
+  std::vector<double> times_s;     // presentation time of each frame, from 0
+  double frame_interval_s = 0.04;  // nominal; carries on before the first and after the last frame
 };
 
 struct SceneLight {

@@ -17,8 +17,7 @@ std::vector<double> waypoint_frames(const std::vector<WaypointSettings>& waypoin
   for (std::size_t i = 1; i < frames.size(); ++i) {
     if (!frames[i]) continue;
     const double step = (*frames[i] - *frames[known]) / static_cast<double>(i - known);
-    for (std::size_t j = known + 1; j < i; ++j)
-      spread[j] = *frames[known] + step * static_cast<double>(j - known);
+    for (std::size_t j = known + 1; j < i; ++j) spread[j] = *frames[known] + step * static_cast<double>(j - known);
     spread[i] = *frames[i];
     known = i;
   }

@@ -19,7 +19,9 @@ using WorldFromBody = Pose<frame::World, frame::Body>;
 using BodyFromCamera = Pose<frame::Body, frame::Camera>;
 
 template <class A, class B>
-concept Composable = requires(A a, B b) { a* b; };
+concept Composable = requires(A a, B b) {
+  a* b;
+};
 
 double largest_difference(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 d = glm::abs(a - b);

@@ -11,7 +11,11 @@ using namespace sigs;
 namespace {
 
 Camera fisheye() {
-  return {*Lens::make({.model = LensModel::kannala_brandt, .fx = 560, .fy = 560, .cx = 639.5, .cy = 479.5,
+  return {*Lens::make({.model = LensModel::kannala_brandt,
+                       .fx = 560,
+                       .fy = 560,
+                       .cx = 639.5,
+                       .cy = 479.5,
                        .coefficients = {0.04, 0.01, 0, 0}}),
           {1280, 960}};
 }
@@ -19,8 +23,7 @@ Camera fisheye() {
 std::array<glm::dvec3, 8> box_at(const glm::dvec3& middle, double half_m) {
   std::array<glm::dvec3, 8> corners;
   for (int i = 0; i < 8; ++i)
-    corners[static_cast<std::size_t>(i)] =
-        middle + half_m * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    corners[static_cast<std::size_t>(i)] = middle + half_m * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   return corners;
 }
 
@@ -46,7 +49,8 @@ TEST_CASE("a view is at least as fine as the picture times the supersampling") {
     const glm::dvec3 middle(300, 200, 0);
     const VirtualView view = aimed_views(camera, box_at(middle, 15), std::nullopt, supersampling, 2048).at(0);
     const double angle = 1e-4;
-    const glm::dvec3 aside = middle + glm::cross(glm::normalize(middle), glm::dvec3(0, 0, 1)) * glm::length(middle) * angle;
+    const glm::dvec3 aside =
+        middle + glm::cross(glm::normalize(middle), glm::dvec3(0, 0, 1)) * glm::length(middle) * angle;
     const double picture_px = glm::distance(*camera.lens.pixel(middle), *camera.lens.pixel(aside));
     const double view_px = glm::distance(*view.pixel(middle), *view.pixel(aside));
     CHECK(view_px >= supersampling * picture_px * 0.999);  // the lens' tangential and radial scales differ by direction
@@ -104,7 +108,11 @@ TEST_CASE("faces of the cube that no pixel looks at are left out and the others 
 }
 
 TEST_CASE("a body beyond the lens' field needs no view") {
-  const Camera narrow{*Lens::make({.model = LensModel::kannala_brandt, .fx = 560, .fy = 560, .cx = 640, .cy = 480,
+  const Camera narrow{*Lens::make({.model = LensModel::kannala_brandt,
+                                   .fx = 560,
+                                   .fy = 560,
+                                   .cx = 640,
+                                   .cy = 480,
                                    .coefficients = {-0.3, 0, 0, 0}}),
                       {1280, 960}};
   CHECK(aimed_views(narrow, box_at({-300, 10, 0}, 5), std::nullopt, 1, 2048).empty());

@@ -15,7 +15,9 @@ using namespace sigs::test;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 // One line on stderr that says it, the right exit status, and not a file left.
 void check_refused(const TinyProject& tiny, int status, const std::string& message, const std::string& more = "") {
@@ -29,8 +31,8 @@ void check_refused(const TinyProject& tiny, int status, const std::string& messa
 }
 
 void cut(const std::filesystem::path& path, double share) {
-  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(
-                                         static_cast<double>(std::filesystem::file_size(path)) * share));
+  std::filesystem::resize_file(
+      path, static_cast<std::uintmax_t>(static_cast<double>(std::filesystem::file_size(path)) * share));
 }
 
 }  // namespace

@@ -44,8 +44,9 @@ std::vector<fs::path> real_clips() {
 std::string lens_for(cv::Size size_px) {
   const std::string focal = std::to_string(0.7 * size_px.width);
   return "image_width: " + std::to_string(size_px.width) + "\nimage_height: " + std::to_string(size_px.height) +
-         "\ncamera_matrix: [[" + focal + ", 0, " + std::to_string((size_px.width - 1) / 2.0) + "], [0, " + focal + ", " +
-         std::to_string((size_px.height - 1) / 2.0) + "], [0, 0, 1]]\ndist_coefs: [[-0.2, 0.04, 0.001, -0.0005, 0]]\n";
+         "\ncamera_matrix: [[" + focal + ", 0, " + std::to_string((size_px.width - 1) / 2.0) + "], [0, " + focal +
+         ", " + std::to_string((size_px.height - 1) / 2.0) +
+         "], [0, 0, 1]]\ndist_coefs: [[-0.2, 0.04, 0.001, -0.0005, 0]]\n";
 }
 
 std::string project_of(const fs::path& clip, const RealModel& model) {
@@ -74,8 +75,9 @@ TEST_CASE("every real clip exports with every real model in turn") {
                              " --masks png --frames " + range);
     CHECK_MESSAGE(run.status == 0, clip.filename() << " " << model.file << ": " << run.err);
     CHECK(FrameSource::open(folder / "real.mkv").value().info().frame_count() == 5);
-    const fs::path first = folder / "real.masks" / ("frame_" + std::string(6 - std::to_string(middle).size(), '0') +
-                                                    std::to_string(middle) + ".png");
+    const fs::path first =
+        folder / "real.masks" /
+        ("frame_" + std::string(6 - std::to_string(middle).size(), '0') + std::to_string(middle) + ".png");
     const cv::Mat mask = cv::imread(first.string(), cv::IMREAD_UNCHANGED);
     REQUIRE_MESSAGE(!mask.empty(), first);
     CHECK_MESSAGE(cv::countNonZero(mask) > 50, clip.filename() << " " << model.file);

@@ -62,7 +62,9 @@ void write_clip(const std::filesystem::path& path, int frames) {
 
 }  // namespace
 
-void put_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
+void put_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
 
 TinyProject::TinyProject(int frames) {
   write_clip(file("clip.mkv"), frames);

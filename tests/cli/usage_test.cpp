@@ -19,7 +19,9 @@ using namespace sigs::test;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -31,7 +33,8 @@ TEST_CASE("help and version go to stdout and end with 0") {
 }
 
 TEST_CASE("a command line that makes no sense ends with 64") {
-  for (const char* const arguments : {"", "fly", "export", "export p.json --jobs many", "frame p.json", "export p.json --nonsense"})
+  for (const char* const arguments :
+       {"", "fly", "export", "export p.json --jobs many", "frame p.json", "export p.json --nonsense"})
     CHECK_MESSAGE(run_sigs(arguments).status == 64, arguments);
 }
 
@@ -55,7 +58,9 @@ TEST_CASE("options of the command line win over the project") {
 
 TEST_CASE("pictures are numbered as the footage's frames are") {
   const TinyProject tiny;
-  CHECK(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --codec png --masks png --frames 7-8").status == 0);
+  CHECK(
+      run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --codec png --masks png --frames 7-8").status ==
+      0);
   for (const char* const name : {"tiny/frame_000007.png", "tiny/frame_000008.png", "tiny.masks/frame_000008.png"})
     CHECK_MESSAGE(std::filesystem::exists(std::filesystem::path(tiny.out()) / name), name);
 }

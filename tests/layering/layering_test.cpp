@@ -74,7 +74,9 @@ std::string objection(const Rooms& rooms, const std::string& from, const std::st
   return from + " includes " + include;
 }
 
-bool is_code(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+bool is_code(const fs::path& path) {
+  return path.extension() == ".h" || path.extension() == ".cpp";
+}
 
 std::vector<std::string> objections_in(const Rooms& rooms, const std::string& from, const fs::path& file) {
   std::vector<std::string> found;

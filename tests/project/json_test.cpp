@@ -30,7 +30,9 @@ constexpr const char* kWhole = R"({
   "export": {"video": {"codec": "h264", "container": "mkv", "crf": 23}, "masks": "png", "labels": []}
 })";
 
-Project whole() { return parse_project(kWhole, "dir/whole.json").value().project; }
+Project whole() {
+  return parse_project(kWhole, "dir/whole.json").value().project;
+}
 
 std::string error_text(const std::string& json) {
   const Result<ReadProject> read = parse_project(json, "x.json");
@@ -123,8 +125,8 @@ TEST_CASE("sections and lists of the wrong kind are named") {
   CHECK(error_text(R"({"sigs": 1, "intruders": [7]})") == "x.json: intruders[0]: expected { ... }");
   CHECK(error_text(R"({"sigs": 1, "intruders": [{"trajectory": {"waypoints": {}}}]})") ==
         "x.json: intruders[0].trajectory.waypoints: expected a list [ ... ]");
-  CHECK(error_text(R"({"sigs": 1, "intruders": [{"trajectory": {"waypoints": [3]}}]})").starts_with(
-      "x.json: intruders[0].trajectory.waypoints[0]"));
+  CHECK(error_text(R"({"sigs": 1, "intruders": [{"trajectory": {"waypoints": [3]}}]})")
+            .starts_with("x.json: intruders[0].trajectory.waypoints[0]"));
 }
 
 TEST_CASE("text that is no project is said with its line") {

@@ -41,7 +41,9 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "a project whose files are there has no problems") { CHECK(wrong_fields() == Fields{}); }
+TEST_CASE_FIXTURE(Fixture, "a project whose files are there has no problems") {
+  CHECK(wrong_fields() == Fields{});
+}
 
 TEST_CASE_FIXTURE(Fixture, "a project without intruders is whole") {
   project.intruders.clear();
@@ -54,8 +56,8 @@ TEST_CASE_FIXTURE(Fixture, "a missing file is named by its field and path and ca
   REQUIRE(problems.size() == 1);
   const Error error = error_of(project, problems[0]);
   CHECK(error.kind == ErrorKind::cannot_read);
-  CHECK(error.text() == (folder / "p.json").string() + ": intruders[0].model.file: no such file: " +
-                            (folder / "gone/q.obj").string());
+  CHECK(error.text() ==
+        (folder / "p.json").string() + ": intruders[0].model.file: no such file: " + (folder / "gone/q.obj").string());
 }
 
 TEST_CASE_FIXTURE(Fixture, "empty required fields are named") {

@@ -10,7 +10,9 @@ namespace sigs::test {
 
 namespace fs = std::filesystem;
 
-fs::path real_data() { return SIGS_TEST_DATA; }
+fs::path real_data() {
+  return SIGS_TEST_DATA;
+}
 
 bool has_real_data() {
   if (fs::is_directory(real_data())) return true;
@@ -18,8 +20,12 @@ bool has_real_data() {
   return false;
 }
 
-fs::path source_dir() { return SIGS_SOURCE_DIR; }
-fs::path build_dir() { return SIGS_BUILD_DIR; }
+fs::path source_dir() {
+  return SIGS_SOURCE_DIR;
+}
+fs::path build_dir() {
+  return SIGS_BUILD_DIR;
+}
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::temp_directory_path() / "sigs-test-XXXXXX").string();
