@@ -30,7 +30,8 @@ Result<void> check(const ProjectOptions& options) {
                 problems.front().kind);
   const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
-  for (const Warning& warning : source->info().warnings) print_warning(warning);
+  for (const Warning& warning : warnings_of(source->info())) print_warning(warning);
+  if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
   const Result<Scene> scene = open_scene(*project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
   for (const Warning& warning : scene->warnings) print_warning(warning);

@@ -27,7 +27,7 @@ struct ExportOptions {
   int jobs = 0;
   bool force = false;
   bool times = false;
-  ProgressStyle progress = ProgressStyle::automatic;
+  std::string progress = "auto";
 };
 
 const std::map<std::string, ProgressStyle> kProgressStyles{{"auto", ProgressStyle::automatic},
@@ -55,7 +55,8 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   if (codec_alone) project->output.container = ContainerChoice::automatic;
   for (const auto& [key, value] : options.settings)
     if (!value.empty())
-      if (const Result<void> set = set_field(*project, key + "=" + value); !set) return fail(set.error());
+      if (const Result<void> set = set_field(*project, key + "=" + value); !set)
+        return fail(key + ": " + value, set.error().what, ErrorKind::usage);
   if (!options.labels.empty()) {
     const std::string list = options.labels == "none" ? "[]" : json_list(options.labels);
     if (const Result<void> set = set_field(*project, "export.labels=" + list); !set) return fail(set.error());
@@ -87,7 +88,7 @@ void print_times(const ExportReport& report) {
 Result<void> run(const ExportOptions& options) {
   const Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
-  Progress progress(options.progress);
+  Progress progress(kProgressStyles.at(options.progress));
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                               .warn =
                                   [&](const Warning& warning) {
@@ -134,7 +135,7 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
   command->add_flag("--times", options->times, "say at the end how long each stop took");
   command->add_option("--progress", options->progress, "auto, plain, json or none")
       ->option_text("STYLE")
-      ->transform(CLI::CheckedTransformer(kProgressStyles));
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
   return [options] { return run(*options); };
 }
 

@@ -13,6 +13,7 @@
 #include "camera/camera.h"
 #include "cli/options.h"
 #include "mesh/mesh.h"
+#include "project/json.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -47,12 +48,18 @@ const char* name_of(ColorMatrix matrix) {
   return "";
 }
 
+// To the end of the last frame, which lasts as long as the nominal rate says.
+double length_s(const VideoInfo& video) {
+  const double last_s = video.times_s.empty() ? 0.0 : video.times_s.back();
+  return last_s + double(video.frame_rate_den) / video.frame_rate_num;
+}
+
 void print_video(const VideoInfo& video) {
   std::printf("video: %s, %dx%d, %s (%s), container %s\n", video.codec.c_str(), video.size_px.width,
               video.size_px.height, name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
   if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
   std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
-              video.variable_frame_rate ? " (variable)" : "", video.times_s.empty() ? 0.0 : video.times_s.back());
+              video.variable_frame_rate ? " (variable)" : "", length_s(video));
   std::printf("color: %s range%s, matrix %s%s\n", video.color.range == ColorRange::full ? "full" : "limited",
               video.color.range_stated ? "" : " (assumed)", name_of(video.color.matrix),
               video.color.matrix_stated ? "" : " (assumed)");
@@ -111,6 +118,7 @@ Result<void> info_of_calibration(const std::filesystem::path& path, const std::s
     if (!given) return fail(given.error());
     size = *given;
   }
+  if (read_project(path)) return fail(path.string(), "is a SIGS project; `sigs check` looks at it", ErrorKind::usage);
   const Result<Camera> camera = read_calibration(path, size);
   if (!camera) return fail(camera.error());
   print_camera(*camera);

@@ -23,6 +23,7 @@ const std::atomic<bool>& interrupt_flag() {
 void listen_for_interrupts() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of writing, like a full disk
 }
 
 }  // namespace sigs::cli

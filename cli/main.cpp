@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <vector>
 
@@ -41,6 +43,11 @@ int main(int argc, char** argv) {
     std::function<sigs::Result<void>()> run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
   }
+  const auto is_asked_for = [&](const Command& command) { return command.app->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
+    print_error({argv[1], "no such command; there are export, frame, check and info", sigs::ErrorKind::usage});
+    return static_cast<int>(sigs::ErrorKind::usage);
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -53,6 +60,10 @@ int main(int argc, char** argv) {
       print_error(done.error());
       return static_cast<int>(done.error().kind);
     }
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    print_error({"stdout", "could not be written", sigs::ErrorKind::write_failed});
+    return static_cast<int>(sigs::ErrorKind::write_failed);
   }
   return 0;
 }

@@ -137,6 +137,12 @@ Result<void> write_frames(Pipeline& pipeline, const FrameRange& range, ExportFil
 
 }  // namespace
 
+std::vector<Warning> warnings_of(const VideoInfo& video) {
+  std::vector<Warning> warnings = video.warnings;
+  if (!video.conversion.empty()) warnings.push_back({video.path.string(), "is converted: " + video.conversion});
+  return warnings;
+}
+
 FootageShape shape_of(const VideoInfo& video) {
   return {.size_px = video.size_px,
           .times_s = video.times_s,
@@ -153,11 +159,12 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   const VideoInfo& video = source->info();
   const Result<Scene> scene = open_scene(project, shape_of(video));
   if (!scene) return fail(scene.error());
+  if (const Result<void> output = check_output(project, video); !output) return fail(output.error());
   const Result<FrameRange> range = range_of(request, *scene);
   if (!range) return fail(range.error());
 
   ExportReport report;
-  for (const Warning& warning : video.warnings) say(control, report, warning);
+  for (const Warning& warning : warnings_of(video)) say(control, report, warning);
   for (const Warning& warning : scene->warnings) say(control, report, warning);
   Result<ExportFiles> files = ExportFiles::open(request, video, *range);
   if (!files) return fail(files.error());

@@ -55,6 +55,12 @@ struct ExportControl {
 // a folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
+// What only the footage shows to be wrong with what a project wants written: h264 of an odd size. Names the field.
+[[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
+
+// What is worth telling of a video before it is used: its own warnings, and a conversion to 8 bits.
+[[nodiscard]] std::vector<Warning> warnings_of(const VideoInfo& video);
+
 // What a scene has to know of a video.
 struct FootageShape;
 [[nodiscard]] FootageShape shape_of(const VideoInfo& video);

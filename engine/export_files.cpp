@@ -95,13 +95,6 @@ Result<void> make_folder(const fs::path& folder) {
   return {};
 }
 
-// What an export that was killed has left there would end up among the new pictures.
-Result<void> make_empty_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::remove_all(folder, code);
-  return make_folder(folder);
-}
-
 // A folder of pictures is replaced whole; one that holds anything else is somebody's own.
 Result<void> check_replaceable(const fs::path& folder) {
   std::error_code code;
@@ -131,12 +124,12 @@ Result<void> check_not_read(const Project& project, const fs::path& output) {
 }  // namespace
 
 Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const VideoFormat& format, bool overwrite) {
-  Result<PartialFile> file = PartialFile::create(path, overwrite);
-  if (!file) return fail(file.error());
-  if (format.codec == VideoCodec::png) {
+  const bool pictures = format.codec == VideoCodec::png;
+  if (pictures)
     if (const Result<void> ours = check_replaceable(path); !ours) return fail(ours.error());
-    if (const Result<void> folder = make_empty_folder(file->part()); !folder) return fail(folder.error());
-  }
+  Result<PartialFile> file =
+      pictures ? PartialFile::create_folder(path, overwrite) : PartialFile::create(path, overwrite);
+  if (!file) return fail(file.error());
   Result<VideoWriter> writer = VideoWriter::open(file->part(), format);
   if (!writer) return fail(writer.error());
   return Video{std::move(*file), std::move(*writer)};
@@ -149,6 +142,18 @@ Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const
   Result<SigsXmlWriter> writer = SigsXmlWriter::open(file->part(), footage);
   if (!writer) return fail(writer.error());
   return Labels{std::move(*file), std::move(*writer)};
+}
+
+Result<void> check_output(const Project& project, const VideoInfo& footage) {
+  const cv::Size size = footage.size_px;
+  const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
+  const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
+  if (project.output.codec == CodecChoice::h264 && odd && shares_chroma)
+    return fail(project.file.string() + ": export.video.codec",
+                "h264 needs an even width and height, the footage is " + std::to_string(size.width) + "x" +
+                    std::to_string(size.height) + "; use ffv1, mjpeg or png",
+                ErrorKind::bad_project);
+  return {};
 }
 
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const FrameRange& range) {

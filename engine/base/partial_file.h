@@ -14,9 +14,14 @@ namespace sigs {
 // rename.
 class PartialFile {
  public:
-  // Error cannot_create where the final file exists and overwrite is false, or the folder is not there.
+  // Makes the part, empty, and keeps others from writing it: two exports of one name never mix.
+  // Error cannot_create where the final file exists and overwrite is false, the folder is not there, the final name is
+  // that of a folder, or another process is writing the same part.
   // The part keeps the final extension ("x.part.mkv"), for libraries that look at it.
   [[nodiscard]] static Result<PartialFile> create(std::filesystem::path final_path, bool overwrite);
+
+  // The same for a folder of files, which is empty at first.
+  [[nodiscard]] static Result<PartialFile> create_folder(std::filesystem::path final_path, bool overwrite);
 
   PartialFile(PartialFile&& other) noexcept;
   PartialFile& operator=(PartialFile&& other) noexcept;
@@ -29,11 +34,14 @@ class PartialFile {
   [[nodiscard]] Result<void> keep();
 
  private:
-  PartialFile(std::filesystem::path final_path, std::filesystem::path part);
+  enum class Kind { file, folder };
+  [[nodiscard]] static Result<PartialFile> create(std::filesystem::path final_path, bool overwrite, Kind kind);
+  PartialFile(std::filesystem::path final_path, std::filesystem::path part, int lock);
   void discard() noexcept;
 
   std::filesystem::path final_;
   std::filesystem::path part_;  // empty: nothing to remove
+  int lock_ = -1;               // file descriptor that holds the lock on the part; -1: none
 };
 
 // Whole small files. Errors: cannot_read; cannot_create, write_failed (also when the disk is full).

@@ -84,9 +84,7 @@ std::optional<Extent> cut_to(const Extent& whole, const Camera& camera, const gl
   return cut;
 }
 
-// The finest resolution that the picture has on a grid over the view, as focal length of the view: a pinhole picture
-// has focal * (1 + tan^2) pixels a radian at most, so the view needs no more than the lens' figure at its axis and
-// edges.
+// Focal length with which the view is nowhere coarser than the picture, by a grid over the view.
 double finest_focal_px(const Camera& camera, const glm::dquat& camera_from_view, const Extent& extent) {
   constexpr int kSteps = 4;
   double finest = 0;
@@ -95,7 +93,9 @@ double finest_focal_px(const Camera& camera, const glm::dquat& camera_from_view,
       const glm::dvec2 share = glm::dvec2(i, j) / double(kSteps);
       const glm::dvec2 tangent = extent.low + share * (extent.high - extent.low);
       const glm::dvec3 direction = camera_from_view * glm::dvec3(1, tangent.x, tangent.y);
-      finest = std::max(finest, camera.lens.pixels_per_radian(direction));
+      // The view itself has at least focal * sqrt(1 + tangent^2) pixels a radian there, in every direction.
+      const double stretch = std::sqrt(1 + glm::dot(tangent, tangent));
+      finest = std::max(finest, camera.lens.pixels_per_radian(direction) / stretch);
     }
   return finest;
 }

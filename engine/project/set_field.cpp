@@ -50,6 +50,10 @@ Result<void> set_field(Project& project, const std::string& assignment) {
   const std::string text = assignment.substr(equals + 1);
   const std::vector<Field> fields = fields_of(project);
   const auto field = std::find_if(fields.begin(), fields.end(), [&key](const Field& f) { return f.key == key; });
+  const bool is_group = std::any_of(fields.begin(), fields.end(), [&key](const Field& f) {
+    return f.key.starts_with(key + ".") || f.key.starts_with(key + "[");
+  });
+  if (is_group) return fail(where, "is a group of settings; set one of its members by its key", ErrorKind::usage);
   if (field == fields.end())
     return fail(where, "no such setting; did you mean " + nearest_key(fields, key) + "?", ErrorKind::usage);
   const bool takes_text = std::holds_alternative<std::string*>(field->value) && !(field->is_path && text == "null");

@@ -33,6 +33,8 @@ cv::Mat picture_in(const std::filesystem::path& path) {
 Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
+  if (std::filesystem::is_directory(path, code))
+    return fail(path.string(), "is a folder, not a picture", ErrorKind::cannot_read);
   const cv::Mat picture = picture_in(path);
   if (picture.empty()) return fail(path.string(), "is not a picture that can be read (png, jpeg, bmp, tiff, ...)");
   if (picture.size() != footage_size_px)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "base/angles.h"
 #include "project/validate.h"
@@ -97,8 +98,21 @@ TrajectorySettings settings_of(const TrajectoryPlan& plan) {
           .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
 }
 
+std::string frame_text(const WaypointSettings& waypoint, double frame) {
+  std::ostringstream text;
+  text << frame << (waypoint.frame ? "" : " (spread over the project's frames)");
+  return text.str();
+}
+
 Result<Trajectory> trajectory_of(const Project& project, const std::string& key, const TrajectoryPlan& plan,
                                  const Scene& scene) {
+  const std::vector<double> frames = waypoint_frames(plan.waypoints, scene.first_frame, scene.last_frame);
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (frames[i] <= frames[i - 1])
+      return fail(place(project, key + ".trajectory.waypoints[" + std::to_string(i) + "].frame"),
+                  "is " + frame_text(plan.waypoints[i], frames[i]) + ", not after waypoints[" + std::to_string(i - 1) +
+                      "], which has " + frame_text(plan.waypoints[i - 1], frames[i - 1]),
+                  ErrorKind::bad_project);
   const Result<Trajectory> trajectory = Trajectory::make(
       timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame), settings_of(plan));
   if (!trajectory)

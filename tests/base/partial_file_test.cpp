@@ -97,3 +97,42 @@ TEST_CASE("an empty file reads as empty text") {
   put(folder / "empty.txt", "");
   CHECK(read_text(folder / "empty.txt").value().empty());
 }
+
+TEST_CASE("two writers of one name never mix and the second is told so") {
+  const test::TemporaryFolder folder;
+  {
+    const Result<PartialFile> first = PartialFile::create(folder / "x.txt", true);
+    REQUIRE(first.has_value());
+    const Result<PartialFile> second = PartialFile::create(folder / "x.txt", true);
+    REQUIRE_FALSE(second.has_value());
+    CHECK(second.error().kind == ErrorKind::cannot_create);
+    CHECK(second.error().text().find("is being written by another process") != std::string::npos);
+    CHECK(fs::exists(first->part()));
+  }
+  CHECK(PartialFile::create(folder / "x.txt", true).has_value());
+}
+
+TEST_CASE("what a killed process left behind stands in nobody's way") {
+  const test::TemporaryFolder folder;
+  put(folder / "x.part.txt", "half");
+  Result<PartialFile> file = PartialFile::create(folder / "x.txt", false);
+  REQUIRE(file.has_value());
+  put(file->part(), "whole");
+  REQUIRE(file->keep().has_value());
+  CHECK(read_text(folder / "x.txt").value() == "whole");
+  fs::create_directory(folder / "y.part");
+  put(folder / "y.part/stale.png", "old");
+  Result<PartialFile> pictures = PartialFile::create_folder(folder / "y", false);
+  REQUIRE(pictures.has_value());
+  CHECK(fs::is_empty(pictures->part()));
+  REQUIRE(pictures->keep().has_value());
+  CHECK(fs::is_directory(folder / "y"));
+}
+
+TEST_CASE("a file is not written over a folder of its name") {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder / "x.mkv");
+  const Result<PartialFile> file = PartialFile::create(folder / "x.mkv", true);
+  REQUIRE_FALSE(file.has_value());
+  CHECK(file.error().kind == ErrorKind::cannot_create);
+}

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <sys/wait.h>
+
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -169,4 +172,31 @@ TEST_CASE("a disk that is full ends with 74 and leaves no file") {
 TEST_CASE("codec and container that do not go together end with 78 before anything is written") {
   const TinyProject tiny;
   check_refused(tiny, 78, "export.video.container: mp4 cannot hold ffv1", "--codec ffv1 --container mp4");
+}
+
+TEST_CASE("h264 of an odd size is named by its field before anything is written") {
+  const TinyProject tiny(10, {63, 48});
+  check_refused(tiny, 78, "p.json: export.video.codec: h264 needs an even width and height, the footage is 63x48",
+                "--codec h264");
+  const Run run = run_sigs("check " + tiny.project() + " --set export.video.codec=h264");
+  CHECK(run.status == 78);
+}
+
+TEST_CASE("an answer that cannot be given is no success") {
+  if (!std::filesystem::exists("/dev/full")) {
+    std::printf("SKIPPED: there is no /dev/full\n");
+    return;
+  }
+  const TinyProject tiny;
+  const std::string command = (build_dir() / "sigs").string() + " check " + tiny.project() + " >/dev/full 2>/dev/null";
+  CHECK(WEXITSTATUS(std::system(command.c_str())) == 74);
+}
+
+TEST_CASE("waypoints spread over too few frames are told in frames") {
+  TinyProject tiny;
+  tiny.change(R"({"frame": 9, )", R"({"position_m": [20, 0, -150]}, {"frame": 30, )");
+  tiny.change(R"({"frame": 0, )", R"({"frame": 40, )");
+  const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK(run.status == 78);
+  CHECK_MESSAGE(has(run.err, "waypoints[2].frame: is 30, not after waypoints[0]"), run.err);
 }

@@ -46,14 +46,24 @@ f 3 4 8 7
 f 4 1 5 8
 )";
 
-void write_clip(const std::filesystem::path& path, int frames) {
-  const VideoFormat format{.codec = VideoCodec::ffv1, .container = Container::mkv, .size_px = {64, 48}};
+std::string lens_of(cv::Size size_px) {
+  std::string text = kLens;
+  const std::string width = std::to_string(size_px.width);
+  const std::string height = std::to_string(size_px.height);
+  text.replace(text.find("<image_width>64"), 15, "<image_width>" + width);
+  text.replace(text.find("<image_height>48"), 16, "<image_height>" + height);
+  return text;
+}
+
+void write_clip(const std::filesystem::path& path, int frames, cv::Size size_px) {
+  const VideoFormat format{.codec = VideoCodec::ffv1, .container = Container::mkv, .size_px = size_px};
   Result<VideoWriter> writer = VideoWriter::open(path, format);
   if (!writer) throw std::runtime_error(writer.error().text());
+  const cv::Size half((size_px.width + 1) / 2, (size_px.height + 1) / 2);
   for (int n = 0; n < frames; ++n) {
     Frame frame{.layout = format.layout, .color = format.color};
-    frame.planes = {cv::Mat(48, 64, CV_8UC1, cv::Scalar(90 + n % 10)), cv::Mat(24, 32, CV_8UC1, cv::Scalar(128)),
-                    cv::Mat(24, 32, CV_8UC1, cv::Scalar(128))};
+    frame.planes = {cv::Mat(size_px, CV_8UC1, cv::Scalar(90 + n % 10)), cv::Mat(half, CV_8UC1, cv::Scalar(128)),
+                    cv::Mat(half, CV_8UC1, cv::Scalar(128))};
     frame.time_s = n * 0.04;
     if (!writer->write(frame, n)) throw std::runtime_error("clip");
   }
@@ -66,10 +76,10 @@ void put_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
 }
 
-TinyProject::TinyProject(int frames) {
-  write_clip(file("clip.mkv"), frames);
+TinyProject::TinyProject(int frames, cv::Size size_px) {
+  write_clip(file("clip.mkv"), frames, size_px);
   put_text(file("p.json"), kProject);
-  put_text(file("lens.xml"), kLens);
+  put_text(file("lens.xml"), lens_of(size_px));
   put_text(file("cube.obj"), kCube);
   put_text(file("cube.mtl"), "newmtl paint\nKd 0.8 0.2 0.2\n");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "support/test_data.h"
@@ -11,7 +12,7 @@ namespace sigs::test {
 // A whole small project in a folder of its own: a few frames of 64x48, a lens, a cube that crosses before it.
 class TinyProject {
  public:
-  explicit TinyProject(int frames = 10);
+  explicit TinyProject(int frames = 10, cv::Size size_px = {64, 48});
 
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] std::string project() const { return file("p.json").string(); }

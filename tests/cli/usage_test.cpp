@@ -25,6 +25,25 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("a command that is none is answered with those that are") {
+  const Run run = run_sigs("exprt p.json");
+  CHECK(run.status == 64);
+  CHECK(run.err == "error: exprt: no such command; there are export, frame, check and info\n");
+}
+
+TEST_CASE("a second export of the same name is refused while the first one writes") {
+  const TinyProject tiny(3000);
+  const std::string first = (build_dir() / "sigs").string() + " export " + tiny.project() + " --method classic --out " +
+                            tiny.out() + " >/dev/null 2>&1 &";
+  REQUIRE(std::system(first.c_str()) == 0);
+  while (tiny.files_out() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const Run second = run_sigs("export " + tiny.project() + " --frames 0-3 --out " + tiny.out());
+  CHECK(second.status == 73);
+  CHECK_MESSAGE(has(second.err, "is being written by another process"), second.err);
+  while (!std::filesystem::exists(tiny.out() + "/tiny.xml")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(has(read_text(tiny.out() + "/tiny.xml").value(), "last_frame=\"2999\""));
+}
+
 TEST_CASE("help and version go to stdout and end with 0") {
   CHECK(run_sigs("--help").status == 0);
   CHECK(has(run_sigs("--help").out, "Examples:"));
