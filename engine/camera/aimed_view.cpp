@@ -47,6 +47,11 @@ Extent extent_in(const glm::dquat& view_from_camera, const Corners& corners) {
   return extent;
 }
 
+// As the faces of a cube are.
+bool is_wide(const Extent& extent) {
+  return extent.high.x - extent.low.x > 1;
+}
+
 // Bounds of what the rays of a grid of target's pixels look at near the view's extent, in tangents.
 Extent seen_near(const Extent& near, const Camera& camera, const glm::dquat& view_from_camera, const cv::Rect& target,
                  int steps) {
@@ -74,8 +79,7 @@ std::optional<Extent> cut_to(const Extent& whole, const Camera& camera, const gl
                              const cv::Rect& target) {
   constexpr int kSteps = 16;
   const Extent seen = seen_near(whole, camera, view_from_camera, target, kSteps);
-  const bool wide = whole.high.x - whole.low.x > 1;
-  if (seen.low.x > seen.high.x) return wide ? std::nullopt : std::optional<Extent>(whole);
+  if (seen.low.x > seen.high.x) return is_wide(whole) ? std::nullopt : std::optional<Extent>(whole);
   const double px_per_rad = camera.lens.pixels_per_radian(glm::conjugate(view_from_camera) * glm::dvec3(1, 0, 0));
   if (px_per_rad == 0) return whole;
   const double margin = 3.0 * std::max(target.width, target.height) / kSteps / px_per_rad;
@@ -84,7 +88,9 @@ std::optional<Extent> cut_to(const Extent& whole, const Camera& camera, const gl
   return cut;
 }
 
-// Focal length with which the view is nowhere coarser than the picture, by a grid over the view.
+// Focal length with which the view is nowhere coarser than the picture, by a grid over the view. A pinhole view has
+// sqrt(1 + tangent^2) times its focal length, or more, in pixels a radian; only wide views count on that, narrow ones
+// take it as a reserve.
 double finest_focal_px(const Camera& camera, const glm::dquat& camera_from_view, const Extent& extent) {
   constexpr int kSteps = 4;
   double finest = 0;
@@ -93,8 +99,7 @@ double finest_focal_px(const Camera& camera, const glm::dquat& camera_from_view,
       const glm::dvec2 share = glm::dvec2(i, j) / double(kSteps);
       const glm::dvec2 tangent = extent.low + share * (extent.high - extent.low);
       const glm::dvec3 direction = camera_from_view * glm::dvec3(1, tangent.x, tangent.y);
-      // The view itself has at least focal * sqrt(1 + tangent^2) pixels a radian there, in every direction.
-      const double stretch = std::sqrt(1 + glm::dot(tangent, tangent));
+      const double stretch = is_wide(extent) ? std::sqrt(1 + glm::dot(tangent, tangent)) : 1.0;
       finest = std::max(finest, camera.lens.pixels_per_radian(direction) / stretch);
     }
   return finest;
