@@ -19,6 +19,10 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+bool is_same(const Camera& a, const Camera& b) {
+  return a.size_px == b.size_px && a.lens.parameters() == b.lens.parameters();
+}
+
 FrameTruth truth_of(const SceneMoment& moment, int frame, std::vector<IntruderTruth> intruders) {
   std::sort(intruders.begin(), intruders.end(),
             [](const IntruderTruth& a, const IntruderTruth& b) { return a.id < b.id; });
@@ -41,8 +45,15 @@ Result<Renderer*> Bench::renderer() {
 }
 
 const DistortMaps& Bench::maps_of(const Camera& camera) {
-  if (!maps_) maps_ = distort_maps(camera);
+  if (!camera_of_maps_ || !is_same(*camera_of_maps_, camera)) {
+    maps_ = distort_maps(camera);
+    camera_of_maps_ = camera;
+  }
   return *maps_;
+}
+
+void Bench::forget(const Mesh& mesh) {
+  if (renderer_) renderer_->forget(mesh);
 }
 
 std::string Bench::renderer_description() const {

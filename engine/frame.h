@@ -22,12 +22,17 @@ struct Stage {
 };
 
 // What composing needs beside the scene: OpenGL, made when the first intruder comes into view, and what depends on the
-// scene alone. One bench serves one thread and one scene.
+// camera alone. One bench serves one thread, one scene after the other.
 class Bench {
  public:
   // Error unavailable where no OpenGL can be had.
   [[nodiscard]] Result<Renderer*> renderer();
+
+  // Made anew where the camera is another one than at the last call. Valid until the next call.
   [[nodiscard]] const DistortMaps& maps_of(const Camera& camera);
+
+  // Call it before a mesh that was drawn goes away, where the bench outlives it.
+  void forget(const Mesh& mesh);
 
   // "" until something was drawn.
   [[nodiscard]] std::string renderer_description() const;
@@ -35,6 +40,7 @@ class Bench {
  private:
   std::optional<Renderer> renderer_;
   std::optional<DistortMaps> maps_;
+  std::optional<Camera> camera_of_maps_;
 };
 
 // Seconds that the stops of one frame took.

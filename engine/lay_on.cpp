@@ -66,6 +66,7 @@ void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const Se
   const cv::Size size = scene.footage.size_px;
   for (const DrawnView& view : seen.views) stages.push_back({stage_name("layer", seen, scene), shown_view(view)});
   stages.push_back({stage_name("bent", seen, scene), shown(seen.sharp, size)});
+  stages.push_back({stage_name("blurred", seen, scene), shown(seen.blurred, size)});
   stages.push_back({stage_name("hidden", seen, scene), shown(seen.soft, size)});
 }
 

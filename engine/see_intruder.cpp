@@ -2,14 +2,15 @@
 #include "see_intruder.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "camera/aimed_view.h"
+#include "coarse.h"
 #include "compositor/blur.h"
 #include "compositor/hide.h"
+#include "far_blur.h"
 
 namespace sigs {
 
@@ -23,62 +24,77 @@ cv::Rect picture_of(const Scene& scene) {
   return {{0, 0}, scene.footage.size_px};
 }
 
-std::array<glm::dvec3, 8> corners_in_camera(const Mesh& mesh,
-                                            const Pose<frame::Camera, frame::Body>& camera_from_body) {
-  std::array<glm::dvec3, 8> corners;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const glm::dvec3 corner((i & 1) ? mesh.high_m.x : mesh.low_m.x, (i & 2) ? mesh.high_m.y : mesh.low_m.y,
-                            (i & 4) ? mesh.high_m.z : mesh.low_m.z);
-    corners[i] = camera_from_body * corner;
-  }
-  return corners;
+// A box around the intruder's image. None where it has no image in part: its faces may still span the picture.
+std::optional<Box> bounds_of(const SeenIntruder& seen, double radius_m) {
+  if (!seen.silhouette || !seen.silhouette->all_have_image || seen.placed.distance_m() <= radius_m) return std::nullopt;
+  return seen.silhouette->box;
 }
 
-// Pixels that the intruder can reach, blur counted in. Where a part of it has no image, its faces may still span the
-// picture: then all of it.
-cv::Rect reach_of(const std::optional<Silhouette>& silhouette, double distance_m, double radius_m, int blur_px,
-                  const cv::Rect& picture) {
+// Pixels that the intruder can reach, blur counted in.
+cv::Rect reach_of(const std::optional<Box>& bounds, int blur_px, const cv::Rect& picture) {
   const cv::Rect grown(picture.x - blur_px, picture.y - blur_px, picture.width + 2 * blur_px,
                        picture.height + 2 * blur_px);
-  const bool around_camera = distance_m <= radius_m;
-  if (!silhouette) return around_camera ? grown : cv::Rect();
-  if (!silhouette->all_have_image || around_camera) return grown;
-  return pixels_touched(silhouette->box, 1, grown);
-}
-
-Result<std::vector<DrawnView>> drawn_views(const std::vector<VirtualView>& views, const Mesh& mesh,
-                                           const PlacedIntruder& placed, const Light& light, Renderer& renderer) {
-  std::vector<DrawnView> drawn;
-  for (const VirtualView& view : views) {
-    Result<Layer> layer = renderer.draw(mesh, placed.camera_from_body, light, view);
-    if (!layer) return fail(layer.error());
-    drawn.push_back({view, std::move(*layer)});
-  }
-  return drawn;
+  return bounds ? pixels_touched(*bounds, 1, grown) : grown;
 }
 
 // Where the silhouette reaches beyond the pixels that were bent, its whole area is measured on a coarser grid through
 // the same lens, in views of their own.
-Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, const std::array<glm::dvec3, 8>& corners,
-                             const Mesh& mesh, const Light& light, Renderer& renderer) {
-  const cv::Rect everywhere(-1'000'000, -1'000'000, 2'000'000, 2'000'000);
+Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, const Sitter& sitter, Renderer& renderer) {
   const Box& box = seen.silhouette->box;
-  const cv::Rect whole = pixels_touched(box, 1, everywhere);
+  const cv::Rect whole = pixels_touched(box, 1, kEverywhere);
   if ((whole & seen.sharp.rect) == whole) return area_px(seen.sharp.coverage);
   // By the box itself, not by its clamped pixels: near the plane of a pinhole's lens it can be 1e9 px wide.
   const double step = std::max({1.0, box.width / kWholeAreaSteps, box.height / kWholeAreaSteps});
-  LensParameters coarse = camera.lens.parameters();
-  coarse.fx /= step;
-  coarse.fy /= step;
-  coarse.cx = (coarse.cx + 0.5) / step - 0.5;
-  coarse.cy = (coarse.cy + 0.5) / step - 0.5;
-  const Camera coarse_camera{*Lens::make(coarse), camera.size_px};
-  const Result<std::vector<DrawnView>> drawn = drawn_views(
-      aimed_views(coarse_camera, corners, std::nullopt, 2, 4 * kWholeAreaSteps), mesh, seen.placed, light, renderer);
+  const Camera coarse = coarse_camera(camera, step);
+  const Result<std::vector<DrawnView>> drawn =
+      drawn_views(aimed_views(coarse, sitter.corners, std::nullopt, 2, 4 * kWholeAreaSteps), sitter, renderer);
   if (!drawn) return fail(drawn.error());
   if (drawn->empty()) return 0;
-  const Box coarse_box{(box.x + 0.5) / step - 0.5, (box.y + 0.5) / step - 0.5, box.width / step, box.height / step};
-  return area_px(bent(*drawn, coarse_camera, pixels_touched(coarse_box, 1, everywhere)).coverage) * step * step;
+  const cv::Rect cells = pixels_touched(coarse_box(box, step), 1, kEverywhere);
+  return area_px(bent(*drawn, coarse, cells).coverage) * step * step;
+}
+
+// What is to be drawn of an intruder, and where it goes.
+struct Sitting {
+  cv::Rect reach;                 // of its sharp layer
+  std::optional<CellGrid> cells;  // of its blurred one, where that is made in cells
+  std::vector<VirtualView> views;
+  std::vector<VirtualView> views_of_cells;  // empty: the same views serve
+};
+
+Sitting sitting_for(const SeenIntruder& seen, const Camera& camera, const Sitter& sitter, const Scene& scene) {
+  const bool is_far_blurred = seen.sigma_px > kSigmaOfCells_px;
+  const double supersampling = scene.compositing.supersampling;
+  const std::optional<Box> bounds = bounds_of(seen, sitter.mesh.radius_m);
+  const cv::Rect picture = picture_of(scene);
+  Sitting sitting{.reach = reach_of(bounds, is_far_blurred ? 0 : blur_reach_px(seen.sigma_px), picture)};
+  if (is_far_blurred) sitting.cells = cell_grid(bounds, camera, picture, seen.sigma_px);
+  if (!sitting.reach.empty())
+    sitting.views = aimed_views(camera, sitter.corners, sitting.reach, supersampling, kLargestView_px);
+  const bool is_within = bounds && pixels_touched(*bounds, 1, kEverywhere) == sitting.reach;
+  if (sitting.cells && (sitting.views.empty() || !is_within))
+    sitting.views_of_cells = views_of_cells(*sitting.cells, camera, sitter, supersampling, kLargestView_px);
+  return sitting;
+}
+
+// Draws the views and makes the layers of them.
+Result<void> sit(SeenIntruder& seen, const Sitting& sitting, const Camera& camera, const Sitter& sitter,
+                 const Scene& scene, Renderer& renderer) {
+  const auto start = std::chrono::steady_clock::now();
+  Result<std::vector<DrawnView>> drawn = drawn_views(sitting.views, sitter, renderer);
+  if (!drawn) return fail(drawn.error());
+  Result<std::vector<DrawnView>> drawn_for_cells = drawn_views(sitting.views_of_cells, sitter, renderer);
+  if (!drawn_for_cells) return fail(drawn_for_cells.error());
+  seen.draw_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  seen.views = std::move(drawn->empty() ? *drawn_for_cells : *drawn);
+  if (!sitting.views.empty()) seen.sharp = bent(seen.views, camera, sitting.reach);
+  if (sitting.cells)
+    seen.blurred = far_blurred(*sitting.cells, drawn_for_cells->empty() ? seen.views : *drawn_for_cells, camera,
+                               seen.sigma_px, seen.sharp);
+  else
+    seen.blurred = clipped(blurred(seen.sharp, seen.sigma_px), picture_of(scene));
+  seen.soft = hidden_by_body(seen.blurred, scene.own_body);
+  return {};
 }
 
 }  // namespace
@@ -98,27 +114,18 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   if (scene.compositing.method != MethodChoice::plain)
     seen.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
 
-  const cv::Rect picture = picture_of(scene);
-  const cv::Rect reach =
-      reach_of(seen.silhouette, placed.distance_m(), model.mesh.radius_m, blur_reach_px(seen.sigma_px), picture);
-  if (reach.empty()) return seen;
-  const std::array<glm::dvec3, 8> corners = corners_in_camera(model.mesh, placed.camera_from_body);
-  const std::vector<VirtualView> views =
-      aimed_views(camera, corners, reach, scene.compositing.supersampling, kLargestView_px);
-  if (views.empty()) return seen;
+  if (!seen.silhouette && placed.distance_m() > model.mesh.radius_m) return seen;
+  const Light light{moment.light_in_camera, scene.light.color, scene.light.ambient};
+  const Sitter sitter{model.mesh, seen.placed, light, corners_in_camera(model.mesh, placed.camera_from_body)};
+  const Sitting sitting = sitting_for(seen, camera, sitter, scene);
+  if (sitting.views.empty() && sitting.views_of_cells.empty()) return seen;
 
   const Result<Renderer*> renderer = bench.renderer();
   if (!renderer) return fail(renderer.error());
-  const Light light{moment.light_in_camera, scene.light.color, scene.light.ambient};
-  const auto start = std::chrono::steady_clock::now();
-  Result<std::vector<DrawnView>> drawn = drawn_views(views, model.mesh, placed, light, **renderer);
-  if (!drawn) return fail(drawn.error());
-  seen.draw_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  seen.views = std::move(*drawn);
-  seen.sharp = bent(seen.views, camera, reach);
-  seen.soft = hidden_by_body(clipped(blurred(seen.sharp, seen.sigma_px), picture), scene.own_body);
-  if (seen.silhouette) {
-    const Result<double> area = whole_area_px(seen, camera, corners, model.mesh, light, **renderer);
+  const Result<void> sat = sit(seen, sitting, camera, sitter, scene, **renderer);
+  if (!sat) return fail(sat.error());
+  if (seen.silhouette && !seen.sharp.empty()) {
+    const Result<double> area = whole_area_px(seen, camera, sitter, **renderer);
     if (!area) return fail(area.error());
     seen.whole_area_px = *area;
   }

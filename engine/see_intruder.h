@@ -17,10 +17,12 @@ struct SeenIntruder {
   std::optional<Silhouette> silhouette;
   double sigma_px = 0;
   std::vector<DrawnView> views;  // empty: no part of it can reach the picture, nothing was drawn
-  Layer sharp;                   // through the lens, over all pixels it can reach within the picture grown by the blur
-  Layer soft;                    // the same, blurred, hidden by the own body, clipped to the picture
-  double draw_s = 0;             // what OpenGL took
-  double whole_area_px = 0;      // of the silhouette, also where it lies outside the picture
+  Layer sharp;    // through the lens, over all pixels it can reach within the picture; grown by the blur where that is
+                  // made from it
+  Layer blurred;  // the same, blurred, clipped to the picture; empty where too faint to change any sample
+  Layer soft;     // the same, hidden by the own body; shares its samples where there is none
+  double draw_s = 0;         // what OpenGL took
+  double whole_area_px = 0;  // of the silhouette, also where it lies outside the picture
 };
 
 // The camera that the method has: the footage's, or for `plain`, which knows no lens, the pinhole with its matrix.

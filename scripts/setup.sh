@@ -8,7 +8,8 @@ sigs_packages=(
   libopencv-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libglm-dev libtinyobjloader-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev
-  doctest-dev ffmpeg libxml2-utils
+  libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
+  doctest-dev ffmpeg libxml2-utils xvfb xdotool
 )
 
 sigs_as_root() {

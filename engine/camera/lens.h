@@ -22,6 +22,8 @@ struct LensParameters {
   LensModel model = LensModel::brown_conrady;
   double fx = 1, fy = 1, cx = 0, cy = 0;  // px
   std::vector<double> coefficients;
+
+  [[nodiscard]] bool operator==(const LensParameters&) const = default;
 };
 
 // Maps directions to pixels and back, as OpenCV's projectPoints and fisheye::projectPoints do, but only within the

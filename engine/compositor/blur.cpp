@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/blur.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
+#include "compositor/resample.h"
 
 namespace sigs {
 
+namespace {
+
+constexpr double kCellsPerSigma = 8;
+constexpr double kPlacesPerSigma = 4;
+
+// Cells by their middles, in the picture's pixels.
+Lattice middles(int first, int count, double cell_px) {
+  return {.first = (first + 0.5) * cell_px - 0.5, .step = cell_px, .count = count};
+}
+
+}  // namespace
+
 int blur_reach_px(double sigma_px) {
-  ENSURE(sigma_px >= 0 && std::isfinite(sigma_px));
+  ENSURE(sigma_px >= 0 && sigma_px < 1e8);
   return static_cast<int>(std::ceil(3 * sigma_px));
 }
 
@@ -22,6 +37,37 @@ Layer blurred(const Layer& layer, double sigma_px) {
   cv::copyMakeBorder(layer.coverage, out.coverage, reach, reach, reach, reach, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   cv::GaussianBlur(out.color, out.color, {2 * reach + 1, 2 * reach + 1}, sigma_px, sigma_px, cv::BORDER_CONSTANT);
   return out;
+}
+
+double largest_cell_px(double sigma_px) {
+  return std::max(1.0, sigma_px / kCellsPerSigma);
+}
+
+Layer blurred_from_cells(const Layer& cells, double cell_px, double sigma_px, const cv::Rect& target) {
+  ENSURE(sigma_px >= kSigmaOfCells_px && cell_px >= 1 && cell_px <= largest_cell_px(sigma_px));
+  if (cells.empty() || target.empty()) return {};
+  const double step_px = sigma_px / kPlacesPerSigma;
+  // A cell moves its pixels to its middle, and the spline spreads: the kernel between them gives way by that much.
+  const double moved = (cell_px * cell_px - 1) / 12;
+  const double kernel_px = std::sqrt(sigma_px * sigma_px - moved - splined_variance(step_px));
+  const double reach_px = std::ceil(3 * sigma_px) + 0.5;  // as far as blurred() reaches, in whole pixels
+  const Lattice down = lattice_for(target.y, target.height, step_px);
+  const Lattice across = lattice_for(target.x, target.width, step_px);
+  const cv::Mat places = resampled(
+      cells.color, gaussian_taps(down, middles(cells.rect.y, cells.rect.height, cell_px), kernel_px, reach_px),
+      gaussian_taps(across, middles(cells.rect.x, cells.rect.width, cell_px), kernel_px, reach_px));
+  return {target,
+          resampled(places, spline_taps(target.y, target.height, down), spline_taps(target.x, target.width, across)),
+          cv::Mat::zeros(target.size(), CV_32FC1)};
+}
+
+double most_after_blur(const Layer& cells, double cell_px, double sigma_px) {
+  if (cells.empty()) return 0;
+  const cv::Scalar sum = cv::sum(cells.color);
+  const double most = std::max({sum[0], sum[1], sum[2], sum[3]}) * cell_px * cell_px;
+  constexpr double kCut =
+      1.03;  // the cut kernel is higher by 1 / 0.9973^2, and by 1 / 48 as it gives way to the spline
+  return kCut * most / (2 * std::numbers::pi * sigma_px * sigma_px);
 }
 
 }  // namespace sigs

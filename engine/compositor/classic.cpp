@@ -11,6 +11,8 @@
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "base/transfer.h"
+#include "compositor/blur.h"
+#include "compositor/resample.h"
 
 namespace sigs {
 
@@ -58,6 +60,32 @@ cv::Mat pasted(const cv::Mat& below, const cv::Mat& above, const cv::Mat& where)
   return out;
 }
 
+// Blurs along one axis, at places a quarter of sigma apart, and back to pixels.
+struct AxisBlur {
+  AxisBlur(int size_px, double wanted_sigma_px) {
+    // A mirrored picture repeats after twice its size: by then a wider kernel sees nothing but its mean.
+    const double sigma_px = std::min(wanted_sigma_px, 2.0 * size_px);
+    const double step_px = std::max(1.0, sigma_px / 4);
+    const Lattice places = lattice_for(0, size_px, step_px);
+    const double kernel_px = std::sqrt(std::max(sigma_px * sigma_px - splined_variance(step_px), 0.25));
+    to_places = mirrored_gaussian_taps(places, size_px, kernel_px, std::round(3 * sigma_px) + 0.5);
+    to_pixels = spline_taps(0, size_px, places);
+  }
+  std::vector<Taps> to_places;
+  std::vector<Taps> to_pixels;
+};
+
+cv::Mat widely_softened(const cv::Mat& picture, double sigma_px) {
+  const AxisBlur down(picture.rows, sigma_px);
+  const AxisBlur across(picture.cols, sigma_px);
+  cv::Mat codes;
+  picture.convertTo(codes, CV_32F);
+  codes = resampled(codes, down.to_places, across.to_places);
+  codes = resampled(codes, down.to_pixels, across.to_pixels);
+  codes.convertTo(codes, CV_8U);
+  return codes;
+}
+
 }  // namespace
 
 cv::Mat on_green_screen(const Layer& layer, cv::Size picture_size_px) {
@@ -93,7 +121,9 @@ cv::Mat distorted(const cv::Mat& picture, const DistortMaps& maps, const cv::Sca
 }
 
 cv::Mat softened(const cv::Mat& picture, double sigma_px) {
+  ENSURE(sigma_px >= 0 && std::isfinite(sigma_px));
   if (sigma_px == 0) return picture;
+  if (sigma_px > kSigmaOfCells_px) return widely_softened(picture, sigma_px);
   cv::Mat out;
   cv::GaussianBlur(picture, out, {0, 0}, sigma_px);
   return out;

@@ -42,7 +42,9 @@ struct DistortMaps {
 // A picture bent by the lens as stage C is: bilinear, border where the lens has no ray. For masks as well (CV_8UC1).
 [[nodiscard]] cv::Mat distorted(const cv::Mat& picture, const DistortMaps& maps, const cv::Scalar& border);
 
-// Gaussian blur of a whole picture as stages D and F have it; sigma_px == 0 returns the picture itself.
+// Gaussian blur of a whole picture (8 bits) as stages D and F have it; sigma_px == 0 returns the picture itself. Above
+// sigma 16 it is computed on a coarser grid and is within one code value of the kernel in full. Beyond the border the
+// picture is mirrored; a sigma of more than twice its size along an axis leaves the mean along that axis.
 [[nodiscard]] cv::Mat softened(const cv::Mat& picture, double sigma_px);
 
 [[nodiscard]] ClassicStages classic_stages(const cv::Mat& input1, const cv::Mat& input2, const Camera& camera,

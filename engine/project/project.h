@@ -16,6 +16,8 @@ struct FootageSettings {
   std::optional<int> last_frame;  // the last one used; none: the footage's last
   std::string calibration;
   std::string own_body_mask;  // empty: none
+
+  [[nodiscard]] bool operator==(const FootageSettings&) const = default;
 };
 
 struct CameraSettings {
@@ -24,12 +26,16 @@ struct CameraSettings {
   double pitch_deg = 0;
   double yaw_deg = 0;
   double speed_mps = 0;  // along world X
+
+  [[nodiscard]] bool operator==(const CameraSettings&) const = default;
 };
 
 struct LightSettings {
   glm::dvec3 position_m{-2000, 1000, -3000};  // world
   glm::dvec3 color{1, 1, 1};
   double ambient = 0.35;
+
+  [[nodiscard]] bool operator==(const LightSettings&) const = default;
 };
 
 enum class AnchorChoice { origin, bounds };
@@ -41,12 +47,16 @@ struct ModelSettings {
   double scale = 1.0;
   double length_m = 0;  // 0: scale says how large
   AnchorChoice anchor = AnchorChoice::origin;
+
+  [[nodiscard]] bool operator==(const ModelSettings&) const = default;
 };
 
 struct WaypointSettings {
   std::optional<double> frame;  // none: spread evenly between its neighbours
   glm::dvec3 position_m{0, 0, 0};
   std::string unknown_json;  // keys of the file that this program does not know, kept on save
+
+  [[nodiscard]] bool operator==(const WaypointSettings&) const = default;
 };
 
 enum class SplineChoice { interpolating, approximating };
@@ -59,6 +69,8 @@ struct TrajectoryPlan {
   BankChoice bank = BankChoice::coordinated;
   double bank_limit_deg = 60;
   std::vector<WaypointSettings> waypoints;
+
+  [[nodiscard]] bool operator==(const TrajectoryPlan&) const = default;
 };
 
 struct IntruderSettings {
@@ -66,6 +78,8 @@ struct IntruderSettings {
   ModelSettings model;
   TrajectoryPlan trajectory;
   std::string unknown_json;
+
+  [[nodiscard]] bool operator==(const IntruderSettings&) const = default;
 };
 
 enum class MethodChoice { direct, classic, plain };
@@ -76,6 +90,8 @@ struct CompositingSettings {
   BlendChoice blend = BlendChoice::linear;
   double blur_px_per_m = 0.002;
   int supersampling = 2;
+
+  [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
 };
 
 enum class CodecChoice { ffv1, h264, mjpeg, png };
@@ -88,6 +104,8 @@ struct ExportSettings {
   int crf = 18;
   MasksChoice masks = MasksChoice::video;
   std::vector<std::string> labels{"xml"};
+
+  [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };
 
 struct Project {
@@ -100,6 +118,8 @@ struct Project {
   CompositingSettings compositing;
   ExportSettings output;
   std::string unknown_json;
+
+  [[nodiscard]] bool operator==(const Project&) const = default;
 };
 
 // A path of the project as the file system knows it: absolute ones as they are, others from the project file's folder.

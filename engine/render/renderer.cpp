@@ -204,4 +204,11 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   return layer;
 }
 
+void Renderer::forget(const Mesh& mesh) {
+  const auto known = state_->meshes.find(&mesh);
+  if (known == state_->meshes.end() || !state_->context.make_current()) return;
+  known->second.release();
+  state_->meshes.erase(known);
+}
+
 }  // namespace sigs

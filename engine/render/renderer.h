@@ -48,6 +48,9 @@ class Renderer {
   [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                                    const Light& light, const VirtualView& view);
 
+  // Gives back what was uploaded of a mesh. Nothing happens where it was never drawn.
+  void forget(const Mesh& mesh);
+
  private:
   struct State;
   explicit Renderer(std::unique_ptr<State> state);

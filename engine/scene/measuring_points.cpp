@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +13,7 @@ namespace sigs {
 namespace {
 
 constexpr double kGapsAlongDiagonal = 100;
+constexpr int kDirections = 100;  // twice: farthest along, and farthest along a curve
 
 bool before(const glm::vec3& a, const glm::vec3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -22,6 +25,32 @@ void add_between(glm::vec3 from, glm::vec3 to, double gap_m, std::vector<glm::ve
   const glm::dvec3 along = glm::dvec3(to) - glm::dvec3(from);
   const int steps = static_cast<int>(std::ceil(glm::length(along) / gap_m));
   for (int i = 1; i < steps; ++i) points.emplace_back(glm::dvec3(from) + along * (double(i) / steps));
+}
+
+// Evenly over the sphere: Fibonacci's lattice (Swinbank and Purser 2006, "Fibonacci grids").
+glm::vec3 direction(int index) {
+  const double z = 1 - (2 * index + 1.0) / kDirections;
+  const double turn = index * std::numbers::pi * (3 - std::sqrt(5.0));
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+// The point where a paraboloid that opens backwards, of this curvature at its top, touches the body from outside;
+// without curvature a plane.
+std::size_t touched(const std::vector<glm::vec3>& points, const glm::vec3& center, const glm::vec3& direction,
+                    float curvature) {
+  std::size_t best = 0;
+  float farthest = -std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::vec3 p = points[i] - center;
+    const float along = glm::dot(p, direction);
+    const float reached = along - 0.5F * curvature * (glm::dot(p, p) - along * along);
+    if (reached > farthest) {
+      farthest = reached;
+      best = i;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -38,6 +67,34 @@ std::vector<glm::vec3> measuring_points(const Mesh& mesh) {
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
+}
+
+std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
+  if (points.empty()) return {};
+  glm::vec3 low = points.front();
+  glm::vec3 high = points.front();
+  for (const glm::vec3& p : points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::vec3 center = 0.5F * (low + high);
+  const float diagonal_m = glm::length(high - low);
+  const float curvature = diagonal_m > 0 ? 1 / diagonal_m : 0;
+  std::vector<std::size_t> chosen;
+  for (int i = 0; i < kDirections; ++i)
+    for (const float bend : {0.0F, curvature}) chosen.push_back(touched(points, center, direction(i), bend));
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  std::vector<glm::vec3> outermost;
+  for (const std::size_t i : chosen) outermost.push_back(points[i]);
+  return outermost;
+}
+
+Model model_of(Mesh mesh) {
+  Model model{.mesh = std::move(mesh)};
+  model.points_m = measuring_points(model.mesh);
+  model.outermost_m = outermost_points(model.points_m);
+  return model;
 }
 
 }  // namespace sigs

@@ -32,7 +32,8 @@ struct SceneLight {
 // An aircraft to draw, and the points to measure it by (scene/measuring_points.h).
 struct Model {
   Mesh mesh;
-  std::vector<glm::vec3> points_m;  // body axes
+  std::vector<glm::vec3> points_m;     // body axes
+  std::vector<glm::vec3> outermost_m;  // the few of them that bound it
 };
 
 struct SceneIntruder {
@@ -52,7 +53,7 @@ struct Scene {
   Camera camera;
   CameraMotion motion;
   SceneLight light;
-  std::vector<std::unique_ptr<const Model>> models;  // each file once, however many intruders fly it
+  std::vector<std::shared_ptr<const Model>> models;  // each once, however many intruders fly it; see SceneFiles
   std::vector<SceneIntruder> intruders;
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 1 where the own body hides everything; empty: no mask
   CompositingSettings compositing;
@@ -64,6 +65,10 @@ struct Scene {
 
 // Errors name project file and field: "x.json: intruders[0].model.file: no such file".
 [[nodiscard]] Result<Scene> open_scene(const Project& project, const FootageShape& footage);
+
+// The same, but takes files that were read before from `files` (scene/scene_files.h).
+class SceneFiles;
+[[nodiscard]] Result<Scene> open_scene(const Project& project, const FootageShape& footage, SceneFiles& files);
 
 // Time of a frame, also of fractions and beyond the footage's ends.
 [[nodiscard]] double time_of_frame_s(const FootageShape& footage, double frame);

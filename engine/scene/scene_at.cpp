@@ -5,15 +5,11 @@
 
 namespace sigs {
 
-namespace {
-
 Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {
   Pose<frame::World, frame::Camera> pose = motion.world_from_camera_at_start;
   pose.translation_m.x += motion.speed_mps * time_s;
   return pose;
 }
-
-}  // namespace
 
 SceneMoment scene_at(const Scene& scene, int frame) {
   SceneMoment moment;

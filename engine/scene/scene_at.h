@@ -24,6 +24,8 @@ struct SceneMoment {
   std::vector<PlacedIntruder> intruders;  // far to near, equal distances by id
 };
 
+[[nodiscard]] Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s);
+
 // frame counts the footage's frames from 0.
 [[nodiscard]] SceneMoment scene_at(const Scene& scene, int frame);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
 #include "base/ensure.h"
@@ -15,31 +16,58 @@ uchar code_of(float value) {
   return static_cast<uchar>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
 }
 
-// Chroma at every luma sample of a row, as code values.
+float between(float first, float second, float share) {
+  return first + share * (second - first);
+}
+
+// Chroma at every luma sample of a row, as code values. What chroma_taps says, in loops that compilers turn into
+// vector instructions.
 class ChromaReader {
  public:
   explicit ChromaReader(const Frame& frame)
-      : columns_(chroma_taps(frame.size_px().width, chroma_step(frame.layout).width,
-                             chroma_on_luma_column(frame.color.chroma_site))),
+      : step_(chroma_step(frame.layout).width),
+        on_luma_(chroma_on_luma_column(frame.color.chroma_site)),
         rows_(chroma_taps(frame.size_px().height, chroma_step(frame.layout).height,
                           chroma_on_luma_row(frame.color.chroma_site))) {}
 
-  void read(const cv::Mat& plane, int y, std::vector<float>& between, std::vector<float>& out) const {
-    const ChromaTap& row = rows_[static_cast<size_t>(y)];
-    const uchar* first = plane.ptr<uchar>(row.first);
-    const uchar* second = plane.ptr<uchar>(row.second);
-    between.resize(static_cast<size_t>(plane.cols));
-    for (size_t x = 0; x < between.size(); ++x)
-      between[x] = static_cast<float>(first[x]) + row.share * static_cast<float>(second[x] - first[x]);
-    out.resize(columns_.size());
-    for (size_t x = 0; x < out.size(); ++x) {
-      const float left = between[static_cast<size_t>(columns_[x].first)];
-      out[x] = left + columns_[x].share * (between[static_cast<size_t>(columns_[x].second)] - left);
+  // Leaves at least as many values as the row has pixels.
+  void read(const cv::Mat& plane, int y, std::vector<float>& samples, std::vector<float>& out) const {
+    read_samples(plane, rows_[static_cast<size_t>(y)], samples);
+    const auto count = static_cast<size_t>(plane.cols);
+    const float* here = samples.data() + 1;
+    out.resize(count * static_cast<size_t>(step_));
+    float* const to = out.data();
+    if (step_ == 1) {
+      std::copy_n(here, count, to);
+    } else if (on_luma_) {
+      for (size_t x = 0; x < count; ++x) {
+        to[2 * x] = here[x];
+        to[2 * x + 1] = between(here[x], here[x + 1], 0.5F);
+      }
+    } else {
+      for (size_t x = 0; x < count; ++x) {
+        to[2 * x] = between(here[x - 1], here[x], 0.75F);
+        to[2 * x + 1] = between(here[x], here[x + 1], 0.25F);
+      }
     }
   }
 
  private:
-  std::vector<ChromaTap> columns_;
+  // The chroma row between two of the plane's, its ends repeated once on either side.
+  static void read_samples(const cv::Mat& plane, const ChromaTap& row, std::vector<float>& samples) {
+    const uchar* first = plane.ptr<uchar>(row.first);
+    const uchar* second = plane.ptr<uchar>(row.second);
+    const auto count = static_cast<size_t>(plane.cols);
+    samples.resize(count + 2);
+    float* const to = samples.data() + 1;
+    for (size_t x = 0; x < count; ++x)
+      to[x] = static_cast<float>(first[x]) + row.share * static_cast<float>(second[x] - first[x]);
+    samples.front() = to[0];
+    samples.back() = to[count - 1];
+  }
+
+  int step_;
+  bool on_luma_;
   std::vector<ChromaTap> rows_;
 };
 
@@ -61,16 +89,52 @@ cv::Mat bgr_of_rgb(const Frame& frame) {
   return bgr;
 }
 
-void convert_row(const uchar* luma, const std::vector<float>& cb, const std::vector<float>& cr, const CodeToRgb& map,
-                 uchar* bgr) {
+uchar converted(const cv::Matx33f& m, int row, float y, float u, float v) {
+  return code_of(m(row, 0) * y + m(row, 1) * u + m(row, 2) * v);
+}
+
+#if CV_SIMD128
+// The same sums in the same order for four pixels, not rounded.
+cv::v_float32x4 codes_of(const cv::Matx33f& m, int row, const cv::v_float32x4& y, const cv::v_float32x4& u,
+                         const cv::v_float32x4& v) {
+  const cv::v_float32x4 sum =
+      cv::v_setall_f32(m(row, 0)) * y + cv::v_setall_f32(m(row, 1)) * u + cv::v_setall_f32(m(row, 2)) * v;
+  return cv::v_min(cv::v_max(sum, cv::v_setzero_f32()), cv::v_setall_f32(255)) + cv::v_setall_f32(0.5F);
+}
+
+// Sixteen pixels of one row, from x on: B, G, R.
+void convert_sixteen(const uchar* luma, const float* cb, const float* cr, const cv::Matx33f& m, const cv::Vec3f& offset,
+                     uchar* bgr) {
+  cv::v_uint16x8 low, high;
+  cv::v_expand(cv::v_load(luma), low, high);
+  cv::v_uint32x4 codes[4];
+  cv::v_expand(low, codes[0], codes[1]);
+  cv::v_expand(high, codes[2], codes[3]);
+  cv::v_int32x4 out[3][4];
+  for (int i = 0; i < 4; ++i) {
+    const auto y = cv::v_cvt_f32(cv::v_reinterpret_as_s32(codes[i])) - cv::v_setall_f32(offset[0]);
+    const auto u = cv::v_load(cb + 4 * i) - cv::v_setall_f32(offset[1]);
+    const auto v = cv::v_load(cr + 4 * i) - cv::v_setall_f32(offset[2]);
+    for (int c = 0; c < 3; ++c) out[c][i] = cv::v_trunc(codes_of(m, 2 - c, y, u, v));
+  }
+  cv::v_uint8x16 bytes[3];
+  for (int c = 0; c < 3; ++c)
+    bytes[c] = cv::v_pack_u(cv::v_pack(out[c][0], out[c][1]), cv::v_pack(out[c][2], out[c][3]));
+  cv::v_store_interleave(bgr, bytes[0], bytes[1], bytes[2]);
+}
+#endif
+
+void convert_row(const uchar* luma, const float* cb, const float* cr, int width, const CodeToRgb& map, uchar* bgr) {
   const cv::Matx33f m = map.to_rgb * 255.0F;
-  for (size_t x = 0; x < cb.size(); ++x) {
+  int x = 0;
+#if CV_SIMD128
+  for (; x + 16 <= width; x += 16) convert_sixteen(luma + x, cb + x, cr + x, m, map.offset, bgr + 3 * x);
+#endif
+  for (; x < width; ++x) {
     const float y = static_cast<float>(luma[x]) - map.offset[0];
     const float u = cb[x] - map.offset[1];
     const float v = cr[x] - map.offset[2];
-    bgr[3 * x + 0] = code_of(m(2, 0) * y + m(2, 1) * u + m(2, 2) * v);
-    bgr[3 * x + 1] = code_of(m(1, 0) * y + m(1, 1) * u + m(1, 2) * v);
-    bgr[3 * x + 2] = code_of(m(0, 0) * y + m(0, 1) * u + m(0, 2) * v);
+    for (int c = 0; c < 3; ++c) bgr[3 * x + c] = converted(m, 2 - c, y, u, v);
   }
 }
 
@@ -79,11 +143,11 @@ cv::Mat bgr_of_ycbcr(const Frame& frame) {
   const ChromaReader chroma(frame);
   cv::Mat bgr(frame.size_px(), CV_8UC3);
   cv::parallel_for_({0, bgr.rows}, [&](const cv::Range& rows) {
-    std::vector<float> between, cb, cr;
+    std::vector<float> samples, cb, cr;
     for (int y = rows.start; y < rows.end; ++y) {
-      chroma.read(frame.planes[1], y, between, cb);
-      chroma.read(frame.planes[2], y, between, cr);
-      convert_row(frame.planes[0].ptr<uchar>(y), cb, cr, map, bgr.ptr<uchar>(y));
+      chroma.read(frame.planes[1], y, samples, cb);
+      chroma.read(frame.planes[2], y, samples, cr);
+      convert_row(frame.planes[0].ptr<uchar>(y), cb.data(), cr.data(), bgr.cols, map, bgr.ptr<uchar>(y));
     }
   });
   return bgr;

@@ -132,6 +132,20 @@ TEST_CASE("the classic method shows all the stages of the paper's figure 4") {
     CHECK_MESSAGE(has(run.out, stage), stage);
 }
 
+TEST_CASE("the direct method shows each step from the layer to the output, in order") {
+  const TinyProject tiny;
+  const Run run = run_sigs("frame " + tiny.project() + " --frame 5 --stages --out " + tiny.out());
+  CHECK(run.status == 0);
+  std::size_t last = 0;
+  for (const char* const stage :
+       {"_00_input1", "_01_layer", "_02_bent", "_03_blurred", "_04_hidden", "_05_mask", "_06_output"}) {
+    const std::size_t at = run.out.find(stage);
+    REQUIRE_MESSAGE(at != std::string::npos, stage);
+    CHECK_MESSAGE(at >= last, stage);
+    last = at;
+  }
+}
+
 TEST_CASE("check finds nothing wrong with a whole project and lists what is wrong with a broken one") {
   TinyProject tiny;
   CHECK(run_sigs("check " + tiny.project()).status == 0);

@@ -41,16 +41,20 @@ std::optional<std::pair<std::string, Room>> room_in(const std::string& line) {
   return std::pair{name, room};
 }
 
-Rooms rooms_in_readme() {
+Rooms rooms_in(const fs::path& readme) {
   Rooms rooms;
   bool in_table = false;
-  for (const std::string& line : lines_of(sigs::test::source_dir() / "engine/README.md")) {
+  for (const std::string& line : lines_of(sigs::test::source_dir() / readme)) {
     if (line.starts_with("| level |")) in_table = true;
     if (in_table && line.empty()) break;
     if (!in_table) continue;
     if (const auto room = room_in(line)) rooms.insert(*room);
   }
   return rooms;
+}
+
+Rooms rooms_in_readme() {
+  return rooms_in("engine/README.md");
 }
 
 std::optional<std::string> included_file(const std::string& line) {
@@ -74,6 +78,18 @@ std::string objection(const Rooms& rooms, const std::string& from, const std::st
   return from + " includes " + include;
 }
 
+fs::path folder_of(const std::string& room) {
+  const fs::path root = sigs::test::source_dir();
+  const bool is_program = room == "engine" || room == "cli" || room == "editor";
+  return is_program ? root / room : root / "engine" / room;
+}
+
+// "editor/geometry/gizmo.h" -> geometry; "" for what is not the editor's.
+std::string editor_room_of_include(const std::string& include) {
+  const std::string begin = "editor/";
+  return include.starts_with(begin) ? room_of_include(include.substr(begin.size())) : std::string();
+}
+
 bool is_code(const fs::path& path) {
   return path.extension() == ".h" || path.extension() == ".cpp";
 }
@@ -89,9 +105,8 @@ std::vector<std::string> objections_in(const Rooms& rooms, const std::string& fr
 
 std::vector<std::string> all_objections(const Rooms& rooms) {
   std::vector<std::string> found;
-  const fs::path root = sigs::test::source_dir();
   for (const auto& [name, room] : rooms) {
-    const fs::path folder = name == "engine" ? root / "engine" : name == "cli" ? root / "cli" : root / "engine" / name;
+    const fs::path folder = folder_of(name);
     for (fs::recursive_directory_iterator it(folder), end; it != end; ++it) {
       if (name == "engine" && it->is_directory()) it.disable_recursion_pending();
       if (!it->is_regular_file() || !is_code(it->path())) continue;
@@ -134,8 +149,29 @@ TEST_CASE("the check itself sees an include upward or sideways") {
 
 TEST_CASE("every room says in a README what comes in and what goes out") {
   for (const auto& [name, room] : rooms_in_readme()) {
-    const fs::path root = sigs::test::source_dir();
-    const fs::path folder = name == "engine" ? root / "engine" : name == "cli" ? root / "cli" : root / "engine" / name;
+    const fs::path folder = folder_of(name);
     CHECK_MESSAGE(fs::exists(folder / "README.md"), folder);
   }
+}
+
+TEST_CASE("the table in the editor's README names every room there is") {
+  const Rooms rooms = rooms_in("editor/README.md");
+  for (const auto& entry : fs::directory_iterator(sigs::test::source_dir() / "editor"))
+    if (entry.is_directory()) CHECK_MESSAGE(rooms.contains(entry.path().filename().string()), entry.path());
+  for (const auto& [name, room] : rooms)
+    for (const std::string& other : room.may_include) CHECK(rooms.at(other).level < room.level);
+}
+
+TEST_CASE("rooms of the editor include those alone that their table allows") {
+  const Rooms rooms = rooms_in("editor/README.md");
+  REQUIRE(rooms.size() >= 6);
+  for (const auto& [name, room] : rooms)
+    for (fs::recursive_directory_iterator it(sigs::test::source_dir() / "editor" / name), end; it != end; ++it) {
+      if (!it->is_regular_file() || !is_code(it->path())) continue;
+      for (const std::string& line : lines_of(it->path())) {
+        const std::string other = editor_room_of_include(included_file(line).value_or(""));
+        if (!other.empty() && other != name && !room.may_include.contains(other))
+          FAIL_CHECK(it->path().filename().string() << " of " << name << ": " << line);
+      }
+    }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "video/chroma.h"
 #include "video/clips.h"
 #include "video/frame.h"
 
@@ -155,4 +156,43 @@ TEST_CASE("values beyond the gamut are clipped and not wrapped") {
   CHECK(bgr.at<cv::Vec3b>(0, 0)[0] == 255);
   CHECK(bgr.at<cv::Vec3b>(0, 0)[2] == 255);
   CHECK(bgr.at<cv::Vec3b>(0, 1)[1] == 0);
+}
+
+TEST_CASE("every byte of a converted picture is that of the plain formula pixel by pixel") {
+  const auto tap = [](const cv::Mat& plane, const ChromaTap& row, const ChromaTap& column) {
+    const auto at = [&](int x) {
+      const float first = plane.at<uchar>(row.first, x);
+      return first + row.share * (static_cast<float>(plane.at<uchar>(row.second, x)) - first);
+    };
+    const float left = at(column.first);
+    return left + column.share * (at(column.second) - left);
+  };
+  for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444})
+    for (const ChromaSite site : kSites)
+      for (const ColorRange range : {ColorRange::limited, ColorRange::full})
+        for (const cv::Size size :
+             {cv::Size(1, 1), cv::Size(15, 4), cv::Size(16, 5), cv::Size(33, 7), cv::Size(98, 6)}) {
+          Frame frame = test_frame(layout, size, 3, meaning(range, ColorMatrix::bt601, site));
+          for (int i = 0; i < 3; ++i)  // every code value, far outside of what any picture holds
+            cv::randu(frame.planes[static_cast<size_t>(i)], 0, 256);
+          const CodeToRgb map = code_to_rgb(layout, frame.color);
+          const cv::Matx33f m = map.to_rgb * 255.0F;
+          const cv::Size step = chroma_step(layout);
+          const auto columns = chroma_taps(size.width, step.width, chroma_on_luma_column(site));
+          const auto rows = chroma_taps(size.height, step.height, chroma_on_luma_row(site));
+          cv::Mat expected(size, CV_8UC3);
+          for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) {
+              const ChromaTap& row = rows[static_cast<size_t>(y)];
+              const ChromaTap& column = columns[static_cast<size_t>(x)];
+              const float luma = static_cast<float>(frame.planes[0].at<uchar>(y, x)) - map.offset[0];
+              const float cb = tap(frame.planes[1], row, column) - map.offset[1];
+              const float cr = tap(frame.planes[2], row, column) - map.offset[2];
+              for (int c = 0; c < 3; ++c) {
+                const float value = m(2 - c, 0) * luma + m(2 - c, 1) * cb + m(2 - c, 2) * cr;
+                expected.at<cv::Vec3b>(y, x)[c] = static_cast<uchar>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+              }
+            }
+          CHECK(largest_difference(bgr_of(frame), expected) == 0);
+        }
 }

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/file_desk.h"
+
+#include <utility>
+
+#include "editor/document/dropped.h"
+#include "editor/document/relink.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string shown_name(const Project& project) {
+  return project.file.empty() ? project.name : project.file.filename().string();
+}
+
+}  // namespace
+
+FileDesk::FileDesk(Document& document, Settings& settings, Surroundings surroundings)
+    : document_(document),
+      settings_(settings),
+      surroundings_(std::move(surroundings)),
+      loader_(surroundings_.wake),
+      recovery_(surroundings_.recovery_folder),
+      abandoned_(abandoned_projects(surroundings_.recovery_folder)) {}
+
+void FileDesk::say(std::string text, bool is_error) {
+  requests_.push_back(Say{std::move(text), is_error});
+}
+
+void FileDesk::ask(Question question, std::vector<Step> steps) {
+  question_ = std::move(question);
+  steps_ = std::move(steps);
+}
+
+void FileDesk::answer(int number) {
+  question_.reset();
+  const std::vector<Step> steps = std::exchange(steps_, {});
+  if (number >= 0 && number < static_cast<int>(steps.size()) && steps[static_cast<std::size_t>(number)])
+    steps[static_cast<std::size_t>(number)]();
+}
+
+std::vector<Request> FileDesk::take_requests() {
+  return std::exchange(requests_, {});
+}
+
+bool FileDesk::take(const Request& request) {
+  const auto* to_open = std::get_if<OpenProject>(&request);
+  const auto* to_save = std::get_if<SaveProjectAs>(&request);
+  if (to_open != nullptr) {
+    if (to_open->path.empty())
+      ask_which_to_open();
+    else
+      leave_then([this, path = to_open->path] { open(path); });
+  } else if (to_save != nullptr) {
+    if (has_project_) save_as_then(to_save->path, {});
+  } else if (std::holds_alternative<SaveProject>(request)) {
+    if (has_project_) save_then({});
+  } else if (std::holds_alternative<NewProject>(request)) {
+    leave_then([this] { show(Project()); });
+  } else if (std::holds_alternative<CloseProject>(request)) {
+    leave_then([this] { close(); });
+  } else if (std::holds_alternative<Quit>(request)) {
+    quit();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void FileDesk::ask_which_to_open() {
+  requests_.push_back(AskForFile{.title = "Open a project",
+                                 .extensions = {".json"},
+                                 .chosen = [this](const fs::path& path) { take(OpenProject{path}); }});
+}
+
+void FileDesk::leave_then(Step next) {
+  if (!has_project_ || !document_.has_unsaved_changes()) {
+    next();
+    return;
+  }
+  const auto give_up = [this, next] {
+    may_be_lost_ = document_.revision().number;
+    next();
+  };
+  ask({.title = "Unsaved changes",
+       .text = "Save the changes of " + shown_name(document_.project()) + "?",
+       .answers = {"Save", "Don't save", "Cancel"}},
+      {[this, next] { save_then(next); }, give_up, {}});
+}
+
+void FileDesk::quit() {
+  const auto end = [this] {
+    recovery_.forget();
+    done_ = true;
+  };
+  const auto leave = [this, end] { leave_then(end); };
+  if (!surroundings_.is_exporting || !surroundings_.is_exporting()) {
+    leave();
+    return;
+  }
+  ask({.title = "An export is running",
+       .text = "Quitting stops it; nothing of it is kept.",
+       .answers = {"Go on exporting", "Stop it and quit", "Cancel"}},
+      {{}, leave, {}});
+}
+
+void FileDesk::open(const fs::path& path) {
+  loader_.start(path);
+}
+
+void FileDesk::show(Project project) {
+  recovery_.forget();
+  document_ = Document(std::move(project), document_.last_number() + 1);
+  disk_.remember(document_.project().file);
+  has_project_ = true;
+}
+
+void FileDesk::close() {
+  show(Project());
+  has_project_ = false;
+  abandoned_ = abandoned_projects(surroundings_.recovery_folder);
+}
+
+void FileDesk::take_loaded() {
+  std::optional<LoadedProject> loaded = loader_.take();
+  if (!loaded) return;
+  if (!loaded->read) {
+    std::erase(settings_.recent, loaded->path);
+    say(loaded->read.error().text(), true);
+    return;
+  }
+  // Something was done while the file was read.
+  const bool was_agreed = may_be_lost_ == document_.revision().number;
+  if (has_project_ && document_.has_unsaved_changes() && !was_agreed) {
+    leave_then([this, path = loaded->path] { open(path); });
+    return;
+  }
+  show(std::move(loaded->read->project));
+  remember_project(settings_, loaded->path);
+  for (const Warning& warning : loaded->read->warnings) say(warning.text());
+  if (const std::size_t missing = missing_files(document_.project()).size(); missing > 0)
+    say(std::to_string(missing) + (missing == 1 ? " file of this project is" : " files of this project are") +
+            " missing; File > Find missing files shows which",
+        true);
+}
+
+void FileDesk::save_then(Step next) {
+  const fs::path file = document_.project().file;
+  if (file.empty()) {
+    save_as_then({}, std::move(next));
+    return;
+  }
+  if (!disk_.changed()) {
+    write_then(file, next);
+    return;
+  }
+  ask({.title = "Changed on disk",
+       .text = file.filename().string() + " was changed by another program since it was read here. Replace it?",
+       .answers = {"Save as...", "Replace it", "Cancel"}},
+      {[this, next] { save_as_then({}, next); }, [this, file, next] { write_then(file, next); }, {}});
+}
+
+void FileDesk::save_as_then(const fs::path& path, Step next) {
+  if (!path.empty()) {
+    write_then(path, next);
+    return;
+  }
+  const Project& project = document_.project();
+  const fs::path start = project.file.empty() ? settings_.last_folder / (project.name + ".json") : project.file;
+  requests_.push_back(AskForFile{.title = "Save the project as",
+                                 .extensions = {".json"},
+                                 .for_saving = true,
+                                 .start = start,
+                                 .chosen = [this, next](const fs::path& chosen) { write_then(chosen, next); }});
+}
+
+void FileDesk::write_then(const fs::path& path, const Step& next) {
+  const fs::path place = fs::absolute(path).lexically_normal();
+  // A project is called after its file until it is given a name.
+  if (!document_.has_file() && document_.project().name == Project().name)
+    document_.apply(ChangeProject{"name", [&](Project& p) { p.name = place.stem().string(); }, {}});
+  if (const Result<void> saved = document_.save_as(place); !saved) {
+    say(saved.error().text() + "; nothing was saved", true);
+    return;
+  }
+  disk_.remember(place);
+  recovery_.forget();
+  remember_project(settings_, place);
+  say("Saved " + place.filename().string());
+  if (next) next();
+}
+
+void FileDesk::recover(const AbandonedProject& abandoned) {
+  leave_then([this, abandoned] {
+    recovery_.forget();
+    Result<ReadProject> read = recovery_.take_over(abandoned);
+    std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });
+    if (!read) {
+      say(read.error().text(), true);
+      return;
+    }
+    document_ = Document(std::move(read->project), document_.last_number() + 1);
+    document_.mark_unsaved();
+    disk_.remember(document_.project().file);
+    has_project_ = true;
+    say("Recovered " + abandoned.name + "; save it to keep it");
+  });
+}
+
+void FileDesk::discard(const AbandonedProject& abandoned) {
+  const auto gone = [this, abandoned] {
+    editor::discard(abandoned);
+    std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });
+  };
+  ask({.title = "Discard unsaved changes",
+       .text = "The unsaved changes of " + abandoned.name + " will be gone for good.",
+       .answers = {"Discard", "Keep"}},
+      {gone, {}});
+}
+
+void FileDesk::take_dropped(const fs::path& path, Edits& edits) {
+  const Dropped dropped = what_was_dropped(path);
+  if (dropped.kind == DroppedKind::nothing) {
+    say(dropped.problem, true);
+    return;
+  }
+  if (dropped.kind == DroppedKind::project) {
+    take(OpenProject{path});
+    return;
+  }
+  if (!has_project_) show(Project());
+  if (std::optional<ChangeProject> change = change_by(dropped, document_.selection())) {
+    say(path.filename().string() + ": " + change->name);
+    edits.change(std::move(change->name), std::move(change->change));
+  }
+}
+
+void FileDesk::turn(double now_s) {
+  take_loaded();
+  if (!has_project_) return;
+  if (const std::optional<Error> error = recovery_.keep(document_, now_s, settings_.autosave_s))
+    say("Unsaved changes cannot be kept for recovery: " + error->text(), true);
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/app/project_loader.h"
+#include "editor/document/disk_change.h"
+#include "editor/document/document.h"
+#include "editor/document/question.h"
+#include "editor/document/recovery.h"
+#include "editor/document/settings.h"
+
+namespace sigs::editor {
+
+// Where projects come and go: opening, saving, closing, quitting, recovering, and the questions that belong to it. Knows
+// no window: it says what is to be asked and told, and somebody else draws it. What the person has done is never
+// given up without a question.
+class FileDesk {
+ public:
+  struct Surroundings {
+    std::filesystem::path recovery_folder;
+    std::function<void()> wake;              // called from another thread when a file was read
+    std::function<bool()> is_exporting;      // an export is lost by quitting
+  };
+  // Document and settings must outlive it. At first no project is open.
+  FileDesk(Document& document, Settings& settings, Surroundings surroundings);
+
+  // Open, new, save, close, quit. False: it was another request, nothing happened.
+  bool take(const Request& request);
+  // A file came from outside: opened, or put into the project.
+  void take_dropped(const std::filesystem::path& path, Edits& edits);
+
+  void recover(const AbandonedProject& abandoned);
+  void discard(const AbandonedProject& abandoned);
+  // As of the start and of what was done with them since.
+  [[nodiscard]] const std::vector<AbandonedProject>& abandoned() const { return abandoned_; }
+
+  // Once a turn, when the document has taken its edits.
+  void turn(double now_s);
+
+  // What to ask; answer it by the number of its answer. Nothing else goes on meanwhile.
+  [[nodiscard]] const std::optional<Question>& question() const { return question_; }
+  void answer(int number);
+
+  // What to tell and which files to ask for, since the last call.
+  [[nodiscard]] std::vector<Request> take_requests();
+
+  [[nodiscard]] bool has_project() const { return has_project_; }
+  [[nodiscard]] std::filesystem::path loading() const { return loader_.path(); }
+  [[nodiscard]] bool is_done() const { return done_; }
+
+ private:
+  using Step = std::function<void()>;
+
+  void say(std::string text, bool is_error = false);
+  void ask(Question question, std::vector<Step> steps);
+  void ask_which_to_open();
+  void leave_then(Step next);  // next: once nothing unsaved is lost by it
+  void quit();
+  void open(const std::filesystem::path& path);
+  void show(Project project);
+  void close();
+  void save_then(Step next);
+  void save_as_then(const std::filesystem::path& path, Step next);
+  void write_then(const std::filesystem::path& path, const Step& next);
+  void take_loaded();
+
+  Document& document_;
+  Settings& settings_;
+  Surroundings surroundings_;
+  ProjectLoader loader_;
+  Recovery recovery_;
+  DiskChange disk_;
+  std::vector<AbandonedProject> abandoned_;
+  std::optional<Question> question_;
+  std::vector<Step> steps_;  // one for each answer
+  std::vector<Request> requests_;
+  std::uint64_t may_be_lost_ = 0;  // the unsaved state that the person agreed to give up
+  bool has_project_ = false;
+  bool done_ = false;
+};
+
+}  // namespace sigs::editor

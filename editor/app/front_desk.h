@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "editor/app/file_desk.h"
+#include "editor/preview/export_job.h"
+#include "editor/views/dialogs.h"
+#include "editor/views/export_view.h"
+#include "editor/views/relink_dialog.h"
+#include "editor/views/start_page.h"
+#include "editor/views/studio.h"
+#include "editor/views/toasts.h"
+#include "editor/widgets/file_browser.h"
+
+namespace sigs::editor {
+
+// All that concerns files and the program itself, drawn: menu bar, start page, dialogs, messages, export. The file desk
+// decides, this shows and asks.
+class FrontDesk {
+ public:
+  struct Setup {
+    std::filesystem::path samples;          // folder of sample projects
+    std::filesystem::path recovery_folder;
+    std::string version;
+    std::vector<HelpLine> help;
+    std::function<void()> wake;             // from any thread: something is to be drawn
+  };
+  // Document and settings must outlive it.
+  FrontDesk(Document& document, Settings& settings, Setup setup);
+
+  // Before everything else of a turn is drawn; the bar takes its room at the window's upper edge.
+  void draw_menu(const Studio& studio);
+  // Instead of the panels while has_project() is false; fills the present ImGui window.
+  void draw_start_page(const Studio& studio);
+  // After everything else, outside of every ImGui window.
+  void draw_over_all(const Studio& studio);
+
+  // After drawing. False: the request is another's.
+  bool take(const Request& request);
+  void take_dropped(const std::filesystem::path& path, Edits& edits) { files_.take_dropped(path, edits); }
+  // Once a turn, when the document has taken its edits: it may become another one here.
+  void turn(double now_s);
+
+  [[nodiscard]] bool has_project() const { return files_.has_project(); }
+  [[nodiscard]] bool is_exporting() const { return export_.is_running(); }
+  [[nodiscard]] bool is_done() const { return files_.is_done(); }
+  // Whether something on the screen changes without an event: draw some ten times a second.
+  [[nodiscard]] bool is_restless() const;
+
+ private:
+  void ask_for_file(const AskForFile& wanted);
+  void take_own_requests();
+  void draw_dialog(const Studio& studio);
+
+  Document& document_;
+  Settings& settings_;
+  Setup setup_;
+  ExportJob export_;
+  FileDesk files_;
+  StartPage start_page_;
+  Toasts toasts_;
+  FileBrowser browser_;
+  std::function<void(const std::filesystem::path&)> chosen_;
+  ExportView export_view_;
+  RelinkDialog relink_;
+  SettingsDialog settings_dialog_;
+  bool shows_settings_ = false;
+  bool shows_help_ = false;
+  bool shows_about_ = false;
+  std::vector<std::function<void()>> answered_;  // while drawing; done in turn()
+  std::filesystem::path project_file_;           // of the last turn
+  bool was_exporting_ = false;
+  double now_s_ = 0;
+};
+
+}  // namespace sigs::editor

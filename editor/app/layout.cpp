@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/layout.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "editor/widgets/splitter.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+// A panel with its own background; padding 0 for pictures.
+template <class Content>
+void panel(const char* id, ImVec2 size, bool padded, ImU32 background, Content content) {
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, background);
+  const ImGuiWindowFlags padding = padded ? ImGuiWindowFlags_AlwaysUseWindowPadding : ImGuiWindowFlags_None;
+  ImGui::BeginChild(id, size, false, ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar | padding);
+  content();
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+}
+
+void move(double& size, double by_px, double least, double most) {
+  size = std::clamp(size + by_px / scaled(1), least, std::max(least, most));
+}
+
+}  // namespace
+
+void Layout::draw_pictures(const Studio& studio, Settings& settings) {
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float bar = splitter_thickness();
+  const float world = settings.show_world ? static_cast<float>((room.x - bar) * settings.world_share) : 0;
+  const float left = settings.show_world ? room.x - bar - world : room.x;
+  panel("pictures", {left, room.y}, false, color::kCanvas, [&] {
+    if (ImGui::BeginTabBar("picture tabs")) {
+      if (ImGui::BeginTabItem("Footage")) {
+        viewport_.draw(studio);
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Stages")) {
+        stages_.draw(studio);
+        ImGui::EndTabItem();
+      }
+      ImGui::EndTabBar();
+    }
+  });
+  if (!settings.show_world) return;
+  ImGui::SameLine(0, 0);
+  const SplitterMove moved = vertical_splitter("world splitter", room.y);
+  settings.world_share = std::clamp(settings.world_share - moved.by_px / std::max(1.0F, room.x), 0.1, 0.9);
+  if (moved.reset) settings.world_share = Settings().world_share;
+  ImGui::SameLine(0, 0);
+  panel("world", {world, room.y}, false, color::kCanvas, [&] { world_.draw(studio); });
+}
+
+void Layout::draw(const Studio& studio, Settings& settings) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float bar = splitter_thickness();
+  const double most_timeline = room.y / scaled(1) - 200;
+  const float timeline = scaled(std::clamp(settings.timeline_height, 90.0, std::max(90.0, most_timeline)));
+  const float inspector = settings.show_inspector ? scaled(settings.inspector_width) : 0;
+  const float left = settings.show_inspector ? room.x - inspector - bar : room.x;
+  const auto with_usual_spacing = [&](auto content) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
+    content();
+    ImGui::PopStyleVar();
+  };
+
+  ImGui::BeginGroup();
+  ImGui::BeginChild("upper", {left, room.y - timeline - bar});
+  with_usual_spacing([&] { draw_pictures(studio, settings); });
+  ImGui::EndChild();
+  const SplitterMove moved = horizontal_splitter("timeline splitter", left);
+  move(settings.timeline_height, -moved.by_px, 90, most_timeline);
+  if (moved.reset) settings.timeline_height = Settings().timeline_height;
+  panel("timeline", {left, timeline}, true, color::kPanel,
+        [&] { with_usual_spacing([&] { timeline_.draw(studio); }); });
+  ImGui::EndGroup();
+
+  if (settings.show_inspector) {
+    ImGui::SameLine(0, 0);
+    const SplitterMove side = vertical_splitter("inspector splitter", room.y);
+    move(settings.inspector_width, -side.by_px, 200, room.x / scaled(1) - 400);
+    if (side.reset) settings.inspector_width = Settings().inspector_width;
+    ImGui::SameLine(0, 0);
+    panel("inspector", {inspector, room.y}, true, color::kPanel,
+          [&] { with_usual_spacing([&] { inspector_.draw(studio); }); });
+  }
+  ImGui::PopStyleVar();
+}
+
+}  // namespace sigs::editor

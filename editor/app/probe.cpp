@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/probe.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/partial_file.h"
+
+namespace sigs::editor {
+
+void Probe::tell(const Document& document, const Shown& shown, const Places& places, const std::string& page) {
+  if (!wanted()) return;
+  nlohmann::ordered_json json;
+  json["frame"] = document.playhead();
+  json["revision"] = document.revision().number;
+  json["unsaved"] = document.has_unsaved_changes();
+  json["current"] = shown.picture_is_current;
+  json["busy"] = shown.busy;
+  json["page"] = page;
+  for (const auto& [name, rect] : places.all())
+    json["places"][name] = {rect.low.x, rect.low.y, rect.size().x, rect.size().y};
+  ++turn_;
+  const std::string text = json.dump();
+  if (text == last_) return;
+  json["turn"] = turn_;
+  if (write_text(file_, json.dump() + "\n", true)) last_ = text;
+}
+
+}  // namespace sigs::editor

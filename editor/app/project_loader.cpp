@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/project_loader.h"
+
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace sigs::editor {
+
+// Shared with the reading thread, which may outlive the loader where a disk does not answer.
+struct ProjectLoader::Pending {
+  std::filesystem::path path;
+  std::mutex mutex;
+  std::optional<Result<ReadProject>> read;
+};
+
+ProjectLoader::ProjectLoader(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+void ProjectLoader::start(std::filesystem::path path) {
+  pending_ = std::make_shared<Pending>();
+  // The project keeps an absolute path: it means the same file in messages, lists of recent ones and after a crash.
+  pending_->path = std::filesystem::absolute(path).lexically_normal();
+  std::thread([pending = pending_, wake = wake_] {
+    Result<ReadProject> read = read_project(pending->path);
+    {
+      const std::lock_guard lock(pending->mutex);
+      pending->read = std::move(read);
+    }
+    wake();
+  }).detach();
+}
+
+std::filesystem::path ProjectLoader::path() const {
+  return pending_ ? pending_->path : std::filesystem::path();
+}
+
+std::optional<LoadedProject> ProjectLoader::take() {
+  const std::shared_ptr<Pending> done = pending_;
+  if (!done) return std::nullopt;
+  const std::lock_guard lock(done->mutex);
+  if (!done->read) return std::nullopt;
+  pending_.reset();
+  return LoadedProject{done->path, std::move(*done->read)};
+}
+
+}  // namespace sigs::editor

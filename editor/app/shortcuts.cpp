@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/shortcuts.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/keys.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::array<Shortcut, 24> kShortcuts{{
+    {"Playing", "Space, K", "play, stop"},
+    {"Playing", "L", "play on; again: faster"},
+    {"Playing", "J", "play backwards; again: faster"},
+    {"Going", "Left, Right or , .", "one frame"},
+    {"Going", "Shift + Left, Right", "ten frames"},
+    {"Going", "Home, End", "first, last frame of the range"},
+    {"Going", "Up, Down", "previous, next waypoint"},
+    {"Range", "I, O", "mark in, out here"},
+    {"Range", "X", "unmark"},
+    {"Waypoints", "Enter or Insert", "add one here"},
+    {"Waypoints", "Ctrl + D", "duplicate"},
+    {"Waypoints", "Delete", "delete"},
+    {"Waypoints", "Esc", "select nothing"},
+    {"Project", "Ctrl + Z", "undo"},
+    {"Project", "Ctrl + Shift + Z, Ctrl + Y", "redo"},
+    {"Project", "Ctrl + N", "new"},
+    {"Project", "Ctrl + O", "open"},
+    {"Project", "Ctrl + S", "save"},
+    {"Project", "Ctrl + Shift + S", "save as"},
+    {"Project", "Ctrl + E", "export"},
+    {"Project", "Ctrl + Q", "quit"},
+    {"Footage", "wheel; middle drag", "zoom at the cursor; pan"},
+    {"Window", "F11", "full screen"},
+    {"Window", "?", "this list"},
+}};
+
+void step(const Studio& studio, int by) {
+  studio.edits.ask(Play{0});
+  studio.edits.go_to_frame(studio.document.playhead() + by);
+}
+
+void go(const Studio& studio, int frame) {
+  studio.edits.ask(Play{0});
+  studio.edits.go_to_frame(frame);
+}
+
+// Faster with each press in the same direction, up to eight times.
+void shuttle(const Studio& studio, int direction) {
+  const double speed = studio.speed * direction > 0 ? std::min(8.0, std::abs(studio.speed) * 2) : 1;
+  studio.edits.ask(Play{direction * speed});
+}
+
+void take_transport_keys(const Studio& studio) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const int stride = io.KeyShift ? 10 : 1;
+  if (pressed(Key::space) || pressed(Key::k)) studio.edits.ask(TogglePlay{});
+  if (pressed(Key::l)) shuttle(studio, 1);
+  if (pressed(Key::j)) shuttle(studio, -1);
+  if (pressed(Key::right, true) || pressed(Key::period, true)) step(studio, stride);
+  if (pressed(Key::left, true) || pressed(Key::comma, true)) step(studio, -stride);
+  if (pressed(Key::home)) go(studio, studio.document.range_first());
+  if (pressed(Key::end)) go(studio, studio.document.range_last());
+}
+
+void take_range_keys(const Studio& studio) {
+  const Document& document = studio.document;
+  if (pressed(Key::i)) studio.edits.set_in_out(document.playhead(), document.out());
+  if (pressed(Key::o)) studio.edits.set_in_out(document.in(), document.playhead());
+  if (pressed(Key::x)) studio.edits.set_in_out(std::nullopt, std::nullopt);
+}
+
+void take_waypoint_keys(const Studio& studio) {
+  if (pressed(Key::up, true)) go_to_waypoint(studio, -1);
+  if (pressed(Key::down, true)) go_to_waypoint(studio, 1);
+  if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(studio);
+  if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(studio);
+  if (pressed(Key::escape)) studio.edits.select({});
+}
+
+void take_control_keys(const Studio& studio) {
+  const bool shift = ImGui::GetIO().KeyShift;
+  if (pressed(Key::z, true)) shift ? studio.edits.redo() : studio.edits.undo();
+  if (pressed(Key::y, true)) studio.edits.redo();
+  if (pressed(Key::n)) studio.edits.ask(NewProject{});
+  if (pressed(Key::o)) studio.edits.ask(OpenProject{});
+  if (pressed(Key::s)) shift ? studio.edits.ask(SaveProjectAs{}) : studio.edits.ask(SaveProject{});
+  if (pressed(Key::e)) studio.edits.ask(ShowExport{});
+  if (pressed(Key::d)) duplicate_selected(studio);
+  if (pressed(Key::q)) studio.edits.ask(Quit{});
+}
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() {
+  return kShortcuts;
+}
+
+void take_keys(const Studio& studio) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) return;
+  if (io.KeyCtrl) {
+    take_control_keys(studio);
+    return;
+  }
+  if (io.KeyAlt) return;
+  take_transport_keys(studio);
+  take_range_keys(studio);
+  take_waypoint_keys(studio);
+  if (pressed(Key::slash) && io.KeyShift) studio.edits.ask(ShowHelp{});
+}
+
+}  // namespace sigs::editor

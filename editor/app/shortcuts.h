@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "editor/views/studio.h"
+
+namespace sigs::editor {
+
+// A key and what it does, for the help page; the same table that take_keys follows.
+struct Shortcut {
+  const char* group;
+  const char* keys;
+  const char* what;
+};
+[[nodiscard]] std::span<const Shortcut> shortcuts();
+
+// Asks for what the keys pressed in this turn mean. Not while text is typed or a dialog is open.
+void take_keys(const Studio& studio);
+
+}  // namespace sigs::editor

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/window.h"
+
+#include <epoxy/gl.h>
+// After epoxy, which brings OpenGL's declarations.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+struct Window::State {
+  GLFWwindow* window = nullptr;
+  double text_px = 0;  // of the fonts that are loaded
+  std::vector<std::filesystem::path> dropped;
+  bool full_screen = false;
+  int x = 0, y = 0, width = 0, height = 0;  // before it filled the screen
+};
+
+namespace {
+
+Error glfw_error(const std::string& what) {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return {"window", what + (text != nullptr ? ": " + std::string(text) : std::string()), ErrorKind::unavailable};
+}
+
+void note_dropped(GLFWwindow* window, int count, const char** paths) {
+  auto* dropped = static_cast<std::vector<std::filesystem::path>*>(glfwGetWindowUserPointer(window));
+  dropped->insert(dropped->end(), paths, paths + count);
+}
+
+double screen_scale(GLFWwindow* window) {
+  float x = 1;
+  float y = 1;
+  glfwGetWindowContentScale(window, &x, &y);
+  return std::clamp(static_cast<double>(std::max(x, y)), 0.5, 4.0);
+}
+
+void start_imgui(GLFWwindow* window) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // what is to be remembered is in our own settings
+  ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
+  ImGui::GetIO().ConfigInputTextCursorBlink = false;
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 330");
+}
+
+}  // namespace
+
+Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
+  if (glfwInit() != GLFW_TRUE) return fail(glfw_error("no display can be opened"));
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_MAXIMIZED, settings.maximised ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "sigs-editor");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "sigs-editor");
+  GLFWwindow* window =
+      glfwCreateWindow(settings.window_width_px, settings.window_height_px, "SIGS", nullptr, nullptr);
+  if (window == nullptr) {
+    const Error error = glfw_error("no window with OpenGL 3.3 can be opened");
+    glfwTerminate();
+    return fail(error);
+  }
+  auto state = std::make_unique<State>();
+  state->window = window;
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(1);
+  glfwSetWindowSizeLimits(window, 800, 480, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSetWindowUserPointer(window, &state->dropped);
+  glfwSetDropCallback(window, note_dropped);
+  start_imgui(window);
+  return std::unique_ptr<Window>(new Window(std::move(state)));
+}
+
+Window::~Window() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwDestroyWindow(state_->window);
+  glfwTerminate();
+}
+
+bool Window::wait(double timeout_s) {
+  const double start_s = glfwGetTime();
+  if (timeout_s > 0)
+    glfwWaitEventsTimeout(timeout_s);
+  else
+    glfwPollEvents();
+  return glfwGetTime() - start_s < timeout_s;
+}
+
+void Window::wake() {
+  glfwPostEmptyEvent();
+}
+
+void Window::begin(const Settings& settings) {
+  const double text_px = std::round(settings.font_px * screen_scale(state_->window));
+  if (text_px != state_->text_px) {
+    load_fonts(text_px);
+    apply_theme();
+    // Made anew, with the fonts, by the next NewFrame.
+    ImGui_ImplOpenGL3_DestroyDeviceObjects();
+    state_->text_px = text_px;
+  }
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Window::end() {
+  ImGui::Render();
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(state_->window, &width, &height);
+  glViewport(0, 0, width, height);
+  glClearColor(0.07F, 0.075F, 0.086F, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(state_->window);
+}
+
+bool Window::wants_to_close() const {
+  return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+}
+
+void Window::refuse_to_close() {
+  glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
+}
+
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(state_->window, title.c_str());
+}
+
+std::vector<std::filesystem::path> Window::take_dropped() {
+  return std::exchange(state_->dropped, {});
+}
+
+void Window::remember_in(Settings& settings) const {
+  settings.maximised = glfwGetWindowAttrib(state_->window, GLFW_MAXIMIZED) == GLFW_TRUE;
+  if (settings.maximised || state_->full_screen) return;
+  const double scale = screen_scale(state_->window);
+  int width = 0;
+  int height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  settings.window_width_px = static_cast<int>(width / scale);
+  settings.window_height_px = static_cast<int>(height / scale);
+}
+
+void Window::toggle_full_screen() {
+  State& s = *state_;
+  s.full_screen = !s.full_screen;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!s.full_screen || monitor == nullptr) {
+    glfwSetWindowMonitor(s.window, nullptr, s.x, s.y, std::max(s.width, 800), std::max(s.height, 480), GLFW_DONT_CARE);
+    return;
+  }
+  glfwGetWindowPos(s.window, &s.x, &s.y);
+  glfwGetWindowSize(s.window, &s.width, &s.height);
+  const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+  glfwSetWindowMonitor(s.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+}  // namespace sigs::editor

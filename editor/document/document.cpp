@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "editor/document/document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/document/moved_paths.h"
+#include "project/json.h"
+
+namespace sigs::editor {
+
+namespace {
+
+// Of history, counted by the waypoints that its states hold: some 150 MB.
+constexpr std::size_t kMostWaypointsInHistory = 2'000'000;
+constexpr std::size_t kMostSteps = 1000;
+
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool finite(const IntruderSettings& intruder) {
+  const TrajectoryPlan& plan = intruder.trajectory;
+  return std::isfinite(intruder.model.scale) && std::isfinite(intruder.model.length_m) &&
+         std::isfinite(plan.bank_limit_deg) &&
+         std::all_of(plan.waypoints.begin(), plan.waypoints.end(), [](const WaypointSettings& waypoint) {
+           return finite(waypoint.position_m) && (!waypoint.frame || std::isfinite(*waypoint.frame));
+         });
+}
+
+bool finite(const Project& project) {
+  const CameraSettings& camera = project.camera;
+  return finite(camera.position_m) && std::isfinite(camera.roll_deg) && std::isfinite(camera.pitch_deg) &&
+         std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) && finite(project.light.position_m) &&
+         finite(project.light.color) && std::isfinite(project.light.ambient) &&
+         std::isfinite(project.compositing.blur_px_per_m) &&
+         std::all_of(project.intruders.begin(), project.intruders.end(),
+                     [](const IntruderSettings& intruder) { return finite(intruder); });
+}
+
+std::size_t waypoints_in(const Project& project) {
+  std::size_t count = 1;
+  for (const IntruderSettings& intruder : project.intruders) count += intruder.trajectory.waypoints.size();
+  return count;
+}
+
+}  // namespace
+
+Document::Document() : Document(Project()) {}
+
+Document::Document(Project project, std::uint64_t first_number)
+    : revision_{first_number, std::make_shared<const Project>(std::move(project))},
+      last_number_(first_number),
+      saved_number_(first_number) {
+  playhead_ = first_frame();
+}
+
+void Document::set_frame_count(int count) {
+  frame_count_ = std::max(0, count);
+  playhead_ = std::clamp(playhead_, 0, std::max(0, frame_count_ - 1));
+}
+
+int Document::first_frame() const {
+  return std::clamp(project().footage.first_frame, 0, std::max(0, frame_count_ - 1));
+}
+
+int Document::last_frame() const {
+  const int footage_last = std::max(0, frame_count_ - 1);
+  return std::clamp(project().footage.last_frame.value_or(footage_last), first_frame(), std::max(first_frame(), footage_last));
+}
+
+int Document::range_first() const {
+  return std::clamp(in_.value_or(first_frame()), first_frame(), last_frame());
+}
+
+int Document::range_last() const {
+  return std::clamp(out_.value_or(last_frame()), range_first(), last_frame());
+}
+
+std::string Document::undo_name() const {
+  return past_.empty() ? std::string() : past_.back().name;
+}
+
+std::string Document::redo_name() const {
+  return future_.empty() ? std::string() : future_.back().name;
+}
+
+void Document::apply(const std::vector<Edit>& edits) {
+  for (const Edit& edit : edits) apply(edit);
+}
+
+void Document::apply(const Edit& edit) {
+  if (const auto* change_project = std::get_if<ChangeProject>(&edit)) change(*change_project);
+  if (std::holds_alternative<EndGesture>(edit)) gesture_.clear();
+  if (std::holds_alternative<Undo>(edit)) step_back();
+  if (std::holds_alternative<Redo>(edit)) step_forward();
+  if (const auto* go = std::get_if<GoToFrame>(&edit)) playhead_ = std::clamp(go->frame, 0, std::max(0, frame_count_ - 1));
+  if (const auto* select = std::get_if<Select>(&edit)) selection_ = select->selection;
+  if (const auto* range = std::get_if<SetInOut>(&edit)) {
+    in_ = range->in;
+    out_ = range->out;
+    if (in_ && out_ && *in_ > *out_) std::swap(*in_, *out_);
+  }
+  keep_selection_valid();
+}
+
+void Document::change(const ChangeProject& change) {
+  Project changed = project();
+  try {
+    change.change(changed);
+  } catch (const std::exception&) {
+    return;
+  }
+  if (!finite(changed) || changed == project()) return;
+  const bool joins = !change.gesture.empty() && change.gesture == gesture_ && !past_.empty();
+  if (!joins) past_.push_back({change.name, revision_, selection_});
+  gesture_ = change.gesture;
+  future_.clear();
+  revision_ = {++last_number_, std::make_shared<const Project>(std::move(changed))};
+  const std::size_t room = std::max<std::size_t>(10, kMostWaypointsInHistory / waypoints_in(project()));
+  while (past_.size() > std::min(kMostSteps, room)) past_.erase(past_.begin());
+}
+
+void Document::step_back() {
+  gesture_.clear();
+  if (past_.empty()) return;
+  Step step = std::move(past_.back());
+  past_.pop_back();
+  future_.push_back({step.name, std::exchange(revision_, step.before), std::exchange(selection_, step.selection)});
+}
+
+void Document::step_forward() {
+  gesture_.clear();
+  if (future_.empty()) return;
+  Step step = std::move(future_.back());
+  future_.pop_back();
+  past_.push_back({step.name, std::exchange(revision_, step.before), std::exchange(selection_, step.selection)});
+}
+
+void Document::keep_selection_valid() {
+  const auto intruders = static_cast<int>(project().intruders.size());
+  const bool of_intruder = selection_.kind == Selected::intruder || selection_.kind == Selected::waypoint;
+  if (!of_intruder) return;
+  if (intruders == 0) {
+    selection_ = {};
+    return;
+  }
+  selection_.intruder = std::clamp(selection_.intruder, 0, intruders - 1);
+  if (selection_.kind != Selected::waypoint) return;
+  const auto waypoints =
+      static_cast<int>(project().intruders[static_cast<std::size_t>(selection_.intruder)].trajectory.waypoints.size());
+  if (waypoints == 0) selection_ = {Selected::intruder, selection_.intruder, 0};
+  selection_.waypoint = std::clamp(selection_.waypoint, 0, std::max(0, waypoints - 1));
+}
+
+Result<void> Document::save() {
+  return save_as(project().file);
+}
+
+Result<void> Document::save_as(const std::filesystem::path& path) {
+  if (path.empty()) return fail("", "the project has no file name", ErrorKind::cannot_create);
+  Project moved = moved_to(project(), path);
+  if (const Result<void> written = write_project(moved, path, true); !written) return written;
+  if (moved != project()) revision_ = {++last_number_, std::make_shared<const Project>(std::move(moved))};
+  saved_number_ = revision_.number;
+  gesture_.clear();
+  return {};
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "editor/document/edits.h"
+#include "project/project.h"
+
+namespace sigs::editor {
+
+enum class DroppedKind { nothing, project, video, calibration, model, mask };
+
+// What a file is that was dropped onto the window: by its first bytes, else by its extension.
+struct Dropped {
+  DroppedKind kind = DroppedKind::nothing;
+  std::filesystem::path path;
+  std::string problem;  // of nothing: what to tell
+};
+[[nodiscard]] Dropped what_was_dropped(const std::filesystem::path& path);
+
+// What it means for the project: footage, calibration or mask are replaced; a model replaces that of the selected
+// intruder, or is a further intruder 300 m ahead of the camera. Nothing for projects and for what is none of these.
+[[nodiscard]] std::optional<ChangeProject> change_by(const Dropped& dropped, const Selection& selection);
+
+}  // namespace sigs::editor

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "project/fields.h"
+
+namespace sigs::editor {
+
+// What a field holds, by itself; of a Choice the number of the name.
+struct ChosenName {
+  int index = 0;
+  [[nodiscard]] bool operator==(const ChosenName&) const = default;
+};
+using PlainValue = std::variant<double, int, std::optional<double>, std::optional<int>, std::string, glm::dvec3,
+                                std::vector<std::string>, ChosenName>;
+
+[[nodiscard]] PlainValue value_of(const Field& field);
+
+// Numbers are brought into the field's range. A value of another type, one that is not finite and a name that a choice
+// does not have leave the field alone; false then.
+bool put_value(const Field& field, const PlainValue& value);
+
+// By the field's key; false too where the project has no such field. Quick however many waypoints there are, unless the
+// key is a waypoint's.
+bool put_value(Project& project, std::string_view key, const PlainValue& value);
+
+// The fields of one state of a project, to be looked at for as long as that state lasts. Without the waypoints', of
+// which there can be ten thousand.
+class FieldSheet {
+ public:
+  explicit FieldSheet(const Project& project);
+
+  [[nodiscard]] const std::vector<Field>& fields() const { return fields_; }
+  [[nodiscard]] const Field* find(std::string_view key) const;  // null: there is none
+
+  // What a new project would have there.
+  [[nodiscard]] PlainValue default_of(const Field& field) const;
+  // Differs from the default, and the default is a value to go back to: a path that may not be empty has none.
+  [[nodiscard]] bool can_be_reset(const Field& field) const;
+
+ private:
+  std::unique_ptr<Project> project_;  // the fields point into them
+  std::unique_ptr<Project> defaults_;
+  std::vector<Field> fields_;
+  std::vector<Field> default_fields_;  // in the same order
+};
+
+}  // namespace sigs::editor

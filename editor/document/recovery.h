@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "editor/document/document.h"
+#include "project/json.h"
+
+namespace sigs::editor {
+
+// What an editor that did not come to its end left behind.
+struct AbandonedProject {
+  std::filesystem::path recovery_file;
+  std::filesystem::path project_file;  // where the project belongs; "": it was never saved
+  std::string name;
+  std::int64_t written_unix_s = 0;
+};
+
+// $XDG_STATE_HOME/sigs/recovery, else ~/.local/state/sigs/recovery.
+[[nodiscard]] std::filesystem::path recovery_folder();
+
+// Those whose editor no longer runs, newest first. A folder that is not there holds none.
+[[nodiscard]] std::vector<AbandonedProject> abandoned_projects(const std::filesystem::path& folder);
+
+// Removes it for good.
+void discard(const AbandonedProject& abandoned);
+
+// The unsaved changes of one running editor, kept in a file of their own until they are saved or given up. A lock
+// beside that file is held while the editor runs: what is not locked was abandoned.
+class Recovery {
+ public:
+  explicit Recovery(std::filesystem::path folder);
+  ~Recovery();  // leaves the file, for the case that this is no orderly end; forget() comes first
+  Recovery(const Recovery&) = delete;
+  Recovery& operator=(const Recovery&) = delete;
+
+  // Once a turn: writes what is unsaved as soon as a change is that old, removes the file where nothing is unsaved.
+  // An error is told once, and again only after writing went well in between; writing is tried again each delay_s.
+  [[nodiscard]] std::optional<Error> keep(const Document& document, double now_s, double delay_s);
+
+  // What keep() would do, at once: before something that may end the program.
+  [[nodiscard]] Result<void> write(const Document& document);
+
+  // Saved, or given up.
+  void forget();
+
+  // Makes an abandoned project this editor's own: its file becomes ours until the document is saved or given up.
+  // Error cannot_read where another editor was quicker.
+  [[nodiscard]] Result<ReadProject> take_over(const AbandonedProject& abandoned);
+
+ private:
+  [[nodiscard]] Result<void> hold_lock();
+
+  std::filesystem::path folder_;
+  std::filesystem::path file_;  // ours, whether it is there or not
+  int lock_ = -1;               // file descriptor, open while the lock is held
+  bool written_ = false;
+  std::uint64_t kept_revision_ = 0;  // the state that lies in the file
+  std::optional<double> waiting_since_s_;
+  bool told_ = false;
+};
+
+}  // namespace sigs::editor

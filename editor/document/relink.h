@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "project/project.h"
+
+namespace sigs::editor {
+
+// A file that the project names and that is not there.
+struct MissingFile {
+  std::string field;            // "footage.video"
+  std::string path;             // as the project has it
+  std::filesystem::path place;  // where that is: absolute
+
+  [[nodiscard]] bool operator==(const MissingFile&) const = default;
+};
+[[nodiscard]] std::vector<MissingFile> missing_files(const Project& project);
+
+// A field's file at another place.
+struct Relinked {
+  std::string field;
+  std::filesystem::path place;
+
+  [[nodiscard]] bool operator==(const Relinked&) const = default;
+};
+
+// Where the others probably are, once one is found: what has moved with it lies at the same place relative to it. The
+// folders that both of its places end with count as moved along, first as many as possible, then fewer; at last the
+// new folder itself is looked into. Proposes only files that exist; the found one is not among them.
+[[nodiscard]] std::vector<Relinked> suggested_places(const std::vector<MissingFile>& missing, const MissingFile& found,
+                                                     const std::filesystem::path& new_place);
+
+// Writes them into the project, as path_in_project names files. Fields that it does not have are passed over.
+void relink(Project& project, const std::vector<Relinked>& places);
+
+}  // namespace sigs::editor

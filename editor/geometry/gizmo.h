@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "editor/geometry/orbit_camera.h"
+
+namespace sigs::editor {
+
+// A handle for moving a point: three axis arrows, three plane handles, and the middle, which moves in the screen's
+// plane.
+enum class GizmoPart { none, x, y, z, xy, yz, zx, screen };
+
+// Of a size on the screen that does not depend on how far it is.
+struct Gizmo {
+  glm::dvec3 center_m{0, 0, 0};
+  double arrow_px = 90;
+};
+
+// Lines and quads of the gizmo on the screen; nothing where its centre is not in sight.
+struct GizmoShape {
+  glm::dvec2 center{0, 0};
+  std::array<std::optional<glm::dvec2>, 3> tips;                   // none: the axis points at the eye
+  std::array<std::optional<std::array<glm::dvec2, 4>>, 3> planes;  // xy, yz, zx; none: seen edge-on
+};
+[[nodiscard]] std::optional<GizmoShape> gizmo_shape(const Gizmo& gizmo, const OrbitCamera& camera,
+                                                    const ScreenRect& rect);
+
+// What the mouse is over, within `reach_px` of it. The middle before planes before arrows.
+[[nodiscard]] GizmoPart part_at(const GizmoShape& shape, const glm::dvec2& mouse, double reach_px = 7);
+
+struct GizmoDrag {
+  GizmoPart part = GizmoPart::none;
+  glm::dvec3 start_m{0, 0, 0};  // of what is dragged
+  glm::dvec2 start_mouse{0, 0};
+};
+
+// Where the point is once the mouse has come from start_mouse to mouse: the point keeps under the mouse on the axis or
+// plane. Where that has no answer (an axis seen end-on, a plane beyond its horizon) it stays at start_m. Always finite,
+// never farther than 1e8 m from the world's origin in any axis. snap_m > 0: the coordinates that move are rounded to
+// multiples of it.
+[[nodiscard]] glm::dvec3 dragged(const GizmoDrag& drag, const glm::dvec2& mouse, const OrbitCamera& camera,
+                                 const ScreenRect& rect, double snap_m = 0);
+
+// A step that suits the zoom: 1, 2 or 5 times a power of ten, about 8 screen pixels or more.
+[[nodiscard]] double snap_step_m(const OrbitCamera& camera, const glm::dvec3& at_m, const ScreenRect& rect);
+
+}  // namespace sigs::editor

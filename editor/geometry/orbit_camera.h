@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "editor/geometry/picture_view.h"
+
+namespace sigs::editor {
+
+struct Ray {
+  glm::dvec3 origin_m{0, 0, 0};
+  glm::dvec3 direction{1, 0, 0};  // unit
+};
+
+enum class Projection { perspective, parallel };
+
+// The eye of the world view: looks at a target from a distance. World axes as everywhere: X forward, Y right, Z down.
+struct OrbitCamera {
+  glm::dvec3 target_m{0, 0, 0};
+  double distance_m = 1000;
+  double bearing_rad = 0;    // in which compass direction it looks, from world X towards Y
+  double elevation_rad = 0;  // how far it looks down; pi/2: from above, with the bearing up on the screen
+  Projection projection = Projection::perspective;
+  double field_rad = 0.8;  // across the shorter side of the screen; parallel: as wide at the target
+
+  [[nodiscard]] glm::dvec3 eye_m() const;
+  // Unit, in the world: where it looks, to the right and up on the screen.
+  [[nodiscard]] glm::dvec3 forward() const;
+  [[nodiscard]] glm::dvec3 right() const;
+  [[nodiscard]] glm::dvec3 up() const;
+
+  // Screen pixels a metre at the depth of a point.
+  [[nodiscard]] double pixels_per_metre(const glm::dvec3& p_in_world, const ScreenRect& rect) const;
+  // Nothing for what lies less than a thousandth of the distance before the eye; a parallel projection has no eye to be
+  // behind of and shows everything. Nothing for what is not finite.
+  [[nodiscard]] std::optional<glm::dvec2> screen_of(const glm::dvec3& p_in_world, const ScreenRect& rect) const;
+  [[nodiscard]] Ray ray_at(const glm::dvec2& screen, const ScreenRect& rect) const;
+};
+
+// A line of the world as the screen shows it, cut where it passes behind the eye and more than 10,000 pixels beside the
+// rect, so that its ends fit floats. Nothing where all of it lies there.
+[[nodiscard]] std::optional<std::array<glm::dvec2, 2>> screen_line(const OrbitCamera& camera, const ScreenRect& rect,
+                                                                   const glm::dvec3& a_m, const glm::dvec3& b_m);
+
+// Dragging with the mouse, by screen pixels. Elevation stays within -pi/2..pi/2, distance within 0.1 m..1e9 m,
+// the target within 1e9 m of the world's origin in each axis. What is not finite moves nothing.
+[[nodiscard]] OrbitCamera orbited(const OrbitCamera& camera, const glm::dvec2& by_px);
+[[nodiscard]] OrbitCamera panned(const OrbitCamera& camera, const glm::dvec2& by_px, const ScreenRect& rect);
+// Nearer by a factor, so that what lies under the cursor at the target's depth stays there.
+[[nodiscard]] OrbitCamera approached(const OrbitCamera& camera, double factor, const glm::dvec2& at_screen,
+                                     const ScreenRect& rect);
+// The same direction, moved so that all points are in sight with some margin. No points: unchanged; all points at one
+// place: it looks there from the distance it had.
+[[nodiscard]] OrbitCamera framing(const OrbitCamera& camera, std::span<const glm::dvec3> points_m,
+                                  const ScreenRect& rect);
+
+}  // namespace sigs::editor

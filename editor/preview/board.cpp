@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/board.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::chrono::milliseconds kSoon(250);          // how long the window may not hear of frames fetched ahead
+constexpr std::chrono::milliseconds kStillEditing(200);  // after an edit the next one is likely
+constexpr std::size_t kRevisionsKnown = 4096;
+
+std::size_t bytes_of(const cv::Mat& picture) {
+  return picture.total() * picture.elemSize();
+}
+
+std::size_t bytes_of(const Picture& picture) {
+  return bytes_of(picture.bgr) + bytes_of(picture.mask);
+}
+
+std::size_t bytes_of(const Decoded& decoded) {
+  std::size_t sum = 0;
+  for (const cv::Mat& plane : decoded.frame.planes) sum += bytes_of(plane);
+  return sum;
+}
+
+bool is_same(const std::optional<Wanted::Turntable>& a, const std::optional<Wanted::Turntable>& b) {
+  if (!a || !b) return !a && !b;
+  return a->intruder == b->intruder && a->turn_rad == b->turn_rad && a->size_px == b->size_px;
+}
+
+bool is_same(const Wanted& a, const Wanted& b) {
+  return a.revision.number == b.revision.number && a.frame == b.frame && a.direction == b.direction &&
+         a.range_first == b.range_first && a.range_last == b.range_last && a.playing == b.playing &&
+         a.footage == b.footage && a.stages == b.stages && a.compare_with == b.compare_with &&
+         is_same(a.turntable, b.turntable);
+}
+
+}  // namespace
+
+std::vector<int> frames_ahead(const Wanted& wanted, int frame_count, int most) {
+  const int first = std::clamp(wanted.range_first, 0, frame_count - 1);
+  const int last = std::clamp(wanted.range_last, first, frame_count - 1);
+  const int step = wanted.direction < 0 ? -1 : 1;
+  const int length = last - first + 1;
+  std::vector<int> frames;
+  for (int i = 1; i <= std::min(most, length); ++i) {
+    int frame = wanted.frame + step * i;
+    const bool is_past = step > 0 ? frame > last : frame < first;
+    if (is_past && !wanted.playing) break;
+    if (is_past) frame -= step * length;
+    if (frame >= first && frame <= last && frame != wanted.frame) frames.push_back(frame);
+  }
+  return frames;
+}
+
+Board::Board(PreviewLimits limits, std::function<void()> wake)
+    : wake_(std::move(wake)), limits_(limits), decoded_(limits.cache_bytes / 2), pictures_(limits.cache_bytes) {}
+
+void Board::look_up() {
+  ++version_;
+  changed_.notify_all();
+}
+
+bool Board::tells_now(bool at_once) {
+  news_ = true;
+  const Clock::time_point now = Clock::now();
+  if (stop_ || (!at_once && now - told_ < kSoon)) return false;
+  told_ = now;
+  news_ = false;
+  return true;
+}
+
+template <class Change>
+void Board::put(bool at_once, const Change& change) {
+  bool call = false;
+  {
+    const std::lock_guard lock(mutex_);
+    change();
+    call = tells_now(at_once);
+  }
+  if (call && wake_) wake_();
+}
+
+int Board::clamped(int frame) const {
+  if (!scene_) return frame;
+  return std::clamp(frame, 0, static_cast<int>(scene_->footage->shape.times_s.size()) - 1);
+}
+
+std::optional<FrameKey> Board::wanted_key() const {
+  if (!wanted_) return std::nullopt;
+  const auto state = state_of_revision_.find(wanted_->revision.number);
+  if (state == state_of_revision_.end()) return std::nullopt;
+  return FrameKey{state->second, clamped(wanted_->frame)};
+}
+
+std::shared_ptr<const Picture> Board::found(FrameKey key) const {
+  return newest_.is(key) ? newest_.value : pictures_.find(key);
+}
+
+bool Board::is_decoded(FrameKey key) const {
+  return fresh_.is(key) || decoded_.find(key) != nullptr;
+}
+
+// What the playhead meets in the cache is what is shown from then on.
+void Board::follow_playhead() {
+  if (const std::optional<FrameKey> key = wanted_key()) {
+    pictures_.set_playhead(*key);
+    if (const auto picture = found(*key)) newest_ = {*key, picture};
+  }
+  if (wanted_) decoded_.set_playhead({footage_.id, clamped(wanted_->frame)});
+}
+
+void Board::want(const Wanted& wanted) {
+  const std::lock_guard lock(mutex_);
+  if (wanted_ && is_same(*wanted_, wanted)) return;
+  if (!wanted_ || wanted_->revision.number != wanted.revision.number) revised_ = Clock::now();
+  wanted_ = wanted;
+  follow_playhead();
+  look_up();
+}
+
+Shown Board::shown() const {
+  const std::lock_guard lock(mutex_);
+  Shown shown{.scene = scene_,
+              .picture = newest_.value,
+              .surveys = surveys_,
+              .model = model_,
+              .opening = footage_wanted_.id != footage_.id,
+              .compose_ms = compose_ms_};
+  const std::optional<FrameKey> key = wanted_key();
+  if (key) {
+    const FrameKey footage{footage_.id, key->frame};
+    shown.picture_is_current = newest_.is(*key);
+    if (wanted_->footage && untouched_.is(footage)) shown.footage = untouched_.value;
+    if (wanted_->stages && staged_.is(*key)) shown.staged = staged_.value;
+    if (wanted_->compare_with && compared_.is(*key) && compared_.value->method == wanted_->compare_with)
+      shown.compared = compared_.value;
+  }
+  if (scene_) shown.cached.resize(scene_->footage->shape.times_s.size());
+  if (key)
+    for (const int frame : pictures_.frames_of(key->state))
+      if (static_cast<std::size_t>(frame) < shown.cached.size()) shown.cached[static_cast<std::size_t>(frame)] = true;
+  shown.busy = wanted_ && (!shown.picture_is_current || composing_ || decoding_ || shown.opening);
+  return shown;
+}
+
+void Board::set_modest(bool modest) {
+  const std::lock_guard lock(mutex_);
+  modest_ = modest;
+  look_up();
+}
+
+void Board::stop() {
+  const std::lock_guard lock(mutex_);
+  stop_ = true;
+  look_up();
+}
+
+bool Board::may_fetch_ahead() const {
+  return !modest_ && Clock::now() - revised_ >= kStillEditing;
+}
+
+std::optional<FrameKey> Board::next_to_decode() const {
+  const bool is_there = footage_.id != 0 && footage_.id == footage_wanted_.id && opened_footage_->video;
+  if (!wanted_ || !is_there) return std::nullopt;
+  const int count = opened_footage_->video->frame_count();
+  const FrameKey first{footage_.id, std::clamp(wanted_->frame, 0, count - 1)};
+  if (!is_decoded(first)) return first;
+  if (modest_) return std::nullopt;
+  const std::optional<FrameKey> shown = wanted_key();
+  for (const int frame : frames_ahead(*wanted_, count, limits_.ahead)) {
+    const FrameKey key{footage_.id, frame};
+    if (shown && pictures_.find({shown->state, frame})) continue;
+    if (decoded_.find(key)) continue;
+    if (!decoded_.would_keep(key, decoded_bytes_)) break;
+    return key;
+  }
+  return std::nullopt;
+}
+
+std::optional<DecodingTask> Board::next_decoding() {
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    DecodingTask task;
+    if (arrived_) {
+      task.adopt = true;
+      task.source = *std::exchange(arrived_, std::nullopt);
+      return task;
+    }
+    if (std::exchange(opening_, footage_wanted_.id) != footage_wanted_.id && footage_wanted_.id != footage_.id) {
+      task.open = footage_wanted_;
+      return task;
+    }
+    task.decode = next_to_decode();
+    decoding_ = task.decode.has_value();
+    if (task.decode) return task;
+    changed_.wait(lock);
+  }
+  return std::nullopt;
+}
+
+void Board::put_opened(const FootageId& footage, OpenedFootage opened) {
+  put(true, [&] {
+    if (footage.id != footage_wanted_.id) return;
+    footage_ = footage;
+    opened_footage_ = std::move(opened.footage);
+    arrived_ = std::move(opened.source);
+    follow_playhead();
+    look_up();
+  });
+}
+
+void Board::put_decoded(FrameKey key, std::shared_ptr<const Decoded> decoded) {
+  const std::lock_guard lock(mutex_);
+  decoded_bytes_ = bytes_of(*decoded);
+  // What lies ahead takes the place of nothing that is wanted at this moment.
+  if (!wanted_ || key.frame == clamped(wanted_->frame) || !is_decoded({footage_.id, clamped(wanted_->frame)}))
+    fresh_ = {key, decoded};
+  decoded_.put(key, std::move(decoded), decoded_bytes_);
+  look_up();
+}
+
+std::optional<Turn> Board::turn() {
+  const std::lock_guard lock(mutex_);
+  if (stop_) return std::nullopt;
+  Turn turn{.version = version_,
+            .wanted = wanted_,
+            .footage = footage_,
+            .opened_footage = opened_footage_,
+            .ahead = may_fetch_ahead()};
+  if (fresh_.value) turn.fresh = fresh_.key;
+  return turn;
+}
+
+void Board::rest(std::uint64_t version, std::chrono::milliseconds at_most) {
+  bool call = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (composing_ || news_) call = tells_now(true);
+    composing_ = false;
+  }
+  if (call && wake_) wake_();
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, at_most, [&] { return stop_ || version_ != version; });
+}
+
+void Board::name_revision(std::uint64_t revision, std::uint64_t state, const FootageId& footage) {
+  const std::lock_guard lock(mutex_);
+  const bool is_known = state_of_revision_.contains(revision) && state_of_revision_[revision] == state;
+  if (is_known && footage_wanted_.id == footage.id) return;
+  state_of_revision_[revision] = state;
+  if (state_of_revision_.size() > kRevisionsKnown) state_of_revision_.erase(state_of_revision_.begin());
+  footage_wanted_ = footage;
+  follow_playhead();
+  look_up();
+}
+
+std::shared_ptr<const Decoded> Board::decoded(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return fresh_.is(key) ? fresh_.value : decoded_.find(key);
+}
+
+bool Board::has_picture(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return found(key) != nullptr;
+}
+
+std::optional<int> Board::next_ahead(const Turn& turn, std::uint64_t state, int frame_count) const {
+  const std::lock_guard lock(mutex_);
+  for (const int frame : frames_ahead(*turn.wanted, frame_count, limits_.ahead)) {
+    const FrameKey key{state, frame};
+    if (found(key)) continue;
+    if (!pictures_.would_keep(key, picture_bytes_)) break;
+    const bool is_there = !turn.opened_footage->video || is_decoded({turn.footage.id, frame});
+    return is_there ? std::optional(frame) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void Board::put_scene(std::shared_ptr<const OpenedScene> scene) {
+  put(true, [&] {
+    scene_ = std::move(scene);
+    if (surveys_.size() != scene_->draft.intruder_of_project.size())
+      surveys_.assign(scene_->draft.intruder_of_project.size(), nullptr);
+    composing_ = true;
+    follow_playhead();
+  });
+}
+
+void Board::put_picture(FrameKey key, std::shared_ptr<const Picture> picture, double took_ms, bool was_wanted) {
+  put(was_wanted, [&] {
+    composing_ = true;
+    picture_bytes_ = bytes_of(*picture);
+    if (was_wanted) {
+      newest_ = {key, picture};
+      compose_ms_ = took_ms;
+    }
+    pictures_.put(key, std::move(picture), picture_bytes_);
+    follow_playhead();
+  });
+}
+
+void Board::put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr) {
+  put(true, [&] { untouched_ = {key, std::move(bgr)}; });
+}
+
+void Board::put_staged(FrameKey key, std::shared_ptr<const Picture> picture) {
+  put(true, [&] { staged_ = {key, std::move(picture)}; });
+}
+
+void Board::put_compared(FrameKey key, std::shared_ptr<const Picture> picture) {
+  put(true, [&] { compared_ = {key, std::move(picture)}; });
+}
+
+bool Board::has_untouched(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return untouched_.is(key);
+}
+
+bool Board::has_staged(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return staged_.is(key);
+}
+
+bool Board::has_compared(FrameKey key, MethodChoice method, bool staged) const {
+  const std::lock_guard lock(mutex_);
+  if (!compared_.is(key) || compared_.value->method != method) return false;
+  return !staged || !compared_.value->stages.empty() || !compared_.value->problem.empty();
+}
+
+void Board::put_surveys(std::vector<std::shared_ptr<const Survey>> surveys) {
+  put(true, [&] { surveys_ = std::move(surveys); });
+}
+
+void Board::put_model(std::shared_ptr<const ModelPicture> model) {
+  put(true, [&] { model_ = std::move(model); });
+}
+
+}  // namespace sigs::editor

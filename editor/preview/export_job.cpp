@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/export_job.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <utility>
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr int kNiceness = 10;
+
+// Linux keeps niceness by thread, and threads inherit it from the one that makes them: those of the exporter, of the
+// codecs and of the OpenGL driver follow. Where it is refused, the export is merely less polite.
+void be_polite() {
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
+}
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+ExportJob::ExportJob(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+ExportJob::~ExportJob() {
+  cancel_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+bool ExportJob::start(ExportRequest request) {
+  if (is_running()) return false;
+  if (thread_.joinable()) thread_.join();
+  cancel_ = false;
+  rate_ = {};
+  state_ = {.phase = ExportPhase::running, .request = std::move(request)};
+  thread_ = std::thread([this] { run(); });
+  return true;
+}
+
+void ExportJob::run() {
+  be_polite();
+  const ExportControl control{.progress =
+                                  [this](int done, int total) {
+                                    {
+                                      const std::lock_guard lock(mutex_);
+                                      state_.done = done;
+                                      state_.total = total;
+                                      rate_.note(now_s(), done);
+                                    }
+                                    wake_();
+                                  },
+                              .warn =
+                                  [this](const Warning& warning) {
+                                    const std::lock_guard lock(mutex_);
+                                    state_.warnings.push_back(warning);
+                                  },
+                              .cancel = &cancel_};
+  Result<ExportReport> report = export_project(state_.request, control);
+  {
+    const std::lock_guard lock(mutex_);
+    if (report) {
+      state_.phase = ExportPhase::done;
+      state_.report = std::move(*report);
+    } else {
+      const bool interrupted = report.error().kind == ErrorKind::interrupted;
+      state_.phase = interrupted ? ExportPhase::cancelled : ExportPhase::failed;
+      state_.error = report.error();
+    }
+  }
+  wake_();
+}
+
+void ExportJob::cancel() {
+  const std::lock_guard lock(mutex_);
+  if (state_.phase != ExportPhase::running) return;
+  cancel_ = true;
+  state_.is_stopping = true;
+}
+
+bool ExportJob::is_running() const {
+  const std::lock_guard lock(mutex_);
+  return state_.is_running();
+}
+
+ExportState ExportJob::state() const {
+  const std::lock_guard lock(mutex_);
+  ExportState state = state_;
+  state.rate_hz = rate_.rate_hz();
+  state.left_s = rate_.left_s(state.total);
+  return state;
+}
+
+void ExportJob::dismiss() {
+  const std::lock_guard lock(mutex_);
+  if (!state_.is_running()) state_ = {};
+}
+
+}  // namespace sigs::editor

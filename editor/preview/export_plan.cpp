@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/export_plan.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_plain(char c) {
+  const std::string_view others = "_-./,:@%+=";
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         others.find(c) != std::string_view::npos;
+}
+
+std::string quoted(const std::string& word) {
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain) && word.front() != '-') return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, avi for mjpeg; png gives a folder of pictures.
+std::string ending_of(const ExportSettings& output) {
+  if (output.codec == CodecChoice::png) return "";
+  switch (output.container) {
+    case ContainerChoice::mkv:
+      return ".mkv";
+    case ContainerChoice::mp4:
+      return ".mp4";
+    case ContainerChoice::avi:
+      return ".avi";
+    case ContainerChoice::automatic:
+      break;
+  }
+  if (output.codec == CodecChoice::h264) return ".mp4";
+  return output.codec == CodecChoice::mjpeg ? ".avi" : ".mkv";
+}
+
+}  // namespace
+
+fs::path usual_export_folder(const Project& project) {
+  if (!project.file.empty()) return fs::absolute(project.file).lexically_normal().parent_path() / "out";
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home != '\0' ? fs::path(home) / "out" : fs::absolute("out");
+}
+
+std::vector<fs::path> outputs_of(const Project& project, const fs::path& folder) {
+  const ExportSettings& output = project.output;
+  std::vector<fs::path> paths{folder / (project.name + ending_of(output))};
+  if (output.masks == MasksChoice::video) paths.push_back(folder / (project.name + ".masks.mkv"));
+  if (output.masks == MasksChoice::png) paths.push_back(folder / (project.name + ".masks"));
+  if (!output.labels.empty()) paths.push_back(folder / (project.name + ".xml"));
+  return paths;
+}
+
+std::vector<fs::path> outputs_there(const Project& project, const fs::path& folder) {
+  std::vector<fs::path> paths = outputs_of(project, folder);
+  std::erase_if(paths, [](const fs::path& path) {
+    std::error_code code;
+    return !fs::exists(path, code);
+  });
+  return paths;
+}
+
+std::string export_command(const ExportRequest& request) {
+  const fs::path& file = request.project.file;
+  std::string text = "sigs export " + (file.empty() ? std::string("PROJECT.json") : quoted(file.string()));
+  if (request.frames)
+    text += " --frames " + std::to_string(request.frames->first) + "-" + std::to_string(request.frames->last);
+  text += " --out " + quoted(request.folder.string());
+  if (request.overwrite) text += " --force";
+  return text;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "project/project.h"
+
+namespace sigs::editor {
+
+// A file as it lies on disk at one moment: where it changes, what was made from it is out of date.
+struct FileStamp {
+  std::filesystem::path path;  // "": none is named
+  std::uintmax_t bytes = 0;
+  std::filesystem::file_time_type changed;
+  bool exists = false;
+
+  [[nodiscard]] bool operator==(const FileStamp&) const = default;
+};
+[[nodiscard]] FileStamp stamp_of(const std::filesystem::path& path);
+
+// All that the pictures of a project depend on. Two projects with equal names have the same pictures: the project's own
+// name, its place, its export settings and what this program does not know are left out.
+struct PictureName {
+  Project project;  // paths resolved
+  std::vector<FileStamp> files;
+
+  [[nodiscard]] bool operator==(const PictureName&) const = default;
+};
+[[nodiscard]] PictureName picture_name_of(const Project& project);
+
+[[nodiscard]] FileStamp footage_name_of(const Project& project);
+
+// Gives equal names equal numbers, from 1 on. Only the last few thousand names are remembered.
+template <class Name>
+class NameBook {
+ public:
+  [[nodiscard]] std::uint64_t number_of(Name name) {
+    for (const auto& [known, number] : book_)
+      if (known == name) return number;
+    if (book_.size() >= kMost) book_.pop_back();
+    book_.emplace_front(std::move(name), ++last_);
+    return last_;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 2048;
+  std::deque<std::pair<Name, std::uint64_t>> book_;  // newest first
+  std::uint64_t last_ = 0;
+};
+
+}  // namespace sigs::editor

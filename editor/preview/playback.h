@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+namespace sigs::editor {
+
+// Frames that are played, both included.
+struct PlayRange {
+  int first = 0;
+  int last = 0;
+  bool loop = false;
+};
+
+// When footage shows which frame: frame n from times_s[n] until times_s[n + 1], the last one for interval_s.
+struct PlayTimes {
+  std::span<const double> times_s;  // not decreasing, at least one
+  double interval_s = 0.04;
+};
+
+// The frame to show; over: the range is played to its end and does not loop.
+struct PlayedFrame {
+  int frame = 0;
+  bool over = false;
+};
+
+// The play clock. It tells which frame is due at a moment, so a slow machine drops frames and never lags. It has no
+// clock of its own: moments are seconds of any steady clock. Rates vary as the footage's time stamps do.
+class Playback {
+ public:
+  // From the start of that frame on (backwards: from its end). speed: times the footage's own, below 0 backwards.
+  void play(double now_s, int frame, double speed);
+  void pause() { speed_ = 0; }
+
+  [[nodiscard]] bool playing() const { return speed_ != 0; }
+  [[nodiscard]] double speed() const { return speed_; }  // 0: pausing
+
+  // What is due. From a frame outside the range it plays on into the range; where the range lies behind, or ends with
+  // that frame, it begins at the range's other end. Frames are clamped to the footage. Pausing: the frame it began at.
+  [[nodiscard]] PlayedFrame frame_at(double now_s, const PlayTimes& times, const PlayRange& range) const;
+
+ private:
+  double start_s_ = 0;
+  int start_frame_ = 0;
+  double speed_ = 0;
+};
+
+}  // namespace sigs::editor

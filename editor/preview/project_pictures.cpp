@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/project_pictures.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+
+#include "export.h"
+#include "frame.h"
+#include "outlook.h"
+#include "project/json.h"
+#include "scene/scene.h"
+#include "video/frame_source.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFramesLookedAt = 40;
+constexpr double kLargest = 0.3;  // of the picture's width: beyond it the landscape is hardly seen
+constexpr double kAround = 5;     // times the intruder's size
+
+bool is_whole(const Box& box, cv::Size size_px) {
+  return box.x > 0 && box.y > 0 && box.x + box.width < size_px.width && box.y + box.height < size_px.height;
+}
+
+// The largest sight of an intruder that lies in the picture as a whole.
+std::optional<Outlook> best_sight(const Scene& scene) {
+  const OutlookPoints points(scene);
+  const cv::Size size_px = scene.footage.size_px;
+  std::optional<Outlook> best;
+  for (int i = 0; i < kFramesLookedAt; ++i) {
+    const int frame = scene.first_frame + (scene.last_frame - scene.first_frame) * i / (kFramesLookedAt - 1);
+    for (int intruder = 0; intruder < static_cast<int>(scene.intruders.size()); ++intruder) {
+      const Outlook sight = points.at(intruder, frame);
+      if (sight.sighting != Sighting::in_view || !sight.silhouette || !is_whole(*sight.silhouette, size_px)) continue;
+      if (sight.size_px > kLargest * size_px.width || (best && sight.size_px <= best->size_px)) continue;
+      best = sight;
+    }
+  }
+  return best;
+}
+
+// Of the wanted shape, within the picture, as wide as that many pixels.
+cv::Rect window_around(cv::Point2d center, double width, cv::Size picture, cv::Size shape) {
+  const double aspect = double(shape.height) / shape.width;
+  const double most = std::min<double>(picture.width, picture.height / aspect);
+  const double w = std::clamp(width, std::min<double>(most, shape.width), most);
+  const double h = w * aspect;
+  const cv::Rect window(static_cast<int>(std::clamp(center.x - w / 2, 0.0, picture.width - w)),
+                        static_cast<int>(std::clamp(center.y - h / 2, 0.0, picture.height - h)),
+                        std::max(1, static_cast<int>(w)), std::max(1, static_cast<int>(h)));
+  return window & cv::Rect({0, 0}, picture);
+}
+
+cv::Mat scaled_piece(const cv::Mat& bgr, const cv::Rect& window, cv::Size size_px) {
+  cv::Mat picture;
+  cv::resize(bgr(window), picture, size_px, 0, 0, cv::INTER_AREA);
+  return picture;
+}
+
+Result<cv::Mat> untouched_picture(FrameSource& source, cv::Size size_px) {
+  const Result<Frame> frame = source.read(source.info().frame_count() / 2);
+  if (!frame) return fail(frame.error());
+  const cv::Mat bgr = bgr_of(*frame);
+  return scaled_piece(bgr, window_around({bgr.cols / 2.0, bgr.rows / 2.0}, bgr.cols, bgr.size(), size_px), size_px);
+}
+
+Result<cv::Mat> composed_picture(const Scene& scene, FrameSource& source, cv::Size size_px) {
+  const std::optional<Outlook> sight = best_sight(scene);
+  if (!sight) return fail("", "no intruder comes into view");
+  const Result<Frame> background = source.read(sight->frame);
+  if (!background) return fail(background.error());
+  Bench bench;
+  const Result<ComposedFrame> composed = compose_frame(scene, sight->frame, *background, bench);
+  if (!composed) return fail(composed.error());
+  const cv::Mat bgr = bgr_of(composed->picture);
+  const Box& box = *sight->silhouette;
+  const cv::Rect window = window_around({box.x + box.width / 2, box.y + box.height / 2}, kAround * sight->size_px,
+                                        bgr.size(), size_px);
+  return scaled_piece(bgr, window, size_px);
+}
+
+}  // namespace
+
+Result<cv::Mat> project_picture(const fs::path& project_file, cv::Size size_px) {
+  const Result<ReadProject> read = read_project(project_file);
+  if (!read) return fail(read.error());
+  const Project& project = read->project;
+  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  if (!source) return fail(source.error());
+  if (const Result<Scene> scene = open_scene(project, shape_of(source->info())))
+    if (Result<cv::Mat> picture = composed_picture(*scene, *source, size_px)) return picture;
+  return untouched_picture(*source, size_px);
+}
+
+ProjectPictures::ProjectPictures(cv::Size size_px, std::function<void()> wake)
+    : size_px_(size_px), wake_(std::move(wake)) {}
+
+ProjectPictures::~ProjectPictures() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  asked_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::shared_ptr<const cv::Mat> ProjectPictures::of(const fs::path& project) {
+  const std::lock_guard lock(mutex_);
+  const auto [place, is_new] = pictures_.try_emplace(project);
+  if (!is_new) return place->second;
+  queue_.push_back(project);
+  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  asked_.notify_one();
+  return nullptr;
+}
+
+void ProjectPictures::work() {
+  for (;;) {
+    fs::path project;
+    {
+      std::unique_lock lock(mutex_);
+      asked_.wait(lock, [this] { return stop_ || !queue_.empty(); });
+      if (stop_) return;
+      project = std::move(queue_.front());
+      queue_.pop_front();
+    }
+    Result<cv::Mat> picture = project_picture(project, size_px_);
+    if (!picture) continue;
+    {
+      const std::lock_guard lock(mutex_);
+      pictures_[project] = std::make_shared<const cv::Mat>(std::move(*picture));
+    }
+    wake_();
+  }
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/dialogs.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/keys.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+void close_row(Places& places, bool& closed) {
+  ImGui::Dummy({0, scaled(6)});
+  const char* const labels[] = {"Close"};
+  align_buttons_right(labels, 1);
+  if (dialog_button("Close", true)) closed = true;
+  places.note_item("dialog.Close");
+}
+
+void draw_help_group(std::span<const HelpLine> lines, std::size_t& i) {
+  const std::string& group = lines[i].group;
+  ImGui::PushFont(font(Font::bold));
+  ImGui::TextUnformatted(group.c_str());
+  ImGui::PopFont();
+  if (ImGui::BeginTable(group.c_str(), 2)) {
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 1.1F);
+    for (; i < lines.size() && lines[i].group == group; ++i) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
+      ImGui::TextWrapped("%s", lines[i].keys.c_str());
+      ImGui::PopStyleColor();
+      ImGui::TableNextColumn();
+      ImGui::TextWrapped("%s", lines[i].what.c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::Dummy({0, scaled(6)});
+}
+
+void setting_label(const char* name, const char* help) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  tooltip_for_item(help);
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-1);
+}
+
+}  // namespace
+
+std::optional<int> draw_question(const Question& question, Places& places) {
+  bool closed = false;
+  if (!begin_dialog((question.title + "###question").c_str(), 460, 0, closed)) return std::nullopt;
+  std::optional<int> answer;
+  ImGui::Dummy({0, scaled(4)});
+  ImGui::TextWrapped("%s", question.text.c_str());
+  ImGui::Dummy({0, scaled(10)});
+  // As on other desktops: what changes nothing comes first, the usual answer last.
+  std::vector<const char*> labels;
+  for (std::size_t i = question.answers.size(); i-- > 0;) labels.push_back(question.answers[i].c_str());
+  align_buttons_right(labels.data(), static_cast<int>(labels.size()));
+  for (std::size_t i = question.answers.size(); i-- > 0;) {
+    if (dialog_button(question.answers[i].c_str(), i == 0)) answer = static_cast<int>(i);
+    places.note_item("question." + question.answers[i]);
+    if (i > 0) ImGui::SameLine();
+  }
+  if (pressed(Key::enter) || pressed(Key::keypad_enter)) answer = 0;
+  if (closed) answer = static_cast<int>(question.answers.size()) - 1;
+  end_dialog(!answer);
+  return answer;
+}
+
+bool draw_help(std::span<const HelpLine> lines, Places& places) {
+  bool closed = false;
+  if (!begin_dialog("Keys###help", 860, 560, closed)) return !closed;
+  const float bottom = scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const bool wide = ImGui::GetContentRegionAvail().x > scaled(560);
+  ImGui::BeginChild("lines", {0, ImGui::GetContentRegionAvail().y - bottom});
+  if (ImGui::BeginTable("halves", wide ? 2 : 1)) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    bool second = !wide;
+    for (std::size_t i = 0; i < lines.size();) {
+      if (!second && i >= (lines.size() + 1) / 2) {
+        ImGui::TableNextColumn();
+        second = true;
+      }
+      draw_help_group(lines, i);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+  close_row(places, closed);
+  end_dialog(!closed);
+  return !closed;
+}
+
+bool draw_about(const std::string& version, Places& places) {
+  bool closed = false;
+  if (!begin_dialog("About###about", 420, 0, closed)) return !closed;
+  ImGui::PushFont(font(Font::title));
+  ImGui::TextUnformatted("SIGS");
+  ImGui::PopFont();
+  ImGui::TextDisabled("Version %s", version.c_str());
+  ImGui::Dummy({0, scaled(4)});
+  ImGui::TextWrapped(
+      "Puts simulated intruder aircraft into real footage from unmanned aircraft, through the camera's own lens, and "
+      "writes the exact ground truth next to it.");
+  ImGui::Dummy({0, scaled(4)});
+  ImGui::TextDisabled("MIT licence");
+  close_row(places, closed);
+  end_dialog(!closed);
+  return !closed;
+}
+
+bool SettingsDialog::draw(Settings& settings, Places& places) {
+  bool closed = false;
+  if (!begin_dialog("Settings###settings", 480, 0, closed)) return !closed;
+  if (ImGui::BeginTable("settings", 2)) {
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+    setting_label("Size of the text", "Everything else follows it");
+    auto font_px = static_cast<int>(font_px_ > 0 ? font_px_ : settings.font_px);
+    if (ImGui::SliderInt("##font", &font_px, static_cast<int>(kLeastFont_px), static_cast<int>(kMostFont_px), "%d px",
+                         ImGuiSliderFlags_AlwaysClamp))
+      font_px_ = font_px;
+    places.note_item("settings.font");
+    if (ImGui::IsItemDeactivatedAfterEdit() && font_px_ > 0) settings.font_px = font_px_;
+    if (!ImGui::IsItemActive()) font_px_ = 0;
+    setting_label("Keep unsaved changes after", "Seconds after a change until it is kept on disk for the case of a crash");
+    auto autosave_s = static_cast<float>(settings.autosave_s);
+    if (ImGui::SliderFloat("##autosave", &autosave_s, 1, 300, "%.0f s",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+      settings.autosave_s = autosave_s;
+    places.note_item("settings.autosave");
+    setting_label("Playing starts again at the end", "Loop over the range between in and out");
+    ImGui::Checkbox("##loop", &settings.loop);
+    places.note_item("settings.loop");
+    ImGui::EndTable();
+  }
+  close_row(places, closed);
+  end_dialog(!closed);
+  return !closed;
+}
+
+}  // namespace sigs::editor

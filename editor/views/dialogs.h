@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "editor/document/question.h"
+#include "editor/document/settings.h"
+#include "editor/widgets/places.h"
+
+namespace sigs::editor {
+
+// Small windows over everything else, drawn once a turn while they are wanted.
+
+// The number of the answer that was given. Escape gives the last one.
+[[nodiscard]] std::optional<int> draw_question(const Question& question, Places& places);
+
+// A key and what it does.
+struct HelpLine {
+  std::string group;
+  std::string keys;
+  std::string what;
+};
+// False once it was closed; so with the others.
+[[nodiscard]] bool draw_help(std::span<const HelpLine> lines, Places& places);
+
+[[nodiscard]] bool draw_about(const std::string& version, Places& places);
+
+// How the editor looks and behaves. The size of the text counts when the slider is let go: it moves everything.
+class SettingsDialog {
+ public:
+  [[nodiscard]] bool draw(Settings& settings, Places& places);
+
+ private:
+  double font_px_ = 0;  // while the slider is held; 0: it is not
+};
+
+}  // namespace sigs::editor

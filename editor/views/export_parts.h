@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+
+#include "editor/preview/export_job.h"
+#include "editor/views/studio.h"
+#include "editor/widgets/icons.h"
+
+namespace sigs::editor {
+
+// The project's own settings of what is written; each change is an edit.
+void draw_video_choices(const Studio& studio);
+void draw_mask_choice(const Studio& studio);
+void draw_label_choice(const Studio& studio);
+
+// "120 of 322 frames, 41.2 frames/s, 0:05 left"
+[[nodiscard]] std::string progress_text(const ExportState& state);
+
+// What was written, with ways to it; or why nothing was.
+void draw_result(const Studio& studio, const ExportState& state);
+void draw_warnings(const ExportState& state);
+
+// A line that matters, behind an icon, wrapped.
+void note_line(Icon icon, ImU32 color, const std::string& text);
+
+}  // namespace sigs::editor

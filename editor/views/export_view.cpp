@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/export_view.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "editor/preview/export_plan.h"
+#include "editor/views/export_parts.h"
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/text_input.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void label(const char* name) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  ImGui::TableNextColumn();
+}
+
+bool marks_range(const Document& document) {
+  return document.in().has_value() || document.out().has_value();
+}
+
+// As the command line has it: decoding and writing take a core of their own.
+int usual_jobs() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+
+}  // namespace
+
+void ExportView::open(const Document& document) {
+  open_ = true;
+  overwrite_asked_ = false;
+  if (folder_.empty()) folder_ = usual_export_folder(document.project()).string();
+  only_range_ = marks_range(document);
+}
+
+ExportRequest ExportView::request_of(const Studio& studio) const {
+  ExportRequest request{.project = studio.project(), .folder = folder_, .jobs = jobs_ > 0 ? jobs_ : usual_jobs()};
+  if (only_range_ && marks_range(studio.document))
+    request.frames = FrameRange{studio.document.range_first(), studio.document.range_last()};
+  return request;
+}
+
+void ExportView::draw(const Studio& studio, ExportJob& job) {
+  closed_ = false;
+  if (!begin_dialog("Export###export", 620, 0, closed_)) {
+    open_ = open_ && !closed_;
+    return;
+  }
+  const ExportState state = job.state();
+  if (state.phase == ExportPhase::none)
+    draw_setup(studio, job);
+  else if (state.is_running())
+    draw_running(studio, job, state);
+  else
+    draw_done(studio, job, state);
+  open_ = !closed_;
+  end_dialog(open_);
+}
+
+void ExportView::draw_folder(const Studio& studio) {
+  label("Folder");
+  const float browse = dialog_button_width("Browse...");
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
+  if (text_input("##folder", folder_)) overwrite_asked_ = false;
+  studio.places.note_item("export.folder");
+  ImGui::SameLine();
+  if (dialog_button("Browse..."))
+    studio.edits.ask(AskForFile{.title = "Export into",
+                                .of_folder = true,
+                                .start = folder_,
+                                .chosen = [this](const fs::path& folder) { folder_ = folder.string(); }});
+}
+
+void ExportView::draw_range(const Studio& studio) {
+  const Document& document = studio.document;
+  label("Frames");
+  const std::string whole =
+      "whole project (" + std::to_string(document.first_frame()) + " to " + std::to_string(document.last_frame()) + ")";
+  if (ImGui::RadioButton(whole.c_str(), !only_range_ || !marks_range(document))) only_range_ = false;
+  studio.places.note_item("export.whole");
+  const std::string part = "in to out (" + std::to_string(document.range_first()) + " to " +
+                           std::to_string(document.range_last()) + ")###range";
+  ImGui::BeginDisabled(!marks_range(document));
+  if (ImGui::RadioButton(marks_range(document) ? part.c_str() : "in to out (not marked)###range",
+                         only_range_ && marks_range(document)))
+    only_range_ = true;
+  ImGui::EndDisabled();
+  studio.places.note_item("export.range");
+}
+
+void ExportView::draw_choices(const Studio& studio) {
+  draw_folder(studio);
+  draw_range(studio);
+  label("Video");
+  draw_video_choices(studio);
+  label("Masks");
+  draw_mask_choice(studio);
+  label("Labels");
+  draw_label_choice(studio);
+  label("Threads");
+  ImGui::SetNextItemWidth(scaled(150));
+  const std::string automatic = "automatic (" + std::to_string(usual_jobs()) + ")";
+  ImGui::SliderInt("##jobs", &jobs_, 0, std::max(2, usual_jobs() + 1), jobs_ == 0 ? automatic.c_str() : "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
+  tooltip_for_item("Frames that are made side by side; the result does not depend on it");
+}
+
+void ExportView::draw_command(const Studio& studio) {
+  ExportRequest request = request_of(studio);
+  request.overwrite = !there_.empty();
+  const std::string command = export_command(request);
+  ImGui::TextDisabled("The same from the command line:");
+  const float copy = icon_button_width() + ImGui::GetStyle().ItemSpacing.x;
+  ImGui::PushFont(font(Font::mono));
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  const ImVec2 place = ImGui::GetCursorPos();
+  ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - copy);
+  ImGui::TextUnformatted(command.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  const ImVec2 after = ImGui::GetCursorPos();
+  ImGui::SetCursorPos({ImGui::GetContentRegionMax().x - icon_button_width(), place.y});
+  if (icon_button("copy command", Icon::copy, "Copy")) {
+    ImGui::SetClipboardText(command.c_str());
+    studio.edits.ask(Say{"Copied"});
+  }
+  ImGui::SetCursorPosY(std::max(after.y, ImGui::GetCursorPosY()));
+}
+
+void ExportView::draw_notes(const Studio& studio) {
+  if (studio.document.has_unsaved_changes() || !studio.document.has_file())
+    note_line(Icon::info, color::kAccent,
+              "There are unsaved changes. They are exported; the command below takes the project as it was last saved.");
+  if (studio.shown.scene && !studio.shown.scene->draft.problems.empty()) {
+    const Problem& problem = studio.shown.scene->draft.problems.front();
+    note_line(Icon::warning, color::kBad, problem.field + ": " + problem.what);
+  }
+  if (overwrite_asked_ && !there_.empty()) {
+    std::string names;
+    for (const fs::path& path : there_) names += (names.empty() ? "" : ", ") + path.filename().string();
+    note_line(Icon::warning, color::kPartly, "Already there: " + names + ". Replace?");
+  }
+}
+
+void ExportView::draw_setup(const Studio& studio, ExportJob& job) {
+  if (ImGui::BeginTable("choices", 2)) {
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, scaled(80));
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+    draw_choices(studio);
+    ImGui::EndTable();
+  }
+  if (!overwrite_asked_) there_.clear();
+  draw_notes(studio);
+  ImGui::Dummy({0, scaled(2)});
+  draw_command(studio);
+  ImGui::Dummy({0, scaled(6)});
+  const bool replace = overwrite_asked_ && !there_.empty();
+  const char* const go = replace ? "Replace" : "Export";
+  const char* const labels[] = {"Close", go};
+  align_buttons_right(labels, 2);
+  if (dialog_button("Close")) closed_ = true;
+  studio.places.note_item("export.close");
+  ImGui::SameLine();
+  const bool clicked = dialog_button(go, true, !folder_.empty());
+  studio.places.note_item("export.go");
+  if (!clicked) return;
+  ExportRequest request = request_of(studio);
+  const std::vector<fs::path> there = outputs_there(request.project, request.folder);
+  // What was agreed to be replaced is what was shown.
+  if (!there.empty() && there != there_) {
+    there_ = there;
+    overwrite_asked_ = true;
+    return;
+  }
+  request.overwrite = !there.empty();
+  overwrite_asked_ = false;
+  job.start(std::move(request));
+}
+
+void ExportView::draw_running(const Studio& studio, ExportJob& job, const ExportState& state) {
+  ImGui::TextUnformatted(
+      elided(state.request.project.name + " into " + state.request.folder.string(), ImGui::GetContentRegionAvail().x)
+          .c_str());
+  ImGui::Dummy({0, scaled(2)});
+  const double share = state.total > 0 ? double(state.done) / state.total : 0;
+  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::TextDisabled("%s", progress_text(state).c_str());
+  draw_warnings(state);
+  ImGui::Dummy({0, scaled(6)});
+  const char* const labels[] = {"Cancel export", "Go on in the background"};
+  align_buttons_right(labels, 2);
+  if (dialog_button("Cancel export", false, !state.is_stopping)) job.cancel();
+  studio.places.note_item("export.cancel");
+  ImGui::SameLine();
+  if (dialog_button("Go on in the background", true)) closed_ = true;
+  studio.places.note_item("export.hide");
+}
+
+void ExportView::draw_done(const Studio& studio, ExportJob& job, const ExportState& state) {
+  draw_result(studio, state);
+  draw_warnings(state);
+  ImGui::Dummy({0, scaled(6)});
+  const char* const labels[] = {"Export again", "Close"};
+  align_buttons_right(labels, 2);
+  if (dialog_button("Export again")) {
+    job.dismiss();
+    overwrite_asked_ = false;
+  }
+  studio.places.note_item("export.again");
+  ImGui::SameLine();
+  if (dialog_button("Close", true)) {
+    job.dismiss();
+    closed_ = true;
+  }
+  studio.places.note_item("export.close");
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/document/field_edits.h"
+
+namespace sigs::editor {
+
+// How a field is shown, where its type does not say all.
+struct RowLook {
+  std::string label;                // "": by its key
+  std::string off_because;          // not empty: cannot be edited, and why
+  std::vector<std::string> names;   // a text that is one of these
+  std::optional<double> suggested;  // of an optional number, when it is switched on
+  bool is_color = false;
+};
+
+// A text that is being typed becomes the field's value when it is finished.
+struct TypedText {
+  std::string key;
+  std::string text;
+};
+
+// A value that the person has given. One that is still being dragged or typed is not yet finished: it is part of a
+// gesture.
+struct Edited {
+  PlainValue value;
+  bool is_finished = false;
+};
+
+// The editor of a field by its type, from the cursor on, `width` wide.
+[[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowLook& look, float width, TypedText& typed);
+
+// A number with its unit: dragged, or typed after a click; true in turns in which it has changed. Stays in the range.
+[[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
+
+// X, Y, Z side by side, or below each other where there is no room.
+[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width);
+
+}  // namespace sigs::editor

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/menu_bar.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+// An item that is known by name to whoever drives the window from outside.
+bool item(const Studio& studio, const char* label, const char* keys, bool enabled = true, bool checked = false) {
+  const bool chosen = ImGui::MenuItem(label, keys, checked, enabled);
+  studio.places.note_item(std::string("menu.") + label);
+  return chosen;
+}
+
+bool begin_menu(const Studio& studio, const char* label) {
+  const bool open = ImGui::BeginMenu(label);
+  if (!open) studio.places.note_item(std::string("menu.") + label);
+  return open;
+}
+
+void draw_recent(const Studio& studio) {
+  if (!ImGui::BeginMenu("Open recent", !studio.settings.recent.empty())) return;
+  for (const std::filesystem::path& path : studio.settings.recent) {
+    ImGui::PushID(path.c_str());
+    if (ImGui::MenuItem(elided(path.stem().string(), scaled(300)).c_str())) studio.edits.ask(OpenProject{path});
+    tooltip_for_item(path.c_str());
+    ImGui::PopID();
+  }
+  ImGui::EndMenu();
+}
+
+void draw_file_menu(const Studio& studio, bool has_project) {
+  if (!begin_menu(studio, "File")) return;
+  Edits& edits = studio.edits;
+  if (item(studio, "New", "Ctrl+N")) edits.ask(NewProject{});
+  if (item(studio, "Open...", "Ctrl+O")) edits.ask(OpenProject{});
+  draw_recent(studio);
+  ImGui::Separator();
+  if (item(studio, "Save", "Ctrl+S", has_project)) edits.ask(SaveProject{});
+  if (item(studio, "Save as...", "Ctrl+Shift+S", has_project)) edits.ask(SaveProjectAs{});
+  if (item(studio, "Export...", "Ctrl+E", has_project)) edits.ask(ShowExport{});
+  if (item(studio, "Find missing files...", "", has_project)) edits.ask(ShowMissingFiles{});
+  ImGui::Separator();
+  if (item(studio, "Close project", "", has_project)) edits.ask(CloseProject{});
+  if (item(studio, "Quit", "Ctrl+Q")) edits.ask(Quit{});
+  ImGui::EndMenu();
+}
+
+void draw_edit_menu(const Studio& studio, bool has_project) {
+  if (!begin_menu(studio, "Edit")) return;
+  const Document& document = studio.document;
+  const std::string undo = "Undo " + document.undo_name() + "###Undo";
+  const std::string redo = "Redo " + document.redo_name() + "###Redo";
+  if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) studio.edits.undo();
+  studio.places.note_item("menu.Undo");
+  if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) studio.edits.redo();
+  studio.places.note_item("menu.Redo");
+  ImGui::Separator();
+  const bool on_waypoint = document.selection().kind == Selected::waypoint;
+  const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
+  if (item(studio, "Add waypoint here", "Enter", has_project && !studio.project().intruders.empty()))
+    add_waypoint_here(studio);
+  if (item(studio, "Duplicate", "Ctrl+D", on_waypoint)) duplicate_selected(studio);
+  if (item(studio, "Delete", "Del", on_intruder)) delete_selected(studio);
+  ImGui::EndMenu();
+}
+
+void draw_view_menu(const Studio& studio, Settings& settings) {
+  if (!begin_menu(studio, "View")) return;
+  if (item(studio, "World view", "", true, settings.show_world)) settings.show_world = !settings.show_world;
+  if (item(studio, "Inspector", "", true, settings.show_inspector)) settings.show_inspector = !settings.show_inspector;
+  if (item(studio, "Full screen", "F11")) studio.edits.ask(ToggleFullScreen{});
+  ImGui::Separator();
+  if (item(studio, "Settings...", "")) studio.edits.ask(ShowSettings{});
+  ImGui::EndMenu();
+}
+
+void draw_help_menu(const Studio& studio) {
+  if (!begin_menu(studio, "Help")) return;
+  if (item(studio, "Keys", "?")) studio.edits.ask(ShowHelp{});
+  if (item(studio, "About", "")) studio.edits.ask(ShowAbout{});
+  ImGui::EndMenu();
+}
+
+std::string export_text(const ExportState& state) {
+  if (state.total == 0) return "Export begins";
+  std::array<char, 64> text{};
+  const int percent = 100 * state.done / std::max(1, state.total);
+  if (state.left_s)
+    std::snprintf(text.data(), text.size(), "Export %d %%, %d:%02d left", percent, static_cast<int>(*state.left_s) / 60,
+                  static_cast<int>(*state.left_s) % 60);
+  else
+    std::snprintf(text.data(), text.size(), "Export %d %%", percent);
+  return text.data();
+}
+
+// From right to left; each takes its room.
+class RightSide {
+ public:
+  explicit RightSide(const Studio& studio)
+      : studio_(studio), left_(ImGui::GetCursorPosX() + scaled(12)), right_(ImGui::GetWindowWidth() - scaled(12)) {}
+
+  void show_export(const ExportState& state) {
+    if (!state.is_running()) return;
+    const std::string text = export_text(state);
+    const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(20);
+    if (!take(width)) return;
+    const ImVec2 place = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    if (ImGui::InvisibleButton("export progress", {width, height})) studio_.edits.ask(ShowExport{});
+    studio_.places.note_item("menu.export progress");
+    tooltip_for_item("Show the export");
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float inset = scaled(3);
+    const ImVec2 low{place.x, place.y + inset};
+    const double share = state.total > 0 ? double(state.done) / state.total : 0;
+    list.AddRectFilled(low, {low.x + width, place.y + height - inset}, IM_COL32(255, 255, 255, 22), scaled(4));
+    list.AddRectFilled(low, {low.x + static_cast<float>(width * share), place.y + height - inset}, color::kAccentSoft,
+                       scaled(4));
+    list.AddText({place.x + scaled(10), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kText, text.c_str());
+  }
+
+  void show_problems(const std::vector<Problem>& problems) {
+    if (problems.empty()) return;
+    const std::size_t count = problems.size();
+    const bool is_missing = std::any_of(problems.begin(), problems.end(), [](const Problem& problem) {
+      return problem.kind == ErrorKind::cannot_read;
+    });
+    const std::string text = std::to_string(count) + (count == 1 ? " problem" : " problems");
+    const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(24);
+    if (!take(width)) return;
+    const ImVec2 place = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    if (ImGui::InvisibleButton("problems", {width, height}) && is_missing) studio_.edits.ask(ShowMissingFiles{});
+    studio_.places.note_item("menu.problems");
+    if (ImGui::IsItemHovered()) show_list(problems);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    draw_icon(list, Icon::warning, {place.x + scaled(9), place.y + height / 2}, scaled(13), color::kPartly);
+    list.AddText({place.x + scaled(20), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kPartly, text.c_str());
+  }
+
+  void show_name() {
+    const Project& project = studio_.project();
+    const bool unsaved = studio_.document.has_unsaved_changes();
+    const std::string whole = project.file.empty() ? project.name + " (never saved)" : project.file.stem().string();
+    const float dot = scaled(14);
+    const std::string text = elided(whole, right_ - left_ - dot);
+    if (text.empty()) return;
+    const float width = ImGui::CalcTextSize(text.c_str()).x + (unsaved ? dot : 0);
+    const float middle = (ImGui::GetWindowWidth() - width) / 2;
+    ImGui::SetCursorPosX(std::clamp(middle, left_, std::max(left_, right_ - width)));
+    const ImVec2 place = ImGui::GetCursorScreenPos();
+    ImGui::TextUnformatted(text.c_str());
+    if (!project.file.empty()) tooltip_for_item(project.file.c_str());
+    if (unsaved)
+      ImGui::GetWindowDrawList()->AddCircleFilled(
+          {place.x + width - scaled(4), place.y + ImGui::GetFrameHeight() / 2}, scaled(3.5), color::kAccent, 12);
+  }
+
+ private:
+  bool take(float width) {
+    if (right_ - width < left_) return false;
+    right_ -= width;
+    ImGui::SetCursorPosX(right_);
+    right_ -= scaled(12);
+    return true;
+  }
+
+  static void show_list(const std::vector<Problem>& problems) {
+    constexpr std::size_t kMost = 12;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(scaled(480));
+    for (std::size_t i = 0; i < std::min(kMost, problems.size()); ++i)
+      ImGui::TextUnformatted((problems[i].field + ": " + problems[i].what).c_str());
+    if (problems.size() > kMost) ImGui::TextUnformatted("...");
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+
+  const Studio& studio_;
+  float left_;
+  float right_;
+};
+
+}  // namespace
+
+void draw_menu_bar(const Studio& studio, const MenuBarContent& content, Settings& settings) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  draw_file_menu(studio, content.has_project);
+  draw_edit_menu(studio, content.has_project);
+  draw_view_menu(studio, settings);
+  draw_help_menu(studio);
+  RightSide right(studio);
+  right.show_export(content.exporting);
+  if (content.has_project) {
+    if (studio.shown.scene) right.show_problems(studio.shown.scene->draft.problems);
+    right.show_name();
+  }
+  ImGui::EndMainMenuBar();
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+// Icons of the views that show pictures, for widgets/tool_button.h.
+namespace sigs::editor::picture_icon {
+
+void box(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void path(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void waypoints(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void horizon(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void own_body(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void grid(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void wipe(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void fit(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void target(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+
+}  // namespace sigs::editor::picture_icon

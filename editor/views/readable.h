@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace sigs::editor {
+
+// "0.84 m", "312.4 m", "4.21 km": about four digits, as a person says it.
+[[nodiscard]] std::string distance_text(double distance_m);
+
+}  // namespace sigs::editor

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/document/recovery.h"
+#include "editor/preview/project_pictures.h"
+#include "editor/views/studio.h"
+
+namespace sigs::editor {
+
+// What is there before a project is.
+struct StartPageContent {
+  const std::vector<AbandonedProject>& abandoned;
+  std::filesystem::path loading;  // a project file that is being read; "": none
+};
+
+// What the person wants with an abandoned project; everything else goes through the studio's edits.
+struct StartPageChoice {
+  std::optional<AbandonedProject> recover;
+  std::optional<AbandonedProject> discard;
+};
+
+// The page that is shown while no project is open: sample projects, recent ones, and what a crash left behind.
+class StartPage {
+ public:
+  // samples  a folder whose folders hold a project and a README.md each; one that is not there: none
+  // wake     called from another thread when a picture is ready
+  StartPage(std::filesystem::path samples, std::function<void()> wake);
+
+  [[nodiscard]] StartPageChoice draw(const Studio& studio, const StartPageContent& content);
+
+ private:
+  struct Sample {
+    std::filesystem::path file;
+    std::string name;
+    std::string text;  // the first sentence of its README
+  };
+  struct Recent {
+    std::filesystem::path file;
+    bool is_there = false;
+  };
+  void read_samples();
+  void look_for(const std::vector<std::filesystem::path>& recent);
+  void draw_head(const Studio& studio, const StartPageContent& content);
+  void draw_samples(const Studio& studio, float width);
+  void draw_card(const Studio& studio, const Sample& sample, float width, float height);
+  void draw_recent(const Studio& studio, float width);
+  void draw_abandoned(const Studio& studio, const StartPageContent& content, StartPageChoice& choice);
+
+  std::filesystem::path samples_folder_;
+  std::vector<Sample> samples_;
+  std::vector<Recent> recent_;  // with the look at the disk from when the list last changed
+  ProjectPictures pictures_;
+};
+
+// The text's first sentence below its headings, up to a semicolon or colon, without line breaks.
+[[nodiscard]] std::string first_sentence(const std::string& markdown);
+
+}  // namespace sigs::editor

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor/document/document.h"
+#include "editor/document/settings.h"
+#include "editor/preview/previewer.h"
+#include "editor/widgets/places.h"
+#include "editor/widgets/textures.h"
+
+namespace sigs::editor {
+
+// What the views that are drawn would like to have made; asked anew each turn.
+struct Wishes {
+  bool footage = false;  // the untouched frame too
+  bool stages = false;
+  std::optional<MethodChoice> compare_with;
+  std::optional<Wanted::Turntable> turntable;
+};
+
+// What a view draws from and where it puts what the person wants. A view changes nothing else.
+struct Studio {
+  const Document& document;
+  const Shown& shown;
+  const Settings& settings;
+  Textures& textures;
+  Edits& edits;
+  Wishes& wishes;
+  Places& places;
+  bool playing = false;
+  double speed = 0;  // of playing, 0 while it stands
+
+  [[nodiscard]] const Project& project() const { return document.project(); }
+};
+
+}  // namespace sigs::editor

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/toasts.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kShortest_s = 3;
+constexpr double kReading_s = 0.05;  // more for each letter
+constexpr std::size_t kMost = 5;
+
+}  // namespace
+
+void Toasts::say(const Say& message, double now_s) {
+  const double until_s = now_s + kShortest_s + kReading_s * static_cast<double>(message.text.size());
+  const auto same = std::find_if(toasts_.begin(), toasts_.end(), [&](const Toast& toast) {
+    return toast.text == message.text && toast.is_error == message.is_error;
+  });
+  if (same != toasts_.end()) {
+    same->until_s = until_s;
+    ++same->times;
+    return;
+  }
+  toasts_.push_back({message.text, message.is_error, until_s});
+  if (toasts_.size() <= kMost) return;
+  // Passing ones make room first.
+  const auto passing = std::find_if(toasts_.begin(), toasts_.end(), [](const Toast& toast) { return !toast.is_error; });
+  toasts_.erase(passing != toasts_.end() ? passing : toasts_.begin());
+}
+
+bool Toasts::is_passing() const {
+  return std::any_of(toasts_.begin(), toasts_.end(), [](const Toast& toast) { return !toast.is_error; });
+}
+
+void Toasts::draw(Places& places, double now_s) {
+  std::erase_if(toasts_, [now_s](const Toast& toast) { return !toast.is_error && now_s > toast.until_s; });
+  if (toasts_.empty()) return;
+  const ImGuiViewport& screen = *ImGui::GetMainViewport();
+  const float most = std::min(scaled(620), screen.Size.x - scaled(40));
+  float y = screen.Pos.y + screen.Size.y - scaled(18);
+  std::size_t clicked = toasts_.size();
+  for (std::size_t i = toasts_.size(); i-- > 0;) {
+    const Toast& toast = toasts_[i];
+    const std::string text = toast.times > 1 ? toast.text + "  (" + std::to_string(toast.times) + " times)" : toast.text;
+    const float wrap = most - scaled(64);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 whole{size.x + scaled(toast.is_error ? 70 : 44), size.y + scaled(18)};
+    ImGui::SetNextWindowPos({screen.Pos.x + (screen.Size.x - whole.x) / 2, y - whole.y});
+    ImGui::SetNextWindowSize(whole);
+    ImGui::SetNextWindowBgAlpha(0.97F);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, toast.is_error ? IM_COL32(72, 34, 34, 255) : IM_COL32(50, 54, 64, 255));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::Begin(("##toast" + std::to_string(i)).c_str(), nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 p = ImGui::GetWindowPos();
+    draw_icon(list, toast.is_error ? Icon::warning : Icon::info, {p.x + scaled(18), p.y + whole.y / 2}, scaled(15),
+              toast.is_error ? color::kBad : color::kAccent);
+    list.AddText(nullptr, 0, {p.x + scaled(34), p.y + scaled(9)}, color::kText, text.c_str(), nullptr, wrap);
+    if (toast.is_error)
+      draw_icon(list, Icon::cross, {p.x + whole.x - scaled(16), p.y + whole.y / 2}, scaled(11), color::kQuiet);
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) clicked = i;
+    places.note("toast." + std::to_string(i), {{p.x, p.y}, {p.x + whole.x, p.y + whole.y}});
+    ImGui::End();
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+    y -= whole.y + scaled(8);
+  }
+  if (clicked < toasts_.size()) toasts_.erase(toasts_.begin() + static_cast<std::ptrdiff_t>(clicked));
+}
+
+}  // namespace sigs::editor

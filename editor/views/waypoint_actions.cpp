@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/waypoint_actions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/document/waypoint_edits.h"
+#include "scene/scene_at.h"
+#include "scene/waypoint_times.h"
+
+namespace sigs::editor {
+
+namespace {
+
+TrajectoryPlan& plan_of(Project& project, int intruder) {
+  return project.intruders[static_cast<std::size_t>(intruder)].trajectory;
+}
+
+const TrajectoryPlan& plan_of(const Studio& studio, int intruder) {
+  return studio.project().intruders[static_cast<std::size_t>(intruder)].trajectory;
+}
+
+// Ahead of the camera at a frame, in the world.
+glm::dvec3 ahead_of_camera(const Studio& studio, int frame, double forward_m, double right_m) {
+  const CameraSettings& camera = studio.project().camera;
+  const double time_s = studio.shown.scene ? time_of_frame_s(studio.shown.scene->draft.scene.footage, frame) : frame * 0.04;
+  return camera.position_m + glm::dvec3(camera.speed_mps * time_s + forward_m, right_m, 0);
+}
+
+}  // namespace
+
+std::optional<int> current_intruder(const Studio& studio) {
+  const Selection& selection = studio.document.selection();
+  if (studio.project().intruders.empty()) return std::nullopt;
+  const bool chosen = selection.kind == Selected::intruder || selection.kind == Selected::waypoint;
+  return chosen ? selection.intruder : 0;
+}
+
+std::vector<double> frames_of_waypoints(const Studio& studio, int intruder) {
+  return waypoint_frames(plan_of(studio, intruder).waypoints, studio.document.first_frame(),
+                         studio.document.last_frame());
+}
+
+std::optional<glm::dvec3> position_of(const Studio& studio, int intruder, double frame) {
+  if (!studio.shown.scene) return std::nullopt;
+  const DraftScene& draft = studio.shown.scene->draft;
+  const auto index = static_cast<std::size_t>(intruder);
+  if (index >= draft.intruder_of_project.size() || draft.intruder_of_project[index] < 0) return std::nullopt;
+  const auto in_scene = static_cast<std::size_t>(draft.intruder_of_project[index]);
+  return draft.scene.intruders[in_scene].trajectory.position_m(time_of_frame_s(draft.scene.footage, frame));
+}
+
+void add_waypoint(const Studio& studio, int intruder, double frame, const glm::dvec3& position_m) {
+  const std::vector<double> frames = frames_of_waypoints(studio, intruder);
+  TrajectoryPlan trial = plan_of(studio, intruder);
+  const int number = put_waypoint(trial, frame, position_m, frames);
+  studio.edits.change("add waypoint", [=](Project& project) {
+    (void)put_waypoint(plan_of(project, intruder), frame, position_m, frames);
+  });
+  studio.edits.select({Selected::waypoint, intruder, number});
+}
+
+void add_waypoint_here(const Studio& studio, std::optional<glm::dvec3> position_m) {
+  const std::optional<int> intruder = current_intruder(studio);
+  if (!intruder) {
+    studio.edits.ask(Say{"Add an intruder first: it carries the waypoints.", true});
+    return;
+  }
+  const int frame = studio.document.playhead();
+  if (!position_m) position_m = position_of(studio, *intruder, frame);
+  if (!position_m) position_m = ahead_of_camera(studio, frame, 300, 0);
+  add_waypoint(studio, *intruder, frame, *position_m);
+}
+
+void delete_intruder(const Studio& studio, int intruder) {
+  studio.edits.change("delete intruder", [=](Project& project) {
+    project.intruders.erase(project.intruders.begin() + intruder);
+  });
+  studio.edits.select({});
+}
+
+void duplicate_intruder(const Studio& studio, int intruder) {
+  studio.edits.change("duplicate intruder", [=](Project& project) {
+    IntruderSettings copy = project.intruders[static_cast<std::size_t>(intruder)];
+    copy.name += " copy";
+    for (WaypointSettings& waypoint : copy.trajectory.waypoints) waypoint.position_m.y += 30;
+    project.intruders.insert(project.intruders.begin() + intruder + 1, copy);
+  });
+  studio.edits.select({Selected::intruder, intruder + 1, 0});
+}
+
+void delete_selected(const Studio& studio) {
+  const Selection selection = studio.document.selection();
+  if (selection.kind == Selected::intruder) delete_intruder(studio, selection.intruder);
+  if (selection.kind != Selected::waypoint) return;
+  if (plan_of(studio, selection.intruder).waypoints.size() == 1) {
+    studio.edits.ask(Say{"An intruder needs one waypoint at least; delete the intruder instead.", true});
+    return;
+  }
+  studio.edits.change("delete waypoint", [=, frames = frames_of_waypoints(studio, selection.intruder)](Project& project) {
+    delete_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
+  });
+}
+
+void duplicate_selected(const Studio& studio) {
+  const Selection selection = studio.document.selection();
+  if (selection.kind == Selected::intruder) duplicate_intruder(studio, selection.intruder);
+  if (selection.kind != Selected::waypoint) return;
+  const std::vector<double> frames = frames_of_waypoints(studio, selection.intruder);
+  TrajectoryPlan trial = plan_of(studio, selection.intruder);
+  const int copy = duplicate_waypoint(trial, selection.waypoint, frames);
+  studio.edits.change("duplicate waypoint", [=](Project& project) {
+    (void)duplicate_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
+  });
+  studio.edits.select({Selected::waypoint, selection.intruder, copy});
+}
+
+void go_to_waypoint(const Studio& studio, int direction) {
+  const std::optional<int> intruder = current_intruder(studio);
+  if (!intruder) return;
+  const std::vector<double> frames = frames_of_waypoints(studio, *intruder);
+  const int here = studio.document.playhead();
+  int found = -1;
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    const long at = std::lround(frames[static_cast<std::size_t>(i)]);
+    if (direction > 0 && at > here && found < 0) found = i;
+    if (direction < 0 && at < here) found = i;
+  }
+  if (found < 0) return;
+  const double frame = std::clamp(std::round(frames[static_cast<std::size_t>(found)]), 0.0, 1e9);
+  studio.edits.ask(Play{0});
+  studio.edits.go_to_frame(static_cast<int>(frame));
+  studio.edits.select({Selected::waypoint, *intruder, found});
+}
+
+void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::dvec3& position_m) {
+  const std::string gesture = "move " + std::to_string(intruder) + " " + std::to_string(waypoint);
+  studio.edits.change(
+      "move waypoint",
+      [=](Project& project) {
+        auto& waypoints = plan_of(project, intruder).waypoints;
+        if (static_cast<std::size_t>(waypoint) < waypoints.size())
+          waypoints[static_cast<std::size_t>(waypoint)].position_m = position_m;
+      },
+      gesture);
+}
+
+void add_intruder(const Studio& studio) {
+  const Project& now = studio.project();
+  IntruderSettings intruder;
+  if (!now.intruders.empty()) intruder.model = now.intruders.back().model;
+  intruder.name = "intruder " + std::to_string(now.intruders.size() + 1);
+  const int first = studio.document.range_first();
+  const int last = std::max(first + 1, studio.document.range_last());
+  intruder.trajectory.waypoints = {
+      {.frame = first, .position_m = ahead_of_camera(studio, first, 300, -120)},
+      {.frame = last, .position_m = ahead_of_camera(studio, last, 300, 120)},
+  };
+  studio.edits.change("add intruder", [=](Project& project) { project.intruders.push_back(intruder); });
+  studio.edits.select({Selected::intruder, static_cast<int>(now.intruders.size()), 0});
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "editor/geometry/orbit_camera.h"
+#include "editor/widgets/screen_vec.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+// Draws things of the world where the screen shows them. Labels that would cover another one or stick out are left out,
+// so the important ones come first.
+class WorldCanvas {
+ public:
+  WorldCanvas(ImDrawList& list, const OrbitCamera& eye, const ScreenRect& rect) : list_(list), eye_(eye), rect_(rect) {}
+
+  [[nodiscard]] ImDrawList& list() { return list_; }
+  [[nodiscard]] const OrbitCamera& eye() const { return eye_; }
+  [[nodiscard]] const ScreenRect& rect() const { return rect_; }
+  // Nothing for what is not within the rect, with some margin.
+  [[nodiscard]] std::optional<glm::dvec2> in_sight(const glm::dvec3& p_in_world, double margin_px = 0) const;
+
+  // What of a line lies within the rect.
+  [[nodiscard]] std::optional<std::array<glm::dvec2, 2>> within_rect(const glm::dvec3& a_m, const glm::dvec3& b_m) const;
+
+  void line(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width = 1);
+  void dashes(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width = 1);
+  void polyline(std::span<const glm::dvec3> points_m, ImU32 color, double width = 1);
+
+  enum class Side { right, centre };
+  // Beside or around a place of the screen; false: there was no room.
+  bool label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side = Side::right, Font font = Font::small);
+  // No label may cover this.
+  void keep_free(const ScreenRect& taken) { taken_.push_back(taken); }
+
+ private:
+  ImDrawList& list_;
+  const OrbitCamera& eye_;
+  ScreenRect rect_;
+  std::vector<ScreenRect> taken_;
+};
+
+}  // namespace sigs::editor

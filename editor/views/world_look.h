@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "editor/geometry/image_drag.h"
+#include "editor/geometry/orbit_camera.h"
+
+namespace sigs::editor {
+
+enum class WorldStand { orbit, top, side, camera };
+
+// How a person looks at the world.
+struct WorldLook {
+  OrbitCamera eye;
+  WorldStand stand = WorldStand::orbit;
+  bool snap = false;     // Ctrl turns it round
+  bool touched = false;  // moved by hand since the project was opened
+};
+
+// What a stand is taken from.
+struct WorldSights {
+  std::span<const glm::dvec3> points_m;  // to have in sight
+  CameraPose world_from_camera;
+  double view_depth_m = 200;  // how far the camera's field of view is drawn
+};
+
+// From behind, above or the right-hand side with all points in sight; or from behind the camera, looking as it does.
+[[nodiscard]] WorldLook stood(const WorldLook& look, WorldStand stand, const WorldSights& sights, const ScreenRect& rect);
+
+// The same direction, all points in sight; behind the camera, that stand again.
+[[nodiscard]] WorldLook with_all_in_sight(const WorldLook& look, const WorldSights& sights, const ScreenRect& rect);
+
+}  // namespace sigs::editor

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/dialog.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "editor/widgets/keys.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+bool begin_dialog(const char* title, double width, double height, bool& closed) {
+  const ImGuiViewport& screen = *ImGui::GetMainViewport();
+  const float margin = scaled(16);
+  const float w = std::min(scaled(width), screen.Size.x - 2 * margin);
+  const float h = std::min(scaled(height), screen.Size.y - 2 * margin);
+  if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  ImGui::SetNextWindowPos({screen.Pos.x + screen.Size.x / 2, screen.Pos.y + screen.Size.y / 2}, ImGuiCond_Always,
+                          {0.5F, 0.5F});
+  if (height > 0)
+    ImGui::SetNextWindowSize({w, h});
+  else
+    ImGui::SetNextWindowSizeConstraints({w, 0}, {w, screen.Size.y - 2 * margin});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(16), scaled(14)});
+  bool open = true;
+  const int fitted = height > 0 ? 0 : ImGuiWindowFlags_AlwaysAutoResize;
+  const bool drawn = ImGui::BeginPopupModal(
+      title, &open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | fitted);
+  ImGui::PopStyleVar();
+  if (!drawn) {
+    closed = closed || !open;
+    return false;
+  }
+  if (!open || (pressed(Key::escape) && !ImGui::IsAnyItemActive())) closed = true;
+  return true;
+}
+
+void end_dialog(bool stays) {
+  if (!stays) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+float dialog_button_width(const char* label) {
+  return std::max(scaled(86), ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x +
+                                  scaled(12));
+}
+
+void align_buttons_right(const char* const* labels, int count) {
+  float width = ImGui::GetStyle().ItemSpacing.x * static_cast<float>(std::max(0, count - 1));
+  for (int i = 0; i < count; ++i) width += dialog_button_width(labels[i]);
+  const float room = ImGui::GetContentRegionAvail().x;
+  if (room > width) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
+}
+
+bool dialog_button(const char* label, bool is_main, bool enabled) {
+  ImGui::BeginDisabled(!enabled);
+  if (is_main) {
+    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(40, 98, 165, 255));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(52, 118, 194, 255));
+  }
+  const bool clicked = ImGui::Button(label, {dialog_button_width(label), scaled(28)});
+  if (is_main) ImGui::PopStyleColor(2);
+  ImGui::EndDisabled();
+  return clicked && enabled;
+}
+
+}  // namespace sigs::editor

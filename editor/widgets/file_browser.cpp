@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/file_browser.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <utility>
+
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/keys.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTypingPause_s = 1;  // after it, a new word begins
+
+fs::path home() {
+  const char* folder = std::getenv("HOME");
+  return folder != nullptr && *folder != '\0' ? fs::path(folder) : fs::path("/");
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code code;
+  return fs::is_directory(path, code);
+}
+
+// It, or the nearest of those above it that is there.
+fs::path nearest_folder(fs::path path) {
+  while (!is_folder(path) && path.has_relative_path()) path = path.parent_path();
+  return path.empty() ? home() : path;
+}
+
+bool begins_with(const std::string& name, const std::string& typed) {
+  return name.size() >= typed.size() && std::equal(typed.begin(), typed.end(), name.begin(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+}  // namespace
+
+std::vector<BrowserPlace> usual_places() {
+  std::error_code code;
+  return {{"Home", home()}, {"Present folder", fs::current_path(code)}, {"Computer", "/"}};
+}
+
+void FileBrowser::ask(FileQuestion question, std::vector<BrowserPlace> places) {
+  question_ = std::move(question);
+  places_ = std::move(places);
+  open_ = true;
+  answer_.reset();
+  all_files_ = question_.extensions.empty();
+  bottom_ = Bottom::answer;
+  name_.clear();
+  select_when_read_.clear();
+  problem_.clear();
+  fs::path start = question_.start;
+  if (start.empty()) start = folder_.empty() ? home() : folder_;
+  start = fs::absolute(start).lexically_normal();
+  if (!start.has_filename() && start.has_relative_path()) start = start.parent_path();
+  if (!is_folder(start)) {
+    (question_.wanted == FileWanted::to_save ? name_ : select_when_read_) = start.filename().string();
+    start = start.parent_path();
+  }
+  focus_name_ = question_.wanted == FileWanted::to_save;
+  const std::string wanted = select_when_read_;
+  enter(nearest_folder(start));
+  select_when_read_ = wanted;
+}
+
+void FileBrowser::enter(const fs::path& folder) {
+  folder_ = folder;
+  editing_path_ = false;
+  problem_.clear();
+  typed_.clear();
+  selected_ = -1;
+  shown_.clear();
+  select_when_read_.clear();
+  refresh();
+}
+
+void FileBrowser::refresh() {
+  reader_.read(folder_);
+  reading_ = true;
+}
+
+void FileBrowser::go_up() {
+  if (!folder_.has_relative_path()) return;
+  const std::string from = folder_.filename().string();
+  enter(folder_.parent_path());
+  select_when_read_ = from;
+}
+
+void FileBrowser::take_listing() {
+  if (!reading_ || reader_.is_reading()) return;
+  reading_ = false;
+  const std::vector<std::string> wanted = all_files_ ? std::vector<std::string>() : question_.extensions;
+  shown_ = shown_entries(reader_.listing(), wanted, order_);
+  if (question_.wanted == FileWanted::folder) std::erase_if(shown_, [](const FolderEntry& e) { return !e.is_folder; });
+  selected_ = -1;
+  for (std::size_t i = 0; i < shown_.size(); ++i)
+    if (shown_[i].name == select_when_read_) selected_ = static_cast<int>(i);
+  scroll_to_selected_ = selected_ >= 0;
+}
+
+void FileBrowser::select(int entry) {
+  if (shown_.empty()) return;
+  selected_ = std::clamp(entry, 0, static_cast<int>(shown_.size()) - 1);
+  select_when_read_ = shown_[static_cast<std::size_t>(selected_)].name;
+  const FolderEntry& chosen = shown_[static_cast<std::size_t>(selected_)];
+  if (question_.wanted == FileWanted::to_save && !chosen.is_folder) name_ = chosen.name;
+  problem_.clear();
+}
+
+void FileBrowser::activate(int entry) {
+  if (entry < 0 || entry >= static_cast<int>(shown_.size())) return;
+  const FolderEntry chosen = shown_[static_cast<std::size_t>(entry)];
+  if (chosen.is_folder)
+    enter(folder_ / chosen.name);
+  else if (question_.wanted == FileWanted::to_save)
+    answer_by_name();
+  else
+    answer_with(folder_ / chosen.name);
+}
+
+void FileBrowser::answer_with(const fs::path& path) {
+  answer_ = path;
+  open_ = false;
+}
+
+void FileBrowser::answer_by_name() {
+  fs::path path = folder_ / name_;
+  if (name_.empty() || !path.has_filename()) return;
+  if (!path.has_extension() && !question_.extensions.empty()) path += question_.extensions.front();
+  if (is_folder(path)) {
+    enter(path.lexically_normal());
+    return;
+  }
+  if (!is_folder(path.parent_path())) {
+    problem_ = "there is no folder " + path.parent_path().string();
+    return;
+  }
+  std::error_code code;
+  if (fs::exists(path, code) && bottom_ != Bottom::overwrite) {
+    name_ = path.filename().string();
+    bottom_ = Bottom::overwrite;
+    return;
+  }
+  answer_with(path.lexically_normal());
+}
+
+void FileBrowser::make_folder() {
+  std::error_code code;
+  const fs::path path = folder_ / new_folder_;
+  if (new_folder_.empty()) return;
+  if (!fs::create_directories(path, code)) {
+    problem_ = new_folder_ + (code ? ": " + code.message() : " is there already");
+    return;
+  }
+  bottom_ = Bottom::answer;
+  enter(path.lexically_normal());
+}
+
+void FileBrowser::go_to_text(const std::string& text) {
+  editing_path_ = false;
+  if (text.empty()) return;
+  fs::path path = text.starts_with("~") ? home() / fs::path(text.substr(std::min<std::size_t>(2, text.size())))
+                                        : folder_ / text;
+  path = path.lexically_normal();
+  std::error_code code;
+  if (is_folder(path)) {
+    enter(path);
+  } else if (fs::exists(path, code) && question_.wanted == FileWanted::to_open) {
+    answer_with(path);
+  } else if (question_.wanted == FileWanted::to_save && is_folder(path.parent_path())) {
+    enter(path.parent_path());
+    name_ = path.filename().string();
+  } else {
+    problem_ = path.string() + " is not there";
+  }
+}
+
+void FileBrowser::take_typed() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.KeyCtrl || io.KeyAlt || io.InputQueueCharacters.empty()) return;
+  const double now_s = ImGui::GetTime();
+  if (now_s - typed_at_s_ > kTypingPause_s) typed_.clear();
+  typed_at_s_ = now_s;
+  for (const ImWchar c : io.InputQueueCharacters)
+    if (c >= ' ' && c < 127) typed_ += static_cast<char>(c);
+  for (std::size_t i = 0; i < shown_.size() && !typed_.empty(); ++i) {
+    if (!begins_with(shown_[i].name, typed_)) continue;
+    select(static_cast<int>(i));
+    scroll_to_selected_ = true;
+    return;
+  }
+}
+
+void FileBrowser::take_keys() {
+  if (ImGui::GetIO().KeyCtrl && pressed(Key::l)) {
+    editing_path_ = true;
+    path_text_ = folder_.string();
+    focus_bottom_ = true;
+  }
+  if (editing_path_ || bottom_ != Bottom::answer) return;
+  const int before = selected_;
+  const int page = 12;
+  if (pressed(Key::down, true)) select(selected_ + 1);
+  if (pressed(Key::up, true)) select(std::max(0, selected_ - 1));
+  if (pressed(Key::page_down, true)) select(selected_ + page);
+  if (pressed(Key::page_up, true)) select(selected_ - page);
+  if (selected_ != before) scroll_to_selected_ = true;
+  if (pressed(Key::f5)) refresh();
+  if (ImGui::GetIO().WantTextInput) return;
+  if (pressed(Key::home)) select(0), scroll_to_selected_ = true;
+  if (pressed(Key::end)) select(static_cast<int>(shown_.size()) - 1), scroll_to_selected_ = true;
+  if (pressed(Key::backspace, true)) go_up();
+  if (pressed(Key::enter) || pressed(Key::keypad_enter)) activate(selected_);
+  take_typed();
+}
+
+std::optional<fs::path> FileBrowser::draw(Places& marks) {
+  if (!open_) return std::nullopt;
+  marks_ = &marks;
+  bool closed = false;
+  const std::string title = question_.title + "###file browser";
+  if (!begin_dialog(title.c_str(), 900, 600, closed)) return std::nullopt;
+  take_listing();
+  take_keys();
+  draw_path_bar();
+  ImGui::Dummy({0, scaled(2)});
+  const float bottom = 2 * scaled(28) + 3 * ImGui::GetStyle().ItemSpacing.y + ImGui::GetTextLineHeight();
+  const float height = std::max(scaled(80), ImGui::GetContentRegionAvail().y - bottom);
+  const float places = ImGui::GetContentRegionAvail().x > scaled(560) ? scaled(170) : 0;
+  if (places > 0) {
+    draw_places(places, height);
+    ImGui::SameLine();
+  }
+  draw_list(height);
+  draw_bottom();
+  if (closed && bottom_ != Bottom::answer)
+    bottom_ = Bottom::answer;
+  else if (closed)
+    open_ = false;
+  end_dialog(open_);
+  return std::exchange(answer_, std::nullopt);
+}
+
+}  // namespace sigs::editor

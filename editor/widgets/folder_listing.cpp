@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/folder_listing.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <ctime>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+char lower(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), lower);
+  return text;
+}
+
+// The digits from a place on, without leading zeros; moves the place behind them.
+std::string number_at(const std::string& text, std::size_t& place) {
+  while (place < text.size() && text[place] == '0') ++place;
+  const std::size_t begin = place;
+  while (place < text.size() && is_digit(text[place])) ++place;
+  return text.substr(begin, place - begin);
+}
+
+template <class Value>
+int sign_of(const Value& a, const Value& b) {
+  return a < b ? -1 : (b < a ? 1 : 0);
+}
+
+bool has_extension(const std::string& name, const std::vector<std::string>& extensions) {
+  if (extensions.empty()) return true;
+  const std::string extension = lowered(fs::path(name).extension().string());
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const std::string& wanted) { return lowered(wanted) == extension; });
+}
+
+int compared(const FolderEntry& a, const FolderEntry& b, SortBy by) {
+  if (by == SortBy::changed) return sign_of(a.changed, b.changed);
+  if (by == SortBy::size) return sign_of(a.bytes, b.bytes);
+  return natural_order(a.name, b.name);
+}
+
+}  // namespace
+
+FolderListing listing_of(const fs::path& folder) {
+  FolderListing listing{.folder = folder};
+  std::error_code code;
+  fs::directory_iterator it(folder, code);
+  for (const fs::directory_iterator end; !code && it != end; it.increment(code)) {
+    std::error_code unknown;  // a dangling link, a file that goes away meanwhile: listed without size and time
+    FolderEntry entry{.name = it->path().filename().string(), .is_folder = it->is_directory(unknown)};
+    if (!entry.is_folder) entry.bytes = it->file_size(unknown);
+    if (unknown) entry.bytes = 0;
+    entry.changed = it->last_write_time(unknown);
+    if (unknown) entry.changed = {};
+    listing.entries.push_back(std::move(entry));
+  }
+  if (code) listing.problem = code.message();
+  return listing;
+}
+
+int natural_order(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string x = number_at(a, i);
+      const std::string y = number_at(b, j);
+      if (x.size() != y.size()) return sign_of(x.size(), y.size());
+      if (x != y) return sign_of(x, y);
+      continue;
+    }
+    if (const int order = sign_of(lower(a[i]), lower(b[j])); order != 0) return order;
+    ++i;
+    ++j;
+  }
+  if (const int order = sign_of(a.size() - i, b.size() - j); order != 0) return order;
+  return sign_of(a, b);
+}
+
+std::vector<FolderEntry> shown_entries(const FolderListing& listing, const std::vector<std::string>& extensions,
+                                       ListingOrder order) {
+  std::vector<FolderEntry> shown;
+  for (const FolderEntry& entry : listing.entries)
+    if (!entry.name.starts_with(".") && (entry.is_folder || has_extension(entry.name, extensions)))
+      shown.push_back(entry);
+  std::sort(shown.begin(), shown.end(), [order](const FolderEntry& a, const FolderEntry& b) {
+    if (a.is_folder != b.is_folder) return a.is_folder;
+    const int by_key = compared(a, b, order.by) * (order.descending ? -1 : 1);
+    return by_key != 0 ? by_key < 0 : natural_order(a.name, b.name) < 0;
+  });
+  return shown;
+}
+
+std::string size_text(std::uintmax_t bytes) {
+  static constexpr std::array kUnits{"B", "KB", "MB", "GB", "TB", "PB", "EB"};
+  auto size = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1000;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), unit == 0 || size >= 99.5 ? "%.0f %s" : "%.1f %s", size, kUnits[unit]);
+  return text.data();
+}
+
+std::string time_text(fs::file_time_type time) {
+  if (time == fs::file_time_type()) return "";
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(std::chrono::file_clock::to_sys(time)));
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M", &local);
+  return text.data();
+}
+
+// Shared with the reading thread, which may outlive the reader.
+struct FolderReader::Pending {
+  std::mutex mutex;
+  std::condition_variable done;
+  std::optional<FolderListing> listing;
+};
+
+void FolderReader::read(const fs::path& folder) {
+  pending_ = std::make_shared<Pending>();
+  std::thread([pending = pending_, folder] {
+    FolderListing listing = listing_of(folder);
+    const std::lock_guard lock(pending->mutex);
+    pending->listing = std::move(listing);
+    pending->done.notify_all();
+  }).detach();
+  std::unique_lock lock(pending_->mutex);
+  pending_->done.wait_for(lock, std::chrono::milliseconds(40), [this] { return pending_->listing.has_value(); });
+}
+
+bool FolderReader::is_reading() {
+  const std::shared_ptr<Pending> pending = pending_;
+  if (!pending) return false;
+  const std::lock_guard lock(pending->mutex);
+  if (!pending->listing) return true;
+  listing_ = std::move(*pending->listing);
+  pending_.reset();
+  return false;
+}
+
+}  // namespace sigs::editor

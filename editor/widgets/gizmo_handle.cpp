@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/gizmo_handle.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <cstddef>
+
+#include "editor/widgets/keys.h"
+#include "editor/widgets/screen_vec.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kArrow_px = 78;  // where the text is 15 px high
+constexpr std::array<GizmoPart, 3> kArrows{GizmoPart::x, GizmoPart::y, GizmoPart::z};
+constexpr std::array<GizmoPart, 3> kPlanes{GizmoPart::xy, GizmoPart::yz, GizmoPart::zx};
+constexpr std::array<ImU32, 3> kArrowColors{color::kAxisX, color::kAxisY, color::kAxisZ};
+constexpr std::array<ImU32, 3> kPlaneColors{color::kAxisZ, color::kAxisX, color::kAxisY};  // of the axis they leave out
+constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
+
+glm::dvec2 mouse_now() {
+  return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
+}
+
+std::optional<GizmoShape> shape_of(const glm::dvec3& at_m, const GizmoStage& stage) {
+  return gizmo_shape({.center_m = at_m, .arrow_px = scaled(kArrow_px)}, stage.camera, stage.rect);
+}
+
+void draw_arrow(ImDrawList& list, const glm::dvec2& from, const glm::dvec2& tip, ImU32 color, const char* name) {
+  const glm::dvec2 along = tip - from;
+  const double length = glm::length(along);
+  if (length < 2) return;
+  const glm::dvec2 unit = along / length;
+  const glm::dvec2 across{-unit.y, unit.x};
+  const double head = std::min<double>(scaled(11), length * 0.6);
+  const glm::dvec2 neck = tip - unit * head;
+  list.AddLine(im(from), im(neck), IM_COL32(0, 0, 0, 110), scaled(4.5));
+  list.AddLine(im(from), im(neck), color, scaled(2.5));
+  list.AddTriangleFilled(im(tip), im(neck + across * (head * 0.42)), im(neck - across * (head * 0.42)), color);
+  ImFont* small = font(Font::small);
+  const ImVec2 size = small->CalcTextSizeA(small->FontSize, 1e6F, 0, name);
+  const glm::dvec2 middle = tip + unit * static_cast<double>(scaled(10));
+  const ImVec2 corner = im(middle - glm::dvec2(size.x, size.y) / 2.0);
+  list.AddText(small, small->FontSize, {corner.x + 1, corner.y + 1}, IM_COL32(0, 0, 0, 150), name);
+  list.AddText(small, small->FontSize, corner, color, name);
+}
+
+void draw_plane(ImDrawList& list, const std::array<glm::dvec2, 4>& quad, ImU32 color, bool hot) {
+  list.AddQuadFilled(im(quad[0]), im(quad[1]), im(quad[2]), im(quad[3]), faded(color, hot ? 0.75 : 0.35));
+  list.AddQuad(im(quad[0]), im(quad[1]), im(quad[2]), im(quad[3]), faded(color, hot ? 1 : 0.8), 1);
+}
+
+}  // namespace
+
+GizmoAnswer GizmoHandle::update(const glm::dvec3& at_m, const GizmoStage& stage) {
+  if (dragging()) return go_on(stage);
+  hovered_ = GizmoPart::none;
+  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+  if (!shape || !stage.mouse_is_free) return {};
+  hovered_ = part_at(*shape, mouse_now(), scaled(7));
+  if (hovered_ == GizmoPart::none) return {};
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    const bool middle = hovered_ == GizmoPart::screen;
+    return {.wants_numbers = !middle, .wants_middle = middle};
+  }
+  if (!ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return {};
+  take(hovered_, at_m);
+  return {};
+}
+
+void GizmoHandle::take(GizmoPart part, const glm::dvec3& at_m) {
+  drag_ = {.part = part, .start_m = at_m, .start_mouse = mouse_now()};
+  has_moved_ = false;
+}
+
+GizmoAnswer GizmoHandle::go_on(const GizmoStage& stage) {
+  if (pressed(Key::escape)) {
+    let_go();
+    return {.cancelled = true};
+  }
+  GizmoAnswer answer;
+  // A click that trembles moves nothing.
+  has_moved_ = has_moved_ || glm::distance(mouse_now(), drag_.start_mouse) >= 3;
+  if (has_moved_ && ImGui::IsMousePosValid())
+    answer.moved_to = dragged(drag_, mouse_now(), stage.camera, stage.rect, stage.snap_m);
+  answer.released = !ImGui::IsMouseDown(ImGuiMouseButton_Left);
+  if (answer.released) let_go();
+  return answer;
+}
+
+void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoStage& stage) const {
+  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+  if (!shape) return;
+  const auto hot = [&](GizmoPart part_drawn) { return part() == part_drawn; };
+  for (std::size_t i = 0; i < 3; ++i)
+    if (shape->planes[i]) draw_plane(list, *shape->planes[i], kPlaneColors[i], hot(kPlanes[i]));
+  for (std::size_t i = 0; i < 3; ++i)
+    if (shape->tips[i])
+      draw_arrow(list, shape->center, *shape->tips[i], hot(kArrows[i]) ? color::kWaypoint : kArrowColors[i], kNames[i]);
+  list.AddCircleFilled(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), IM_COL32(0, 0, 0, 130));
+  list.AddCircle(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), color::kWaypoint, 0, scaled(1.8));
+}
+
+}  // namespace sigs::editor

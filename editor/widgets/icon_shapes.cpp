@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/icon_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "editor/widgets/icons.h"
+
+namespace sigs::editor {
+
+IconPen::IconPen(ImDrawList& list, ImVec2 center, float size, ImU32 color)
+    : list_(list), center_(center), half_(size * 0.42F), stroke_(std::max(1.0F, size * 0.085F)), color_(color) {}
+
+void IconPen::line(std::initializer_list<ImVec2> points, bool closed) {
+  for (const ImVec2 point : points) list_.PathLineTo(at(point));
+  list_.PathStroke(color_, closed ? ImDrawFlags_Closed : ImDrawFlags_None, stroke_);
+}
+
+void IconPen::fill(std::initializer_list<ImVec2> corners) {
+  for (const ImVec2 corner : corners) list_.PathLineTo(at(corner));
+  list_.PathFillConvex(color_);
+}
+
+void IconPen::box(ImVec2 low, ImVec2 high, float rounding) {
+  list_.AddRect(at(low), at(high), color_, rounding * half_, ImDrawFlags_None, stroke_);
+}
+
+void IconPen::filled_box(ImVec2 low, ImVec2 high) {
+  list_.AddRectFilled(at(low), at(high), color_);
+}
+
+void IconPen::circle(ImVec2 center, float radius) {
+  list_.AddCircle(at(center), radius * half_, color_, 0, stroke_);
+}
+
+void IconPen::dot(ImVec2 center, float radius) {
+  list_.AddCircleFilled(at(center), std::max(stroke_ * 0.7F, radius * half_), color_);
+}
+
+void IconPen::arc(ImVec2 center, float radius, float from_rad, float to_rad) {
+  list_.PathArcTo(at(center), radius * half_, from_rad, to_rad, 14);
+  list_.PathStroke(color_, ImDrawFlags_None, stroke_);
+}
+
+namespace {
+
+void play(IconPen& pen) {
+  pen.fill({{-0.6F, -0.85F}, {0.85F, 0}, {-0.6F, 0.85F}});
+}
+
+void pause(IconPen& pen) {
+  pen.filled_box({-0.65F, -0.8F}, {-0.2F, 0.8F});
+  pen.filled_box({0.2F, -0.8F}, {0.65F, 0.8F});
+}
+
+void stop(IconPen& pen) {
+  pen.filled_box({-0.7F, -0.7F}, {0.7F, 0.7F});
+}
+
+void back(IconPen& pen) {
+  pen.fill({{0.1F, -0.75F}, {0.1F, 0.75F}, {-0.85F, 0}});
+  pen.filled_box({0.4F, -0.7F}, {0.68F, 0.7F});
+}
+
+void forward(IconPen& pen) {
+  pen.fill({{-0.1F, -0.75F}, {0.85F, 0}, {-0.1F, 0.75F}});
+  pen.filled_box({-0.68F, -0.7F}, {-0.4F, 0.7F});
+}
+
+void to_start(IconPen& pen) {
+  pen.filled_box({-0.85F, -0.75F}, {-0.6F, 0.75F});
+  pen.fill({{0.15F, -0.7F}, {0.15F, 0.7F}, {-0.55F, 0}});
+  pen.fill({{0.85F, -0.7F}, {0.85F, 0.7F}, {0.15F, 0}});
+}
+
+void to_end(IconPen& pen) {
+  pen.filled_box({0.6F, -0.75F}, {0.85F, 0.75F});
+  pen.fill({{-0.15F, -0.7F}, {0.55F, 0}, {-0.15F, 0.7F}});
+  pen.fill({{-0.85F, -0.7F}, {-0.15F, 0}, {-0.85F, 0.7F}});
+}
+
+void loop(IconPen& pen) {
+  pen.arc({0, 0}, 0.75F, 3.5F, 5.9F);
+  pen.arc({0, 0}, 0.75F, 0.36F, 2.76F);
+  pen.fill({{0.95F, -0.75F}, {0.98F, -0.08F}, {0.35F, -0.2F}});
+  pen.fill({{-0.95F, 0.75F}, {-0.98F, 0.08F}, {-0.35F, 0.2F}});
+}
+
+void plus(IconPen& pen) {
+  pen.line({{-0.8F, 0}, {0.8F, 0}});
+  pen.line({{0, -0.8F}, {0, 0.8F}});
+}
+
+void minus(IconPen& pen) {
+  pen.line({{-0.8F, 0}, {0.8F, 0}});
+}
+
+void trash(IconPen& pen) {
+  pen.line({{-0.85F, -0.55F}, {0.85F, -0.55F}});
+  pen.line({{-0.3F, -0.6F}, {-0.3F, -0.9F}, {0.3F, -0.9F}, {0.3F, -0.6F}});
+  pen.line({{-0.62F, -0.5F}, {-0.5F, 0.9F}, {0.5F, 0.9F}, {0.62F, -0.5F}});
+  pen.line({{-0.17F, -0.15F}, {-0.15F, 0.55F}});
+  pen.line({{0.17F, -0.15F}, {0.15F, 0.55F}});
+}
+
+void copy(IconPen& pen) {
+  pen.box({-0.35F, -0.35F}, {0.85F, 0.85F}, 0.15F);
+  pen.line({{-0.4F, 0.35F}, {-0.85F, 0.35F}, {-0.85F, -0.85F}, {0.35F, -0.85F}, {0.35F, -0.4F}});
+}
+
+void eye(IconPen& pen) {
+  pen.line({{-1, 0}, {-0.5F, -0.45F}, {0, -0.6F}, {0.5F, -0.45F}, {1, 0}, {0.5F, 0.45F}, {0, 0.6F}, {-0.5F, 0.45F}},
+           true);
+  pen.dot({0, 0}, 0.28F);
+}
+
+void eye_off(IconPen& pen) {
+  eye(pen);
+  pen.line({{-0.8F, 0.85F}, {0.8F, -0.85F}});
+}
+
+void folder(IconPen& pen) {
+  pen.line({{-0.9F, 0.7F}, {-0.9F, -0.65F}, {-0.25F, -0.65F}, {0, -0.35F}, {0.9F, -0.35F}, {0.9F, 0.7F}}, true);
+}
+
+void file(IconPen& pen) {
+  pen.line({{-0.65F, -0.9F}, {0.2F, -0.9F}, {0.65F, -0.45F}, {0.65F, 0.9F}, {-0.65F, 0.9F}}, true);
+  pen.line({{0.2F, -0.85F}, {0.2F, -0.45F}, {0.6F, -0.45F}});
+}
+
+void save(IconPen& pen) {
+  pen.line({{-0.8F, -0.8F}, {0.5F, -0.8F}, {0.8F, -0.5F}, {0.8F, 0.8F}, {-0.8F, 0.8F}}, true);
+  pen.line({{-0.4F, -0.75F}, {-0.4F, -0.3F}, {0.35F, -0.3F}, {0.35F, -0.75F}});
+  pen.line({{-0.45F, 0.75F}, {-0.45F, 0.15F}, {0.45F, 0.15F}, {0.45F, 0.75F}});
+}
+
+void warning(IconPen& pen) {
+  pen.line({{0, -0.85F}, {0.95F, 0.8F}, {-0.95F, 0.8F}}, true);
+  pen.line({{0, -0.3F}, {0, 0.25F}});
+  pen.dot({0, 0.53F}, 0.1F);
+}
+
+void info(IconPen& pen) {
+  pen.circle({0, 0}, 0.9F);
+  pen.line({{0, -0.1F}, {0, 0.5F}});
+  pen.dot({0, -0.42F}, 0.1F);
+}
+
+void check(IconPen& pen) {
+  pen.line({{-0.8F, 0.05F}, {-0.25F, 0.6F}, {0.8F, -0.6F}});
+}
+
+void cross(IconPen& pen) {
+  pen.line({{-0.65F, -0.65F}, {0.65F, 0.65F}});
+  pen.line({{-0.65F, 0.65F}, {0.65F, -0.65F}});
+}
+
+void reset(IconPen& pen) {
+  pen.arc({0, 0.05F}, 0.75F, -2.3F, 2.5F);
+  pen.fill({{-0.8F, -0.85F}, {-0.2F, -0.2F}, {-0.88F, -0.15F}});
+}
+
+void undo(IconPen& pen) {
+  pen.line({{-0.4F, -0.85F}, {-0.9F, -0.35F}, {-0.4F, 0.15F}});
+  pen.line({{-0.85F, -0.35F}, {0.3F, -0.35F}});
+  pen.arc({0.3F, 0.2F}, 0.55F, -1.57F, 1.57F);
+  pen.line({{0.3F, 0.75F}, {-0.4F, 0.75F}});
+}
+
+void redo(IconPen& pen) {
+  pen.line({{0.4F, -0.85F}, {0.9F, -0.35F}, {0.4F, 0.15F}});
+  pen.line({{0.85F, -0.35F}, {-0.3F, -0.35F}});
+  pen.arc({-0.3F, 0.2F}, 0.55F, 1.57F, 4.71F);
+  pen.line({{-0.3F, 0.75F}, {0.4F, 0.75F}});
+}
+
+void magnet(IconPen& pen) {
+  pen.arc({0, 0.1F}, 0.75F, 0, 3.1416F);
+  pen.arc({0, 0.1F}, 0.3F, 0, 3.1416F);
+  pen.line({{-0.3F, 0.1F}, {-0.3F, -0.85F}, {-0.75F, -0.85F}, {-0.75F, 0.1F}});
+  pen.line({{0.3F, 0.1F}, {0.3F, -0.85F}, {0.75F, -0.85F}, {0.75F, 0.1F}});
+  pen.line({{-0.75F, -0.45F}, {-0.3F, -0.45F}});
+  pen.line({{0.3F, -0.45F}, {0.75F, -0.45F}});
+}
+
+void search(IconPen& pen) {
+  pen.circle({-0.2F, -0.2F}, 0.6F);
+  pen.line({{0.25F, 0.25F}, {0.9F, 0.9F}});
+}
+
+void settings(IconPen& pen) {
+  for (const float y : {-0.6F, 0.0F, 0.6F}) pen.line({{-0.9F, y}, {0.9F, y}});
+  pen.dot({0.35F, -0.6F}, 0.24F);
+  pen.dot({-0.4F, 0}, 0.24F);
+  pen.dot({0.1F, 0.6F}, 0.24F);
+}
+
+void grid(IconPen& pen) {
+  for (const float at : {-0.35F, 0.35F}) {
+    pen.line({{-0.9F, at}, {0.9F, at}});
+    pen.line({{at, -0.9F}, {at, 0.9F}});
+  }
+}
+
+void fit(IconPen& pen) {
+  for (const float x : {-1.0F, 1.0F})
+    for (const float y : {-1.0F, 1.0F})
+      pen.line({{x * 0.35F, y * 0.85F}, {x * 0.85F, y * 0.85F}, {x * 0.85F, y * 0.35F}});
+}
+
+void split(IconPen& pen) {
+  pen.box({-0.9F, -0.7F}, {0.9F, 0.7F}, 0.15F);
+  pen.filled_box({-0.85F, -0.65F}, {0, 0.65F});
+}
+
+void camera(IconPen& pen) {
+  pen.box({-0.95F, -0.55F}, {0.35F, 0.6F}, 0.15F);
+  pen.line({{0.4F, 0}, {0.95F, -0.5F}, {0.95F, 0.55F}}, true);
+}
+
+void light(IconPen& pen) {
+  pen.dot({0, 0}, 0.38F);
+  for (const ImVec2 ray :
+       {ImVec2{1, 0}, {0.7F, 0.7F}, {0, 1}, {-0.7F, 0.7F}, {-1, 0}, {-0.7F, -0.7F}, {0, -1}, {0.7F, -0.7F}})
+    pen.line({{ray.x * 0.62F, ray.y * 0.62F}, ray});
+}
+
+void aircraft(IconPen& pen) {
+  pen.fill({{-0.13F, 0.75F}, {-0.13F, -0.75F}, {0, -0.98F}, {0.13F, -0.75F}, {0.13F, 0.75F}});
+  pen.fill({{-0.1F, -0.35F}, {-0.1F, 0.1F}, {-0.95F, 0.35F}, {-0.95F, 0.12F}});
+  pen.fill({{0.1F, -0.35F}, {0.95F, 0.12F}, {0.95F, 0.35F}, {0.1F, 0.1F}});
+  pen.fill({{0, 0.5F}, {0.45F, 0.85F}, {-0.45F, 0.85F}});
+}
+
+void waypoint(IconPen& pen) {
+  pen.fill({{0, -0.8F}, {0.8F, 0}, {0, 0.8F}, {-0.8F, 0}});
+}
+
+void link(IconPen& pen) {
+  pen.arc({-0.45F, 0}, 0.45F, 1.57F, 4.71F);
+  pen.arc({0.45F, 0}, 0.45F, -1.57F, 1.57F);
+  pen.line({{-0.45F, -0.45F}, {-0.1F, -0.45F}});
+  pen.line({{-0.45F, 0.45F}, {-0.1F, 0.45F}});
+  pen.line({{0.45F, -0.45F}, {0.1F, -0.45F}});
+  pen.line({{0.45F, 0.45F}, {0.1F, 0.45F}});
+  pen.line({{-0.35F, 0}, {0.35F, 0}});
+}
+
+void lock(IconPen& pen) {
+  pen.filled_box({-0.65F, -0.1F}, {0.65F, 0.85F});
+  pen.arc({0, -0.3F}, 0.42F, -3.1416F, 0);
+  pen.line({{-0.42F, -0.3F}, {-0.42F, 0}});
+  pen.line({{0.42F, -0.3F}, {0.42F, 0}});
+}
+
+void out(IconPen& pen) {
+  pen.line({{-0.45F, -0.1F}, {-0.85F, -0.1F}, {-0.85F, 0.85F}, {0.85F, 0.85F}, {0.85F, -0.1F}, {0.45F, -0.1F}});
+  pen.line({{0, 0.4F}, {0, -0.85F}});
+  pen.line({{-0.4F, -0.5F}, {0, -0.9F}, {0.4F, -0.5F}});
+}
+
+void mark_in(IconPen& pen) {
+  pen.line({{0.35F, -0.8F}, {-0.25F, -0.8F}, {-0.25F, 0.8F}, {0.35F, 0.8F}});
+}
+
+void mark_out(IconPen& pen) {
+  pen.line({{-0.35F, -0.8F}, {0.25F, -0.8F}, {0.25F, 0.8F}, {-0.35F, 0.8F}});
+}
+
+void chevron_left(IconPen& pen) {
+  pen.line({{0.35F, -0.7F}, {-0.35F, 0}, {0.35F, 0.7F}});
+}
+
+void chevron_right(IconPen& pen) {
+  pen.line({{-0.35F, -0.7F}, {0.35F, 0}, {-0.35F, 0.7F}});
+}
+
+void chevron_down(IconPen& pen) {
+  pen.line({{-0.7F, -0.35F}, {0, 0.35F}, {0.7F, -0.35F}});
+}
+
+using Shape = void (*)(IconPen&);
+
+// In the order of Icon.
+constexpr Shape kShapes[] = {
+    play,     pause, stop,    back,   forward,  to_start, to_end,       loop,          plus,        minus, trash,
+    copy,     eye,   eye_off, folder, file,     save,     warning,      info,          check,       cross, reset,
+    undo,     redo,  magnet,  search, settings, grid,     fit,          split,         camera,      light, aircraft,
+    waypoint, link,  lock,    out,    mark_in,  mark_out, chevron_left, chevron_right, chevron_down};
+static_assert(std::size(kShapes) == static_cast<std::size_t>(Icon::chevron_down) + 1);
+
+}  // namespace
+
+void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color) {
+  // On whole pixels, so that upright lines are sharp.
+  IconPen pen(list, {std::floor(center.x) + 0.5F, std::floor(center.y) + 0.5F}, size, color);
+  kShapes[static_cast<std::size_t>(icon)](pen);
+}
+
+}  // namespace sigs::editor

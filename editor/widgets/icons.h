@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+namespace sigs::editor {
+
+// Small pictures drawn from lines, for buttons and rows: no icon font, sharp at every size.
+enum class Icon {
+  play,
+  pause,
+  stop,
+  back,     // one frame
+  forward,  // one frame
+  to_start,
+  to_end,
+  loop,
+  plus,
+  minus,
+  trash,
+  copy,
+  eye,
+  eye_off,
+  folder,
+  file,
+  save,
+  warning,
+  info,
+  check,
+  cross,
+  reset,  // an arrow that turns back
+  undo,
+  redo,
+  magnet,
+  search,
+  settings,
+  grid,
+  fit,    // four corners
+  split,  // a picture halved
+  camera,
+  light,
+  aircraft,
+  waypoint,
+  link,
+  lock,
+  out,       // an arrow out of a box: export
+  mark_in,   // [
+  mark_out,  // ]
+  chevron_left,
+  chevron_right,
+  chevron_down,
+};
+
+// Within a square of side `size` about a centre.
+void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color);
+
+// A square button as high as a line of controls; true when clicked. `tooltip` may be "". `on`: drawn as switched on.
+[[nodiscard]] bool icon_button(const char* id, Icon icon, const char* tooltip, bool on = false);
+[[nodiscard]] float icon_button_width();
+
+// An icon of the text's size at the cursor, as an item of its own.
+void icon_label(Icon icon, ImU32 color);
+
+// For the item before, once the mouse has rested on it for a moment; wrapped where it is long. "": none.
+void tooltip_for_item(const char* text);
+
+// The same for tooltips that are more than text: true once the mouse has rested.
+[[nodiscard]] bool item_wants_tooltip();
+
+}  // namespace sigs::editor

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/picture_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "editor/widgets/theme.h"
+#include "editor/widgets/zoomable_picture.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kGridFromZoom = 8;
+constexpr double kLeastValueText_px = 9;
+constexpr int kMostValues = 320;      // pixels; each takes nine characters
+constexpr int kValuesAroundMouse = 5;  // pixels to every side
+
+ImU32 readable_on(const cv::Vec3b& bgr) {
+  const int luma = (bgr[0] * 11 + bgr[1] * 59 + bgr[2] * 30) / 100;
+  return luma > 128 ? IM_COL32(0, 0, 0, 230) : IM_COL32(255, 255, 255, 230);
+}
+
+cv::Vec3b bgr_at(const cv::Mat& picture, int x, int y) {
+  if (picture.channels() == 3) return picture.at<cv::Vec3b>(y, x);
+  const uchar grey = picture.at<uchar>(y, x);
+  return {grey, grey, grey};
+}
+
+// One side of an outline, upright or level.
+void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, bool dashed) {
+  const bool level = high.x - low.x >= high.y - low.y;
+  const double length = level ? high.x - low.x : high.y - low.y;
+  const double dash = scaled(5);
+  for (double at = 0; at < length; at += dashed ? 2 * dash : length) {
+    const double end = dashed ? std::min(at + dash, length) : length;
+    const glm::dvec2 from = level ? glm::dvec2(low.x + at, low.y) : glm::dvec2(low.x, low.y + at);
+    const glm::dvec2 to = level ? glm::dvec2(low.x + end, high.y) : glm::dvec2(high.x, low.y + end);
+    draw.AddRectFilled(im(from), im(to), color);
+  }
+}
+
+void draw_value(const PictureCanvas& canvas, const cv::Mat& picture, int x, int y, float text_px) {
+  const cv::Vec3b bgr = bgr_at(picture, x, y);
+  const int lines = picture.channels() == 3 ? 3 : 1;
+  const glm::dvec2 middle = canvas.view.screen_of({x, y});
+  char text[8];
+  for (int line = 0; line < lines; ++line) {
+    const int length = std::snprintf(text, sizeof text, "%d", bgr[2 - line]);
+    const double width = text_px * 0.6 * length;  // DejaVu Sans Mono's advance
+    const glm::dvec2 at(middle.x - width / 2, middle.y + (line - lines / 2.0) * text_px);
+    canvas.draw.AddText(font(Font::mono), text_px, im(glm::floor(at)), readable_on(bgr), text);
+  }
+}
+
+}  // namespace
+
+ScreenRect PictureCanvas::picture_on_screen() const {
+  return {view.screen_of({-0.5, -0.5}), view.screen_of({picture_px.width - 0.5, picture_px.height - 0.5})};
+}
+
+std::optional<cv::Point> PictureCanvas::pixel_at(const glm::dvec2& screen) const {
+  const glm::dvec2 p = glm::floor(view.picture_of(screen) + 0.5);
+  if (!(p.x >= 0 && p.y >= 0 && p.x < picture_px.width && p.y < picture_px.height)) return std::nullopt;
+  return cv::Point(static_cast<int>(p.x), static_cast<int>(p.y));
+}
+
+void draw_label(const PictureCanvas& canvas, const glm::dvec2& at, const std::string& text, ImU32 color) {
+  ImFont* const small = font(Font::small);
+  const ImVec2 size = small->CalcTextSizeA(small->FontSize, 1e6F, 0, text.c_str());
+  const glm::dvec2 margin(scaled(5), scaled(2));
+  const glm::dvec2 plate = dv(size) + 2.0 * margin;
+  const glm::dvec2 most = glm::max(canvas.rect.low, canvas.rect.high - plate);
+  const glm::dvec2 low = glm::floor(glm::clamp(glm::dvec2(at.x, at.y - plate.y), canvas.rect.low, most));
+  canvas.draw.AddRectFilled(im(low), im(low + plate), IM_COL32(12, 13, 16, 190), scaled(3));
+  canvas.draw.AddText(small, small->FontSize, im(low + margin), color, text.c_str());
+}
+
+void draw_outline(const PictureCanvas& canvas, const ScreenRect& outlined, ImU32 color, bool dashed) {
+  const double thick = std::max(1.0F, std::round(scaled(1)));
+  const glm::dvec2 least = canvas.rect.low - 2 * thick;
+  const glm::dvec2 most = canvas.rect.high + 2 * thick;
+  const glm::dvec2 low = glm::clamp(glm::floor(outlined.low) - thick, least, most);
+  const glm::dvec2 high = glm::clamp(glm::ceil(outlined.high) + thick, least, most);
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  draw_side(canvas.draw, low, {high.x, low.y + thick}, color, dashed);
+  draw_side(canvas.draw, {low.x, high.y - thick}, high, color, dashed);
+  draw_side(canvas.draw, low, {low.x + thick, high.y}, color, dashed);
+  draw_side(canvas.draw, {high.x - thick, low.y}, high, color, dashed);
+  canvas.draw.PopClipRect();
+}
+
+void draw_pixel_grid(const PictureCanvas& canvas) {
+  if (canvas.view.zoom < kGridFromZoom) return;
+  const cv::Rect sight = pixels_in_sight(canvas.view, canvas.picture_px, canvas.rect);
+  const glm::dvec2 low = canvas.view.screen_of(glm::dvec2(sight.x, sight.y) - 0.5);
+  const glm::dvec2 high = canvas.view.screen_of(glm::dvec2(sight.x + sight.width, sight.y + sight.height) - 0.5);
+  const ImU32 color = IM_COL32(128, 128, 128, canvas.view.zoom < 16 ? 26 : 60);
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (int i = 0; i <= sight.width; ++i) {
+    const double x = std::round(low.x + i * canvas.view.zoom);
+    canvas.draw.AddRectFilled(im({x, low.y}), im({x + 1, high.y}), color);
+  }
+  for (int j = 0; j <= sight.height; ++j) {
+    const double y = std::round(low.y + j * canvas.view.zoom);
+    canvas.draw.AddRectFilled(im({low.x, y}), im({high.x, y + 1}), color);
+  }
+  canvas.draw.PopClipRect();
+}
+
+void draw_pixel_values(const PictureCanvas& canvas, const cv::Mat& picture, const glm::dvec2& mouse) {
+  const double text_px = std::min(canvas.view.zoom / 3.4, static_cast<double>(font(Font::mono)->FontSize));
+  if (picture.empty() || text_px < kLeastValueText_px) return;
+  cv::Rect shown = pixels_in_sight(canvas.view, picture.size(), canvas.rect);
+  if (shown.area() > kMostValues) {
+    const std::optional<cv::Point> pixel = canvas.pixel_at(mouse);
+    if (!pixel || !canvas.rect.contains(mouse)) return;
+    const int side = 2 * kValuesAroundMouse + 1;
+    shown &= cv::Rect(pixel->x - kValuesAroundMouse, pixel->y - kValuesAroundMouse, side, side);
+  }
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (int y = shown.y; y < shown.y + shown.height; ++y)
+    for (int x = shown.x; x < shown.x + shown.width; ++x)
+      draw_value(canvas, picture, x, y, static_cast<float>(text_px));
+  canvas.draw.PopClipRect();
+}
+
+void draw_pixel_mark(const PictureCanvas& canvas, const cv::Point& pixel) {
+  const glm::dvec2 low = canvas.view.screen_of(glm::dvec2(pixel.x, pixel.y) - 0.5);
+  const ScreenRect square{low, low + canvas.view.zoom};
+  if (canvas.view.zoom >= 4) {
+    draw_outline(canvas, square, color::kAccent, false);
+    return;
+  }
+  const glm::dvec2 middle = glm::floor((square.low + square.high) / 2.0);
+  const double gap = scaled(4);
+  const double arm = scaled(7);
+  // Dark below light: to be seen before sky and ground.
+  const auto draw_arms = [&](double thick, ImU32 color) {
+    for (const double side : {-1.0, 1.0}) {
+      const double from = std::min(side * gap, side * (gap + arm));
+      const double to = from + arm;
+      canvas.draw.AddRectFilled(im(middle + glm::dvec2(from, -thick)), im(middle + glm::dvec2(to, 1 + thick)), color);
+      canvas.draw.AddRectFilled(im(middle + glm::dvec2(-thick, from)), im(middle + glm::dvec2(1 + thick, to)), color);
+    }
+  };
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  draw_arms(1, IM_COL32(0, 0, 0, 150));
+  draw_arms(0, color::kAccent);
+  canvas.draw.PopClipRect();
+}
+
+std::string pixel_text(const cv::Mat& picture, const cv::Point& pixel) {
+  if (!cv::Rect({0, 0}, picture.size()).contains(pixel)) return {};
+  char text[24];
+  const cv::Vec3b bgr = bgr_at(picture, pixel.x, pixel.y);
+  if (picture.channels() == 1)
+    std::snprintf(text, sizeof text, "%3d", bgr[0]);
+  else
+    std::snprintf(text, sizeof text, "%3d %3d %3d", bgr[2], bgr[1], bgr[0]);
+  return text;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "editor/geometry/picture_view.h"
+
+namespace sigs::editor {
+
+// A picture as it lies on the screen while it is drawn on.
+struct PictureCanvas {
+  ImDrawList& draw;
+  ScreenRect rect;  // nothing is drawn beyond it
+  PictureView view;
+  cv::Size picture_px;
+
+  // The first and the one after the last screen pixel that the picture covers, within the rect or not.
+  [[nodiscard]] ScreenRect picture_on_screen() const;
+  // The pixel at a place of the screen; none beside the picture.
+  [[nodiscard]] std::optional<cv::Point> pixel_at(const glm::dvec2& screen) const;
+};
+
+// A small text on a dark plate, kept within the rect; `at` is its lower left corner.
+void draw_label(const PictureCanvas& canvas, const glm::dvec2& at, const std::string& text, ImU32 color);
+
+// The outline of a rect of the screen, just outside it; dashes where asked for. Its corners may lie anywhere.
+void draw_outline(const PictureCanvas& canvas, const ScreenRect& outlined, ImU32 color, bool dashed);
+
+// Lines between the pixels, once these are large enough to tell from each other.
+void draw_pixel_grid(const PictureCanvas& canvas);
+
+// Red, green and blue of each pixel in it, once there is room; of those around the mouse where there are very many.
+void draw_pixel_values(const PictureCanvas& canvas, const cv::Mat& picture, const glm::dvec2& mouse);
+
+// Around one pixel: a square where pixels are large, else a cross beside it.
+void draw_pixel_mark(const PictureCanvas& canvas, const cv::Point& pixel);
+
+// "120  84  33", or "120" for one channel; red first.
+[[nodiscard]] std::string pixel_text(const cv::Mat& picture, const cv::Point& pixel);
+
+}  // namespace sigs::editor

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+namespace sigs {
+
+// One sample of the output along an axis: a weighted sum of neighbouring samples of the input.
+struct Taps {
+  int first = 0;
+  std::vector<float> weights;  // empty: nothing of the input reaches it
+};
+
+// Evenly spaced places along an axis, px.
+struct Lattice {
+  double first = 0;
+  double step = 1;
+  int count = 0;
+
+  [[nodiscard]] double at(int i) const { return first + i * step; }
+};
+
+// Gaussian cut at reach_px, sampled at the places of `out`. The input's samples are cells that touch each other; a cell
+// that the cut halves counts by half. Weights sum to one over an input without borders; beyond its borders is nothing.
+[[nodiscard]] std::vector<Taps> gaussian_taps(const Lattice& out, const Lattice& in, double sigma_px, double reach_px);
+
+// The same for an input of size_px pixels that goes on beyond its borders as OpenCV's BORDER_REFLECT_101.
+[[nodiscard]] std::vector<Taps> mirrored_gaussian_taps(const Lattice& out, int size_px, double sigma_px,
+                                                       double reach_px);
+
+// Places of `step` that serve to rebuild the pixels [first_px, first_px + size_px).
+[[nodiscard]] Lattice lattice_for(int first_px, int size_px, double step);
+
+// Rebuilds these pixels by the cubic B-spline: smooth, never beyond its inputs, and without their error in exchange for
+// spreading them by splined_variance(step).
+[[nodiscard]] std::vector<Taps> spline_taps(int first_px, int size_px, const Lattice& in);
+[[nodiscard]] double splined_variance(double step);
+
+// Each axis by its own taps. image is CV_32FC1, CV_32FC3 or CV_32FC4.
+[[nodiscard]] cv::Mat resampled(const cv::Mat& image, std::span<const Taps> rows, std::span<const Taps> columns);
+
+}  // namespace sigs

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "scene/draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "base/ensure.h"
+#include "scene/scene_parts.h"
+#include "scene/stand_ins.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kCrossLength_m = 10;
+constexpr int kStandInWidth_px = 1280;
+constexpr int kStandInHeight_px = 960;
+constexpr double kStandInInterval_s = 1.0 / 25;
+constexpr int kFewestFrames = 250;
+constexpr int kMostFrames = 100'000;
+
+// "intruders[1]" holds "intruders[1].model.file", but not "intruders[12]".
+bool holds(std::string_view outer, std::string_view inner) {
+  return inner.starts_with(outer) &&
+         (inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[');
+}
+
+// What opening finds is often what checking has named: of the same field, or of a part of it.
+void note(std::vector<Problem>& problems, const Problem& found) {
+  for (const Problem& known : problems)
+    if (holds(known.field, found.field) || holds(found.field, known.field)) return;
+  problems.push_back(found);
+}
+
+// Of several in one field, the first.
+std::vector<Problem> checked(const Project& project) {
+  std::vector<Problem> problems;
+  for (Problem& found : validate(project)) {
+    const auto is_known = [&](const Problem& known) { return known.field == found.field; };
+    if (std::none_of(problems.begin(), problems.end(), is_known)) problems.push_back(std::move(found));
+  }
+  return problems;
+}
+
+template <class T>
+T made_or(Made<T> made, T stand_in, std::vector<Problem>& problems) {
+  if (made) return *std::move(made);
+  note(problems, made.error());
+  return stand_in;
+}
+
+FrameRange clamped_range(const FootageSettings& settings, const FootageShape& footage) {
+  const int last = static_cast<int>(footage.times_s.size()) - 1;
+  const int first = std::clamp(settings.first_frame, 0, last);
+  return {first, std::clamp(settings.last_frame.value_or(last), first, last)};
+}
+
+bool is_finite(const WaypointSettings& waypoint) {
+  const glm::dvec3& p = waypoint.position_m;
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&
+         (!waypoint.frame || std::isfinite(*waypoint.frame));
+}
+
+// As written: a number that is none was mended in `sound`, but nobody wants to fly through its default.
+bool can_be_flown(const Project& written, std::size_t intruder) {
+  const std::vector<WaypointSettings>& waypoints = written.intruders[intruder].trajectory.waypoints;
+  return std::all_of(waypoints.begin(), waypoints.end(), is_finite);
+}
+
+Trajectory hovering(const Project& sound, std::size_t intruder) {
+  const TrajectoryPlan& plan = sound.intruders[intruder].trajectory;
+  return *Trajectory::make({{0, plan.waypoints.front().position_m}}, trajectory_settings(plan));
+}
+
+Trajectory drafted_trajectory(const Project& written, const Project& sound, std::size_t intruder, DraftScene& draft) {
+  if (!can_be_flown(written, intruder)) return hovering(sound, intruder);
+  return made_or(made_trajectory(sound, intruder, draft.scene), hovering(sound, intruder), draft.problems);
+}
+
+std::shared_ptr<const Model> drafted_model(const Project& sound, std::size_t intruder, DraftScene& draft,
+                                           SceneFiles& files) {
+  Made<std::shared_ptr<const Model>> model = made_model(sound, intruder, files);
+  if (model) return *model;
+  note(draft.problems, model.error());
+  const double length_m = sound.intruders[intruder].model.length_m;
+  return files.cross(length_m > 0 ? length_m : kCrossLength_m);
+}
+
+}  // namespace
+
+DraftScene draft_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
+  ENSURE(!footage.times_s.empty() && !footage.size_px.empty());
+  const Project sound = mended(project);
+  DraftScene draft{.scene = bare_scene(sound, footage), .problems = checked(project)};
+  Scene& scene = draft.scene;
+  const FrameRange range =
+      made_or(made_range(sound.footage, footage), clamped_range(sound.footage, footage), draft.problems);
+  scene.first_frame = range.first;
+  scene.last_frame = range.last;
+  scene.camera = made_or(made_camera(sound, footage.size_px, files), stand_in_camera(footage.size_px), draft.problems);
+  scene.own_body = made_or(made_own_body(sound, footage.size_px, files), cv::Mat(), draft.problems);
+  for (std::size_t i = 0; i < sound.intruders.size(); ++i) {
+    const bool has_waypoint = !sound.intruders[i].trajectory.waypoints.empty();
+    draft.intruder_of_project.push_back(has_waypoint ? static_cast<int>(scene.intruders.size()) : -1);
+    const std::shared_ptr<const Model> model = drafted_model(sound, i, draft, files);
+    if (has_waypoint) add_intruder(scene, sound.intruders[i].name, model, drafted_trajectory(project, sound, i, draft));
+  }
+  return draft;
+}
+
+FootageShape stand_in_footage(const Project& project) {
+  const Project sound = mended(project);
+  double last = std::max(sound.footage.first_frame, sound.footage.last_frame.value_or(0));
+  for (const IntruderSettings& intruder : sound.intruders)
+    for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
+      last = std::max(last, std::ceil(waypoint.frame.value_or(0)));
+  const int count = static_cast<int>(std::clamp<double>(last + 1, kFewestFrames, kMostFrames));
+  FootageShape footage{.size_px = {kStandInWidth_px, kStandInHeight_px}, .frame_interval_s = kStandInInterval_s};
+  for (int frame = 0; frame < count; ++frame) footage.times_s.push_back(frame * kStandInInterval_s);
+  return footage;
+}
+
+}  // namespace sigs

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "scene/scene_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "base/angles.h"
+#include "scene/waypoint_times.h"
+
+namespace sigs {
+
+namespace {
+
+tl::unexpected<Problem> problem(std::string field, std::string what, ErrorKind kind = ErrorKind::bad_project) {
+  return tl::unexpected<Problem>(Problem{std::move(field), std::move(what), kind});
+}
+
+// What a room says of a file, said of the field that names the file.
+tl::unexpected<Problem> in_field(std::string field, const Error& error) {
+  return problem(std::move(field), error.text(), error.kind);
+}
+
+ModelAxes axes_of(const ModelSettings& model) {
+  return {.forward = model.forward,
+          .up = model.up,
+          .scale = model.scale,
+          .length_m = model.length_m,
+          .anchor_at_bounds = model.anchor == AnchorChoice::bounds};
+}
+
+// read_obj names the setting where it is not the file that is wrong.
+bool is_axes_setting(const std::string& where) {
+  constexpr std::array<std::string_view, 4> kSettings{"forward", "up", "scale", "length_m"};
+  return std::find(kSettings.begin(), kSettings.end(), where) != kSettings.end();
+}
+
+std::string frame_text(const WaypointSettings& waypoint, double frame) {
+  std::ostringstream text;
+  text << frame << (waypoint.frame ? "" : " (spread over the project's frames)");
+  return text.str();
+}
+
+}  // namespace
+
+std::string key_of_intruder(std::size_t intruder) {
+  return "intruders[" + std::to_string(intruder) + "]";
+}
+
+Scene bare_scene(const Project& project, const FootageShape& footage) {
+  const CameraSettings& camera = project.camera;
+  const Attitude attitude{rad_of_deg(camera.roll_deg), rad_of_deg(camera.pitch_deg), rad_of_deg(camera.yaw_deg)};
+  return {.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
+          .motion = {.world_from_camera_at_start = {rotation_of(attitude), camera.position_m},
+                     .speed_mps = camera.speed_mps},
+          .light = {project.light.position_m, project.light.color, project.light.ambient},
+          .compositing = project.compositing,
+          .footage = footage};
+}
+
+Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage) {
+  const int count = static_cast<int>(footage.times_s.size());
+  const FrameRange range{settings.first_frame, settings.last_frame.value_or(count - 1)};
+  const std::string held = "the footage has " + std::to_string(count) + " frames, 0 to " + std::to_string(count - 1);
+  if (range.first < 0 || range.first >= count) return problem("footage.first_frame", held);
+  if (range.last < range.first || range.last >= count) return problem("footage.last_frame", held);
+  return range;
+}
+
+Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+  Result<Camera> camera = files.camera(resolved(project, project.footage.calibration), footage_size_px);
+  if (!camera) return in_field("footage.calibration", camera.error());
+  return *std::move(camera);
+}
+
+Made<cv::Mat> made_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+  if (project.footage.own_body_mask.empty()) return cv::Mat();
+  const Result<cv::Mat> mask = files.own_body_mask(resolved(project, project.footage.own_body_mask), footage_size_px);
+  if (!mask) return in_field("footage.own_body_mask", mask.error());
+  return *mask;
+}
+
+Made<std::shared_ptr<const Model>> made_model(const Project& project, std::size_t intruder, SceneFiles& files) {
+  const ModelSettings& settings = project.intruders[intruder].model;
+  const Result<std::shared_ptr<const Model>> model = files.model(resolved(project, settings.file), axes_of(settings));
+  if (model) return *model;
+  const std::string key = key_of_intruder(intruder) + ".model.";
+  if (is_axes_setting(model.error().where))
+    return problem(key + model.error().where, model.error().what, model.error().kind);
+  return in_field(key + "file", model.error());
+}
+
+TrajectorySettings trajectory_settings(const TrajectoryPlan& plan) {
+  return {.spline = plan.spline == SplineChoice::interpolating ? SplineKind::interpolating : SplineKind::approximating,
+          .timing = plan.timing == TimingChoice::frames ? Timing::frames : Timing::constant_speed,
+          .bank = plan.bank == BankChoice::coordinated ? Bank::coordinated : Bank::level,
+          .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
+}
+
+Made<Trajectory> made_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
+  const TrajectoryPlan& plan = project.intruders[intruder].trajectory;
+  const std::string key = key_of_intruder(intruder) + ".trajectory.";
+  const std::vector<double> frames = waypoint_frames(plan.waypoints, scene.first_frame, scene.last_frame);
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (frames[i] <= frames[i - 1])
+      return problem(key + "waypoints[" + std::to_string(i) + "].frame",
+                     "is " + frame_text(plan.waypoints[i], frames[i]) + ", not after waypoints[" +
+                         std::to_string(i - 1) + "], which has " + frame_text(plan.waypoints[i - 1], frames[i - 1]));
+  Result<Trajectory> trajectory = Trajectory::make(
+      timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame), trajectory_settings(plan));
+  if (!trajectory) return problem(key + trajectory.error().where, trajectory.error().what);
+  return *std::move(trajectory);
+}
+
+void add_intruder(Scene& scene, const std::string& name, const std::shared_ptr<const Model>& model,
+                  const Trajectory& trajectory) {
+  if (std::find(scene.models.begin(), scene.models.end(), model) == scene.models.end()) {
+    scene.models.push_back(model);
+    const std::vector<Warning>& warnings = model->mesh.warnings;
+    scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
+  }
+  scene.intruders.push_back({name, model.get(), trajectory});
+}
+
+}  // namespace sigs

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "project/validate.h"
+#include "scene/scene.h"
+#include "scene/scene_files.h"
+
+namespace sigs {
+
+// The steps in which a scene is made of a project. open_scene stops at the first problem, draft_scene stands in for
+// what could not be made and goes on.
+template <class T>
+using Made = tl::expected<T, Problem>;
+
+struct FrameRange {
+  int first = 0;
+  int last = 0;  // included
+};
+
+// What needs no file and cannot fail: motion, light, compositing, footage; no lens yet.
+[[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
+
+[[nodiscard]] Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage);
+[[nodiscard]] Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+
+// Empty where the project names none.
+[[nodiscard]] Made<cv::Mat> made_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+
+[[nodiscard]] Made<std::shared_ptr<const Model>> made_model(const Project& project, std::size_t intruder,
+                                                            SceneFiles& files);
+
+// Of the project's intruder, over the scene's footage and range.
+[[nodiscard]] Made<Trajectory> made_trajectory(const Project& project, std::size_t intruder, const Scene& scene);
+
+[[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan);
+
+// "intruders[3]"
+[[nodiscard]] std::string key_of_intruder(std::size_t intruder);
+
+// Gives the scene an intruder, and its model with its warnings where the scene has not got it yet.
+void add_intruder(Scene& scene, const std::string& name, const std::shared_ptr<const Model>& model,
+                  const Trajectory& trajectory);
+
+}  // namespace sigs

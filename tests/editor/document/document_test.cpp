@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "editor/document/document.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "project/json.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+
+namespace {
+
+Project with_waypoints(int count) {
+  Project project;
+  IntruderSettings intruder;
+  for (int i = 0; i < count; ++i)
+    intruder.trajectory.waypoints.push_back({.frame = 10.0 * i, .position_m = {100.0 + i, 0, -150}});
+  project.intruders.push_back(intruder);
+  return project;
+}
+
+ChangeProject speed(double mps, std::string gesture = {}) {
+  return {"set speed", [=](Project& project) { project.camera.speed_mps = mps; }, std::move(gesture)};
+}
+
+}  // namespace
+
+TEST_CASE("undo brings back the state before, and its number; redo the one after") {
+  Document document(with_waypoints(2));
+  const std::uint64_t before = document.revision().number;
+  document.apply(Edit(speed(20)));
+  const std::uint64_t after = document.revision().number;
+  CHECK(after != before);
+  CHECK(document.undo_name() == "set speed");
+  document.apply(Edit(Undo{}));
+  CHECK(document.project().camera.speed_mps == 0);
+  CHECK(document.revision().number == before);
+  CHECK_FALSE(document.can_undo());
+  document.apply(Edit(Redo{}));
+  CHECK(document.project().camera.speed_mps == 20);
+  CHECK(document.revision().number == after);
+  CHECK_FALSE(document.can_redo());
+}
+
+TEST_CASE("a drag of many moves is one step, and the next drag is another") {
+  Document document(with_waypoints(2));
+  for (int i = 1; i <= 50; ++i) document.apply(Edit(speed(i, "drag")));
+  document.apply(Edit(EndGesture{}));
+  for (int i = 51; i <= 60; ++i) document.apply(Edit(speed(i, "drag")));
+  document.apply(Edit(Undo{}));
+  CHECK(document.project().camera.speed_mps == 50);
+  document.apply(Edit(Undo{}));
+  CHECK(document.project().camera.speed_mps == 0);
+  CHECK_FALSE(document.can_undo());
+}
+
+TEST_CASE("every state of a drag has a number of its own") {
+  Document document;
+  document.apply(Edit(speed(1, "drag")));
+  const std::uint64_t first = document.revision().number;
+  document.apply(Edit(speed(2, "drag")));
+  CHECK(document.revision().number != first);
+}
+
+TEST_CASE("an edit after undo drops what was undone, and never takes up its number again") {
+  Document document;
+  document.apply(Edit(speed(1)));
+  const std::uint64_t undone = document.revision().number;
+  document.apply(Edit(Undo{}));
+  document.apply(Edit(speed(2)));
+  CHECK(document.revision().number != undone);
+  CHECK_FALSE(document.can_redo());
+}
+
+TEST_CASE("what changes nothing makes no step") {
+  Document document;
+  document.apply(Edit(speed(0)));
+  CHECK_FALSE(document.can_undo());
+  CHECK_FALSE(document.has_unsaved_changes());
+}
+
+TEST_CASE("a change that fails, or leaves numbers that are none, is refused as a whole") {
+  Document document(with_waypoints(2));
+  const Project before = document.project();
+  document.apply(Edit(speed(std::numeric_limits<double>::quiet_NaN())));
+  document.apply(Edit(speed(std::numeric_limits<double>::infinity())));
+  document.apply(Edit(ChangeProject{"broken", [](Project& project) {
+                                      project.name = "half";
+                                      throw std::out_of_range("no such waypoint");
+                                    },
+                                    {}}));
+  document.apply(Edit(ChangeProject{"nowhere", [](Project& project) {
+                                      project.intruders[0].trajectory.waypoints[1].position_m.y = NAN;
+                                    },
+                                    {}}));
+  CHECK(document.project() == before);
+  CHECK_FALSE(document.can_undo());
+}
+
+TEST_CASE("undo comes back to the saved state as saved") {
+  const test::TemporaryFolder folder;
+  Document document(with_waypoints(3));
+  REQUIRE(document.save_as(folder / "a.json").has_value());
+  CHECK_FALSE(document.has_unsaved_changes());
+  document.apply(Edit(speed(3)));
+  CHECK(document.has_unsaved_changes());
+  document.apply(Edit(Undo{}));
+  CHECK_FALSE(document.has_unsaved_changes());
+  const Result<ReadProject> read = read_project(folder / "a.json");
+  REQUIRE(read.has_value());
+  CHECK(read->project == document.project());
+}
+
+TEST_CASE("a project that cannot be saved stays unsaved, and says why") {
+  const test::TemporaryFolder folder;
+  Document document;
+  document.apply(Edit(speed(3)));
+  const Result<void> saved = document.save_as(folder / "nowhere/a.json");
+  REQUIRE_FALSE(saved.has_value());
+  CHECK(saved.error().kind == ErrorKind::cannot_create);
+  CHECK(document.has_unsaved_changes());
+  CHECK_FALSE(document.has_file());
+  CHECK_FALSE(document.save().has_value());
+}
+
+TEST_CASE("the playhead stays on the footage, and the range within the project's") {
+  Document document;
+  document.set_frame_count(100);
+  document.apply(Edit(GoToFrame{-5}));
+  CHECK(document.playhead() == 0);
+  document.apply(Edit(GoToFrame{std::numeric_limits<int>::max()}));
+  CHECK(document.playhead() == 99);
+  document.set_frame_count(10);
+  CHECK(document.playhead() == 9);
+  document.apply(Edit(SetInOut{7, 3}));
+  CHECK(document.range_first() == 3);
+  CHECK(document.range_last() == 7);
+  document.apply(Edit(SetInOut{std::nullopt, 400}));
+  CHECK(document.range_first() == 0);
+  CHECK(document.range_last() == 9);
+  document.set_frame_count(0);
+  CHECK(document.playhead() == 0);
+  CHECK(document.range_first() == 0);
+  CHECK(document.range_last() == 0);
+}
+
+TEST_CASE("a selection never points beyond the project") {
+  Document document(with_waypoints(3));
+  document.apply(Edit(Select{{Selected::waypoint, 0, 2}}));
+  document.apply(Edit(ChangeProject{"delete", [](Project& project) { project.intruders[0].trajectory.waypoints.pop_back(); }, {}}));
+  CHECK(document.selection() == Selection{Selected::waypoint, 0, 1});
+  document.apply(Edit(ChangeProject{"delete all", [](Project& project) { project.intruders.clear(); }, {}}));
+  CHECK(document.selection().kind == Selected::nothing);
+  document.apply(Edit(Undo{}));
+  CHECK(document.selection() == Selection{Selected::waypoint, 0, 1});
+  document.apply(Edit(Select{{Selected::intruder, 77, 0}}));
+  CHECK(document.selection().intruder == 0);
+}
+
+TEST_CASE("a long history is kept within bounds, the newest steps first") {
+  Document document(with_waypoints(10'000));
+  for (int i = 1; i <= 400; ++i) document.apply(Edit(speed(i)));
+  int steps = 0;
+  for (; document.can_undo(); ++steps) document.apply(Edit(Undo{}));
+  CHECK(steps >= 10);
+  CHECK(steps < 250);
+  CHECK(document.project().camera.speed_mps == 400 - steps);
+}

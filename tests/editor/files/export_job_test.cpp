@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/export_job.h"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <thread>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "editor/preview/export_plan.h"
+#include "project/json.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using sigs::test::TinyProject;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Project read(const TinyProject& tiny) {
+  return read_project(tiny.project()).value().project;
+}
+
+template <class Condition>
+bool comes_true(Condition condition) {
+  for (int i = 0; i < 6000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+ExportState finished(const ExportJob& job) {
+  REQUIRE(comes_true([&] { return !job.is_running(); }));
+  return job.state();
+}
+
+}  // namespace
+
+TEST_CASE("an export in the background gives the bytes of the command that it names") {
+  const TinyProject tiny;
+  const ExportRequest request{.project = read(tiny), .folder = tiny.file("from editor"), .frames = FrameRange{2, 7}};
+  std::atomic<int> wakes = 0;
+  ExportJob job([&] { ++wakes; });
+  REQUIRE(job.start(request));
+  const ExportState state = finished(job);
+  REQUIRE_MESSAGE(state.phase == ExportPhase::done, state.error.text());
+  CHECK(state.done == 6);
+  CHECK(state.total == 6);
+  CHECK(wakes == 7);  // each frame, and the end
+
+  ExportRequest by_program = request;
+  by_program.folder = tiny.file("from program");
+  REQUIRE(export_command(by_program).starts_with("sigs "));
+  const test::Run run = test::run_sigs(export_command(by_program).substr(5));
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  CHECK(state.report.written.size() == 3);
+  for (const fs::path& path : state.report.written)
+    CHECK_MESSAGE(read_text(path).value() == read_text(by_program.folder / path.filename()).value(), path);
+}
+
+TEST_CASE("the project is exported as it is in memory, whatever lies on disk") {
+  const TinyProject tiny;
+  Project project = read(tiny);
+  project.name = "changed";
+  ExportJob job([] {});
+  REQUIRE(job.start({.project = project, .folder = tiny.out()}));
+  REQUIRE(finished(job).phase == ExportPhase::done);
+  CHECK(fs::exists(fs::path(tiny.out()) / "changed.mkv"));
+}
+
+TEST_CASE("a cancelled export leaves nothing behind, and another can follow") {
+  const TinyProject tiny(2000);
+  tiny.file("p.json");
+  ExportJob job([] {});
+  REQUIRE(job.start({.project = read(tiny), .folder = tiny.out()}));
+  CHECK_FALSE(job.start({.project = read(tiny), .folder = tiny.out()}));
+  REQUIRE(comes_true([&] { return job.state().done > 3; }));
+  job.cancel();
+  CHECK(finished(job).phase == ExportPhase::cancelled);
+  CHECK(tiny.files_out() == 0);
+  job.dismiss();
+  CHECK(job.state().phase == ExportPhase::none);
+  CHECK(job.start({.project = read(tiny), .folder = tiny.out(), .frames = FrameRange{0, 1}}));
+  CHECK(finished(job).phase == ExportPhase::done);
+}
+
+TEST_CASE("an editor that closes during an export leaves nothing behind") {
+  const TinyProject tiny(2000);
+  {
+    ExportJob job([] {});
+    REQUIRE(job.start({.project = read(tiny), .folder = tiny.out()}));
+    REQUIRE(comes_true([&] { return job.state().done > 3; }));
+  }
+  CHECK(tiny.files_out() == 0);
+}
+
+TEST_CASE("what goes wrong is told by field") {
+  const TinyProject tiny;
+  Project project = read(tiny);
+  project.intruders[0].model.file = "nowhere.obj";
+  ExportJob job([] {});
+  REQUIRE(job.start({.project = project, .folder = tiny.out()}));
+  const ExportState state = finished(job);
+  REQUIRE(state.phase == ExportPhase::failed);
+  CHECK(state.error.text().find("intruders[0].model.file") != std::string::npos);
+  CHECK(tiny.files_out() == 0);
+}
+
+TEST_CASE("what is there is not overwritten unless that is asked for") {
+  const TinyProject tiny(3);
+  ExportJob job([] {});
+  ExportRequest request{.project = read(tiny), .folder = tiny.out()};
+  REQUIRE(job.start(request));
+  REQUIRE(finished(job).phase == ExportPhase::done);
+  REQUIRE(job.start(request));
+  CHECK(finished(job).phase == ExportPhase::failed);
+  request.overwrite = true;
+  REQUIRE(job.start(request));
+  CHECK(finished(job).phase == ExportPhase::done);
+}
+
+TEST_CASE("the export is polite, the thread that asks for it stays as it was") {
+  const TinyProject tiny(300);
+  const int own = ::getpriority(PRIO_PROCESS, 0);
+  std::atomic<int> exporting = own;
+  ExportJob job([&] { exporting = ::getpriority(PRIO_PROCESS, 0); });
+  REQUIRE(job.start({.project = read(tiny), .folder = tiny.out(), .frames = FrameRange{0, 5}}));
+  REQUIRE(finished(job).phase == ExportPhase::done);
+  CHECK(::getpriority(PRIO_PROCESS, 0) == own);
+  CHECK(exporting >= std::min(10, own + 1));
+}

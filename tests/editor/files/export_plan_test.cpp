@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/export_plan.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "cli/tiny_project.h"
+#include "project/json.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using sigs::test::TinyProject;
+
+TEST_CASE("what an export writes is known before, whatever is chosen") {
+  const TinyProject tiny(2);
+  Project project = read_project(tiny.project()).value().project;
+  for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png})
+    for (const MasksChoice masks : {MasksChoice::none, MasksChoice::video, MasksChoice::png})
+      for (const bool labels : {false, true}) {
+        project.output.codec = codec;
+        project.output.masks = masks;
+        project.output.labels = labels ? std::vector<std::string>{"xml"} : std::vector<std::string>{};
+        const std::filesystem::path folder = tiny.file("out");
+        CHECK(outputs_there(project, folder).empty());
+        const Result<ExportReport> report = export_project({.project = project, .folder = folder}, {});
+        REQUIRE(report);
+        std::vector<std::filesystem::path> foretold = outputs_of(project, folder);
+        std::vector<std::filesystem::path> written = report->written;
+        std::sort(foretold.begin(), foretold.end());
+        std::sort(written.begin(), written.end());
+        CHECK(foretold == written);
+        CHECK(outputs_there(project, folder).size() == written.size());
+        std::filesystem::remove_all(folder);
+      }
+}
+
+TEST_CASE("the usual folder lies beside the project file") {
+  Project project;
+  project.file = "/a/b/p.json";
+  CHECK(usual_export_folder(project) == "/a/b/out");
+  project.file.clear();
+  CHECK(usual_export_folder(project).is_absolute());
+}
+
+TEST_CASE("the equal command survives a shell") {
+  ExportRequest request{.folder = "/home/me/my out"};
+  request.project.file = "/home/me/it's.json";
+  CHECK(export_command(request) == R"(sigs export '/home/me/it'\''s.json' --out '/home/me/my out')");
+  request.project.file = "a/b.json";
+  request.frames = FrameRange{10, 20};
+  request.overwrite = true;
+  request.folder = "out";
+  CHECK(export_command(request) == "sigs export a/b.json --frames 10-20 --out out --force");
+}

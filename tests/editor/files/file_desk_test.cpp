@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/file_desk.h"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using sigs::test::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// An editor without a window, and a person who answers.
+struct Desk {
+  TemporaryFolder folder;
+  Document document;
+  Settings settings;
+  bool exporting = false;
+  double now_s = 0;
+  FileDesk desk{document, settings, {folder / "state", [] {}, [this] { return exporting; }}};
+
+  void edit(const std::string& name) {
+    document.apply(ChangeProject{"rename", [name](Project& p) { p.name = name; }, {}});
+  }
+
+  fs::path written(const std::string& file, const std::string& name) {
+    Project project;
+    project.name = name;
+    REQUIRE(write_project(project, folder / file, true));
+    return folder / file;
+  }
+
+  void open(const fs::path& path) {
+    desk.take(OpenProject{path});
+    wait();
+  }
+
+  void wait() {
+    for (int i = 0; i < 1000 && !desk.loading().empty(); ++i) {
+      desk.turn(now_s);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+  std::string errors() {
+    std::string text;
+    for (const Request& request : desk.take_requests())
+      if (const auto* said = std::get_if<Say>(&request); said != nullptr && said->is_error) text += said->text;
+    return text;
+  }
+
+  void choose_file(const fs::path& path) {
+    for (const Request& request : desk.take_requests())
+      if (const auto* wanted = std::get_if<AskForFile>(&request)) {
+        wanted->chosen(path);
+        return;
+      }
+    FAIL("no file was asked for");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a project is opened in the background and becomes a recent one") {
+  Desk d;
+  const fs::path path = d.written("a.json", "a");
+  CHECK_FALSE(d.desk.has_project());
+  d.open(path);
+  CHECK(d.desk.has_project());
+  CHECK(d.document.project().name == "a");
+  CHECK_FALSE(d.document.has_unsaved_changes());
+  REQUIRE(d.settings.recent.size() == 1);
+  CHECK(d.settings.recent[0] == path);
+}
+
+TEST_CASE("what cannot be opened is told, and the present project stays") {
+  Desk d;
+  d.open(d.written("a.json", "a"));
+  std::ofstream(d.folder / "broken.json") << "{";
+  for (const char* file : {"broken.json", "nowhere.json"}) {
+    d.open(d.folder / file);
+    CHECK(d.errors().find(file) != std::string::npos);
+    CHECK(d.document.project().name == "a");
+    CHECK(d.desk.has_project());
+  }
+}
+
+TEST_CASE("unsaved changes are asked for before they are lost, whatever would lose them") {
+  Desk d;
+  const fs::path other = d.written("b.json", "b");
+  for (const Request& request : {Request(OpenProject{other}), Request(NewProject{}), Request(CloseProject{}), Request(Quit{})}) {
+    d.open(d.written("a.json", "a"));
+    d.edit("changed");
+    CHECK(d.desk.take(request));
+    REQUIRE(d.desk.question());
+    REQUIRE(d.desk.question()->answers.size() == 3);
+    d.desk.answer(2);  // cancel
+    d.wait();
+    CHECK(d.document.project().name == "changed");
+    CHECK_FALSE(d.desk.is_done());
+
+    d.desk.take(request);
+    d.desk.answer(1);  // don't save
+    d.wait();
+    CHECK((d.desk.is_done() || d.document.project().name != "changed"));
+    CHECK(read_project(d.folder / "a.json")->project.name == "a");
+  }
+}
+
+TEST_CASE("saving from the question goes on to what was wanted") {
+  Desk d;
+  d.open(d.written("a.json", "a"));
+  d.edit("changed");
+  d.desk.take(Quit{});
+  d.desk.answer(0);
+  CHECK(d.desk.is_done());
+  CHECK(read_project(d.folder / "a.json")->project.name == "changed");
+}
+
+TEST_CASE("a save that fails stops what was to follow") {
+  Desk d;
+  d.desk.take(NewProject{});
+  d.edit("a");
+  d.desk.take(Quit{});
+  d.desk.answer(0);
+  d.choose_file(d.folder / "no such folder/a.json");
+  CHECK_FALSE(d.errors().empty());
+  CHECK_FALSE(d.desk.is_done());
+  CHECK(d.document.has_unsaved_changes());
+}
+
+TEST_CASE("a project without a file asks for a name, and takes it") {
+  Desk d;
+  d.desk.take(NewProject{});
+  d.document.apply(ChangeProject{"speed", [](Project& p) { p.camera.speed_mps = 5; }, {}});
+  d.desk.take(SaveProject{});
+  d.choose_file(d.folder / "flight.json");
+  CHECK_FALSE(d.document.has_unsaved_changes());
+  CHECK(read_project(d.folder / "flight.json")->project.name == "flight");
+}
+
+TEST_CASE("a file name that was not chosen ends what was to follow it") {
+  Desk d;
+  d.desk.take(NewProject{});
+  d.edit("a");
+  d.desk.take(Quit{});
+  d.desk.answer(0);
+  (void)d.desk.take_requests();  // the person closes the browser
+  d.desk.take(SaveProject{});
+  d.choose_file(d.folder / "a.json");
+  CHECK_FALSE(d.desk.is_done());
+}
+
+TEST_CASE("another's changes on disk are not overwritten without a question") {
+  Desk d;
+  const fs::path path = d.written("a.json", "a");
+  d.open(path);
+  d.edit("mine");
+  std::ofstream(path) << "somebody else's";
+  d.desk.take(SaveProject{});
+  REQUIRE(d.desk.question());
+  d.desk.answer(2);
+  CHECK(fs::file_size(path) == 15);
+  d.desk.take(SaveProject{});
+  d.desk.answer(1);
+  CHECK(read_project(path)->project.name == "mine");
+  d.edit("mine again");
+  d.desk.take(SaveProject{});
+  CHECK_FALSE(d.desk.question());
+}
+
+TEST_CASE("a running export is not lost without a question") {
+  Desk d;
+  d.exporting = true;
+  d.desk.take(Quit{});
+  REQUIRE(d.desk.question());
+  d.desk.answer(0);
+  CHECK_FALSE(d.desk.is_done());
+  d.desk.take(Quit{});
+  d.desk.answer(1);
+  CHECK(d.desk.is_done());
+}
+
+TEST_CASE("what is edited while a file is read is not lost either") {
+  Desk d;
+  d.open(d.written("a.json", "a"));
+  d.desk.take(OpenProject{d.written("b.json", "b")});
+  d.edit("quick");
+  d.wait();
+  REQUIRE(d.desk.question());
+  d.desk.answer(2);
+  CHECK(d.document.project().name == "quick");
+}
+
+TEST_CASE("after a crash the project is offered, recovered unsaved, and gone from the list") {
+  Desk before;
+  const fs::path path = before.written("a.json", "a");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Desk crashing;
+    Document document(read_project(path)->project);
+    document.apply(ChangeProject{"rename", [](Project& p) { p.name = "lost work"; }, {}});
+    Recovery recovery(before.folder / "state");
+    ::_exit(recovery.write(document) ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  REQUIRE(status == 0);
+
+  Document document;
+  Settings settings;
+  FileDesk desk(document, settings, {before.folder / "state", [] {}, {}});
+  REQUIRE(desk.abandoned().size() == 1);
+  desk.recover(desk.abandoned()[0]);
+  CHECK(desk.has_project());
+  CHECK(document.project().name == "lost work");
+  CHECK(document.project().file == path);
+  CHECK(document.has_unsaved_changes());
+  CHECK(desk.abandoned().empty());
+  desk.take(SaveProject{});
+  CHECK(read_project(path)->project.name == "lost work");
+  CHECK(abandoned_projects(before.folder / "state").empty());
+}
+
+TEST_CASE("dropped files open projects or change the one that is there") {
+  Desk d;
+  Edits edits;
+  const fs::path path = d.written("a.json", "a");
+  d.desk.take_dropped(path, edits);
+  d.wait();
+  CHECK(d.document.project().name == "a");
+  std::ofstream(d.folder / "m.obj") << "v 0 0 0\n";
+  d.desk.take_dropped(d.folder / "m.obj", edits);
+  d.document.apply(edits.take_edits());
+  REQUIRE(d.document.project().intruders.size() == 1);
+  CHECK(d.document.project().intruders[0].model.file == "m.obj");
+  std::ofstream(d.folder / "letter.txt") << "Dear Sir";
+  d.desk.take_dropped(d.folder / "letter.txt", edits);
+  CHECK(d.errors().find("letter.txt") != std::string::npos);
+}
+
+TEST_CASE("requests that belong to others are left to them") {
+  Desk d;
+  CHECK_FALSE(d.desk.take(Play{1}));
+  CHECK_FALSE(d.desk.take(ShowHelp{}));
+  CHECK_FALSE(d.desk.question());
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "editor/document/relink.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using sigs::test::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void touch(const fs::path& path) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path) << "x";
+}
+
+Project project_in(const fs::path& folder) {
+  Project project;
+  project.file = folder / "p/p.json";
+  project.footage.video = "../footage/day/clip.mp4";
+  project.footage.calibration = "../calibrations/cam.xml";
+  project.intruders.resize(2);
+  project.intruders[0].model.file = (folder / "models/a.obj").string();
+  project.intruders[1].model.file = (folder / "models/a.obj").string();
+  return project;
+}
+
+fs::path place_of(const std::vector<Relinked>& places, const std::string& field) {
+  for (const Relinked& relinked : places)
+    if (relinked.field == field) return relinked.place;
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("missing files are named by field and place; those that are there or not asked for are not") {
+  const TemporaryFolder folder;
+  touch(folder / "calibrations/cam.xml");
+  const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
+  REQUIRE(missing.size() == 3);
+  CHECK(missing[0] ==
+        MissingFile{"footage.video", "../footage/day/clip.mp4", folder / "footage/day/clip.mp4"});
+  CHECK(missing[1].field == "intruders[0].model.file");
+  CHECK(missing[2].field == "intruders[1].model.file");
+}
+
+TEST_CASE("a tree that moved as a whole is found again from one of its files") {
+  const TemporaryFolder folder;
+  for (const char* file : {"footage/day/clip.mp4", "calibrations/cam.xml", "models/a.obj"})
+    touch(folder / "disk2/archive" / file);
+  const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
+  REQUIRE(missing.size() == 4);
+  const auto places = suggested_places(missing, missing[0], folder / "disk2/archive/footage/day/clip.mp4");
+  CHECK(places.size() == 3);
+  CHECK(place_of(places, "footage.calibration") == folder / "disk2/archive/calibrations/cam.xml");
+  CHECK(place_of(places, "intruders[0].model.file") == folder / "disk2/archive/models/a.obj");
+  CHECK(place_of(places, "intruders[1].model.file") == folder / "disk2/archive/models/a.obj");
+}
+
+TEST_CASE("files thrown together into one folder are found there") {
+  const TemporaryFolder folder;
+  for (const char* file : {"clip.mp4", "cam.xml", "a.obj"}) touch(folder / "all" / file);
+  const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
+  const auto places = suggested_places(missing, missing[0], folder / "all/clip.mp4");
+  CHECK(place_of(places, "footage.calibration") == folder / "all/cam.xml");
+  CHECK(place_of(places, "intruders[1].model.file") == folder / "all/a.obj");
+}
+
+TEST_CASE("a renamed file is the same one for all fields that had it") {
+  const TemporaryFolder folder;
+  touch(folder / "new/b.obj");
+  const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
+  const auto places = suggested_places(missing, missing[2], folder / "new/b.obj");
+  REQUIRE(places.size() == 1);
+  CHECK(places[0] == Relinked{"intruders[1].model.file", folder / "new/b.obj"});
+}
+
+TEST_CASE("nothing is proposed that is not there") {
+  const TemporaryFolder folder;
+  touch(folder / "new/clip.mp4");
+  const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
+  CHECK(suggested_places(missing, missing[0], folder / "new/clip.mp4").empty());
+  CHECK(suggested_places(missing, missing[0], "/").empty());
+}
+
+TEST_CASE("relinked, the project names its files from its own folder, and none is missing") {
+  const TemporaryFolder folder;
+  for (const char* file : {"clip.mp4", "cam.xml", "a.obj"}) touch(folder / "all" / file);
+  Project project = project_in(folder.path());
+  const std::vector<MissingFile> missing = missing_files(project);
+  auto places = suggested_places(missing, missing[0], folder / "all/clip.mp4");
+  places.push_back({missing[0].field, folder / "all/clip.mp4"});
+  places.push_back({"intruders[7].model.file", folder / "all/a.obj"});
+  relink(project, places);
+  CHECK(project.footage.video == "../all/clip.mp4");
+  CHECK(missing_files(project).empty());
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/picture_names.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+
+#include "base/partial_file.h"
+#include "project/json.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using namespace sigs::test;
+
+namespace {
+
+Project head_on() {
+  return read_project(source_dir() / "projects/head-on/head-on.json")->project;
+}
+
+}  // namespace
+
+TEST_CASE("what touches no picture leaves its name alone and what does changes it") {
+  const PictureName name = picture_name_of(head_on());
+  const std::vector<std::function<void(Project&)>> harmless{
+      [](Project& p) { p.name = "another"; }, [](Project& p) { p.output.crf = 3; },
+      [](Project& p) { p.output.labels.clear(); }, [](Project& p) { p.unknown_json = std::string("{\"a\": 1}"); },
+      [](Project& p) { p.intruders[0].unknown_json = std::string("{\"a\": 1}"); }};
+  for (const auto& change : harmless) {
+    Project changed = head_on();
+    change(changed);
+    CHECK(picture_name_of(changed) == name);
+  }
+  const std::vector<std::function<void(Project&)>> telling{
+      [](Project& p) { p.footage.last_frame = 9; },
+      [](Project& p) { p.footage.own_body_mask.clear(); },
+      [](Project& p) { p.camera.speed_mps += 1e-9; },
+      [](Project& p) { p.light.ambient = 0.1; },
+      [](Project& p) { p.intruders[0].name += "b"; },  // the truth has it
+      [](Project& p) { p.intruders[0].trajectory.waypoints[1].position_m.z += 1; },
+      [](Project& p) { p.intruders[0].model.length_m = 3; },
+      [](Project& p) { p.compositing.method = MethodChoice::plain; },
+      [](Project& p) { p.intruders.push_back(p.intruders[0]); }};
+  for (const auto& change : telling) {
+    Project changed = head_on();
+    change(changed);
+    CHECK_FALSE(picture_name_of(changed) == name);
+  }
+}
+
+TEST_CASE("a project saved elsewhere whose paths mean the same files keeps its pictures") {
+  const Project project = head_on();
+  Project moved = project;
+  moved.file = "/tmp/elsewhere/x.json";
+  CHECK_FALSE(picture_name_of(moved) == picture_name_of(project));
+  moved.footage.video = resolved(project, project.footage.video);
+  moved.footage.calibration = resolved(project, project.footage.calibration);
+  moved.footage.own_body_mask = resolved(project, project.footage.own_body_mask);
+  moved.intruders[0].model.file = resolved(project, project.intruders[0].model.file);
+  CHECK(picture_name_of(moved) == picture_name_of(project));
+}
+
+TEST_CASE("a file that appears or changes on disk changes the name") {
+  const TemporaryFolder folder;
+  Project project;
+  project.file = folder / "p.json";
+  project.footage.video = "a.mp4";
+  const PictureName without = picture_name_of(project);
+  const FileStamp footage_without = footage_name_of(project);
+  REQUIRE(write_text(folder / "a.mp4", "a", true));
+  const PictureName with = picture_name_of(project);
+  CHECK_FALSE(with == without);
+  CHECK_FALSE(footage_name_of(project) == footage_without);
+  REQUIRE(write_text(folder / "a.mp4", "ab", true));
+  CHECK_FALSE(picture_name_of(project) == with);
+}
+
+TEST_CASE("relative paths of a project without a file start at the current directory") {
+  Project project;
+  project.footage.video = "a.mp4";
+  CHECK(footage_name_of(project).path == std::filesystem::current_path() / "a.mp4");
+}
+
+TEST_CASE("equal names get equal numbers and others their own") {
+  NameBook<int> book;
+  const std::uint64_t three = book.number_of(3);
+  const std::uint64_t five = book.number_of(5);
+  CHECK(three != five);
+  CHECK(three > 0);
+  CHECK(book.number_of(3) == three);
+  CHECK(book.number_of(5) == five);
+  for (int i = 10; i < 5000; ++i) CHECK(book.number_of(i) > five);  // forgotten or not, no number comes twice
+  CHECK(book.number_of(3) > five);
+}

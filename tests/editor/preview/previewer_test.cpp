@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/previewer.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+#include <thread>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "export.h"
+#include "project/json.h"
+#include "support/test_data.h"
+#include "viewer.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using namespace sigs::test;
+
+namespace {
+
+constexpr int kFrame = 120;  // the aircraft is large and its blur soft
+
+Wanted frame_of(Revision revision, int frame) {
+  return {.revision = std::move(revision), .frame = frame, .range_first = 0, .range_last = 199};
+}
+
+Project moved(Project project, double by_m) {
+  project.intruders[0].trajectory.waypoints[1].position_m.y += by_m;
+  return project;
+}
+
+// The engine's own road, without editor.
+struct Engine {
+  explicit Engine(const Project& project)
+      : source(FrameSource::open(resolved(project, project.footage.video)).value()),
+        scene(open_scene(project, shape_of(source.info())).value()) {}
+
+  ComposedFrame composed(int frame, Stages stages = Stages::leave_out) {
+    return compose_frame(scene, frame, source.read(frame).value(), bench, stages).value();
+  }
+
+  FrameSource source;
+  Scene scene;
+  Bench bench;
+};
+
+}  // namespace
+
+TEST_CASE("the preview is byte for byte what the program writes as a frame") {
+  const TemporaryFolder folder;
+  Viewer viewer;
+  std::uint64_t number = 0;
+  for (const auto& [method, name] :
+       {std::pair(MethodChoice::direct, "direct"), {MethodChoice::classic, "classic"}, {MethodChoice::plain, "plain"}})
+    for (const char* project_name : {"head-on", "two-intruders"}) {
+      Project project = sample(project_name);
+      project.compositing.method = method;
+      const std::string out = (folder / (std::string(name) + project_name)).string();
+      const Run run = run_sigs("frame " + project.file.string() + " --frame " + std::to_string(kFrame) +
+                               " --set compositing.method=" + name + " --out " + out);
+      REQUIRE_MESSAGE(run.status == 0, run.err);
+      const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
+      const Shown shown = viewer.show(frame_of(revision(++number, project), kFrame));
+      REQUIRE(shown.picture->problem.empty());
+      CHECK(shown.picture->frame == kFrame);
+      CHECK(is_same_picture(shown.picture->bgr, written));
+    }
+}
+
+TEST_CASE("mask, truth, untouched frame, stages and the other method are those of the engine") {
+  const Project project = sample("head-on");
+  Engine engine(project);
+  Viewer viewer;
+  Wanted wanted = frame_of(revision(1, project), kFrame);
+  wanted.footage = true;
+  wanted.stages = true;
+  wanted.compare_with = MethodChoice::classic;
+  viewer.want(wanted);
+  const Shown shown =
+      viewer.wait([](const Shown& s) { return s.picture_is_current && s.footage && s.staged && s.compared; });
+
+  const ComposedFrame composed = engine.composed(kFrame, Stages::keep);
+  CHECK(is_same_picture(shown.picture->bgr, bgr_of(composed.picture)));
+  CHECK(is_same_picture(shown.picture->mask, composed.mask));
+  CHECK(shown.picture->truth.time_s == composed.truth.time_s);
+  CHECK(shown.picture->truth.intruders.at(0).visible_fraction == composed.truth.intruders.at(0).visible_fraction);
+  CHECK(is_same_picture(*shown.footage, bgr_of(engine.source.read(kFrame).value())));
+  CHECK(is_same_picture(shown.staged->bgr, bgr_of(composed.picture)));
+  REQUIRE(shown.staged->stages.size() == composed.stages.size());
+  for (std::size_t i = 0; i < composed.stages.size(); ++i) {
+    CHECK(shown.staged->stages[i].name == composed.stages[i].name);
+    CHECK(is_same_picture(shown.staged->stages[i].picture, composed.stages[i].picture));
+  }
+  Project classic = project;
+  classic.compositing.method = MethodChoice::classic;
+  CHECK(shown.compared->method == MethodChoice::classic);
+  CHECK(is_same_picture(shown.compared->bgr, bgr_of(Engine(classic).composed(kFrame).picture)));
+}
+
+TEST_CASE("another lens after the first is bent as by itself") {
+  const TemporaryFolder folder;
+  Project one = sample("head-on");
+  one.compositing.method = MethodChoice::classic;
+  Project other = one;
+  const std::string path = (folder / "pinhole.yml").string();
+  REQUIRE(write_text(path,
+                     "%YAML:1.0\n---\ncamera_matrix: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n"
+                     "  data: [800., 0., 640., 0., 800., 480., 0., 0., 1.]\n"
+                     "distortion_coefficients: !!opencv-matrix\n  rows: 1\n  cols: 4\n  dt: d\n"
+                     "  data: [-0.2, 0.02, 0., 0.]\nimage_width: 1280\nimage_height: 960\n",
+                     true));
+  other.footage.calibration = path;
+  Viewer viewer;
+  CHECK(is_same_picture(viewer.show(frame_of(revision(1, one), kFrame)).picture->bgr,
+                        bgr_of(Engine(one).composed(kFrame).picture)));
+  CHECK(is_same_picture(viewer.show(frame_of(revision(2, other), kFrame)).picture->bgr,
+                        bgr_of(Engine(other).composed(kFrame).picture)));
+}
+
+TEST_CASE("the next frames are composed ahead and a cached frame is there at once") {
+  Viewer viewer({.cache_bytes = std::size_t(1) << 30, .ahead = 12});
+  Wanted wanted = frame_of(revision(1, sample("head-on")), 10);
+  wanted.range_last = 18;
+  viewer.show(wanted);
+  const Shown shown = viewer.wait([](const Shown& s) { return s.cached.size() == 200 && s.cached[18]; });
+  for (int frame = 0; frame < 200; ++frame)
+    CHECK(shown.cached[static_cast<std::size_t>(frame)] == (frame >= 10 && frame <= 18));
+  for (const int frame : {17, 11, 18, 10}) {
+    wanted.frame = frame;
+    viewer.want(wanted);
+    CHECK(viewer.shown().picture_is_current);
+    CHECK(viewer.shown().picture->frame == frame);
+  }
+  wanted.revision = revision(2, moved(sample("head-on"), 5));
+  viewer.show(wanted);
+  CHECK_FALSE(viewer.shown().cached[17]);
+  wanted.revision.number = 1;  // undo
+  wanted.frame = 17;
+  viewer.want(wanted);
+  CHECK(viewer.shown().picture_is_current);
+}
+
+TEST_CASE("a change that touches no picture keeps the pictures") {
+  Viewer viewer;
+  Project project = sample("head-on");
+  const Shown before = viewer.show(frame_of(revision(1, project), 30));
+  project.name = "another";
+  project.output.crf = 30;
+  const Shown after = viewer.show(frame_of(revision(2, project), 30));
+  CHECK(after.picture == before.picture);
+  const Shown opened = viewer.wait([](const Shown& s) { return s.scene->revision == 2; });
+  CHECK(opened.scene->project->name == "another");
+}
+
+TEST_CASE("while modest nothing is fetched ahead") {
+  Viewer viewer;
+  viewer.set_modest(true);
+  viewer.show(frame_of(revision(1, sample("head-on")), 10));
+  viewer.wait([](const Shown& s) { return !s.busy; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // far longer than edits are waited for
+  const std::vector<bool> cached = viewer.shown().cached;
+  CHECK(std::count(cached.begin(), cached.end(), true) == 1);
+  viewer.set_modest(false);
+  viewer.wait([](const Shown& s) { return s.cached[20]; });
+}
+
+TEST_CASE("a cache too small for anything still shows the right picture") {
+  const Project project = sample("head-on");
+  Viewer viewer({.cache_bytes = 1000, .ahead = 48});
+  Engine engine(project);
+  for (const int frame : {5, 6, 100})
+    CHECK(is_same_picture(viewer.show(frame_of(revision(1, project), frame)).picture->bgr,
+                          bgr_of(engine.composed(frame).picture)));
+  viewer.wait([](const Shown& s) { return !s.busy; });
+}
+
+TEST_CASE("a storm of wishes ends at the right picture") {
+  const Project project = sample("head-on");
+  std::mt19937 random(3);
+  Viewer viewer({.cache_bytes = std::size_t(64) << 20, .ahead = 8});
+  Wanted wanted;
+  for (int i = 1; i <= 400; ++i) {
+    const auto any = [&random](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
+    const int step = any(60);
+    wanted = frame_of(revision(static_cast<std::uint64_t>(1 + step), moved(project, step)), any(230) - 10);
+    wanted.direction = any(1) == 0 ? 1 : -1;
+    wanted.playing = any(1) == 0;
+    wanted.footage = any(3) == 0;
+    wanted.stages = any(9) == 0;
+    if (any(30) == 0) wanted.compare_with = MethodChoice::plain;
+    if (any(3) == 0) wanted.turntable = {{any(2), 0.1 * i, {64, 48}}};
+    viewer.want(wanted);
+    if (i % 8 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(any(20)));
+    const Shown shown = viewer.shown();
+    if (shown.picture) CHECK(shown.picture->problem.empty());
+  }
+  wanted = frame_of(revision(500, moved(project, 3.5)), kFrame);
+  const Shown shown = viewer.show(wanted);
+  CHECK(shown.picture->revision == 500);
+  CHECK(is_same_picture(shown.picture->bgr, bgr_of(Engine(moved(project, 3.5)).composed(kFrame).picture)));
+}
+
+TEST_CASE("edits that come faster than pictures starve nothing") {
+  const Project project = sample("head-on");
+  Viewer viewer;
+  viewer.show(frame_of(revision(1, project), kFrame));
+  std::uint64_t seen = 1;
+  int pictures = 0;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  for (std::uint64_t number = 2; std::chrono::steady_clock::now() < end; ++number) {
+    viewer.want(frame_of(revision(number, moved(project, 0.01 * static_cast<double>(number))), kFrame));
+    std::this_thread::sleep_for(std::chrono::milliseconds(4));
+    const std::uint64_t shown = viewer.shown().picture->revision;
+    CHECK(shown >= seen);  // never back in time
+    pictures += shown != seen ? 1 : 0;
+    seen = shown;
+  }
+  CHECK(pictures >= 5);  // some tens on any machine that is not held up
+}
+
+TEST_CASE("a scrub faster than decoding shows pictures on its way") {
+  Viewer viewer({.ahead = 0});
+  const Revision project = revision(1, sample("head-on"));
+  viewer.show(frame_of(project, 0));
+  int last = 0;
+  int pictures = 0;
+  for (int turn = 0; turn < 250; ++turn) {
+    viewer.want(frame_of(project, 1 + turn * 37 % 199));
+    std::this_thread::sleep_for(std::chrono::milliseconds(8));
+    pictures += viewer.shown().picture->frame != last ? 1 : 0;
+    last = viewer.shown().picture->frame;
+  }
+  CHECK(pictures >= 3);
+}
+
+TEST_CASE("it goes away promptly while busy") {
+  for (const int after_ms : {0, 5, 60, 300}) {
+    std::chrono::steady_clock::time_point start;
+    {
+      Viewer viewer;
+      Wanted wanted = frame_of(revision(1, sample("head-on")), 150);
+      wanted.playing = true;
+      wanted.turntable = {{0, 0.3, {200, 200}}};
+      viewer.want(wanted);
+      std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+      start = std::chrono::steady_clock::now();
+    }
+    // One step of either thread: a frame composed, or decoded from its keyframe on.
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(3));
+  }
+}
