@@ -12,8 +12,8 @@ namespace sigs {
 namespace {
 
 constexpr double kCellsAcross = 64;           // of a silhouette, or more: its shape and place survive the cells
-constexpr double kCellsPerFocalLength = 8;    // or more: 7 degrees a cell, which a view can still show
-constexpr double kFarthestFocalLengths = 32;  // beyond the picture
+constexpr double kCellsPerFocalLength = 16;   // or more: 4 degrees a cell, which a view can still show
+constexpr double kFarthestFocalLengths = 16;  // beyond the picture
 
 // Half a code value, by the steepest rise from linear light to display values: sRGB's at black.
 constexpr double kLeastLight = 0.5 / 255 / 12.92;
@@ -50,7 +50,7 @@ std::optional<CellGrid> cell_grid(const std::optional<Box>& box, const Camera& c
   if (!part) return std::nullopt;
   const double largest_px = std::max(1.0, std::min(largest_cell_px(sigma_px), focal_px / kCellsPerFocalLength));
   const double wanted_px = std::max(part->width, part->height) / kCellsAcross;
-  const double cell_px = box ? std::clamp(wanted_px, 1.0, largest_px) : largest_px;
+  const int cell_px = static_cast<int>(box ? std::clamp(wanted_px, 1.0, largest_px) : largest_px);
   const cv::Rect target = pixels_touched(grown(*part, reach_px), 0, picture);
   if (target.empty()) return std::nullopt;
   return CellGrid{cell_px, pixels_touched(coarse_box(*part, cell_px), 1, kEverywhere), target};
@@ -59,14 +59,15 @@ std::optional<CellGrid> cell_grid(const std::optional<Box>& box, const Camera& c
 std::vector<VirtualView> views_of_cells(const CellGrid& grid, const Camera& camera, const Sitter& sitter,
                                         double supersampling, int max_size_px) {
   // As fine as a pixel wants it at most, and fine enough that a cell's mean is right to a thousandth.
-  const double finer = std::min(grid.cell_px, 4.0);
+  const double finer = std::min(grid.cell_px, 4);
   return aimed_views(coarse_camera(camera, grid.cell_px), sitter.corners, grid.cells, supersampling * finer,
                      max_size_px);
 }
 
-Layer far_blurred(const CellGrid& grid, std::span<const DrawnView> views, const Camera& camera, double sigma_px,
-                  const Layer& sharp) {
-  const Layer cells = bent(views, coarse_camera(camera, grid.cell_px), grid.cells);
+Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views, const Camera& camera,
+                  double sigma_px) {
+  const Layer cells =
+      views.empty() ? in_cells(sharp, grid.cell_px) : bent(views, coarse_camera(camera, grid.cell_px), grid.cells);
   if (most_after_blur(cells, grid.cell_px, sigma_px) < kLeastLight) return {};
   Layer soft = blurred_from_cells(cells, grid.cell_px, sigma_px, grid.target);
   soft.coverage = coverage_over(grid.target, sharp);

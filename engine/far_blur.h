@@ -11,7 +11,7 @@ namespace sigs {
 
 // Where the layer of a far blurred intruder is made, and what it reaches.
 struct CellGrid {
-  double cell_px = 1;
+  int cell_px = 1;
   cv::Rect cells;   // cell (i, j) covers the square [i, i + 1) x [j, j + 1) times cell_px, from the picture's corner
   cv::Rect target;  // pixels within the picture that its light can reach
 };
@@ -19,7 +19,7 @@ struct CellGrid {
 // The cells that hold what blur carries into the picture. Nothing where it carries nothing there.
 //   box       the silhouette, where it bounds the intruder; none: it can be anywhere
 //   sigma_px  above kSigmaOfCells_px
-// What lies more than 32 focal lengths beyond the picture's edges is left out: through a pinhole, 88 degrees off axis.
+// What lies more than 16 focal lengths beyond the picture's edges is left out: through a pinhole, 86 degrees off axis.
 [[nodiscard]] std::optional<CellGrid> cell_grid(const std::optional<Box>& box, const Camera& camera,
                                                 const cv::Rect& picture, double sigma_px);
 
@@ -27,9 +27,10 @@ struct CellGrid {
 [[nodiscard]] std::vector<VirtualView> views_of_cells(const CellGrid& grid, const Camera& camera, const Sitter& sitter,
                                                       double supersampling, int max_size_px);
 
-// The blurred layer over the grid's target; empty where it is too faint to change any 8-bit sample. Its coverage is
-// that of `sharp`, which lies within the picture.
-[[nodiscard]] Layer far_blurred(const CellGrid& grid, std::span<const DrawnView> views, const Camera& camera,
-                                double sigma_px, const Layer& sharp);
+// The blurred layer over the grid's target; empty where it is too faint to change any 8-bit sample.
+//   sharp  the part within the picture, whose coverage is taken over
+//   views  for the grid's cells; none: `sharp` is the whole intruder and the cells are made of its pixels
+[[nodiscard]] Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views,
+                                const Camera& camera, double sigma_px);
 
 }  // namespace sigs

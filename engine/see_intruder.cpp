@@ -59,7 +59,7 @@ struct Sitting {
   cv::Rect reach;                 // of its sharp layer
   std::optional<CellGrid> cells;  // of its blurred one, where that is made in cells
   std::vector<VirtualView> views;
-  std::vector<VirtualView> views_of_cells;  // empty: the same views serve
+  std::vector<VirtualView> views_of_cells;  // empty: the sharp layer holds all that they need
 };
 
 Sitting sitting_for(const SeenIntruder& seen, const Camera& camera, const Sitter& sitter, const Scene& scene) {
@@ -86,14 +86,13 @@ Result<void> sit(SeenIntruder& seen, const Sitting& sitting, const Camera& camer
   Result<std::vector<DrawnView>> drawn_for_cells = drawn_views(sitting.views_of_cells, sitter, renderer);
   if (!drawn_for_cells) return fail(drawn_for_cells.error());
   seen.draw_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  seen.views = std::move(drawn->empty() ? *drawn_for_cells : *drawn);
-  if (!sitting.views.empty()) seen.sharp = bent(seen.views, camera, sitting.reach);
+  if (!drawn->empty()) seen.sharp = bent(*drawn, camera, sitting.reach);
   if (sitting.cells)
-    seen.blurred = far_blurred(*sitting.cells, drawn_for_cells->empty() ? seen.views : *drawn_for_cells, camera,
-                               seen.sigma_px, seen.sharp);
+    seen.blurred = far_blurred(*sitting.cells, seen.sharp, *drawn_for_cells, camera, seen.sigma_px);
   else
     seen.blurred = clipped(blurred(seen.sharp, seen.sigma_px), picture_of(scene));
   seen.soft = hidden_by_body(seen.blurred, scene.own_body);
+  seen.views = std::move(drawn->empty() ? *drawn_for_cells : *drawn);
   return {};
 }
 

@@ -17,15 +17,15 @@
 
 namespace sigs::editor {
 
-// Where projects come and go: opening, saving, closing, quitting, recovering, and the questions that belong to it. Knows
-// no window: it says what is to be asked and told, and somebody else draws it. What the person has done is never
+// Where projects come and go: opening, saving, closing, quitting, recovering, and the questions that belong to it.
+// Knows no window: it says what is to be asked and told, and somebody else draws it. What the person has done is never
 // given up without a question.
 class FileDesk {
  public:
   struct Surroundings {
     std::filesystem::path recovery_folder;
-    std::function<void()> wake;              // called from another thread when a file was read
-    std::function<bool()> is_exporting;      // an export is lost by quitting
+    std::function<void()> wake;          // called from another thread when a file was read
+    std::function<bool()> is_exporting;  // an export is lost by quitting
   };
   // Document and settings must outlive it. At first no project is open.
   FileDesk(Document& document, Settings& settings, Surroundings surroundings);

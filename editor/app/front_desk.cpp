@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 void add_place(std::vector<BrowserPlace>& places, std::string name, fs::path folder) {
   std::error_code code;
   folder = fs::absolute(folder, code).lexically_normal();
-  const bool is_known = std::any_of(places.begin(), places.end(),
-                                    [&](const BrowserPlace& place) { return place.folder == folder; });
+  const bool is_known =
+      std::any_of(places.begin(), places.end(), [&](const BrowserPlace& place) { return place.folder == folder; });
   if (!folder.empty() && !is_known && fs::is_directory(folder, code)) places.push_back({std::move(name), folder});
 }
 
@@ -44,7 +44,8 @@ FrontDesk::FrontDesk(Document& document, Settings& settings, Setup setup)
       export_(setup_.wake),
       files_(document, settings, {setup_.recovery_folder, setup_.wake, [this] { return export_.is_running(); }}),
       start_page_(setup_.samples, setup_.wake) {
-  browser_.set_folder(settings.last_folder);
+  const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
+  browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);
 }
 
 bool FrontDesk::is_restless() const {

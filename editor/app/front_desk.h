@@ -23,11 +23,11 @@ namespace sigs::editor {
 class FrontDesk {
  public:
   struct Setup {
-    std::filesystem::path samples;          // folder of sample projects
+    std::filesystem::path samples;  // folder of sample projects
     std::filesystem::path recovery_folder;
     std::string version;
     std::vector<HelpLine> help;
-    std::function<void()> wake;             // from any thread: something is to be drawn
+    std::function<void()> wake;  // from any thread: something is to be drawn
   };
   // Document and settings must outlive it.
   FrontDesk(Document& document, Settings& settings, Setup setup);

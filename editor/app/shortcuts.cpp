@@ -82,7 +82,8 @@ void take_waypoint_keys(const Studio& studio) {
   if (pressed(Key::down, true)) go_to_waypoint(studio, 1);
   if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(studio);
   if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(studio);
-  if (pressed(Key::escape)) studio.edits.select({});
+  // In a drag it belongs to what is dragged.
+  if (pressed(Key::escape) && !ImGui::IsAnyItemActive()) studio.edits.select({});
 }
 
 void take_control_keys(const Studio& studio) {

@@ -11,16 +11,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <set>
 #include <utility>
 
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
+namespace {
+
+struct KeyEvent {
+  int key = 0;
+  int scancode = 0;
+  int action = 0;
+  int modifiers = 0;
+};
+
+// What comes in between two turns.
+struct Incoming {
+  std::vector<std::filesystem::path> dropped;
+  std::deque<KeyEvent> keys;
+};
+
+Incoming& incoming_of(GLFWwindow* window) {
+  return *static_cast<Incoming*>(glfwGetWindowUserPointer(window));
+}
+
+}  // namespace
+
 struct Window::State {
   GLFWwindow* window = nullptr;
   double text_px = 0;  // of the fonts that are loaded
-  std::vector<std::filesystem::path> dropped;
+  Incoming incoming;
   bool full_screen = false;
   int x = 0, y = 0, width = 0, height = 0;  // before it filled the screen
 };
@@ -34,8 +57,23 @@ Error glfw_error(const std::string& what) {
 }
 
 void note_dropped(GLFWwindow* window, int count, const char** paths) {
-  auto* dropped = static_cast<std::vector<std::filesystem::path>*>(glfwGetWindowUserPointer(window));
-  dropped->insert(dropped->end(), paths, paths + count);
+  auto& dropped = incoming_of(window).dropped;
+  dropped.insert(dropped.end(), paths, paths + count);
+}
+
+void note_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+  incoming_of(window).keys.push_back({key, scancode, action, modifiers});
+}
+
+// ImGui up to 1.86 looks at keys once a turn: one that goes down and up in between goes by unseen. So a key that has
+// changed in this turn waits with its next change, and all that come after it, for the next turn.
+void hand_on_keys(GLFWwindow* window) {
+  std::set<int> changed;
+  std::deque<KeyEvent>& keys = incoming_of(window).keys;
+  for (; !keys.empty() && changed.insert(keys.front().key).second; keys.pop_front()) {
+    const KeyEvent& event = keys.front();
+    ImGui_ImplGlfw_KeyCallback(window, event.key, event.scancode, event.action, event.modifiers);
+  }
 }
 
 double screen_scale(GLFWwindow* window) {
@@ -50,6 +88,7 @@ void start_imgui(GLFWwindow* window) {
   ImGui::GetIO().IniFilename = nullptr;  // what is to be remembered is in our own settings
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
   ImGui::GetIO().ConfigInputTextCursorBlink = false;
+  ImGui::GetIO().ConfigDragClickToInputText = true;  // on a number, a click types and a drag drags
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330");
 }
@@ -80,9 +119,10 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   glfwMakeContextCurrent(window);
   glfwSwapInterval(1);
   glfwSetWindowSizeLimits(window, 800, 480, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  glfwSetWindowUserPointer(window, &state->dropped);
+  glfwSetWindowUserPointer(window, &state->incoming);
   glfwSetDropCallback(window, note_dropped);
   start_imgui(window);
+  glfwSetKeyCallback(window, note_key);
   return std::unique_ptr<Window>(new Window(std::move(state)));
 }
 
@@ -95,12 +135,13 @@ Window::~Window() {
 }
 
 bool Window::wait(double timeout_s) {
+  if (!state_->incoming.keys.empty()) timeout_s = 0;
   const double start_s = glfwGetTime();
   if (timeout_s > 0)
     glfwWaitEventsTimeout(timeout_s);
   else
     glfwPollEvents();
-  return glfwGetTime() - start_s < timeout_s;
+  return !state_->incoming.keys.empty() || glfwGetTime() - start_s < timeout_s;
 }
 
 void Window::wake() {
@@ -116,6 +157,7 @@ void Window::begin(const Settings& settings) {
     ImGui_ImplOpenGL3_DestroyDeviceObjects();
     state_->text_px = text_px;
   }
+  hand_on_keys(state_->window);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -146,7 +188,7 @@ void Window::set_title(const std::string& title) {
 }
 
 std::vector<std::filesystem::path> Window::take_dropped() {
-  return std::exchange(state_->dropped, {});
+  return std::exchange(state_->incoming.dropped, {});
 }
 
 void Window::remember_in(Settings& settings) const {

@@ -75,19 +75,18 @@ DroppedKind kind_by_extension(const std::string& extension) {
     std::string_view extension;
     DroppedKind kind;
   };
-  static constexpr std::array kKnown{
-      Known{".mp4", DroppedKind::video},       Known{".mov", DroppedKind::video},
-      Known{".mkv", DroppedKind::video},       Known{".avi", DroppedKind::video},
-      Known{".webm", DroppedKind::video},      Known{".m4v", DroppedKind::video},
-      Known{".mts", DroppedKind::video},       Known{".m2ts", DroppedKind::video},
-      Known{".ts", DroppedKind::video},        Known{".mpg", DroppedKind::video},
-      Known{".mpeg", DroppedKind::video},      Known{".wmv", DroppedKind::video},
-      Known{".y4m", DroppedKind::video},       Known{".obj", DroppedKind::model},
-      Known{".xml", DroppedKind::calibration}, Known{".yaml", DroppedKind::calibration},
-      Known{".yml", DroppedKind::calibration}, Known{".png", DroppedKind::mask},
-      Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project}};
-  const auto found = std::find_if(kKnown.begin(), kKnown.end(),
-                                  [&](const Known& known) { return known.extension == extension; });
+  static constexpr std::array kKnown{Known{".mp4", DroppedKind::video},       Known{".mov", DroppedKind::video},
+                                     Known{".mkv", DroppedKind::video},       Known{".avi", DroppedKind::video},
+                                     Known{".webm", DroppedKind::video},      Known{".m4v", DroppedKind::video},
+                                     Known{".mts", DroppedKind::video},       Known{".m2ts", DroppedKind::video},
+                                     Known{".ts", DroppedKind::video},        Known{".mpg", DroppedKind::video},
+                                     Known{".mpeg", DroppedKind::video},      Known{".wmv", DroppedKind::video},
+                                     Known{".y4m", DroppedKind::video},       Known{".obj", DroppedKind::model},
+                                     Known{".xml", DroppedKind::calibration}, Known{".yaml", DroppedKind::calibration},
+                                     Known{".yml", DroppedKind::calibration}, Known{".png", DroppedKind::mask},
+                                     Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project}};
+  const auto found =
+      std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) { return known.extension == extension; });
   return found == kKnown.end() ? DroppedKind::nothing : found->kind;
 }
 

@@ -79,8 +79,8 @@ Result<cv::Mat> composed_picture(const Scene& scene, FrameSource& source, cv::Si
   if (!composed) return fail(composed.error());
   const cv::Mat bgr = bgr_of(composed->picture);
   const Box& box = *sight->silhouette;
-  const cv::Rect window = window_around({box.x + box.width / 2, box.y + box.height / 2}, kAround * sight->size_px,
-                                        bgr.size(), size_px);
+  const cv::Rect window =
+      window_around({box.x + box.width / 2, box.y + box.height / 2}, kAround * sight->size_px, bgr.size(), size_px);
   return scaled_piece(bgr, window, size_px);
 }
 

@@ -35,8 +35,8 @@ std::vector<double> first_parameters(double first, double last, std::span<const 
   return at;
 }
 
-Piece piece_between(const std::function<glm::dvec3(double)>& curve, double first, const glm::dvec3& first_m, double last,
-                    const glm::dvec3& last_m) {
+Piece piece_between(const std::function<glm::dvec3(double)>& curve, double first, const glm::dvec3& first_m,
+                    double last, const glm::dvec3& last_m) {
   Piece piece{.first = first, .last = last};
   piece.middle_m = curve(piece.middle());
   piece.off_chord_m = glm::distance(piece.middle_m, (first_m + last_m) / 2.0);

@@ -17,8 +17,9 @@ struct CurveSamples {
   [[nodiscard]] glm::dvec3 point_at(double parameter) const;
 };
 
-// Samples a curve where it bends: pieces are halved, the one whose middle lies farthest off the middle of its chord first, until none
-// lies farther than tolerance_m or `most` points are there (at least 2). Parameters of `through` that lie within first
+// Samples a curve where it bends: pieces are halved, the one whose middle lies farthest off the middle of its chord
+// first, until none lies farther than tolerance_m or `most` points are there (at least 2). Parameters of `through` that
+// lie within first
 // .. last get a point of their own, up to half of `most`. last <= first: a single point.
 [[nodiscard]] CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, double first, double last,
                                          std::span<const double> through, double tolerance_m, std::size_t most);

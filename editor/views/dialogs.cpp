@@ -21,7 +21,7 @@ void close_row(Places& places, bool& closed) {
   const char* const labels[] = {"Close"};
   align_buttons_right(labels, 1);
   if (dialog_button("Close", true)) closed = true;
-  places.note_item("dialog.Close");
+  places.note_item("dialog/Close");
 }
 
 void draw_help_group(std::span<const HelpLine> lines, std::size_t& i) {
@@ -71,7 +71,7 @@ std::optional<int> draw_question(const Question& question, Places& places) {
   align_buttons_right(labels.data(), static_cast<int>(labels.size()));
   for (std::size_t i = question.answers.size(); i-- > 0;) {
     if (dialog_button(question.answers[i].c_str(), i == 0)) answer = static_cast<int>(i);
-    places.note_item("question." + question.answers[i]);
+    places.note_item("question/" + question.answers[i]);
     if (i > 0) ImGui::SameLine();
   }
   if (pressed(Key::enter) || pressed(Key::keypad_enter)) answer = 0;
@@ -134,18 +134,19 @@ bool SettingsDialog::draw(Settings& settings, Places& places) {
     if (ImGui::SliderInt("##font", &font_px, static_cast<int>(kLeastFont_px), static_cast<int>(kMostFont_px), "%d px",
                          ImGuiSliderFlags_AlwaysClamp))
       font_px_ = font_px;
-    places.note_item("settings.font");
+    places.note_item("settings/font");
     if (ImGui::IsItemDeactivatedAfterEdit() && font_px_ > 0) settings.font_px = font_px_;
     if (!ImGui::IsItemActive()) font_px_ = 0;
-    setting_label("Keep unsaved changes after", "Seconds after a change until it is kept on disk for the case of a crash");
+    setting_label("Keep unsaved changes after",
+                  "Seconds after a change until it is kept on disk for the case of a crash");
     auto autosave_s = static_cast<float>(settings.autosave_s);
     if (ImGui::SliderFloat("##autosave", &autosave_s, 1, 300, "%.0f s",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
       settings.autosave_s = autosave_s;
-    places.note_item("settings.autosave");
+    places.note_item("settings/autosave");
     setting_label("Playing starts again at the end", "Loop over the range between in and out");
     ImGui::Checkbox("##loop", &settings.loop);
-    places.note_item("settings.loop");
+    places.note_item("settings/loop");
     ImGui::EndTable();
   }
   close_row(places, closed);

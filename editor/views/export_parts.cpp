@@ -27,7 +27,7 @@ bool choose(const Studio& studio, const char* id, const std::array<const char*, 
   ImGui::SetNextItemWidth(width);
   auto index = static_cast<int>(value);
   const bool changed = ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), static_cast<int>(N));
-  studio.places.note_item(std::string("export.") + id);
+  studio.places.note_item(std::string("export/") + id);
   if (changed) value = static_cast<Choice>(index);
   return changed;
 }
@@ -83,9 +83,10 @@ void draw_video_choices(const Studio& studio) {
   if (output.codec != CodecChoice::h264) return;
   ImGui::SetNextItemWidth(scaled(210));
   if (ImGui::SliderInt("##crf", &output.crf, 0, 51, "crf %d", ImGuiSliderFlags_AlwaysClamp))
-    studio.edits.change("crf", [crf = output.crf](Project& p) { p.output.crf = crf; }, "export crf");
+    studio.edits.change(
+        "crf", [crf = output.crf](Project& p) { p.output.crf = crf; }, "export crf");
   if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
-  studio.places.note_item("export.crf");
+  studio.places.note_item("export/crf");
   tooltip_for_item("Quality of h264: 0 lossless, 18 visually so, 51 worst");
 }
 
@@ -103,7 +104,7 @@ void draw_label_choice(const Studio& studio) {
       std::erase(p.output.labels, "xml");
       if (xml) p.output.labels.emplace_back("xml");
     });
-  studio.places.note_item("export.labels");
+  studio.places.note_item("export/labels");
 }
 
 std::string progress_text(const ExportState& state) {
@@ -139,7 +140,7 @@ void draw_result(const Studio& studio, const ExportState& state) {
   if (!can_open_outside()) return;
   if (dialog_button("Open folder") && !open_outside(state.request.folder))
     studio.edits.ask(Say{state.request.folder.string() + " could not be opened", true});
-  studio.places.note_item("export.open folder");
+  studio.places.note_item("export/open folder");
 }
 
 void draw_warnings(const ExportState& state) {

@@ -75,13 +75,13 @@ void ExportView::draw_folder(const Studio& studio) {
   const float browse = dialog_button_width("Browse...");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
   if (text_input("##folder", folder_)) overwrite_asked_ = false;
-  studio.places.note_item("export.folder");
+  studio.places.note_item("export/folder");
   ImGui::SameLine();
   if (dialog_button("Browse..."))
-    studio.edits.ask(AskForFile{.title = "Export into",
-                                .of_folder = true,
-                                .start = folder_,
-                                .chosen = [this](const fs::path& folder) { folder_ = folder.string(); }});
+    studio.edits.ask(AskForFile{
+        .title = "Export into", .of_folder = true, .start = folder_, .chosen = [this](const fs::path& folder) {
+          folder_ = folder.string();
+        }});
 }
 
 void ExportView::draw_range(const Studio& studio) {
@@ -90,7 +90,7 @@ void ExportView::draw_range(const Studio& studio) {
   const std::string whole =
       "whole project (" + std::to_string(document.first_frame()) + " to " + std::to_string(document.last_frame()) + ")";
   if (ImGui::RadioButton(whole.c_str(), !only_range_ || !marks_range(document))) only_range_ = false;
-  studio.places.note_item("export.whole");
+  studio.places.note_item("export/whole");
   const std::string part = "in to out (" + std::to_string(document.range_first()) + " to " +
                            std::to_string(document.range_last()) + ")###range";
   ImGui::BeginDisabled(!marks_range(document));
@@ -98,7 +98,7 @@ void ExportView::draw_range(const Studio& studio) {
                          only_range_ && marks_range(document)))
     only_range_ = true;
   ImGui::EndDisabled();
-  studio.places.note_item("export.range");
+  studio.places.note_item("export/range");
 }
 
 void ExportView::draw_choices(const Studio& studio) {
@@ -143,8 +143,9 @@ void ExportView::draw_command(const Studio& studio) {
 
 void ExportView::draw_notes(const Studio& studio) {
   if (studio.document.has_unsaved_changes() || !studio.document.has_file())
-    note_line(Icon::info, color::kAccent,
-              "There are unsaved changes. They are exported; the command below takes the project as it was last saved.");
+    note_line(
+        Icon::info, color::kAccent,
+        "There are unsaved changes. They are exported; the command below takes the project as it was last saved.");
   if (studio.shown.scene && !studio.shown.scene->draft.problems.empty()) {
     const Problem& problem = studio.shown.scene->draft.problems.front();
     note_line(Icon::warning, color::kBad, problem.field + ": " + problem.what);
@@ -173,10 +174,10 @@ void ExportView::draw_setup(const Studio& studio, ExportJob& job) {
   const char* const labels[] = {"Close", go};
   align_buttons_right(labels, 2);
   if (dialog_button("Close")) closed_ = true;
-  studio.places.note_item("export.close");
+  studio.places.note_item("export/close");
   ImGui::SameLine();
   const bool clicked = dialog_button(go, true, !folder_.empty());
-  studio.places.note_item("export.go");
+  studio.places.note_item("export/go");
   if (!clicked) return;
   ExportRequest request = request_of(studio);
   const std::vector<fs::path> there = outputs_there(request.project, request.folder);
@@ -204,10 +205,10 @@ void ExportView::draw_running(const Studio& studio, ExportJob& job, const Export
   const char* const labels[] = {"Cancel export", "Go on in the background"};
   align_buttons_right(labels, 2);
   if (dialog_button("Cancel export", false, !state.is_stopping)) job.cancel();
-  studio.places.note_item("export.cancel");
+  studio.places.note_item("export/cancel");
   ImGui::SameLine();
   if (dialog_button("Go on in the background", true)) closed_ = true;
-  studio.places.note_item("export.hide");
+  studio.places.note_item("export/hide");
 }
 
 void ExportView::draw_done(const Studio& studio, ExportJob& job, const ExportState& state) {
@@ -220,13 +221,13 @@ void ExportView::draw_done(const Studio& studio, ExportJob& job, const ExportSta
     job.dismiss();
     overwrite_asked_ = false;
   }
-  studio.places.note_item("export.again");
+  studio.places.note_item("export/again");
   ImGui::SameLine();
   if (dialog_button("Close", true)) {
     job.dismiss();
     closed_ = true;
   }
-  studio.places.note_item("export.close");
+  studio.places.note_item("export/close");
 }
 
 }  // namespace sigs::editor

@@ -52,8 +52,8 @@ class WaypointMarks {
   std::vector<WaypointMark> marks_;
 };
 
-// The project's number of an intruder that the scene counts otherwise (FrameTruth and stages do); none where the project
-// has changed since.
+// The project's number of an intruder that the scene counts otherwise (FrameTruth and stages do); none where the
+// project has changed since.
 [[nodiscard]] std::optional<int> project_intruder(const Studio& studio, int in_scene);
 
 // And back; none for one without waypoints.

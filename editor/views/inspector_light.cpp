@@ -29,7 +29,7 @@ struct Preset {
   double elevation_deg;
 };
 constexpr std::array<Preset, 4> kPresets{{
-    {"Behind the camera", "30 degrees high in the camera's back: what it sees is lit from the front", 180, 30},
+    {"Behind", "30 degrees high in the camera's back: what it sees is lit from the front", 180, 30},
     {"Overhead", "Straight above the camera", 0, 90},
     {"Left", "30 degrees high to the left", -90, 30},
     {"Right", "30 degrees high to the right", 90, 30},

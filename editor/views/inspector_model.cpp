@@ -98,7 +98,7 @@ void ModelBlock::draw_list(const Studio& studio, const FieldRows& rows) {
 
 void ModelBlock::draw_preview(const Studio& studio, int intruder) {
   const float width = std::min(ImGui::GetContentRegionAvail().x, scaled(kWidestPreview));
-  const ImVec2 size{std::floor(width), std::floor(width * 0.75F)};
+  const ImVec2 size{std::floor(width), std::floor(width * 0.6F)};
   ImGui::InvisibleButton("preview", size);
   studio.places.note_item("inspector/model preview");
   if (!ImGui::IsItemVisible()) return;

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "editor/document/field_texts.h"
@@ -82,7 +83,10 @@ void InspectorView::refresh(const Studio& studio) {
 
 void InspectorView::follow_selection(const Studio& studio) {
   const Selection& selection = studio.document.selection();
-  if (selection.kind != followed_.kind && *block_of(selection.kind) != '\0') {
+  // What was selected right here must not move away under the mouse.
+  const bool is_elsewhere =
+      !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+  if (is_elsewhere && selection.kind != followed_.kind && *block_of(selection.kind) != '\0') {
     block_to_open_ = block_of(selection.kind);
     turns_to_open_ = 1;
   }
@@ -92,9 +96,11 @@ void InspectorView::follow_selection(const Studio& studio) {
 void InspectorView::go_to_problem(const Studio& studio, const std::string& key) {
   filter_.clear();
   block_to_open_ = editor::block_of(key);
-  turns_to_open_ = kTurnsOfPatience;
+  // A key without a row of its own is shown by its block.
+  const bool has_row = sheet_->find(key) != nullptr;
+  turns_to_open_ = has_row ? kTurnsOfPatience : 2;
   memory_.wanted_key = key;
-  memory_.wanted_turns = kTurnsOfPatience;
+  memory_.wanted_turns = has_row ? kTurnsOfPatience : 0;
   if (!key.starts_with("intruders[")) return;
   const auto number_after = [&](const char* name) {
     return static_cast<int>(std::strtol(key.c_str() + key.find(name) + std::string(name).size(), nullptr, 10));
@@ -147,7 +153,9 @@ void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
   block(studio, "Trajectory", true, [&] { trajectory_.draw(studio, rows); });
   block(studio, "Compositing", false, [&] { draw_compositing(studio, rows); });
   block(studio, "Export", false, [&] { draw_export(studio, rows); });
-  if (turns_to_open_ > 0) --turns_to_open_;
+  const bool has_arrived = !memory_.wanted_key.empty() && memory_.wanted_turns == 0;
+  if (has_arrived) memory_.wanted_key.clear();
+  turns_to_open_ = has_arrived && turns_to_open_ > 2 ? 0 : std::max(0, turns_to_open_ - 1);
 }
 
 void InspectorView::draw_found(FieldRows& rows) const {

@@ -139,7 +139,7 @@ std::string flags_at(const LaneMarks& marks, int frame) {
   for (const FlightFlag& flag : marks.survey->flags) {
     const bool told_here = marks.lane == Lane::sighting || belongs_to(flag.fault, marks.lane);
     if (told_here && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
-      text += (text.empty() ? "" : "\n") + flag.text();
+      text.append(text.empty() ? "" : "\n").append(flag.text());
   }
   return text;
 }

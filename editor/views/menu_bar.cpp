@@ -10,6 +10,7 @@
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -19,13 +20,14 @@ namespace {
 // An item that is known by name to whoever drives the window from outside.
 bool item(const Studio& studio, const char* label, const char* keys, bool enabled = true, bool checked = false) {
   const bool chosen = ImGui::MenuItem(label, keys, checked, enabled);
-  studio.places.note_item(std::string("menu.") + label);
+  studio.places.note_item(std::string("menu/") + label);
   return chosen;
 }
 
 bool begin_menu(const Studio& studio, const char* label) {
   const bool open = ImGui::BeginMenu(label);
-  if (!open) studio.places.note_item(std::string("menu.") + label);
+  if (!open) studio.places.note_item(std::string("menu/") + label);
+  if (open && pressed(Key::escape)) ImGui::CloseCurrentPopup();
   return open;
 }
 
@@ -63,9 +65,9 @@ void draw_edit_menu(const Studio& studio, bool has_project) {
   const std::string undo = "Undo " + document.undo_name() + "###Undo";
   const std::string redo = "Redo " + document.redo_name() + "###Redo";
   if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) studio.edits.undo();
-  studio.places.note_item("menu.Undo");
+  studio.places.note_item("menu/Undo");
   if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) studio.edits.redo();
-  studio.places.note_item("menu.Redo");
+  studio.places.note_item("menu/Redo");
   ImGui::Separator();
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
@@ -119,7 +121,7 @@ class RightSide {
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
     if (ImGui::InvisibleButton("export progress", {width, height})) studio_.edits.ask(ShowExport{});
-    studio_.places.note_item("menu.export progress");
+    studio_.places.note_item("menu/export progress");
     tooltip_for_item("Show the export");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float inset = scaled(3);
@@ -128,26 +130,27 @@ class RightSide {
     list.AddRectFilled(low, {low.x + width, place.y + height - inset}, IM_COL32(255, 255, 255, 22), scaled(4));
     list.AddRectFilled(low, {low.x + static_cast<float>(width * share), place.y + height - inset}, color::kAccentSoft,
                        scaled(4));
-    list.AddText({place.x + scaled(10), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kText, text.c_str());
+    list.AddText({place.x + scaled(10), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kText,
+                 text.c_str());
   }
 
   void show_problems(const std::vector<Problem>& problems) {
     if (problems.empty()) return;
     const std::size_t count = problems.size();
-    const bool is_missing = std::any_of(problems.begin(), problems.end(), [](const Problem& problem) {
-      return problem.kind == ErrorKind::cannot_read;
-    });
+    const bool is_missing = std::any_of(problems.begin(), problems.end(),
+                                        [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
     const std::string text = std::to_string(count) + (count == 1 ? " problem" : " problems");
     const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(24);
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
     if (ImGui::InvisibleButton("problems", {width, height}) && is_missing) studio_.edits.ask(ShowMissingFiles{});
-    studio_.places.note_item("menu.problems");
+    studio_.places.note_item("menu/problems");
     if (ImGui::IsItemHovered()) show_list(problems);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_icon(list, Icon::warning, {place.x + scaled(9), place.y + height / 2}, scaled(13), color::kPartly);
-    list.AddText({place.x + scaled(20), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kPartly, text.c_str());
+    list.AddText({place.x + scaled(20), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kPartly,
+                 text.c_str());
   }
 
   void show_name() {
@@ -164,8 +167,8 @@ class RightSide {
     ImGui::TextUnformatted(text.c_str());
     if (!project.file.empty()) tooltip_for_item(project.file.c_str());
     if (unsaved)
-      ImGui::GetWindowDrawList()->AddCircleFilled(
-          {place.x + width - scaled(4), place.y + ImGui::GetFrameHeight() / 2}, scaled(3.5), color::kAccent, 12);
+      ImGui::GetWindowDrawList()->AddCircleFilled({place.x + width - scaled(4), place.y + ImGui::GetFrameHeight() / 2},
+                                                  scaled(3.5), color::kAccent, 12);
   }
 
  private:

@@ -51,7 +51,8 @@ void wipe(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
 void fit(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
   IconPen pen(draw, center, side, color);
   for (const float x : {-1.0F, 1.0F})
-    for (const float y : {-1.0F, 1.0F}) pen.line({{0.75F * x, 0.25F * y}, {0.75F * x, 0.65F * y}, {0.3F * x, 0.65F * y}});
+    for (const float y : {-1.0F, 1.0F})
+      pen.line({{0.75F * x, 0.25F * y}, {0.75F * x, 0.65F * y}, {0.3F * x, 0.65F * y}});
   pen.dot({0, 0}, 0.16F);
 }
 

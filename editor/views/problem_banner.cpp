@@ -56,7 +56,8 @@ void ProblemBanner::lay_out(const ScreenRect& rect) {
   if (!folded_) {
     texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMostShown, problems_.size())));
     if (problems_.size() > kMostShown)
-      texts.push_back("and " + std::to_string(problems_.size() - kMostShown) + " more, at their fields in the inspector");
+      texts.push_back("and " + std::to_string(problems_.size() - kMostShown) +
+                      " more, at their fields in the inspector");
   }
   glm::dvec2 size(0, 2 * padding() - scaled(3));
   for (const std::string& text : texts) {
@@ -94,7 +95,8 @@ void ProblemBanner::draw(ImDrawList& draw) const {
   const float text_x = left + icon_side() + padding();
   float y = static_cast<float>(plate_.low.y) + padding();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (i < kMostShown) draw_icon(draw, Icon::warning, {left + icon_side() / 2, y + icon_side() / 2}, icon_side(), color::kPartly);
+    if (i < kMostShown)
+      draw_icon(draw, Icon::warning, {left + icon_side() / 2, y + icon_side() / 2}, icon_side(), color::kPartly);
     const float room = static_cast<float>(plate_.high.x) - text_x - padding() + 1;
     draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y}, i < kMostShown ? color::kText : color::kQuiet,
                  lines_[i].text.c_str(), nullptr, room);

@@ -70,7 +70,7 @@ void RelinkDialog::draw_rows(const Studio& studio) {
       colored_text(color::kBad, "missing");
     ImGui::TableNextColumn();
     if (dialog_button("Browse...")) browse(studio, missing);
-    studio.places.note_item("relink.browse." + missing.field);
+    studio.places.note_item("relink/browse." + missing.field);
     ImGui::PopID();
   }
 }
@@ -98,7 +98,7 @@ void RelinkDialog::draw(const Studio& studio) {
   const char* const labels[] = {"Use suggestions", "Cancel", "Use these"};
   align_buttons_right(labels, 3);
   if (dialog_button("Use suggestions", false, has_suggestions)) places_.insert(suggested_.begin(), suggested_.end());
-  studio.places.note_item("relink.suggestions");
+  studio.places.note_item("relink/suggestions");
   ImGui::SameLine();
   if (dialog_button("Cancel")) closed = true;
   ImGui::SameLine();
@@ -106,7 +106,7 @@ void RelinkDialog::draw(const Studio& studio) {
     apply(studio);
     closed = true;
   }
-  studio.places.note_item("relink.apply");
+  studio.places.note_item("relink/apply");
   open_ = !closed;
   end_dialog(open_);
 }

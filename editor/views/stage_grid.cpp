@@ -45,7 +45,8 @@ void StageGrid::zoom_to_exact() {
 
 void StageGrid::draw(std::span<const StageTile> tiles, const cv::Size& frame_px, const ScreenRect& rect,
                      Textures& textures) {
-  const auto large = std::find_if(tiles.begin(), tiles.end(), [&](const StageTile& tile) { return tile.label == large_; });
+  const auto large =
+      std::find_if(tiles.begin(), tiles.end(), [&](const StageTile& tile) { return tile.label == large_; });
   if (large != tiles.end()) tiles = tiles.subspan(static_cast<std::size_t>(large - tiles.begin()), 1);
   const glm::dvec2 size(frame_px.width, frame_px.height);
   const GridShape shape = grid_shape(static_cast<int>(tiles.size()), size, rect.size(), head_px() + gap_px());
@@ -71,7 +72,8 @@ void StageGrid::draw_tile(const StageTile& tile, const cv::Size& frame_px, const
   if (ImGui::IsItemClicked()) large_ = large_.empty() ? tile.label : std::string();
   tooltip_for_item(tile.tooltip.c_str());
   ImGui::SetCursorScreenPos(im(room.low));
-  ImGui::InvisibleButton("picture", im(room.size()), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton("picture", im(room.size()),
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
   take_mouse(tile, linked, room);
   draw_picture_of(tile, linked, room, textures);
   draw_head(tile, linked, rect);
@@ -92,7 +94,8 @@ void StageGrid::take_mouse(const StageTile& tile, bool linked, const ScreenRect&
     look_.begin_pan();
   }
   if (pressed_ != tile.label) return;
-  const ImGuiMouseButton button = ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? ImGuiMouseButton_Middle : ImGuiMouseButton_Left;
+  const ImGuiMouseButton button =
+      ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? ImGuiMouseButton_Middle : ImGuiMouseButton_Left;
   const glm::dvec2 by = dv(ImGui::GetMouseDragDelta(button, panned_ ? 0 : scaled(3)));
   if (ImGui::IsItemActive() && by != glm::dvec2(0, 0)) {
     panned_ = true;
@@ -129,8 +132,8 @@ void StageGrid::draw_head(const StageTile& tile, bool linked, const ScreenRect& 
   ImGui::PushFont(font(Font::mono));
   const float value_width = ImGui::CalcTextSize(value.c_str()).x;
   if (!value.empty() && value_width + scaled(40) < room) {
-    draw.AddText({static_cast<float>(rect.high.x) - scaled(6) - value_width, y}, linked ? color::kAccent : color::kQuiet,
-                 value.c_str());
+    draw.AddText({static_cast<float>(rect.high.x) - scaled(6) - value_width, y},
+                 linked ? color::kAccent : color::kQuiet, value.c_str());
     room -= value_width + scaled(8);
   }
   ImGui::PopFont();

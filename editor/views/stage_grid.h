@@ -18,8 +18,7 @@ struct GridShape {
   int columns = 1;
   int rows = 1;
 };
-[[nodiscard]] GridShape grid_shape(int count, const glm::dvec2& picture_px, const glm::dvec2& room_px,
-                                   double label_px);
+[[nodiscard]] GridShape grid_shape(int count, const glm::dvec2& picture_px, const glm::dvec2& room_px, double label_px);
 
 // Pictures side by side, each under its label. Those of one size, the frame's, are zoomed and panned as one, and the
 // pixel under the mouse is marked in all of them; the others are shown whole. A click makes one large, a click more
@@ -42,10 +41,10 @@ class StageGrid {
 
   ZoomablePicture look_;
   ReducedPictures reduced_;
-  std::string large_;                // label of the tile that fills the room; "": none
-  std::optional<cv::Point> pixel_;   // marked, of the frame
+  std::string large_;               // label of the tile that fills the room; "": none
+  std::optional<cv::Point> pixel_;  // marked, of the frame
   std::optional<cv::Point> next_pixel_;
-  std::string pressed_;              // label of the tile that the mouse was pressed on
+  std::string pressed_;  // label of the tile that the mouse was pressed on
   bool panned_ = false;
 };
 

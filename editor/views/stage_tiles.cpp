@@ -25,8 +25,10 @@ constexpr std::array kWords{
     Words{"b", "B: keyed", "Input 2 keyed into A"},
     Words{"c", "C: distorted", "B through the lens"},
     Words{"d", "D: blurred", "C softened as the lens does at the intruder's distance"},
-    Words{"f", "F: key, distorted and blurred", "Input 2 distorted and blurred the same way: where it is not green, D is taken"},
-    Words{"keyed", "Keyed", "What the key gives, before the own body hides any of it: classic takes D where F is not green"},
+    Words{"f", "F: key, distorted and blurred",
+          "Input 2 distorted and blurred the same way: where it is not green, D is taken"},
+    Words{"keyed", "Keyed",
+          "What the key gives, before the own body hides any of it: classic takes D where F is not green"},
     Words{"layer", "Layer", "The intruder alone in its virtual view, before it is bent"},
     Words{"bent", "Bent", "The layer through the lens"},
     Words{"blurred", "Blurred", "Softened as the lens does at the intruder's distance"},
@@ -36,7 +38,8 @@ constexpr std::array kWords{
 };
 
 StageTile tile_of(const std::string& stage, const cv::Mat& picture) {
-  const auto words = std::find_if(kWords.begin(), kWords.end(), [&](const Words& known) { return stage == known.stage; });
+  const auto words =
+      std::find_if(kWords.begin(), kWords.end(), [&](const Words& known) { return stage == known.stage; });
   if (words == kWords.end()) return {stage, "", picture};
   return {words->label, words->tooltip, picture};
 }

@@ -22,16 +22,20 @@ constexpr float kMostGain = 64;
 
 std::string name_of(MethodChoice method) {
   switch (method) {
-    case MethodChoice::direct: return "direct";
-    case MethodChoice::classic: return "classic";
-    case MethodChoice::plain: return "plain";
+    case MethodChoice::direct:
+      return "direct";
+    case MethodChoice::classic:
+      return "classic";
+    case MethodChoice::plain:
+      return "plain";
   }
   return "";
 }
 
 std::string name_of_intruder(const Studio& studio, int in_scene) {
   const std::optional<int> intruder = project_intruder(studio, in_scene);
-  return intruder ? studio.project().intruders[static_cast<std::size_t>(*intruder)].name : "intruder " + std::to_string(in_scene);
+  return intruder ? studio.project().intruders[static_cast<std::size_t>(*intruder)].name
+                  : "intruder " + std::to_string(in_scene);
 }
 
 std::string gain_text(double gain) {
@@ -85,17 +89,18 @@ void StagesView::wish(const Studio& studio) {
   if (!studio.shown.scene) staged_ = compared_ = nullptr;
 }
 
-const Picture* StagesView::looked_at() const {
-  return look_ != Look::against_method && compared_ ? compared_.get() : staged_.get();
+const Picture* StagesView::looked_at(const Studio& studio) const {
+  const bool other = look_ != Look::against_method && other_method(studio) != own_method(studio);
+  return other ? compared_.get() : staged_.get();
 }
 
-std::vector<int> StagesView::choices() const {
-  const Picture* const picture = looked_at();
+std::vector<int> StagesView::choices(const Studio& studio) const {
+  const Picture* const picture = looked_at(studio);
   return picture != nullptr ? intruders_of(picture->stages) : std::vector<int>();
 }
 
 std::optional<int> StagesView::intruder(const Studio& studio) const {
-  const std::vector<int> all = choices();
+  const std::vector<int> all = choices(studio);
   const auto there = [&](std::optional<int> number) {
     return number && std::find(all.begin(), all.end(), *number) != all.end();
   };
@@ -129,8 +134,7 @@ std::vector<StageTile> StagesView::method_tiles(const Studio& studio) {
 
 std::vector<StageTile> StagesView::tiles(const Studio& studio) {
   if (look_ == Look::against_method) return method_tiles(studio);
-  const bool other = other_method(studio) != own_method(studio);
-  const Picture* const picture = other ? compared_.get() : staged_.get();
+  const Picture* const picture = looked_at(studio);
   if (picture == nullptr) return {};
   if (look_ == Look::against_input) return input_tiles(*picture);
   std::vector<StageTile> made = stage_tiles(picture->stages, intruder(studio));
@@ -139,8 +143,7 @@ std::vector<StageTile> StagesView::tiles(const Studio& studio) {
 }
 
 ToolbarItem StagesView::look_button(const char* label, const char* tooltip, Look look) {
-  return {.button = {.id = label, .label = label, .tooltip = tooltip, .on = look_ == look},
-          .clicked = [this, look] {
+  return {.button = {.id = label, .label = label, .tooltip = tooltip, .on = look_ == look}, .clicked = [this, look] {
             look_ = look;
             grid_.show_all();
           }};
@@ -170,7 +173,7 @@ void StagesView::draw_intruder_choice(const Studio& studio) {
   const std::optional<int> chosen = intruder(studio);
   ImGui::SetNextItemWidth(scaled(120));
   if (begin_choice("##intruder", chosen ? name_of_intruder(studio, *chosen) : "")) {
-    for (const int number : choices()) {
+    for (const int number : choices(studio)) {
       ImGui::PushID(number);
       if (ImGui::Selectable(name_of_intruder(studio, number).c_str(), chosen == number)) intruder_ = number;
       ImGui::PopID();
@@ -190,7 +193,7 @@ void StagesView::draw_gain() {
 }
 
 void StagesView::zoom_to_intruder(const Studio& studio) {
-  const Picture* const picture = looked_at();
+  const Picture* const picture = looked_at(studio);
   if (picture == nullptr) return;
   const std::optional<int> chosen = intruder(studio);
   for (const IntruderTruth& truth : picture->truth.intruders) {
@@ -211,16 +214,22 @@ void StagesView::draw_toolbar_of(const Studio& studio) {
       {.is_gap = true},
       {.width = method_choice_width(), .content = [&] { draw_method_choice(studio); }}};
   if (look_ != Look::stages) items.push_back({.width = scaled(110), .content = [this] { draw_gain(); }});
-  if (look_ == Look::stages && choices().size() > 1)
+  if (look_ == Look::stages && choices(studio).size() > 1)
     items.push_back({.width = scaled(120), .content = [&] { draw_intruder_choice(studio); }});
   items.push_back({.is_gap = true});
-  items.push_back({.button = {.id = "to intruder", .icon = picture_icon::target, .label = "Intruder",
+  items.push_back({.button = {.id = "to intruder",
+                              .icon = picture_icon::target,
+                              .label = "Intruder",
                               .tooltip = "Zoom to the intruder"},
                    .clicked = [&] { zoom_to_intruder(studio); }});
-  items.push_back({.button = {.id = "fit", .icon = picture_icon::fit, .label = "Fit",
-                              .tooltip = "The whole picture (F or 0)", .on = grid_.look().is_fitted()},
+  items.push_back({.button = {.id = "fit",
+                              .icon = picture_icon::fit,
+                              .label = "Fit",
+                              .tooltip = "The whole picture (F or 0)",
+                              .on = grid_.look().is_fitted()},
                    .clicked = [this] { grid_.fit(); }});
-  items.push_back({.button = {.id = "exact", .label = "1:1",
+  items.push_back({.button = {.id = "exact",
+                              .label = "1:1",
                               .tooltip = "One pixel of the screen for each of the picture (1)",
                               .on = grid_.look().zoom() == 1},
                    .clicked = [this] { grid_.zoom_to_exact(); }});
@@ -228,7 +237,7 @@ void StagesView::draw_toolbar_of(const Studio& studio) {
 }
 
 void StagesView::draw_notice(const Studio& studio, const ScreenRect& rect) const {
-  const Picture* const picture = looked_at();
+  const Picture* const picture = looked_at(studio);
   std::string text;
   if (picture == nullptr)
     text = studio.shown.scene ? "Making the stages..." : "Opening the project...";
@@ -236,7 +245,8 @@ void StagesView::draw_notice(const Studio& studio, const ScreenRect& rect) const
     text = picture->problem;
   else if (picture->frame != studio.document.playhead() || picture->revision != studio.document.revision().number)
     text = "updating...";
-  else if (look_ == Look::stages && stage_picture(*picture, "bent") == nullptr && stage_picture(*picture, "input2") == nullptr)
+  else if (look_ == Look::stages && stage_picture(*picture, "bent") == nullptr &&
+           stage_picture(*picture, "input2") == nullptr)
     text = "No intruder can be seen in this frame: the output is the footage.";
   if (text.empty()) return;
   PictureCanvas canvas{*ImGui::GetWindowDrawList(), rect, {}, {}};
@@ -251,7 +261,7 @@ void StagesView::draw(const Studio& studio) {
   const glm::dvec2 low = glm::round(dv(ImGui::GetCursorScreenPos()));
   const ScreenRect rect{low, low + glm::max(glm::floor(dv(ImGui::GetContentRegionAvail())), 1.0)};
   const std::vector<StageTile> shown = tiles(studio);
-  const Picture* const picture = looked_at();
+  const Picture* const picture = looked_at(studio);
   if (!shown.empty() && picture != nullptr) grid_.draw(shown, picture->bgr.size(), rect, studio.textures);
   draw_notice(studio, rect);
   ImGui::PopStyleVar();

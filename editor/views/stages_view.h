@@ -34,8 +34,8 @@ class StagesView {
   [[nodiscard]] MethodChoice own_method(const Studio& studio) const;
   // The method that is looked at, or compared with.
   [[nodiscard]] MethodChoice other_method(const Studio& studio) const;
-  [[nodiscard]] const Picture* looked_at() const;
-  [[nodiscard]] std::vector<int> choices() const;
+  [[nodiscard]] const Picture* looked_at(const Studio& studio) const;
+  [[nodiscard]] std::vector<int> choices(const Studio& studio) const;
   [[nodiscard]] std::optional<int> intruder(const Studio& studio) const;
   [[nodiscard]] std::vector<StageTile> tiles(const Studio& studio);
   [[nodiscard]] std::vector<StageTile> input_tiles(const Picture& picture);
@@ -47,7 +47,7 @@ class StagesView {
   std::optional<MethodChoice> method_;  // none: the project's own
   std::optional<int> intruder_;         // the scene's number; none: the one that is worked on
   double gain_ = 8;
-  std::shared_ptr<const Picture> staged_;    // the newest there was: shown until there is a newer one
+  std::shared_ptr<const Picture> staged_;  // the newest there was: shown until there is a newer one
   std::shared_ptr<const Picture> compared_;
 };
 

@@ -105,11 +105,11 @@ void StartPage::draw_head(const Studio& studio, const StartPageContent& content)
   ImGui::PopStyleColor();
   ImGui::Dummy({0, scaled(6)});
   if (dialog_button("New project", true)) studio.edits.ask(NewProject{});
-  studio.places.note_item("start.new");
+  studio.places.note_item("start/new");
   tooltip_for_item("Begin with an empty project (Ctrl+N)");
   ImGui::SameLine();
   if (dialog_button("Open...")) studio.edits.ask(OpenProject{});
-  studio.places.note_item("start.open");
+  studio.places.note_item("start/open");
   tooltip_for_item("Open a project file (Ctrl+O); or drop one onto this window");
   if (content.loading.empty()) return;
   ImGui::SameLine();
@@ -124,10 +124,10 @@ void StartPage::draw_abandoned(const Studio& studio, const StartPageContent& con
     const AbandonedProject& project = content.abandoned[i];
     ImGui::PushID(static_cast<int>(i));
     if (dialog_button("Open##recover", true)) choice.recover = project;
-    studio.places.note_item("start.recover." + std::to_string(i));
+    studio.places.note_item("start/recover." + std::to_string(i));
     ImGui::SameLine();
     if (dialog_button("Discard##recover")) choice.discard = project;
-    studio.places.note_item("start.discard." + std::to_string(i));
+    studio.places.note_item("start/discard." + std::to_string(i));
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     const std::string where = project.project_file.empty() ? "never saved" : project.project_file.string();
@@ -141,7 +141,7 @@ void StartPage::draw_card(const Studio& studio, const Sample& sample, float widt
   const ImVec2 place = ImGui::GetCursorScreenPos();
   const float picture_height = width * kPictureShape;
   if (ImGui::InvisibleButton(sample.name.c_str(), {width, height})) studio.edits.ask(OpenProject{sample.file});
-  studio.places.note_item("start.sample." + sample.name);
+  studio.places.note_item("start/sample." + sample.name);
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -173,15 +173,14 @@ void StartPage::draw_samples(const Studio& studio, float width) {
   const float gap = scaled(14);
   const int most = std::max(1, static_cast<int>((width + gap) / (scaled(200) + gap)));
   const int columns = std::min(most, static_cast<int>(samples_.size()));
-  const float card = std::min(scaled(300), (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
+  const float card =
+      std::min(scaled(300), (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
   const float small = font(Font::small)->FontSize;
   float text = 0;
   for (const Sample& sample : samples_)
-    text = std::max(text, font(Font::small)
-                              ->CalcTextSizeA(small, FLT_MAX, card - scaled(20), sample.text.c_str())
-                              .y);
-  const float height = card * kPictureShape +
-                       scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
+    text = std::max(text, font(Font::small)->CalcTextSizeA(small, FLT_MAX, card - scaled(20), sample.text.c_str()).y);
+  const float height =
+      card * kPictureShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (i % static_cast<std::size_t>(columns) != 0)
       ImGui::SameLine(0, gap);
@@ -202,7 +201,7 @@ void StartPage::draw_recent(const Studio& studio, float width) {
     if (ImGui::Selectable("##recent", false, is_there ? 0 : ImGuiSelectableFlags_Disabled, {width, height}))
       studio.edits.ask(OpenProject{file});
     ImGui::PopID();
-    studio.places.note_item("start.recent." + std::to_string(i));
+    studio.places.note_item("start/recent." + std::to_string(i));
     tooltip_for_item(is_there ? file.c_str() : (file.string() + " is not there").c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 main = is_there ? color::kText : faded(color::kQuiet, 0.6);
@@ -212,7 +211,8 @@ void StartPage::draw_recent(const Studio& studio, float width) {
     list.AddText({place.x + scaled(28), y}, main, name.c_str());
     const float x = scaled(28) + std::max(scaled(150), ImGui::CalcTextSize(name.c_str()).x + scaled(16));
     const std::string folder = file.parent_path().string() + (is_there ? "" : "  (not there)");
-    list.AddText({place.x + x, y}, faded(color::kQuiet, is_there ? 1 : 0.6), elided(folder, width - x - scaled(6)).c_str());
+    list.AddText({place.x + x, y}, faded(color::kQuiet, is_there ? 1 : 0.6),
+                 elided(folder, width - x - scaled(6)).c_str());
   }
 }
 

@@ -89,7 +89,8 @@ std::string flags_text(const KeyMarks& marks, double frame) {
   std::string text;
   if (survey == nullptr) return text;
   for (const FlightFlag& flag : survey->flags)
-    if (frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1) text += (text.empty() ? "" : "\n") + flag.text();
+    if (frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
+      text.append(text.empty() ? "" : "\n").append(flag.text());
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "editor/document/waypoint_edits.h"
 #include "editor/views/timeline_key_marks.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 

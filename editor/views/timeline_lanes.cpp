@@ -9,6 +9,7 @@
 
 #include "editor/views/lane_marks.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 

@@ -63,20 +63,6 @@ std::string time_text_of(const Studio& studio, int frame) {
   return time_text(time_of_frame_s(studio.shown.scene->footage->shape, frame));
 }
 
-std::string elided(const std::string& text, float width) {
-  constexpr std::size_t kMostBytes = 200;  // no strip shows more
-  const auto width_of = [](const std::string& s) { return ImGui::CalcTextSize(s.c_str()).x; };
-  if (text.size() <= kMostBytes && width_of(text) <= width) return text;
-  std::string cut = text.substr(0, kMostBytes);
-  while (!cut.empty()) {
-    // A whole UTF-8 character at a time.
-    do cut.pop_back();
-    while (!cut.empty() && (static_cast<unsigned char>(text[cut.size()]) & 0xC0U) == 0x80U);
-    if (width_of(cut + "...") <= width) return cut + "...";
-  }
-  return {};
-}
-
 bool begin_menu(const char* id) {
   if (!ImGui::BeginPopup(id)) return false;
   if (pressed(Key::escape)) ImGui::CloseCurrentPopup();

@@ -38,9 +38,6 @@ void draw_row_line(ImDrawList& list, const TimelineStrip& strip, float y);
 // Time of a frame by the footage that is open; none before one is.
 [[nodiscard]] std::string time_text_of(const Studio& studio, int frame);
 
-// The text cut to a width, with "..." where something is missing.
-[[nodiscard]] std::string elided(const std::string& text, float width);
-
 // A popup menu that was opened under this name; Esc closes it. Ends with ImGui::EndPopup() where true.
 [[nodiscard]] bool begin_menu(const char* id);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 
@@ -16,10 +17,10 @@ namespace sigs::editor {
 namespace {
 
 constexpr double kNames_px = 156;
-constexpr double kWheelZoom = 1.25;   // a notch
-constexpr double kWheelPan = 0.12;    // of the strip
-constexpr double kEndMargin = 0.012;  // of the frames
-constexpr double kPageMargin = 0.1;   // where the playhead comes in when playing turns the page
+constexpr double kWheelZoom = 1.25;  // a notch
+constexpr double kWheelPan = 0.12;   // of the strip
+constexpr double kEndMargin = 0.02;  // of the frames
+constexpr double kPageMargin = 0.1;  // where the playhead comes in when playing turns the page
 
 // All of the footage, also while its length is not known, with some room for keys at its ends.
 TimeRuler whole(const Document& document) {
@@ -122,15 +123,15 @@ void TimelineView::draw_rows(const Studio& studio, const TimelineStrip& strip) {
   const ImVec2 high{low.x + ImGui::GetWindowWidth(), low.y + ImGui::GetWindowHeight()};
   const float start_y = ImGui::GetCursorPosY();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  darken_outside_project(list, strip, studio.document, low.y, high.y);
   if (studio.project().intruders.empty()) {
     draw_no_intruder(studio, strip);
   } else {
+    darken_outside_project(list, strip, studio.document, low.y, high.y);
     keys_.draw(studio, strip);
     lanes_.draw(studio, strip, ImGui::GetWindowHeight() - (ImGui::GetCursorPosY() - start_y), ruler_row_);
+    darken_outside_marks(list, strip, studio.document, low.y, high.y);
+    draw_playhead_line(list, strip, studio.document.playhead(), low.y, high.y);
   }
-  darken_outside_marks(list, strip, studio.document, low.y, high.y);
-  draw_playhead_line(list, strip, studio.document.playhead(), low.y, high.y);
   ImGui::Dummy({1, 0});
   ImGui::EndChild();
 }

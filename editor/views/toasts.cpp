@@ -16,6 +16,38 @@ constexpr double kShortest_s = 3;
 constexpr double kReading_s = 0.05;  // more for each letter
 constexpr std::size_t kMost = 5;
 
+struct Plate {
+  ScreenRect rect;
+  bool clicked = false;
+};
+
+// One message, as wide as its text needs, standing on the middle of its lower edge.
+Plate drawn(const std::string& id, const std::string& text, bool is_error, ImVec2 foot, float most) {
+  const float wrap = most - scaled(64);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const ImVec2 whole{size.x + scaled(is_error ? 70 : 44), size.y + scaled(18)};
+  const ImVec2 p{foot.x - whole.x / 2, foot.y - whole.y};
+  ImGui::SetNextWindowPos(p);
+  ImGui::SetNextWindowSize(whole);
+  ImGui::SetNextWindowBgAlpha(0.97F);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, is_error ? IM_COL32(72, 34, 34, 255) : IM_COL32(50, 54, 64, 255));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  ImGui::Begin(("##toast" + id).c_str(), nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  draw_icon(list, is_error ? Icon::warning : Icon::info, {p.x + scaled(18), p.y + whole.y / 2}, scaled(15),
+            is_error ? color::kBad : color::kAccent);
+  list.AddText(nullptr, 0, {p.x + scaled(34), p.y + scaled(9)}, color::kText, text.c_str(), nullptr, wrap);
+  if (is_error)
+    draw_icon(list, Icon::cross, {p.x + whole.x - scaled(16), p.y + whole.y / 2}, scaled(11), color::kQuiet);
+  const bool clicked = ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0);
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  return {{{p.x, p.y}, {p.x + whole.x, p.y + whole.y}}, clicked};
+}
+
 }  // namespace
 
 void Toasts::say(const Say& message, double now_s) {
@@ -48,31 +80,12 @@ void Toasts::draw(Places& places, double now_s) {
   std::size_t clicked = toasts_.size();
   for (std::size_t i = toasts_.size(); i-- > 0;) {
     const Toast& toast = toasts_[i];
-    const std::string text = toast.times > 1 ? toast.text + "  (" + std::to_string(toast.times) + " times)" : toast.text;
-    const float wrap = most - scaled(64);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    const ImVec2 whole{size.x + scaled(toast.is_error ? 70 : 44), size.y + scaled(18)};
-    ImGui::SetNextWindowPos({screen.Pos.x + (screen.Size.x - whole.x) / 2, y - whole.y});
-    ImGui::SetNextWindowSize(whole);
-    ImGui::SetNextWindowBgAlpha(0.97F);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, toast.is_error ? IM_COL32(72, 34, 34, 255) : IM_COL32(50, 54, 64, 255));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    ImGui::Begin(("##toast" + std::to_string(i)).c_str(), nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 p = ImGui::GetWindowPos();
-    draw_icon(list, toast.is_error ? Icon::warning : Icon::info, {p.x + scaled(18), p.y + whole.y / 2}, scaled(15),
-              toast.is_error ? color::kBad : color::kAccent);
-    list.AddText(nullptr, 0, {p.x + scaled(34), p.y + scaled(9)}, color::kText, text.c_str(), nullptr, wrap);
-    if (toast.is_error)
-      draw_icon(list, Icon::cross, {p.x + whole.x - scaled(16), p.y + whole.y / 2}, scaled(11), color::kQuiet);
-    if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) clicked = i;
-    places.note("toast." + std::to_string(i), {{p.x, p.y}, {p.x + whole.x, p.y + whole.y}});
-    ImGui::End();
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-    y -= whole.y + scaled(8);
+    const std::string text =
+        toast.times > 1 ? toast.text + "  (" + std::to_string(toast.times) + " times)" : toast.text;
+    const Plate plate = drawn(std::to_string(i), text, toast.is_error, {screen.Pos.x + screen.Size.x / 2, y}, most);
+    if (plate.clicked) clicked = i;
+    places.note("toast/" + std::to_string(i), plate.rect);
+    y = static_cast<float>(plate.rect.low.y) - scaled(8);
   }
   if (clicked < toasts_.size()) toasts_.erase(toasts_.begin() + static_cast<std::ptrdiff_t>(clicked));
 }

@@ -163,7 +163,7 @@ void TransportBar::draw_frame_field(const Studio& studio, float width) {
 void TransportBar::draw(const Studio& studio) {
   const Document& document = studio.document;
   const std::string time = time_text_of(studio, document.playhead());
-  const std::string last = "/ " + std::to_string(std::max(0, document.frame_count() - 1));
+  const std::string last = std::string("/ ").append(std::to_string(std::max(0, document.frame_count() - 1)));
   const float digits = std::max(4.0F, static_cast<float>(std::to_string(document.frame_count()).size() + 1));
   const float field = text_width("0") * digits + 2 * ImGui::GetStyle().FramePadding.x;
   Bar bar;

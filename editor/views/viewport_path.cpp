@@ -46,9 +46,9 @@ void PathOverlay::make(const Scene& scene, const FootageEye& eye) {
       const std::vector<double> times = times_between(scene.footage, from, to);
       if (times.size() < 2) return;
       const auto position = [&](double time_s) { return trajectory.position_m(time_s); };
-      ways_.push_back({static_cast<int>(i), past,
-                       path_through_lens(position, times, eye.world_from_camera, eye.lens,
-                                         size_of(scene.footage.size_px))});
+      ways_.push_back(
+          {static_cast<int>(i), past,
+           path_through_lens(position, times, eye.world_from_camera, eye.lens, size_of(scene.footage.size_px))});
     };
     add(scene.first_frame, here, true);
     add(here, scene.last_frame, false);

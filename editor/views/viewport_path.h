@@ -10,8 +10,8 @@
 
 namespace sigs::editor {
 
-// Every intruder's way as the camera sees it from where it is in one frame: what was flown pale, what is to come bright.
-// Kept until scene or frame change.
+// Every intruder's way as the camera sees it from where it is in one frame: what was flown pale, what is to come
+// bright. Kept until scene or frame change.
 class PathOverlay {
  public:
   void draw(const PictureCanvas& canvas, const Studio& studio, const FootageEye& eye);

@@ -38,7 +38,8 @@ void add_pixel(std::vector<Part>& parts, const Studio& studio, const ViewportRea
   const cv::Mat* picture = picture_of(studio, readout);
   if (!readout.pixel || picture == nullptr || !cv::Rect({0, 0}, picture->size()).contains(*readout.pixel)) return;
   const cv::Point at = *readout.pixel;
-  parts.push_back({"x " + formatted("%4.0f", at.x) + "  y " + formatted("%4.0f", at.y), "x 00000  y 00000", 0, color::kText});
+  parts.push_back(
+      {"x " + formatted("%4.0f", at.x) + "  y " + formatted("%4.0f", at.y), "x 00000  y 00000", 0, color::kText});
   parts.push_back({pixel_text(*picture, at), "000 000 000", 0, color::kText,
                    picture->type() == CV_8UC3 ? std::optional(picture->at<cv::Vec3b>(at)) : std::nullopt});
   if (readout.of_footage) {
@@ -48,7 +49,8 @@ void add_pixel(std::vector<Part>& parts, const Studio& studio, const ViewportRea
   const cv::Mat& mask = studio.shown.picture->mask;
   const bool masked = mask.type() == CV_8UC1 && cv::Rect({0, 0}, mask.size()).contains(at);
   const double covered = masked ? mask.at<uchar>(at) / 2.55 : 0;
-  parts.push_back({formatted("covered %5.1f%%", covered), "covered 100.0%", 1, covered > 0 ? color::kAccent : color::kQuiet});
+  parts.push_back(
+      {formatted("covered %5.1f%%", covered), "covered 100.0%", 1, covered > 0 ? color::kAccent : color::kQuiet});
 }
 
 void add_picture(std::vector<Part>& parts, const Studio& studio, const ViewportReadout& readout) {

@@ -12,7 +12,8 @@ namespace sigs::editor {
 namespace {
 
 ToolbarItem switch_of(const char* id, IconDrawing icon, const char* label, const char* tooltip, bool& on) {
-  return {.button = {.id = id, .icon = icon, .label = label, .tooltip = tooltip, .on = on}, .clicked = [&on] { on = !on; }};
+  return {.button = {.id = id, .icon = icon, .label = label, .tooltip = tooltip, .on = on},
+          .clicked = [&on] { on = !on; }};
 }
 
 ToolbarItem gap() {
@@ -34,8 +35,8 @@ const char* label_of(PictureGrid grid) {
 void draw_viewport_toolbar(const ViewportSwitches& switches) {
   OverlayChoice& overlays = switches.overlays;
   std::vector<ToolbarItem> items{
-      switch_of("box", picture_icon::box, "Box", "Boxes of the truth: what is visible solid, the whole silhouette dashed",
-                overlays.box),
+      switch_of("box", picture_icon::box, "Box",
+                "Boxes of the truth: what is visible solid, the whole silhouette dashed", overlays.box),
       switch_of("path", picture_icon::path, "Path", "The way of each intruder, as seen from here through the lens",
                 overlays.path),
       switch_of("waypoints", picture_icon::waypoints, "Waypoints",
@@ -45,19 +46,29 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
       switch_of("horizon", picture_icon::horizon, "Horizon", "Where the world is level", overlays.horizon),
       switch_of("own body", picture_icon::own_body, "Own body", "The mask of the aircraft that carries the camera",
                 overlays.own_body),
-      {.button = {.id = "grid", .icon = picture_icon::grid, .label = label_of(overlays.grid),
-                  .tooltip = "Lines across the picture: thirds, 8 x 6, none", .on = overlays.grid != PictureGrid::none},
+      {.button = {.id = "grid",
+                  .icon = picture_icon::grid,
+                  .label = label_of(overlays.grid),
+                  .tooltip = "Lines across the picture: thirds, 8 x 6, none",
+                  .on = overlays.grid != PictureGrid::none},
        .clicked = [&overlays] { overlays.grid = next(overlays.grid); }},
       gap(),
-      {.button = {.id = "wipe", .icon = picture_icon::wipe, .label = "Wipe",
+      {.button = {.id = "wipe",
+                  .icon = picture_icon::wipe,
+                  .label = "Wipe",
                   .tooltip = "Untouched footage left of a line that can be dragged. Hold \\: footage alone",
                   .on = switches.wipe.is_on()},
        .clicked = [&switches] { switches.wipe.toggle(); }},
       gap(),
-      {.button = {.id = "fit", .icon = picture_icon::fit, .label = "Fit", .tooltip = "The whole picture (F or 0)",
+      {.button = {.id = "fit",
+                  .icon = picture_icon::fit,
+                  .label = "Fit",
+                  .tooltip = "The whole picture (F or 0)",
                   .on = switches.look.is_fitted()},
        .clicked = [&switches] { switches.look.fit(); }},
-      {.button = {.id = "one to one", .label = "1:1", .tooltip = "One pixel of the screen for each of the picture (1)",
+      {.button = {.id = "one to one",
+                  .label = "1:1",
+                  .tooltip = "One pixel of the screen for each of the picture (1)",
                   .on = switches.look.zoom() == 1},
        .clicked = [&switches] { switches.look.zoom_to(1, switches.look.room_px() / 2.0); }},
   };

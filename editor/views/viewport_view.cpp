@@ -49,9 +49,9 @@ void ViewportView::draw_canvas(const Studio& studio, const ScreenRect& rect) {
   look_.lay_out(size, rect.size());
   banner_.take_mouse(rect, problems_of(studio, studio.shown.picture.get()));
   ImGui::SetCursorScreenPos(im(rect.low));
-  ImGui::InvisibleButton("footage", im(rect.size()),
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton(
+      "footage", im(rect.size()),
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   hovered_ = ImGui::IsItemHovered();
   const bool pressed_here = ImGui::IsItemActivated();
   if (hovered_ && take_zoom_input(look_, rect.low)) grip_ = grip_ == Grip::ground ? Grip::nothing : grip_;
@@ -102,7 +102,9 @@ void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canv
     own_body_.draw(canvas, studio.textures, studio.shown.scene->draft.scene.own_body);
   draw_pixel_grid(canvas);
   const Picture* const picture = studio.shown.picture.get();
-  const cv::Mat* const values = footage_alone_ ? studio.shown.footage.get() : picture != nullptr ? &picture->bgr : nullptr;
+  const cv::Mat* const values = footage_alone_       ? studio.shown.footage.get()
+                                : picture != nullptr ? &picture->bgr
+                                                     : nullptr;
   if (values != nullptr) draw_pixel_values(canvas, *values, dv(ImGui::GetMousePos()));
   draw_picture_grid(canvas, overlays_.grid);
   if (footage_alone_) return;

@@ -16,7 +16,8 @@ void draw_handle(ImDrawList& draw, const glm::dvec2& middle, ImU32 color) {
   draw.AddCircleFilled(im(middle), static_cast<float>(r), IM_COL32(16, 18, 22, 220));
   draw.AddCircle(im(middle), static_cast<float>(r), color, 0, scaled(1.4));
   for (const double side : {-1.0, 1.0})
-    draw.AddTriangleFilled(im(middle + side * glm::dvec2(0.65 * r, 0)), im(middle + side * glm::dvec2(0.2 * r, 0.38 * r)),
+    draw.AddTriangleFilled(im(middle + side * glm::dvec2(0.65 * r, 0)),
+                           im(middle + side * glm::dvec2(0.2 * r, 0.38 * r)),
                            im(middle + side * glm::dvec2(0.2 * r, -0.38 * r)), color);
 }
 
@@ -55,8 +56,10 @@ void ViewportWipe::draw_line(const PictureCanvas& canvas, bool lit) const {
   draw_handle(canvas.draw, {x, (canvas.rect.low.y + canvas.rect.high.y) / 2}, color);
   const double bottom = canvas.rect.high.y - scaled(6);
   const double width = ImGui::CalcTextSize("footage").x;
-  if (x - canvas.rect.low.x > width + scaled(20)) draw_label(canvas, {x - width - scaled(10), bottom}, "footage", color::kText);
-  if (canvas.rect.high.x - x > width + scaled(40)) draw_label(canvas, {x + scaled(8), bottom}, "composite", color::kText);
+  if (x - canvas.rect.low.x > width + scaled(20))
+    draw_label(canvas, {x - width - scaled(10), bottom}, "footage", color::kText);
+  if (canvas.rect.high.x - x > width + scaled(40))
+    draw_label(canvas, {x + scaled(8), bottom}, "composite", color::kText);
 }
 
 }  // namespace sigs::editor

@@ -153,7 +153,7 @@ void WaypointTable::scroll_to_selected(const Studio& studio, int intruder, float
 
 void WaypointTable::draw_rows(const Studio& studio, const ProblemsByField& problems, int intruder) {
   const auto count = static_cast<int>(waypoints_of(studio, intruder).size());
-  const float row_height = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+  const float row_height = ImGui::GetFrameHeight() + 2 * scaled(1);
   const float room = ImGui::GetContentRegionAvail().x;
   const float least = scaled(34) + 4 * scaled(58);
   const int rows = std::min(count, kMostRows);

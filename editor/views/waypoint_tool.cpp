@@ -15,9 +15,9 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kReach_px = 9;       // of a waypoint, where text is 15 px high
-constexpr double kLeastDrag_px = 3;   // a click's tremble is none
-constexpr double kLeastBox_px = 16;   // a distant intruder is larger for the mouse than for the eye
+constexpr double kReach_px = 9;      // of a waypoint, where text is 15 px high
+constexpr double kLeastDrag_px = 3;  // a click's tremble is none
+constexpr double kLeastBox_px = 16;  // a distant intruder is larger for the mouse than for the eye
 constexpr double kUsualDistance_m = 300;
 
 std::optional<glm::dvec3> waypoint_position(const Studio& studio, int intruder, int waypoint) {
@@ -99,12 +99,12 @@ void add_waypoint_at(const ToolTurn& turn, const glm::dvec2& pixel) {
   if (!intruder) return;
   const std::optional<glm::dvec3> now_m = position_of(turn.studio, *intruder, turn.eye.frame);
   const double distance_m = now_m ? turn.eye.distance_m(*now_m) : kUsualDistance_m;
-  const std::optional<glm::dvec3> there_m =
-      point_behind(pixel, distance_m, turn.eye.world_from_camera, turn.eye.lens);
+  const std::optional<glm::dvec3> there_m = point_behind(pixel, distance_m, turn.eye.world_from_camera, turn.eye.lens);
   if (there_m)
     add_waypoint(turn.studio, *intruder, turn.eye.frame, *there_m);
   else
-    turn.studio.edits.ask(Say{"The lens looks nowhere in that corner of the picture; choose a place nearer its middle.", true});
+    turn.studio.edits.ask(
+        Say{"The lens looks nowhere in that corner of the picture; choose a place nearer its middle.", true});
 }
 
 bool WaypointTool::press(const ToolTurn& turn) {
@@ -138,6 +138,12 @@ bool WaypointTool::is_still_there(const Studio& studio) const {
   return static_cast<std::size_t>(taken_->intruder) < studio.project().intruders.size();
 }
 
+// Where going to a waypoint's frame has carried it away from the mouse, there is nothing to drag.
+bool WaypointTool::is_under_press(const ToolTurn& turn, const glm::dvec3& position_m) const {
+  const std::optional<glm::dvec2> pixel = pixel_of(position_m, turn.eye.world_from_camera, turn.eye.lens);
+  return pixel && glm::distance(turn.canvas.view.screen_of(*pixel), taken_->pressed) <= 2 * scaled(kReach_px);
+}
+
 // Once the mouse has moved far enough to mean it.
 bool WaypointTool::begin(const ToolTurn& turn) {
   Taken& taken = *taken_;
@@ -148,10 +154,10 @@ bool WaypointTool::begin(const ToolTurn& turn) {
   const std::optional<glm::dvec3> start_m = makes_one ? position_of(turn.studio, taken.intruder, turn.eye.frame)
                                                       : waypoint_position(turn.studio, taken.intruder, taken.waypoint);
   if (!start_m) return false;
+  if (!makes_one && !is_under_press(turn, *start_m)) return false;
   taken.revision_before = turn.studio.document.revision().number;
   // Where a waypoint stands within a frame of this one, that is the one it gets.
-  if (makes_one)
-    taken.waypoint = put_in_gesture(turn.studio, taken.intruder, turn.eye.frame, *start_m, taken.gesture);
+  if (makes_one) taken.waypoint = put_in_gesture(turn.studio, taken.intruder, turn.eye.frame, *start_m, taken.gesture);
   taken.start_m = taken.now_m = taken.first_m = *start_m;
   taken.start_mouse = taken.pressed;
   taken.along = along_is_meant();
@@ -181,10 +187,10 @@ void WaypointTool::move(const ToolTurn& turn) {
   }
   const PictureView& view = turn.canvas.view;
   const CameraPose& pose = turn.eye.world_from_camera;
-  const std::optional<glm::dvec3> there_m =
-      taken.along ? dragged_along(taken.start_m, taken.start_mouse.y - turn.mouse.y, pose)
-                  : dragged_across(taken.start_m, view.picture_of(taken.start_mouse), view.picture_of(turn.mouse), pose,
-                                   turn.eye.lens);
+  const std::optional<glm::dvec3> there_m = taken.along
+                                                ? dragged_along(taken.start_m, taken.start_mouse.y - turn.mouse.y, pose)
+                                                : dragged_across(taken.start_m, view.picture_of(taken.start_mouse),
+                                                                 view.picture_of(turn.mouse), pose, turn.eye.lens);
   if (!there_m || *there_m == taken.now_m) return;
   taken.now_m = *there_m;
   move_in_gesture(turn.studio, taken.intruder, taken.waypoint, *there_m, taken.gesture);
@@ -215,7 +221,8 @@ void WaypointTool::draw(const ToolTurn& turn) const {
   const glm::dvec3 moved_m = taken_->now_m - taken_->first_m;
   const std::string how = taken_->along ? "along the line of sight" : "across";
   draw_label(turn.canvas, turn.mouse + glm::dvec2(scaled(16), scaled(54)),
-             distance_text(turn.eye.distance_m(taken_->now_m)) + "   moved " + distance_text(glm::length(moved_m)) + "   " + how,
+             distance_text(turn.eye.distance_m(taken_->now_m)) + "   moved " + distance_text(glm::length(moved_m)) +
+                 "   " + how,
              color::kText);
 }
 

@@ -30,8 +30,9 @@ struct ToolTurn {
 void add_waypoint_at(const ToolTurn& turn, const glm::dvec2& pixel);
 
 // Takes waypoints over the footage: at constant distance from the camera, with Alt or Shift along the line of sight. A
-// waypoint of another frame is gone to when it is taken, so that what is dragged is what is seen. An intruder that has
-// no waypoint in this frame gets one when it is dragged. One drag is one step of undo; Esc takes it back.
+// waypoint of another frame is gone to when it is taken; it is dragged on only where it is seen under the mouse then.
+// An intruder that has no waypoint in this frame gets one when it is dragged. One drag is one step of undo; Esc takes
+// it back.
 class WaypointTool {
  public:
   // Whether the press took hold of something.
@@ -47,11 +48,11 @@ class WaypointTool {
  private:
   struct Taken {
     int intruder = 0;
-    int waypoint = 0;      // -1: the intruder itself, which has none here
+    int waypoint = 0;  // -1: the intruder itself, which has none here
     std::string gesture;
     std::uint64_t revision_before = 0;
     Selection selected_before;  // what Esc comes back to
-    glm::dvec2 pressed{0, 0};  // where the mouse was taken, on the screen
+    glm::dvec2 pressed{0, 0};   // where the mouse was taken, on the screen
     bool moving = false;
     bool along = false;
     glm::dvec3 start_m{0, 0, 0};  // where the part of the drag that lasts began
@@ -61,6 +62,7 @@ class WaypointTool {
   };
 
   [[nodiscard]] bool is_still_there(const Studio& studio) const;
+  [[nodiscard]] bool is_under_press(const ToolTurn& turn, const glm::dvec3& position_m) const;
   bool begin(const ToolTurn& turn);
   void cancel(const Studio& studio);
   void move(const ToolTurn& turn);

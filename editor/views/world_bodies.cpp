@@ -12,7 +12,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kLeastBody_px = 30;   // across the model's largest extent
+constexpr double kLeastBody_px = 30;  // across the model's largest extent
 constexpr int kMostFaces = 300;
 constexpr double kOwnColorShare = 0.35;  // of the model's, the rest is the intruder's
 constexpr double kSun_px = 6;

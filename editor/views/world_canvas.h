@@ -29,7 +29,8 @@ class WorldCanvas {
   [[nodiscard]] std::optional<glm::dvec2> in_sight(const glm::dvec3& p_in_world, double margin_px = 0) const;
 
   // What of a line lies within the rect.
-  [[nodiscard]] std::optional<std::array<glm::dvec2, 2>> within_rect(const glm::dvec3& a_m, const glm::dvec3& b_m) const;
+  [[nodiscard]] std::optional<std::array<glm::dvec2, 2>> within_rect(const glm::dvec3& a_m,
+                                                                     const glm::dvec3& b_m) const;
 
   void line(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width = 1);
   void dashes(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width = 1);
@@ -37,7 +38,8 @@ class WorldCanvas {
 
   enum class Side { right, centre };
   // Beside or around a place of the screen; false: there was no room.
-  bool label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side = Side::right, Font font = Font::small);
+  bool label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side = Side::right,
+             Font font = Font::small);
   // No label may cover this.
   void keep_free(const ScreenRect& taken) { taken_.push_back(taken); }
 

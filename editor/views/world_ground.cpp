@@ -12,6 +12,7 @@ namespace sigs::editor {
 namespace {
 
 constexpr double kEdgeOn_rad = 0.03;
+constexpr double kLabelledReach = 1.5;  // times the eye's distance: beyond, the lines are too close to each other
 constexpr ImU32 kLine = IM_COL32(255, 255, 255, 15);
 constexpr ImU32 kBoldLine = IM_COL32(255, 255, 255, 34);
 constexpr std::array<ImU32, 3> kAxisColors{color::kAxisX, color::kAxisY, color::kAxisZ};
@@ -21,6 +22,8 @@ bool is_edge_on(const OrbitCamera& eye) {
 }
 
 void draw_label(WorldCanvas& canvas, const GridLine& line, double text_px) {
+  const double from_target_m = std::abs(line.at_m - canvas.eye().target_m[line.is_of_x ? 0 : 1]);
+  if (from_target_m > kLabelledReach * canvas.eye().distance_m) return;
   const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]);
   if (!ends) return;
   const auto [a, b] = *ends;
@@ -47,8 +50,8 @@ void draw_edge_on(WorldCanvas& canvas, const GroundGrid& grid, double text_px) {
       canvas.label(*foot + glm::dvec2(0, text_px * 1.3), round_distance_text(line.at_m),
                    faded(along_x ? color::kAxisX : color::kAxisY, 0.75), WorldCanvas::Side::centre);
   }
-  const auto across = std::find_if(grid.lines.begin(), grid.lines.end(),
-                                   [&](const GridLine& line) { return line.is_of_x != along_x; });
+  const auto across =
+      std::find_if(grid.lines.begin(), grid.lines.end(), [&](const GridLine& line) { return line.is_of_x != along_x; });
   if (across != grid.lines.end()) canvas.line(across->ends_m[0], across->ends_m[1], faded(color::kQuiet, 0.6));
 }
 

@@ -26,7 +26,8 @@ struct WorldSights {
 };
 
 // From behind, above or the right-hand side with all points in sight; or from behind the camera, looking as it does.
-[[nodiscard]] WorldLook stood(const WorldLook& look, WorldStand stand, const WorldSights& sights, const ScreenRect& rect);
+[[nodiscard]] WorldLook stood(const WorldLook& look, WorldStand stand, const WorldSights& sights,
+                              const ScreenRect& rect);
 
 // The same direction, all points in sight; behind the camera, that stand again.
 [[nodiscard]] WorldLook with_all_in_sight(const WorldLook& look, const WorldSights& sights, const ScreenRect& rect);

@@ -14,13 +14,13 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 400;   // of a trajectory
-constexpr std::size_t kMostTicks = 300;    // of a trajectory
-constexpr double kTickReach_s = 0.05;      // to see where the trajectory leads
-constexpr double kToleranceShare = 5e-5;   // of a trajectory's extent: a tenth of a pixel when it fills the screen
-constexpr int kBorderSteps = 10;           // a side of the picture, for a bent lens
+constexpr std::size_t kMostPoints = 400;  // of a trajectory
+constexpr std::size_t kMostTicks = 300;   // of a trajectory
+constexpr double kTickReach_s = 0.05;     // to see where the trajectory leads
+constexpr double kToleranceShare = 5e-5;  // of a trajectory's extent: a tenth of a pixel when it fills the screen
+constexpr int kBorderSteps = 10;          // a side of the picture, for a bent lens
 constexpr int kHalvings = 14;
-constexpr double kFlatPictureX = 0.3;      // of a ray's length: 72 degrees off the axis
+constexpr double kFlatPictureX = 0.3;  // of a ray's length: 72 degrees off the axis
 constexpr double kUsualInterval_s = 0.04;
 
 double extent_m(const std::vector<glm::dvec3>& points_m) {
@@ -93,8 +93,8 @@ std::optional<glm::dvec3> ray_towards(const Lens& lens, const glm::dvec2& middle
 }
 
 void make_flat_if_ahead(PictureBorder& border) {
-  const bool ahead = std::all_of(border.rays.begin(), border.rays.end(),
-                                 [](const glm::dvec3& ray) { return ray.x > kFlatPictureX; });
+  const bool ahead =
+      std::all_of(border.rays.begin(), border.rays.end(), [](const glm::dvec3& ray) { return ray.x > kFlatPictureX; });
   if (!ahead) return;
   for (glm::dvec3& ray : border.rays) ray /= ray.x;
 }
@@ -142,9 +142,9 @@ CameraPose camera_pose_at(const Project& project, double time_s) {
   constexpr double kRadPerDeg = std::numbers::pi / 180;
   const CameraSettings& camera = project.camera;
   const Attitude attitude{camera.roll_deg * kRadPerDeg, camera.pitch_deg * kRadPerDeg, camera.yaw_deg * kRadPerDeg};
-  return camera_at({.world_from_camera_at_start = {rotation_of(attitude), camera.position_m},
-                    .speed_mps = camera.speed_mps},
-                   time_s);
+  return camera_at(
+      {.world_from_camera_at_start = {rotation_of(attitude), camera.position_m}, .speed_mps = camera.speed_mps},
+      time_s);
 }
 
 double time_of(const Studio& studio, double frame) {

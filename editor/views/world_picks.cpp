@@ -16,8 +16,8 @@ namespace {
 constexpr double kReach_px = 9;
 constexpr double kBodyReach_px = 16;
 constexpr double kCurveReach_px = 6;
-constexpr double kFarthest_m = 1e6;     // of a new waypoint from the camera
-constexpr double kLeastSlope = 0.12;    // below, the view looks along level ground
+constexpr double kFarthest_m = 1e6;   // of a new waypoint from the camera
+constexpr double kLeastSlope = 0.12;  // below, the view looks along level ground
 
 double depth_m(const WorldCanvas& canvas, const glm::dvec3& at_m) {
   return glm::dot(at_m - canvas.eye().eye_m(), canvas.eye().forward());
@@ -132,14 +132,17 @@ void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m
   Edits& edits = turn.studio.edits;
   if (moved.what.kind == Selected::waypoint) move_waypoint(turn.studio, moved.what.intruder, moved.what.waypoint, to_m);
   if (moved.what.kind == Selected::light)
-    edits.change("move light", [=](Project& project) { project.light.position_m = to_m; }, "move light");
+    edits.change(
+        "move light", [=](Project& project) { project.light.position_m = to_m; }, "move light");
   if (moved.what.kind != Selected::camera) return;
   // The project holds where it starts.
   const glm::dvec3 flown_m{turn.studio.project().camera.speed_mps * turn.moment.time_s, 0, 0};
-  edits.change("move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, "move camera");
+  edits.change(
+      "move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, "move camera");
 }
 
-std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse) {
+std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn,
+                                             const glm::dvec2& mouse) {
   const Studio& studio = turn.studio;
   const std::optional<int> intruder = current_intruder(studio);
   if (!intruder) return std::nullopt;

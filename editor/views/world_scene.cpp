@@ -13,8 +13,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kCamera_px = 13;      // of the little camera, along its axis
-constexpr double kTick_px = 3.5;       // half a mark across a trajectory
+constexpr double kCamera_px = 13;  // of the little camera, along its axis
+constexpr double kTick_px = 3.5;   // half a mark across a trajectory
 constexpr double kLeastTickGap_px = 7;
 constexpr ImU32 kCameraColor = IM_COL32(214, 222, 235, 255);
 
@@ -93,7 +93,10 @@ std::string frame_text(double frame) {
 }  // namespace
 
 double view_depth_m(const WorldModel& model) {
-  return model.farthest_m > 0 ? std::clamp(model.farthest_m * 1.05, 20.0, 5000.0) : 200;
+  // A bent edge bulges around the camera and would hide what is within.
+  const bool is_bent = std::any_of(model.border.rays.begin(), model.border.rays.end(),
+                                   [](const glm::dvec3& ray) { return ray.x < 0.999; });
+  return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_bent ? 0.5 : 1.05), 20.0, 5000.0) : 200;
 }
 
 void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color) {
@@ -148,7 +151,11 @@ void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection&
       const bool lit = selection == self || hovered == self;
       const float radius = scaled(lit ? 5 : current ? 4 : 3);
       canvas.list().AddCircleFilled(im(*at), radius + scaled(1.5), IM_COL32(0, 0, 0, 150), 12);
-      canvas.list().AddCircleFilled(im(*at), radius, lit ? color::kAccent : current ? color::kWaypoint : intruder_color(i), 12);
+      canvas.list().AddCircleFilled(im(*at), radius,
+                                    lit       ? color::kAccent
+                                    : current ? color::kWaypoint
+                                              : intruder_color(i),
+                                    12);
       if (!current && !lit) continue;
       const double aside = selection == self ? 14 : 9;  // of the gizmo's middle
       canvas.label(*at + glm::dvec2(scaled(aside), -scaled(9)), frame_text(frames[static_cast<std::size_t>(w)]),

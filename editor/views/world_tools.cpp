@@ -17,8 +17,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kClick_px = 4;       // a press that goes no farther is a click
-constexpr double kZoomStep = 1.18;    // a notch of the wheel
+constexpr double kClick_px = 4;     // a press that goes no farther is a click
+constexpr double kZoomStep = 1.18;  // a notch of the wheel
 
 glm::dvec2 mouse_now() {
   return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
@@ -44,11 +44,11 @@ void draw_plate(WorldCanvas& canvas, const std::vector<std::string>& lines) {
   const double pad = scaled(8);
   const glm::dvec2 size{width + 2 * pad, line_px * static_cast<double>(lines.size()) + pad};
   const ScreenRect& rect = canvas.rect();
-  const glm::dvec2 low{std::round((rect.low.x + rect.high.x - size.x) / 2), std::round(rect.high.y - size.y - scaled(8))};
+  const glm::dvec2 low{std::round((rect.low.x + rect.high.x - size.x) / 2),
+                       std::round(rect.high.y - size.y - scaled(8))};
   canvas.list().AddRectFilled(im(low), im(low + size), IM_COL32(24, 26, 31, 225), scaled(5));
   for (std::size_t i = 0; i < lines.size(); ++i)
-    canvas.list().AddText(face, face->FontSize,
-                          im(low + glm::dvec2(pad, pad / 2 + line_px * static_cast<double>(i))),
+    canvas.list().AddText(face, face->FontSize, im(low + glm::dvec2(pad, pad / 2 + line_px * static_cast<double>(i))),
                           i == 0 ? color::kText : color::kQuiet, lines[i].c_str());
 }
 
@@ -152,7 +152,8 @@ void WorldTools::hold(const ScreenRect& rect, WorldLook& look) {
 
 void WorldTools::release(const WorldTurn& turn, const WorldCanvas& canvas) {
   const ImGuiMouseButton button = holding_ == Holding::menu ? ImGuiMouseButton_Right : ImGuiMouseButton_Left;
-  const bool down = ImGui::IsMouseDown(button) || (holding_ == Holding::pan && ImGui::IsMouseDown(ImGuiMouseButton_Middle));
+  const bool down =
+      ImGui::IsMouseDown(button) || (holding_ == Holding::pan && ImGui::IsMouseDown(ImGuiMouseButton_Middle));
   if (holding_ == Holding::nothing || down) return;
   const Holding held = std::exchange(holding_, Holding::nothing);
   if (held_px_ >= scaled(kClick_px) || held == Holding::pan) return;
@@ -171,7 +172,8 @@ void WorldTools::release(const WorldTurn& turn, const WorldCanvas& canvas) {
 void WorldTools::take_double_click(const WorldTurn& turn) {
   const Selection& selection = turn.studio.document.selection();
   if (selection.kind != Selected::waypoint) return;
-  const double frame = frames_of_waypoints(turn.studio, selection.intruder)[static_cast<std::size_t>(selection.waypoint)];
+  const double frame =
+      frames_of_waypoints(turn.studio, selection.intruder)[static_cast<std::size_t>(selection.waypoint)];
   turn.studio.edits.ask(Play{0});
   turn.studio.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
 }

@@ -38,8 +38,8 @@ class WorldTools {
   void draw_readout(WorldCanvas& canvas, const Movable& moved, double snap_m) const;
 
   GizmoHandle handle_;
-  Selection dragged_;                  // what the handle moves
-  std::uint64_t revision_before_ = 0;  // of the document, when that began
+  Selection dragged_;                   // what the handle moves
+  std::uint64_t revision_before_ = 0;   // of the document, when that began
   std::optional<glm::dvec3> moved_to_;  // in this turn
   PointEntry entry_;
   Selection entered_;  // what a position is typed for

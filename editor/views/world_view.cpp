@@ -86,8 +86,8 @@ void WorldView::draw_world(WorldCanvas& canvas, const WorldTurn& turn) {
   draw_closest_approaches(canvas, turn);
   draw_camera(canvas, turn, hovered);
   draw_trajectories(canvas, turn);
-  draw_bodies(canvas, turn, shapes_, hovered);
   draw_waypoints(canvas, turn, hovered);
+  draw_bodies(canvas, turn, shapes_, hovered);
   draw_ground_labels(canvas);
 }
 
@@ -102,9 +102,9 @@ void WorldView::draw(const Studio& studio) {
   if (wish.stand) stand(turn, rect, *wish.stand, look_);
   go_with_camera(turn);
 
-  ImGui::InvisibleButton("world canvas", im(rect.size()),
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton(
+      "world canvas", im(rect.size()),
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   studio.places.note("world", rect);
   const bool asks_for_all = ImGui::IsItemHovered() && pressed(Key::f) && !ImGui::GetIO().KeyCtrl;

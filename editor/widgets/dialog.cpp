@@ -42,8 +42,8 @@ void end_dialog(bool stays) {
 }
 
 float dialog_button_width(const char* label) {
-  return std::max(scaled(86), ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x +
-                                  scaled(12));
+  return std::max(scaled(86),
+                  ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x + scaled(12));
 }
 
 void align_buttons_right(const char* const* labels, int count) {

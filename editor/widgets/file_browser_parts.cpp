@@ -31,8 +31,7 @@ bool icon_row(const char* id, Icon icon, ImU32 color, const std::string& text, b
   ImGui::PopID();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_icon(list, icon, {place.x + scaled(11), place.y + height / 2}, scaled(14), color);
-  list.AddText({place.x + scaled(24), place.y + scaled(3)}, color::kText,
-               elided(text, width - scaled(28)).c_str());
+  list.AddText({place.x + scaled(24), place.y + scaled(3)}, color::kText, elided(text, width - scaled(28)).c_str());
   return clicked;
 }
 
@@ -52,8 +51,10 @@ void FileBrowser::draw_path_bar() {
         text_input("##path", path_text_, "", ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     const bool left = ImGui::IsItemDeactivated() && !focus_bottom_;
     focus_bottom_ = false;
-    if (entered) go_to_text(std::string(path_text_));
-    else if (left) editing_path_ = false;
+    if (entered)
+      go_to_text(std::string(path_text_));
+    else if (left)
+      editing_path_ = false;
   } else {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(2), 0});
     ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
@@ -145,13 +146,14 @@ void FileBrowser::draw_row(int entry, bool with_size, bool with_time) {
   const float room = ImGui::GetContentRegionAvail().x;
   const float height = ImGui::GetTextLineHeight() + scaled(4);
   ImGui::PushID(entry);
-  if (ImGui::Selectable("##entry", selected,
-                        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick, {0, height})) {
+  if (selected) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, IM_COL32(48, 84, 128, 255));
+  if (ImGui::Selectable("##entry", false, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick,
+                        {0, height})) {
     select(entry);
     if (ImGui::IsMouseDoubleClicked(0)) activate(entry);
   }
   ImGui::PopID();
-  marks_->note_item("browser." + shown.name);
+  marks_->note_item("browser/" + shown.name);
   if (!open_ || entry >= static_cast<int>(shown_.size())) return;  // it was the answer, or another folder was entered
   if (selected && scroll_to_selected_) {
     ImGui::SetScrollHereY();
@@ -179,7 +181,8 @@ void FileBrowser::draw_list(float height) {
   const int columns = 1 + with_size + with_time;
   const std::string id = "entries" + std::to_string(columns);
   const bool drawn = ImGui::BeginTable(
-      id.c_str(), columns, ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,
+      id.c_str(), columns,
+      ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,
       {width, height});
   if (!drawn) return;
   const auto fixed = ImGuiTableColumnFlags_WidthFixed;
@@ -200,9 +203,12 @@ void FileBrowser::draw_list(float height) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const std::string& problem = reader_.listing().problem;
-    if (reading_) ImGui::TextDisabled("Reading...");
-    else if (problem.empty()) ImGui::TextDisabled("Nothing of this kind is here.");
-    else ImGui::TextWrapped("This folder cannot be read: %s", problem.c_str());
+    if (reading_)
+      ImGui::TextDisabled("Reading...");
+    else if (problem.empty())
+      ImGui::TextDisabled("Nothing of this kind is here.");
+    else
+      ImGui::TextWrapped("This folder cannot be read: %s", problem.c_str());
   }
   ImGui::EndTable();
 }
@@ -211,9 +217,12 @@ void FileBrowser::draw_bottom() {
   ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
   ImGui::TextUnformatted(elided(problem_, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
-  if (bottom_ == Bottom::overwrite) draw_overwrite();
-  else if (bottom_ == Bottom::new_folder) draw_new_folder();
-  else draw_answer();
+  if (bottom_ == Bottom::overwrite)
+    draw_overwrite();
+  else if (bottom_ == Bottom::new_folder)
+    draw_new_folder();
+  else
+    draw_answer();
 }
 
 void FileBrowser::draw_filter(float width) {
@@ -238,7 +247,7 @@ void FileBrowser::draw_answer() {
     focus_name_ = false;
     ImGui::SetNextItemWidth(room - scaled(210) - ImGui::GetStyle().ItemSpacing.x);
     entered = text_input("##name", name_, "name of the file", ImGuiInputTextFlags_EnterReturnsTrue);
-    marks_->note_item("browser.name");
+    marks_->note_item("browser/name");
     ImGui::SameLine();
   } else {
     const std::string chosen = selected_ >= 0 ? shown_[static_cast<std::size_t>(selected_)].name : std::string();
@@ -247,8 +256,10 @@ void FileBrowser::draw_answer() {
     ImGui::TextDisabled("%s", elided(text, room - scaled(220)).c_str());
     ImGui::SameLine(room - scaled(210) + ImGui::GetStyle().WindowPadding.x);
   }
-  if (of_folder) ImGui::NewLine();
-  else draw_filter(scaled(210));
+  if (of_folder)
+    ImGui::NewLine();
+  else
+    draw_filter(scaled(210));
 
   const char* main = saving ? "Save" : (of_folder ? "Choose" : "Open");
   if (saving || of_folder) {
@@ -265,12 +276,14 @@ void FileBrowser::draw_answer() {
   ImGui::SameLine();
   const bool can = saving ? !name_.empty() : of_folder || selected_ >= 0;
   const bool clicked = dialog_button(main, true, can);
-  marks_->note_item("browser.answer");
+  marks_->note_item("browser/answer");
   if (clicked || entered) {
-    if (saving) answer_by_name();
+    if (saving)
+      answer_by_name();
     else if (of_folder)
       answer_with(selected_ >= 0 ? folder_ / shown_[static_cast<std::size_t>(selected_)].name : folder_);
-    else activate(selected_);
+    else
+      activate(selected_);
   }
 }
 
@@ -282,7 +295,7 @@ void FileBrowser::draw_overwrite() {
   if (dialog_button("Back")) bottom_ = Bottom::answer;
   ImGui::SameLine();
   const bool clicked = dialog_button("Replace", true);
-  marks_->note_item("browser.replace");
+  marks_->note_item("browser/replace");
   if (clicked) answer_by_name();
 }
 
@@ -290,8 +303,8 @@ void FileBrowser::draw_new_folder() {
   if (focus_bottom_) ImGui::SetKeyboardFocusHere();
   focus_bottom_ = false;
   ImGui::SetNextItemWidth(-1);
-  const bool entered = text_input("##new folder", new_folder_, "name of the new folder",
-                                  ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered =
+      text_input("##new folder", new_folder_, "name of the new folder", ImGuiInputTextFlags_EnterReturnsTrue);
   const char* const labels[] = {"Back", "Make folder"};
   align_buttons_right(labels, 2);
   if (dialog_button("Back")) bottom_ = Bottom::answer;

@@ -32,7 +32,8 @@ struct ListingOrder {
   [[nodiscard]] bool operator==(const ListingOrder&) const = default;
 };
 
-// What a file browser shows: folders first, names as people order them ("clip 9" before "clip 10"), hidden ones left out.
+// What a file browser shows: folders first, names as people order them ("clip 9" before "clip 10"), hidden ones left
+// out.
 //   extensions  ".json", in any case; empty: all files
 [[nodiscard]] std::vector<FolderEntry> shown_entries(const FolderListing& listing,
                                                      const std::vector<std::string>& extensions, ListingOrder order);

@@ -36,7 +36,10 @@ class GizmoHandle {
   // The mouse, pressed in this turn, has hold of a part.
   void take(GizmoPart part, const glm::dvec3& at_m);
   // The drag, if there is one, is over without an answer: what was dragged has gone.
-  void let_go() { drag_ = {}; }
+  void let_go() {
+    drag_ = {};
+    hovered_ = GizmoPart::none;
+  }
 
   [[nodiscard]] bool dragging() const { return drag_.part != GizmoPart::none; }
   // Under the mouse, or dragged.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kGridFromZoom = 8;
 constexpr double kLeastValueText_px = 9;
-constexpr int kMostValues = 320;      // pixels; each takes nine characters
+constexpr int kMostValues = 320;       // pixels; each takes nine characters
 constexpr int kValuesAroundMouse = 5;  // pixels to every side
 
 ImU32 readable_on(const cv::Vec3b& bgr) {

@@ -18,8 +18,8 @@ struct ToolbarItem {
   std::function<void()> content;  // draws that
 };
 
-// One row on the panel's colour, as wide as the window: labels where all of them have room, else icons alone where there
-// are icons; what has no room then is left out at the end.
+// One row on the panel's colour, as wide as the window: labels where all of them have room, else icons alone where
+// there are icons; what has no room then is left out at the end.
 void draw_toolbar(std::vector<ToolbarItem> items);
 [[nodiscard]] float toolbar_height();
 

@@ -14,8 +14,8 @@
 
 namespace sigs::editor {
 
-// How a picture is looked at within a room on the screen: fitted until the person zooms or pans. Places are counted from
-// the room's upper left corner, so that several rooms of one size can share one look.
+// How a picture is looked at within a room on the screen: fitted until the person zooms or pans. Places are counted
+// from the room's upper left corner, so that several rooms of one size can share one look.
 class ZoomablePicture {
  public:
   // Before anything else, each turn. A fitted picture follows the room; any other keeps what is in the room's middle.

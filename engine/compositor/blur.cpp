@@ -21,6 +21,11 @@ Lattice middles(int first, int count, double cell_px) {
   return {.first = (first + 0.5) * cell_px - 0.5, .step = cell_px, .count = count};
 }
 
+// The number of the cell that holds a pixel, also left of the picture.
+int cell_of(int pixel, int cell_px) {
+  return pixel >= 0 ? pixel / cell_px : -((cell_px - 1 - pixel) / cell_px);
+}
+
 }  // namespace
 
 int blur_reach_px(double sigma_px) {
@@ -59,6 +64,18 @@ Layer blurred_from_cells(const Layer& cells, double cell_px, double sigma_px, co
   return {target,
           resampled(places, spline_taps(target.y, target.height, down), spline_taps(target.x, target.width, across)),
           cv::Mat::zeros(target.size(), CV_32FC1)};
+}
+
+Layer in_cells(const Layer& layer, int cell_px) {
+  if (layer.empty()) return {};
+  const cv::Point first(cell_of(layer.rect.x, cell_px), cell_of(layer.rect.y, cell_px));
+  const cv::Point last(cell_of(layer.rect.br().x - 1, cell_px), cell_of(layer.rect.br().y - 1, cell_px));
+  const cv::Rect cells(first, last + cv::Point(1, 1));
+  const cv::Rect pixels(cells.tl() * cell_px, cells.size() * cell_px);
+  cv::Mat color = cv::Mat::zeros(pixels.size(), CV_32FC4);
+  layer.color.copyTo(color(layer.rect - pixels.tl()));
+  cv::resize(color, color, cells.size(), 0, 0, cv::INTER_AREA);
+  return {cells, color, cv::Mat::zeros(cells.size(), CV_32FC1)};
 }
 
 double most_after_blur(const Layer& cells, double cell_px, double sigma_px) {

@@ -27,6 +27,9 @@ inline constexpr double kSigmaOfCells_px = 16;
 //   cell_px  1 to largest_cell_px(sigma_px)
 [[nodiscard]] Layer blurred_from_cells(const Layer& cells, double cell_px, double sigma_px, const cv::Rect& target);
 
+// The layer in cells of cell_px by cell_px pixels: their means, so that the energy stays. Coverage stays behind.
+[[nodiscard]] Layer in_cells(const Layer& layer, int cell_px);
+
 // Upper bound of any channel of any pixel after that blur.
 [[nodiscard]] double most_after_blur(const Layer& cells, double cell_px, double sigma_px);
 

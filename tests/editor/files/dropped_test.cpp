@@ -39,9 +39,9 @@ Project after(const Dropped& dropped, const Selection& selection, Project projec
 
 TEST_CASE("the files of the sample projects are what they are") {
   CHECK(kind_of(source_dir() / "projects/head-on/head-on.json") == DroppedKind::project);
-  for (const auto& [folder, kind] : {std::pair{"assets/footage", DroppedKind::video},
-                                     std::pair{"assets/calibrations", DroppedKind::calibration},
-                                     std::pair{"assets/models", DroppedKind::model}}) {
+  for (const auto& [folder, kind] :
+       {std::pair{"assets/footage", DroppedKind::video}, std::pair{"assets/calibrations", DroppedKind::calibration},
+        std::pair{"assets/models", DroppedKind::model}}) {
     int found = 0;
     for (const auto& entry : fs::recursive_directory_iterator(source_dir() / folder))
       found += kind_of(entry.path()) == kind;
@@ -51,7 +51,10 @@ TEST_CASE("the files of the sample projects are what they are") {
 
 TEST_CASE("the first bytes count more than the name") {
   CHECK(kind_of_bytes(std::string("\x89PNG\r\n\x1a\n"), "mask") == DroppedKind::mask);
-  CHECK(kind_of_bytes(std::string("\0\0\0\x20" "ftypisom", 12), "clip.xml") == DroppedKind::video);
+  CHECK(kind_of_bytes(std::string("\0\0\0\x20"
+                                  "ftypisom",
+                                  12),
+                      "clip.xml") == DroppedKind::video);
   CHECK(kind_of_bytes(std::string("RIFF\0\0\0\0AVI LIST", 16), "clip") == DroppedKind::video);
   CHECK(kind_of_bytes("\xEF\xBB\xBF\n {\"sigs\": 1}", "p.txt") == DroppedKind::project);
   CHECK(kind_of_bytes("{\"calibrator_version\": \"1\"}", "lens.json") == DroppedKind::calibration);
@@ -97,8 +100,7 @@ TEST_CASE("a model goes to the selected intruder, else it is one more, ahead of 
   const glm::dvec3 expected = project.camera.position_m + glm::dvec3(0, 300, 0);
   CHECK(glm::distance(added.intruders[0].trajectory.waypoints[0].position_m, expected) < 1e-9);  // rounding of cos
 
-  const Project replaced =
-      after({DroppedKind::model, "/a/b.obj", {}}, {Selected::waypoint, 0, 0}, added);
+  const Project replaced = after({DroppedKind::model, "/a/b.obj", {}}, {Selected::waypoint, 0, 0}, added);
   REQUIRE(replaced.intruders.size() == 1);
   CHECK(replaced.intruders[0].model.file == "b.obj");
   CHECK(replaced.intruders[0].name == "glider");

@@ -97,7 +97,8 @@ TEST_CASE("what cannot be opened is told, and the present project stays") {
 TEST_CASE("unsaved changes are asked for before they are lost, whatever would lose them") {
   Desk d;
   const fs::path other = d.written("b.json", "b");
-  for (const Request& request : {Request(OpenProject{other}), Request(NewProject{}), Request(CloseProject{}), Request(Quit{})}) {
+  for (const Request& request :
+       {Request(OpenProject{other}), Request(NewProject{}), Request(CloseProject{}), Request(Quit{})}) {
     d.open(d.written("a.json", "a"));
     d.edit("changed");
     CHECK(d.desk.take(request));

@@ -44,8 +44,7 @@ TEST_CASE("missing files are named by field and place; those that are there or n
   touch(folder / "calibrations/cam.xml");
   const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
   REQUIRE(missing.size() == 3);
-  CHECK(missing[0] ==
-        MissingFile{"footage.video", "../footage/day/clip.mp4", folder / "footage/day/clip.mp4"});
+  CHECK(missing[0] == MissingFile{"footage.video", "../footage/day/clip.mp4", folder / "footage/day/clip.mp4"});
   CHECK(missing[1].field == "intruders[0].model.file");
   CHECK(missing[2].field == "intruders[1].model.file");
 }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "compositor/blur.h"
+#include "compositor/classic.h"
+#include "compositor/made_layers.h"
+
+namespace sigs::test {
+namespace {
+
+// Patches with hard edges over noise: what a blur has to smooth.
+cv::Mat patches(cv::Size size, int type) {
+  cv::Mat picture(size, type);
+  cv::RNG random(11);
+  random.fill(picture, cv::RNG::UNIFORM, 0, 256);
+  cv::rectangle(picture, {size.width / 3, size.height / 4, size.width / 3, size.height / 3}, cv::Scalar::all(255), -1);
+  cv::rectangle(picture, {0, 0, size.width / 5, size.height / 2}, cv::Scalar(10, 60, 0), -1);
+  return picture;
+}
+
+// The whole kernel, cut as OpenCV cuts it for 8 bits, in doubles.
+cv::Mat softened_in_full(const cv::Mat& picture, double sigma_px) {
+  cv::Mat exact;
+  picture.convertTo(exact, CV_64F);
+  const int size = 2 * static_cast<int>(std::round(3 * sigma_px)) + 1;
+  const cv::Mat kernel = cv::getGaussianKernel(size, sigma_px, CV_64F);
+  cv::sepFilter2D(exact, exact, CV_64F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+  exact.convertTo(exact, CV_8U);
+  return exact;
+}
+
+}  // namespace
+
+TEST_CASE("a layer blurred from cells is the layer blurred in full") {
+  for (const cv::Rect& rect : {cv::Rect(10, -20, 150, 90), cv::Rect(-71, 33, 7, 5), cv::Rect(3, 4, 1, 1)})
+    for (const double sigma_px : {16.0, 23.7, 61.0}) {
+      CAPTURE(rect.width);
+      CAPTURE(sigma_px);
+      const Layer layer = rect.width == 1 ? even_layer(rect, {0.25F, 0.5F, 0.75F, 1}) : cloudy_layer(rect, 3);
+      const Layer full = blurred(layer, sigma_px);
+      double highest = 0;
+      cv::minMaxIdx(full.color.reshape(1), nullptr, &highest);
+      for (const int cell_px : {1, static_cast<int>(largest_cell_px(sigma_px))}) {
+        if (rect.width == 1 && cell_px > 1) continue;  // a point has a place within its cell
+        const Layer cells = in_cells(layer, cell_px);
+        const Layer out = blurred_from_cells(cells, cell_px, sigma_px, full.rect);
+        CHECK(out.rect == full.rect);
+        CHECK(is_sound(out));
+        CHECK(cv::countNonZero(out.coverage) == 0);
+        for (int c = 0; c < 4; ++c) {
+          CHECK(cv::sum(cells.color)[c] * cell_px * cell_px == doctest::Approx(cv::sum(layer.color)[c]).epsilon(1e-5));
+          CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
+        }
+        // Each way the cut is a step of exp(-4.5) = 1.1 %, which the spline makes soft: half of it at most, both ways.
+        CHECK(cv::norm(out.color, full.color, cv::NORM_INF) < 0.012 * highest);
+        CHECK(cv::norm(out.color, full.color, cv::NORM_L2) < 0.005 * cv::norm(full.color, cv::NORM_L2));
+        CHECK(most_after_blur(cells, cell_px, sigma_px) >= 0.999 * highest);
+      }
+    }
+}
+
+TEST_CASE("a surface without end keeps its colour whatever the blur") {
+  for (const double sigma_px : {16.0, 100.0, 1e4}) {
+    const int cell_px = static_cast<int>(largest_cell_px(sigma_px));
+    const Layer cells = even_layer({-40, -40, 200, 200}, {0.25F, 0.5F, 0.75F, 1});
+    const Layer out = blurred_from_cells(cells, cell_px, sigma_px, {0, 0, 64, 48});
+    double low = 0;
+    double high = 0;
+    cv::minMaxIdx(out.color.reshape(1), &low, &high);
+    CHECK(low == doctest::Approx(0.25).epsilon(1e-4));
+    CHECK(high == doctest::Approx(1).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("any sigma is blurred, to nothing in the end") {
+  const Layer layer = cloudy_layer({5, 5, 40, 30}, 2);
+  double before = 1;
+  for (const double sigma_px : {20.0, 500.0, 1e6, 1e9, 1e30}) {
+    const double most = most_after_blur(layer, 1, sigma_px);
+    CHECK(most < before);
+    before = most;
+    const Layer out = blurred_from_cells(layer, 1, sigma_px, {0, 0, 320, 240});
+    CHECK(is_sound(out));
+    CHECK(cv::norm(out.color, cv::NORM_INF) <= most * 1.000001);
+  }
+}
+
+TEST_CASE("a whole picture is softened within a code value of the kernel in full") {
+  for (const int type : {CV_8UC3, CV_8UC1})
+    for (const cv::Size size : {cv::Size(203, 151), cv::Size(40, 97), cv::Size(1, 30), cv::Size(1, 1)})
+      for (const double sigma_px : {16.01, 24.0, 50.0, 150.0, 700.0}) {
+        CAPTURE(size.width);
+        CAPTURE(sigma_px);
+        const cv::Mat picture = patches(size, type);
+        const cv::Mat out = softened(picture, sigma_px);
+        CHECK(out.type() == type);
+        CHECK(cv::norm(out, softened_in_full(picture, sigma_px), cv::NORM_INF) <= 1);
+      }
+}
+
+TEST_CASE("a picture softened beyond its size is its mean") {
+  const cv::Mat picture = patches({160, 120}, CV_8UC3);
+  // Mirrored without its border twice: the mean in which border samples count half.
+  const cv::Mat wanted = softened_in_full(picture, 500);
+  for (const double sigma_px : {1e3, 1e6, 1e9, 1e30})
+    CHECK(cv::norm(softened(picture, sigma_px), wanted, cv::NORM_INF) <= 1);
+}
+
+TEST_CASE("pure green stays pure green however far it is softened") {
+  const cv::Mat green(90, 120, CV_8UC3, cv::Scalar(0, 255, 0));
+  for (const double sigma_px : {17.0, 80.0, 1e5}) CHECK(same_bytes(softened(green, sigma_px), green));
+}
+
+}  // namespace sigs::test
