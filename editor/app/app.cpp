@@ -16,24 +16,35 @@ namespace {
 constexpr double kIdle_s = 0.25;   // between turns while nothing happens
 constexpr int kTurnsToSettle = 3;  // ImGui needs some turns to show all that an event leads to
 
+std::vector<HelpLine> help_lines() {
+  std::vector<HelpLine> lines;
+  for (const Shortcut& shortcut : shortcuts()) lines.push_back({shortcut.group, shortcut.keys, shortcut.what});
+  return lines;
+}
+
 }  // namespace
 
 App::App(Window& window, Settings settings, Probe probe)
     : window_(window),
       settings_(std::move(settings)),
       probe_(std::move(probe)),
-      previewer_(PreviewLimits(), [] { Window::wake(); }) {
+      previewer_(PreviewLimits(), [] { Window::wake(); }),
+      desk_(document_, settings_,
+            {.samples = SIGS_PROJECTS_DIR,
+             .recovery_folder = recovery_folder(),
+             .version = SIGS_VERSION,
+             .help = help_lines(),
+             .wake = [] { Window::wake(); }}) {
   places_.set_wanted(probe_.wanted());
 }
 
 void App::open(const std::filesystem::path& path) {
-  Result<ReadProject> read = read_project(path);
-  if (!read) return;
-  document_ = Document(std::move(read->project), document_.last_number() + 1);
+  desk_.take(OpenProject{path});
 }
 
 double App::patience_s() const {
-  return playback_.playing() || restless_turns_ > 0 ? 0 : kIdle_s;
+  if (playback_.playing() || restless_turns_ > 0) return 0;
+  return desk_.is_restless() ? 0.1 : kIdle_s;
 }
 
 void App::ask_preview() {
@@ -52,9 +63,8 @@ void App::ask_preview() {
 void App::advance(const Shown& shown) {
   if (!playback_.playing() || !shown.scene) return;
   const FootageShape& shape = shown.scene->footage->shape;
-  const PlayedFrame due = playback_.frame_at(
-      now_s_, {shape.times_s, shape.frame_interval_s},
-      {document_.range_first(), document_.range_last(), settings_.loop});
+  const PlayedFrame due = playback_.frame_at(now_s_, {shape.times_s, shape.frame_interval_s},
+                                             {document_.range_first(), document_.range_last(), settings_.loop});
   document_.apply(Edit(GoToFrame{due.frame}));
   if (due.over) playback_.pause();
 }
@@ -86,6 +96,7 @@ void App::draw(const Shown& shown) {
                       .places = places_,
                       .playing = playback_.playing(),
                       .speed = playback_.speed()};
+  desk_.draw_menu(studio);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(screen.WorkPos);
   ImGui::SetNextWindowSize(screen.WorkSize);
@@ -95,33 +106,73 @@ void App::draw(const Shown& shown) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(2);
-  layout_.draw(studio, settings_);
+  if (desk_.has_project())
+    layout_.draw(studio, settings_);
+  else
+    desk_.draw_start_page(studio);
   ImGui::End();
-  take_keys(studio);
+  desk_.draw_over_all(studio);
+  take_keys(studio, desk_.has_project());
 }
 
 void App::take(const Request& request) {
-  if (std::holds_alternative<Quit>(request)) done_ = true;
+  if (desk_.take(request)) return;
+  if (std::holds_alternative<ToggleFullScreen>(request)) window_.toggle_full_screen();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
   if (const auto* loop = std::get_if<SetLoop>(&request)) settings_.loop = loop->loop;
 }
 
+void App::show_title() {
+  const Project& project = document_.project();
+  const std::string name = project.file.empty() ? project.name : project.file.filename().string();
+  const std::string title =
+      !desk_.has_project() ? "SIGS" : name + (document_.has_unsaved_changes() ? " * - SIGS" : " - SIGS");
+  if (title != title_) window_.set_title(title);
+  title_ = title;
+}
+
+void App::count_turns() {
+  ++turns_;
+  if (now_s_ - counted_since_s_ < 1) return;
+  turns_a_second_ = turns_ / (now_s_ - counted_since_s_);
+  turns_ = 0;
+  counted_since_s_ = now_s_;
+}
+
 void App::turn(double now_s, bool something_happened) {
   now_s_ = now_s;
   restless_turns_ = something_happened ? kTurnsToSettle : std::max(0, restless_turns_ - 1);
-  const Shown shown = previewer_.shown();
+  count_turns();
+  Shown shown = previewer_.shown();
+  // What is still there of a project that was closed.
+  if (shown.scene && shown.scene->revision < document_.first_number()) shown = {};
   if (shown.scene) document_.set_frame_count(static_cast<int>(shown.scene->footage->shape.times_s.size()));
   advance(shown);
   window_.begin(settings_);
   draw(shown);
   window_.end();
   textures_.end_turn();
-  probe_.tell(document_, shown, places_, "project");
+  probe_.tell(document_, shown, places_, {desk_.has_project() ? "project" : "start", turns_a_second_});
+  take_edits();
+  for (const std::filesystem::path& path : window_.take_dropped()) desk_.take_dropped(path, edits_);
   take_edits();
   for (const Request& request : edits_.take_requests()) take(request);
+  if (window_.wants_to_close()) {
+    window_.refuse_to_close();
+    desk_.take(Quit{});
+  }
+  const std::uint64_t document = document_.first_number();
+  desk_.turn(now_s_);
+  if (document_.first_number() != document) playback_.pause();
+  previewer_.set_modest(desk_.is_exporting());
+  show_title();
   ask_preview();
-  if (window_.wants_to_close()) done_ = true;
+  done_ = desk_.is_done();
+  if (done_) {
+    window_.remember_in(settings_);
+    (void)write_settings(settings_, settings_file());
+  }
 }
 
 }  // namespace sigs::editor

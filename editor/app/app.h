@@ -5,11 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "editor/app/front_desk.h"
 #include "editor/app/layout.h"
 #include "editor/app/probe.h"
-#include "editor/document/settings.h"
 #include "editor/app/window.h"
 #include "editor/document/document.h"
+#include "editor/document/settings.h"
 #include "editor/preview/playback.h"
 #include "editor/preview/previewer.h"
 #include "editor/widgets/textures.h"
@@ -38,6 +39,8 @@ class App {
   void play(double speed);
   void draw(const Shown& shown);
   void take(const Request& request);
+  void show_title();
+  void count_turns();
 
   Window& window_;
   Settings settings_;
@@ -48,9 +51,14 @@ class App {
   Places places_;
   Probe probe_;
   Previewer previewer_;
+  FrontDesk desk_;
+  std::string title_;
   Playback playback_;
   Layout layout_;
   double now_s_ = 0;
+  double counted_since_s_ = 0;
+  int turns_ = 0;
+  double turns_a_second_ = 0;
   int restless_turns_ = 0;
   bool done_ = false;
 };

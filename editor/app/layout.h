@@ -2,11 +2,11 @@
 #pragma once
 
 #include "editor/document/settings.h"
-#include "editor/views/inspector_view.h"
-#include "editor/views/stages_view.h"
-#include "editor/views/timeline_view.h"
-#include "editor/views/viewport_view.h"
-#include "editor/views/world_view.h"
+#include "editor/views/inspector/inspector_view.h"
+#include "editor/views/stages/stages_view.h"
+#include "editor/views/timeline/timeline_view.h"
+#include "editor/views/viewport/viewport_view.h"
+#include "editor/views/world/world_view.h"
 
 namespace sigs::editor {
 

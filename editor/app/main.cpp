@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
   std::string project;
   std::string probe;
   program.add_option("project", project, "project file to open; none: the start page")->option_text("PROJECT");
-  program.add_option("--probe", probe, "write what the window shows and where into this file, for driving it from outside")
+  program
+      .add_option("--probe", probe, "write what the window shows and where into this file, for driving it from outside")
       ->option_text("FILE");
   try {
     program.parse(argc, argv);

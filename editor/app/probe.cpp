@@ -7,7 +7,7 @@
 
 namespace sigs::editor {
 
-void Probe::tell(const Document& document, const Shown& shown, const Places& places, const std::string& page) {
+void Probe::tell(const Document& document, const Shown& shown, const Places& places, const ProbedWindow& window) {
   if (!wanted()) return;
   nlohmann::ordered_json json;
   json["frame"] = document.playhead();
@@ -15,7 +15,8 @@ void Probe::tell(const Document& document, const Shown& shown, const Places& pla
   json["unsaved"] = document.has_unsaved_changes();
   json["current"] = shown.picture_is_current;
   json["busy"] = shown.busy;
-  json["page"] = page;
+  json["page"] = window.page;
+  json["turns_a_second"] = window.turns_a_second;
   for (const auto& [name, rect] : places.all())
     json["places"][name] = {rect.low.x, rect.low.y, rect.size().x, rect.size().y};
   ++turn_;

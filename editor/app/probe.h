@@ -10,16 +10,22 @@
 
 namespace sigs::editor {
 
-// Tells whoever drives the window from outside what it shows: a JSON file, written anew after each turn that changed it.
+// Tells whoever drives the window from outside what it shows: a JSON file, written anew after each turn that changed
+// it.
 //   {"turn": 12, "frame": 3, "revision": 4, "unsaved": true, "current": true, "busy": false, "page": "project",
-//    "places": {"ruler": [x, y, width, height], ...}}
+//    "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...}}
+struct ProbedWindow {
+  std::string page;           // "start" or "project"
+  double turns_a_second = 0;  // of the loop, over the last second
+};
+
 class Probe {
  public:
   // An empty path: nothing is written.
   explicit Probe(std::filesystem::path file) : file_(std::move(file)) {}
 
   [[nodiscard]] bool wanted() const { return !file_.empty(); }
-  void tell(const Document& document, const Shown& shown, const Places& places, const std::string& page);
+  void tell(const Document& document, const Shown& shown, const Places& places, const ProbedWindow& window);
 
  private:
   std::filesystem::path file_;

@@ -86,16 +86,19 @@ void take_waypoint_keys(const Studio& studio) {
   if (pressed(Key::escape) && !ImGui::IsAnyItemActive()) studio.edits.select({});
 }
 
-void take_control_keys(const Studio& studio) {
-  const bool shift = ImGui::GetIO().KeyShift;
-  if (pressed(Key::z, true)) shift ? studio.edits.redo() : studio.edits.undo();
-  if (pressed(Key::y, true)) studio.edits.redo();
+// With Ctrl held.
+void take_program_keys(const Studio& studio, bool shift) {
   if (pressed(Key::n)) studio.edits.ask(NewProject{});
   if (pressed(Key::o)) studio.edits.ask(OpenProject{});
+  if (pressed(Key::q)) studio.edits.ask(Quit{});
   if (pressed(Key::s)) shift ? studio.edits.ask(SaveProjectAs{}) : studio.edits.ask(SaveProject{});
+}
+
+void take_edit_keys(const Studio& studio, bool shift) {
+  if (pressed(Key::z, true)) shift ? studio.edits.redo() : studio.edits.undo();
+  if (pressed(Key::y, true)) studio.edits.redo();
   if (pressed(Key::e)) studio.edits.ask(ShowExport{});
   if (pressed(Key::d)) duplicate_selected(studio);
-  if (pressed(Key::q)) studio.edits.ask(Quit{});
 }
 
 }  // namespace
@@ -104,18 +107,20 @@ std::span<const Shortcut> shortcuts() {
   return kShortcuts;
 }
 
-void take_keys(const Studio& studio) {
+void take_keys(const Studio& studio, bool has_project) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) return;
+  if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId) || io.KeyAlt) return;
+  if (pressed(Key::f11)) studio.edits.ask(ToggleFullScreen{});
+  if (pressed(Key::slash) && io.KeyShift) studio.edits.ask(ShowHelp{});
+  if (io.KeyCtrl) take_program_keys(studio, io.KeyShift);
+  if (!has_project) return;
   if (io.KeyCtrl) {
-    take_control_keys(studio);
+    take_edit_keys(studio, io.KeyShift);
     return;
   }
-  if (io.KeyAlt) return;
   take_transport_keys(studio);
   take_range_keys(studio);
   take_waypoint_keys(studio);
-  if (pressed(Key::slash) && io.KeyShift) studio.edits.ask(ShowHelp{});
 }
 
 }  // namespace sigs::editor

@@ -107,8 +107,7 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   glfwWindowHint(GLFW_MAXIMIZED, settings.maximised ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "sigs-editor");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "sigs-editor");
-  GLFWwindow* window =
-      glfwCreateWindow(settings.window_width_px, settings.window_height_px, "SIGS", nullptr, nullptr);
+  GLFWwindow* window = glfwCreateWindow(settings.window_width_px, settings.window_height_px, "SIGS", nullptr, nullptr);
   if (window == nullptr) {
     const Error error = glfw_error("no window with OpenGL 3.3 can be opened");
     glfwTerminate();

@@ -51,6 +51,7 @@ Document::Document() : Document(Project()) {}
 
 Document::Document(Project project, std::uint64_t first_number)
     : revision_{first_number, std::make_shared<const Project>(std::move(project))},
+      first_number_(first_number),
       last_number_(first_number),
       saved_number_(first_number) {
   playhead_ = first_frame();
@@ -67,7 +68,8 @@ int Document::first_frame() const {
 
 int Document::last_frame() const {
   const int footage_last = std::max(0, frame_count_ - 1);
-  return std::clamp(project().footage.last_frame.value_or(footage_last), first_frame(), std::max(first_frame(), footage_last));
+  return std::clamp(project().footage.last_frame.value_or(footage_last), first_frame(),
+                    std::max(first_frame(), footage_last));
 }
 
 int Document::range_first() const {
@@ -95,7 +97,8 @@ void Document::apply(const Edit& edit) {
   if (std::holds_alternative<EndGesture>(edit)) gesture_.clear();
   if (std::holds_alternative<Undo>(edit)) step_back();
   if (std::holds_alternative<Redo>(edit)) step_forward();
-  if (const auto* go = std::get_if<GoToFrame>(&edit)) playhead_ = std::clamp(go->frame, 0, std::max(0, frame_count_ - 1));
+  if (const auto* go = std::get_if<GoToFrame>(&edit))
+    playhead_ = std::clamp(go->frame, 0, std::max(0, frame_count_ - 1));
   if (const auto* select = std::get_if<Select>(&edit)) selection_ = select->selection;
   if (const auto* range = std::get_if<SetInOut>(&edit)) {
     in_ = range->in;

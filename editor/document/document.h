@@ -31,6 +31,7 @@ class Document {
 
   [[nodiscard]] const Project& project() const { return *revision_.project; }
   [[nodiscard]] const Revision& revision() const { return revision_; }
+  [[nodiscard]] std::uint64_t first_number() const { return first_number_; }
   [[nodiscard]] std::uint64_t last_number() const { return last_number_; }
   [[nodiscard]] const Selection& selection() const { return selection_; }
   [[nodiscard]] int playhead() const { return playhead_; }
@@ -81,6 +82,7 @@ class Document {
   void keep_selection_valid();
 
   Revision revision_;
+  std::uint64_t first_number_;
   std::uint64_t last_number_;
   std::uint64_t saved_number_;  // 0: what is in memory was never written
   std::vector<Step> past_;

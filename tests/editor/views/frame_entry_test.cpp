@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/frame_entry.h"
+#include "editor/views/timeline/frame_entry.h"
 
 #include <doctest/doctest.h>
 

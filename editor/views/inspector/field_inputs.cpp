@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/inspector/field_inputs.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "editor/document/field_texts.h"
+#include "editor/geometry/round_steps.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+double least_step(const Field& field) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> kSteps{
+      {{"m", 0.1}, {"deg", 0.1}, {"m/s", 0.05}, {"px/m", 1e-5}, {"frame", 0.2}}};
+  for (const auto& [unit, step] : kSteps)
+    if (field.unit == unit) return step;
+  return std::holds_alternative<int*>(field.value) ? 0.05 : 0.005;
+}
+
+// How much a number changes a pixel of dragging: a half percent of it, or what suits its unit where it is near zero.
+double drag_step(double value, const Field& field) {
+  const double share = std::abs(value) * 0.005;
+  const bool has_no_zero = field.minimum > 0 && share > 0;
+  return round_step(has_no_zero ? share : std::max(share, least_step(field)));
+}
+
+// Whole frames as whole numbers, so that dragging keeps to them.
+std::string format_of(double value, const Field& field) {
+  const bool is_whole = field.unit == "frame" && value == std::round(value);
+  return is_whole ? "%.0f" : number_format(value, field.unit);
+}
+
+bool whole_number_input(const char* id, int& value, const Field& field, float width) {
+  const auto low = static_cast<int>(std::max(field.minimum, -1e9));
+  const auto high = static_cast<int>(std::min(field.maximum, 1e9));
+  ImGui::SetNextItemWidth(width);
+  const auto step = static_cast<float>(std::min(drag_step(value, field), 1.0));
+  return ImGui::DragInt(id, &value, step, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool any_number_input(double& value, const Field& field, float width) {
+  return number_input("##number", value, field, width);
+}
+
+bool any_number_input(int& value, const Field& field, float width) {
+  return whole_number_input("##number", value, field, width);
+}
+
+// The end of a path, which tells more than its beginning.
+std::string end_of(const std::string& path, float width) {
+  if (ImGui::CalcTextSize(path.c_str()).x <= width) return path;
+  std::string_view end = path;
+  while (!end.empty() && ImGui::CalcTextSize(("..." + std::string(end)).c_str()).x > width) {
+    end.remove_prefix(1);
+    while (!end.empty() && (static_cast<unsigned char>(end[0]) & 0xC0U) == 0x80U) end.remove_prefix(1);
+  }
+  return "..." + std::string(end);
+}
+
+// Over the item before, while nothing is typed there.
+void cover_with_end_of(const std::string& path) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const std::string shown = end_of(path, high.x - low.x - 2 * padding.x);
+  if (shown == path) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), ImGui::GetStyle().FrameRounding);
+  list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), ImGui::GetStyle().FrameRounding);
+  list.AddText({low.x + padding.x, low.y + padding.y}, ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
+}
+
+std::optional<Edited> text_input(const std::string& value, const Field& field, float width, TypedText& typed) {
+  std::string text = typed.key == field.key ? typed.text : value;
+  ImGui::SetNextItemWidth(width);
+  ImGui::InputTextWithHint("##text", field.required ? "required" : "none", &text);
+  const bool is_finished = ImGui::IsItemDeactivatedAfterEdit();
+  if (ImGui::IsItemActive()) typed = {field.key, text};
+  if (ImGui::IsItemDeactivated()) typed = {};
+  if (field.is_path && !ImGui::IsItemActive()) cover_with_end_of(text);
+  if (is_finished && text != value) return Edited{text, true};
+  return std::nullopt;
+}
+
+std::string in_words(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+template <class Names>
+std::optional<int> combo(const Names& names, int chosen, const std::string& shown, float width) {
+  std::optional<int> taken;
+  ImGui::SetNextItemWidth(width);
+  if (!ImGui::BeginCombo("##names", shown.c_str())) return taken;
+  for (int i = 0; i < static_cast<int>(names.size()); ++i)
+    if (ImGui::Selectable(in_words(names[static_cast<std::size_t>(i)]).c_str(), i == chosen)) taken = i;
+  ImGui::EndCombo();
+  return taken;
+}
+
+std::optional<Edited> named_text_input(const std::string& value, const RowLook& look, float width) {
+  const auto found = std::find(look.names.begin(), look.names.end(), value);
+  const std::optional<int> taken = combo(look.names, static_cast<int>(found - look.names.begin()), value, width);
+  if (!taken) return std::nullopt;
+  return Edited{look.names[static_cast<std::size_t>(*taken)], true};
+}
+
+bool color_input(glm::dvec3& value, float width) {
+  std::array<float, 3> color{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
+  const std::array<float, 3> before = color;
+  ImGui::SetNextItemWidth(width);
+  ImGui::ColorEdit3("##color", color.data(), ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_Float);
+  for (int i = 0; i < 3; ++i)
+    if (color[static_cast<std::size_t>(i)] != before[static_cast<std::size_t>(i)])
+      value[i] = std::round(static_cast<double>(color[static_cast<std::size_t>(i)]) * 1e4) / 1e4;
+  return color != before;
+}
+
+// A box for each name that is usual or chosen.
+std::optional<Edited> list_input(const std::vector<std::string>& values, const RowLook& look) {
+  std::vector<std::string> names = look.names;
+  for (const std::string& value : values)
+    if (std::find(names.begin(), names.end(), value) == names.end()) names.push_back(value);
+  std::optional<Edited> edited;
+  for (const std::string& name : names) {
+    const auto found = std::find(values.begin(), values.end(), name);
+    bool is_chosen = found != values.end();
+    if (!ImGui::Checkbox(name.c_str(), &is_chosen)) continue;
+    std::vector<std::string> changed = values;
+    if (is_chosen)
+      changed.push_back(name);
+    else
+      changed.erase(changed.begin() + (found - values.begin()));
+    edited = Edited{changed, true};
+  }
+  return edited;
+}
+
+struct Input {
+  const Field& field;
+  const RowLook& look;
+  float width;
+  TypedText& typed;
+
+  template <class Number>
+  std::optional<Edited> number(Number value) const {
+    if (!any_number_input(value, field, width)) return std::nullopt;
+    return Edited{value};
+  }
+  std::optional<Edited> operator()(double* place) const { return number(*place); }
+  std::optional<Edited> operator()(int* place) const { return number(*place); }
+
+  template <class Number>
+  std::optional<Edited> operator()(std::optional<Number>* place) const {
+    std::optional<Number> value = *place;
+    bool is_given = value.has_value();
+    if (ImGui::Checkbox("##given", &is_given))
+      return Edited{is_given ? std::optional<Number>(static_cast<Number>(look.suggested.value_or(0))) : std::nullopt,
+                    true};
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    const float room = width - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
+    if (!value) {
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextDisabled("none");
+      return std::nullopt;
+    }
+    if (!any_number_input(*value, field, room)) return std::nullopt;
+    return Edited{value};
+  }
+
+  std::optional<Edited> operator()(std::string* place) const {
+    return look.names.empty() ? text_input(*place, field, width, typed) : named_text_input(*place, look, width);
+  }
+  std::optional<Edited> operator()(glm::dvec3* place) const {
+    glm::dvec3 value = *place;
+    if (!(look.is_color ? color_input(value, width) : vector_input(value, field, width))) return std::nullopt;
+    return Edited{value};
+  }
+  std::optional<Edited> operator()(std::vector<std::string>* place) const { return list_input(*place, look); }
+  std::optional<Edited> operator()(const Choice& choice) const {
+    const int chosen = choice.get();
+    const std::optional<int> taken = combo(choice.names, chosen, value_text(field, ChosenName{chosen}), width);
+    if (!taken) return std::nullopt;
+    return Edited{ChosenName{*taken}, true};
+  }
+};
+
+}  // namespace
+
+std::optional<Edited> field_input(const Field& field, const RowLook& look, float width, TypedText& typed) {
+  return std::visit(Input{field, look, width, typed}, field.value);
+}
+
+bool number_input(const char* id, double& value, const Field& field, float width) {
+  const std::string format = format_of(value, field);
+  ImGui::SetNextItemWidth(width);
+  return ImGui::DragScalar(id, ImGuiDataType_Double, &value, static_cast<float>(drag_step(value, field)),
+                           std::isfinite(field.minimum) ? &field.minimum : nullptr,
+                           std::isfinite(field.maximum) ? &field.maximum : nullptr, format.c_str(),
+                           ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool vector_input(glm::dvec3& value, const Field& field, float width) {
+  constexpr std::array<const char*, 3> kIds{"##X", "##Y", "##Z"};
+  constexpr std::array<ImU32, 3> kColors{color::kAxisX, color::kAxisY, color::kAxisZ};
+  const float gap = scaled(4);
+  const bool side_by_side = (width - 2 * gap) / 3 >= scaled(64);
+  const float each = side_by_side ? std::floor((width - 2 * gap) / 3) : width;
+  Field part = field;
+  if (side_by_side && each < scaled(110)) part.unit = field.unit == "m" ? "" : field.unit;  // the label has it
+  bool has_changed = false;
+  for (int i = 0; i < 3; ++i) {
+    if (side_by_side && i > 0) ImGui::SameLine(0, gap);
+    const auto axis = static_cast<std::size_t>(i);
+    has_changed |= number_input(kIds[axis], value[i], part, each);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, kColors[axis], scaled(2),
+                                              ImDrawFlags_RoundCornersLeft);
+  }
+  return has_changed;
+}
+
+}  // namespace sigs::editor

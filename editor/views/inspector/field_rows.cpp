@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/inspector/field_rows.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "editor/document/field_texts.h"
+#include "editor/document/moved_paths.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kNarrow = 250;
+constexpr float kLabelShare = 0.4F;
+
+bool is_narrow() {
+  return ImGui::GetContentRegionAvail().x < scaled(kNarrow);
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string lower_first(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+bool ends_with(const Field& field, std::string_view end) {
+  return field.key.ends_with(end);
+}
+
+std::vector<std::string> extensions_of(const Field& field) {
+  if (ends_with(field, ".video")) return {".mp4", ".mov", ".mkv", ".avi", ".webm", ".m4v", ".mts", ".png"};
+  if (ends_with(field, ".calibration")) return {".xml", ".yml", ".yaml", ".json"};
+  if (ends_with(field, "mask")) return {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+  if (ends_with(field, ".model.file")) return {".obj"};
+  return {};
+}
+
+bool takes_whole_row(const Field& field, const RowLook& look) {
+  return std::holds_alternative<glm::dvec3*>(field.value) && !look.is_color;
+}
+
+}  // namespace
+
+void note(const std::string& text, bool is_warning) {
+  ImGui::PushStyleColor(ImGuiCol_Text, is_warning ? color::kPartly : color::kQuiet);
+  ImGui::PushFont(font(Font::small));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopFont();
+  ImGui::PopStyleColor();
+}
+
+bool ButtonFlow::button(const char* label, const char* tooltip, bool enabled) {
+  const float gap = scaled(6);
+  const float width = ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  if (right_x_ >= 0 && right_x_ + gap + width <= right) ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(!enabled);
+  const bool clicked = ImGui::Button(label);
+  ImGui::EndDisabled();
+  right_x_ = ImGui::GetItemRectMax().x;
+  tooltip_for_item(tooltip);
+  return clicked;
+}
+
+float FieldRows::begin_row(const std::string& label, bool below) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  const bool above = below || is_narrow();
+  const float width = above ? room - icon_button_width() : room * kLabelShare - scaled(6);
+  const float start = ImGui::GetCursorPosX();
+  if (!above) ImGui::AlignTextToFramePadding();
+  const std::string shown = elided(label, width);
+  ImGui::TextUnformatted(shown.c_str());
+  if (shown != label) tooltip_for_item(label.c_str());
+  if (!above) ImGui::SameLine(start + room * kLabelShare, 0);
+  const float side = below ? 0 : icon_button_width() + scaled(2);
+  return std::max(scaled(30), (above ? room : room * (1 - kLabelShare)) - side);
+}
+
+void FieldRows::draw_hint(const Field& field, const RowLook& look) const {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  std::string text = capitalised(std::string(field.help));
+  if (const std::string range = range_text(field); !range.empty()) text += "\nRange: " + range;
+  text += "\nDefault: " + value_text(field, sheet_.default_of(field));
+  if (field.is_path && !value_text(field, value_of(field)).empty())
+    text += "\nNow: " + value_text(field, value_of(field));
+  if (!look.off_because.empty()) text += "\n" + look.off_because;
+  text += "\n" + field.key;
+  tooltip_for_item(text.c_str());
+}
+
+void FieldRows::browse(const Field& field) {
+  std::error_code code;
+  const Project& project = studio_.project();
+  std::filesystem::path start = resolved(project, *std::get<std::string*>(field.value)).parent_path();
+  if (start.empty() || !std::filesystem::is_directory(start, code)) start = project.file.parent_path();
+  Edits& edits = studio_.edits;
+  studio_.edits.ask(AskForFile{.title = "Choose: " + lower_first(label_of(field.key)),
+                               .extensions = extensions_of(field),
+                               .start = start,
+                               .chosen = [&edits, key = field.key](const std::filesystem::path& path) {
+                                 edits.change("choose " + lower_first(label_of(key)), [key, path](Project& changed) {
+                                   put_value(changed, key, path_in_project(changed, path));
+                                 });
+                               }});
+}
+
+// Beside the editor, so that all editors end in one line: choosing a file, and going back to the default.
+void FieldRows::draw_side_buttons(const Field& field, float top_y) {
+  const bool can_be_reset = sheet_.can_be_reset(field);
+  if (!field.is_path && !can_be_reset) return;
+  const ImVec2 after = ImGui::GetCursorScreenPos();
+  const float right = after.x + ImGui::GetContentRegionAvail().x;
+  ImGui::SetCursorScreenPos({right - icon_button_width(), top_y});
+  if (field.is_path) {
+    if (icon_button("browse", Icon::folder, "Choose a file")) browse(field);
+    studio_.places.note_item("inspector/" + field.key + "/browse");
+  } else {
+    const std::string text = "Back to " + value_text(field, sheet_.default_of(field));
+    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
+    if (icon_button("reset", Icon::reset, text.c_str())) change(field, {sheet_.default_of(field), true});
+    ImGui::PopStyleColor();
+    studio_.places.note_item("inspector/" + field.key + "/reset");
+  }
+  ImGui::SetCursorScreenPos(after);
+}
+
+void FieldRows::change(const Field& field, const Edited& edited) {
+  const std::string gesture = edited.is_finished ? "" : "inspector " + field.key;
+  studio_.edits.change(
+      "change " + lower_first(label_of(field.key)),
+      [key = field.key, value = edited.value](Project& project) { put_value(project, key, value); }, gesture);
+  memory_.gesture_is_open = !edited.is_finished;
+}
+
+void FieldRows::row(std::string_view key, const RowLook& look) {
+  const Field* const field = sheet_.find(key);
+  if (field == nullptr) return;
+  const bool is_wrong = problems_.find(key) != problems_.end();
+  const bool below = takes_whole_row(*field, look);
+  ImGui::PushID(field->key.c_str());
+  const float label_y = ImGui::GetCursorScreenPos().y;
+  std::string label = look.label.empty() ? label_of(key) : look.label;
+  if (below && !field->unit.empty()) label += " (" + std::string(field->unit) + ")";
+  const float width = begin_row(label, below);
+  const float top_y = below ? label_y - ImGui::GetStyle().FramePadding.y : ImGui::GetCursorScreenPos().y;
+  if (memory_.wanted_turns > 0 && memory_.wanted_key == key) {
+    ImGui::SetScrollHereY(0.3F);
+    ImGui::SetKeyboardFocusHere();
+    memory_.wanted_turns = 0;
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, is_wrong ? scaled(1) : 0);
+  if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Border, color::kBad);
+  ImGui::BeginDisabled(!look.off_because.empty());
+  ImGui::BeginGroup();
+  const std::optional<Edited> edited = field_input(*field, look, width, memory_.typed);
+  ImGui::EndGroup();
+  const bool is_left = ImGui::IsItemDeactivated();
+  ImGui::EndDisabled();
+  if (is_wrong) ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  studio_.places.note_item("inspector/" + field->key);
+  draw_hint(*field, look);
+  if (edited) change(*field, *edited);
+  if (is_left) studio_.edits.end_gesture();
+  draw_side_buttons(*field, top_y);
+  problem_lines(key);
+  ImGui::PopID();
+}
+
+void FieldRows::rows(std::string_view prefix, const std::function<RowLook(const Field&)>& look_of) {
+  for (const Field& field : sheet_.fields())
+    if (field.key.starts_with(prefix)) row(field.key, look_of ? look_of(field) : RowLook());
+}
+
+void FieldRows::problem_lines(std::string_view key) {
+  const auto [first, last] = problems_.equal_range(key);
+  for (auto found = first; found != last; ++found) {
+    const std::string what_to_do = advice(found->second, sheet_.find(key));
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted((capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do)).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+  }
+}
+
+void FieldRows::finish() {
+  if (memory_.gesture_is_open && !ImGui::IsAnyItemActive()) {
+    studio_.edits.end_gesture();
+    memory_.gesture_is_open = false;
+  }
+  if (memory_.wanted_turns > 0) --memory_.wanted_turns;
+}
+
+}  // namespace sigs::editor

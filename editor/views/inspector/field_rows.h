@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "editor/document/field_edits.h"
+#include "editor/views/inspector/field_inputs.h"
+#include "editor/views/studio.h"
+#include "project/validate.h"
+
+namespace sigs::editor {
+
+// What is wrong, by the key of the field that it is in.
+using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
+
+// What rows remember from one turn to the next.
+struct RowMemory {
+  TypedText typed;
+  std::string wanted_key;  // a row to be scrolled to and given the keyboard, once it is drawn
+  int wanted_turns = 0;    // for how many turns yet
+  bool gesture_is_open = false;
+};
+
+// Draws fields, each as a row: label, editor with its unit, a way back to the default, and what is wrong with it. Made
+// anew each turn.
+class FieldRows {
+ public:
+  FieldRows(const Studio& studio, const FieldSheet& sheet, const ProblemsByField& problems, RowMemory& memory)
+      : studio_(studio), sheet_(sheet), problems_(problems), memory_(memory) {}
+
+  // Nothing where there is no such field.
+  void row(std::string_view key, const RowLook& look = {});
+  // Those whose keys begin so, in the project's order.
+  void rows(std::string_view prefix, const std::function<RowLook(const Field&)>& look_of = {});
+  void problem_lines(std::string_view key);
+
+  // Any label and controls in the same columns: the width that the controls have from the cursor on.
+  [[nodiscard]] float begin_row(const std::string& label, bool below = false);
+
+  [[nodiscard]] const FieldSheet& sheet() const { return sheet_; }
+  [[nodiscard]] const ProblemsByField& problems() const { return problems_; }
+
+  // At the turn's end: a gesture whose editor has gone away is finished.
+  void finish();
+
+ private:
+  void draw_hint(const Field& field, const RowLook& look) const;
+  void draw_side_buttons(const Field& field, float top_y);
+  void browse(const Field& field);
+  void change(const Field& field, const Edited& edited);
+
+  const Studio& studio_;
+  const FieldSheet& sheet_;
+  const ProblemsByField& problems_;
+  RowMemory& memory_;
+};
+
+// Quiet text that breaks its lines, for what is told beside fields.
+void note(const std::string& text, bool is_warning = false);
+
+// Buttons with texts, side by side as long as there is room.
+class ButtonFlow {
+ public:
+  [[nodiscard]] bool button(const char* label, const char* tooltip, bool enabled = true);
+
+ private:
+  float right_x_ = -1;  // of the last one, on the screen
+};
+
+}  // namespace sigs::editor

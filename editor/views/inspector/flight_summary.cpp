@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/inspector/flight_summary.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "editor/document/field_texts.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::size_t kMostFlags = 12;
+
+std::string tenths(double value, double step = 0.1) {
+  return number_text(std::round(value / step) * step);
+}
+
+void told(FieldRows& rows, const char* label, const std::string& text, const char* tooltip) {
+  (void)rows.begin_row(label);
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  tooltip_for_item(tooltip);
+}
+
+std::string frames_text(const FlightFlag& flag) {
+  const long first = std::lround(flag.first_frame);
+  const long last = std::lround(flag.last_frame);
+  return first == last ? "frame " + std::to_string(first)
+                       : "frames " + std::to_string(first) + " to " + std::to_string(last);
+}
+
+// Wrapped text that is clicked to go to a frame.
+void frame_link(const Studio& studio, const std::string& text, double frame, ImU32 shade) {
+  ImGui::PushStyleColor(ImGuiCol_Text, shade);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, faded(shade, 0.5));
+  tooltip_for_item("Go to this frame");
+  if (ImGui::IsItemClicked()) studio.edits.go_to_frame(static_cast<int>(std::lround(frame)));
+}
+
+}  // namespace
+
+void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
+  if (survey == measured_) return;
+  measured_ = survey;
+  if (survey->flight.empty()) return;
+  const auto span = [&](auto value) {
+    const auto [least, most] = std::minmax_element(survey->flight.begin(), survey->flight.end(),
+                                                   [&](const auto& a, const auto& b) { return value(a) < value(b); });
+    return Span{value(*least), value(*most)};
+  };
+  speed_mps_ = span([](const FlightState& state) { return state.speed_mps; });
+  load_ = span([](const FlightState& state) { return state.load_factor; });
+  climb_mps_ = span([](const FlightState& state) { return state.climb_rate_mps; });
+}
+
+void FlightSummary::draw(const Studio& studio, FieldRows& rows, int intruder) {
+  const auto index = static_cast<std::size_t>(intruder);
+  const std::vector<std::shared_ptr<const Survey>>& surveys = studio.shown.surveys;
+  if (index >= surveys.size() || !surveys[index] || surveys[index]->flight.empty()) {
+    note("The flight has not been looked at yet.");
+    return;
+  }
+  const Survey& survey = *surveys[index];
+  measure(surveys[index]);
+  told(rows, "Speed", tenths(speed_mps_.least) + " to " + tenths(speed_mps_.most) + " m/s", "Least and most");
+  told(rows, "Load factor", tenths(load_.least, 0.01) + " to " + tenths(load_.most, 0.01) + " g",
+       "Lift by weight; 1 in level flight");
+  told(rows, "Climb", tenths(climb_mps_.least) + " to " + tenths(climb_mps_.most) + " m/s", "Up is positive");
+  (void)rows.begin_row("Closest");
+  frame_link(studio, tenths(survey.closest.distance_m) + " m, frame " + tenths(survey.closest.frame),
+             survey.closest.frame, color::kAccent);
+  for (std::size_t i = 0; i < std::min(survey.flags.size(), kMostFlags); ++i) {
+    const FlightFlag& flag = survey.flags[i];
+    std::string text = flag.text() + " (" + frames_text(flag) + ")";
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    frame_link(studio, text, flag.first_frame, color::kPartly);
+  }
+  if (survey.flags.size() > kMostFlags) note(std::to_string(survey.flags.size() - kMostFlags) + " more", true);
+}
+
+}  // namespace sigs::editor

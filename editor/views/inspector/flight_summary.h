@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "editor/views/inspector/field_rows.h"
+
+namespace sigs::editor {
+
+// How an intruder flies, from the newest survey: least and most of what a pilot watches, the closest approach, and what
+// no such aircraft could fly; frames are gone to with a click.
+class FlightSummary {
+ public:
+  void draw(const Studio& studio, FieldRows& rows, int intruder);
+
+ private:
+  struct Span {
+    double least = 0;
+    double most = 0;
+  };
+  void measure(const std::shared_ptr<const Survey>& survey);
+
+  std::shared_ptr<const Survey> measured_;  // what the spans are of
+  Span speed_mps_;
+  Span load_;
+  Span climb_mps_;
+};
+
+}  // namespace sigs::editor

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/inspector/inspector_view.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "editor/document/field_texts.h"
+#include "editor/views/inspector/inputs.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr int kTurnsOfPatience = 20;  // until a row that is wanted must have been drawn
+
+// The block of what is selected in another view; "": none in particular.
+const char* block_of(Selected kind) {
+  switch (kind) {
+    case Selected::footage:
+      return "Inputs";
+    case Selected::camera:
+      return "Camera";
+    case Selected::light:
+      return "Light";
+    case Selected::waypoint:
+      return "Trajectory";
+    default:
+      return "";
+  }
+}
+
+void draw_compositing(const Studio& studio, FieldRows& rows) {
+  const bool is_direct = studio.project().compositing.method == MethodChoice::direct;
+  rows.rows("compositing.", [&](const Field& field) {
+    RowLook look;
+    if (field.key == "compositing.blend" && !is_direct) look.off_because = "Counts for the direct method alone.";
+    return look;
+  });
+}
+
+void draw_export(const Studio& studio, FieldRows& rows) {
+  const bool is_h264 = studio.project().output.codec == CodecChoice::h264;
+  rows.rows("export.", [&](const Field& field) {
+    RowLook look;
+    if (field.key == "export.video.crf" && !is_h264) look.off_because = "Counts for h264 alone.";
+    if (field.key == "export.labels") look.names = {"xml"};
+    return look;
+  });
+  ImGui::Spacing();
+  if (ImGui::Button("Export...")) studio.edits.ask(ShowExport{});
+  studio.places.note_item("inspector/export");
+  tooltip_for_item("Writes video, masks and labels (Ctrl + E)");
+}
+
+// How many problems a block holds, at the right end of its header.
+void draw_badge(int count) {
+  if (count == 0) return;
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  const std::string text = std::to_string(count);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float right = high.x - scaled(10);
+  const float middle = (low.y + high.y) / 2;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText({right - size.x, middle - size.y / 2}, color::kBad, text.c_str());
+  draw_icon(list, Icon::warning, {right - size.x - scaled(12), middle}, ImGui::GetFontSize(), color::kBad);
+}
+
+}  // namespace
+
+void InspectorView::refresh(const Studio& studio) {
+  if (!sheet_ || sheet_revision_ != studio.document.revision().number) {
+    sheet_.emplace(studio.project());
+    sheet_revision_ = studio.document.revision().number;
+  }
+  problems_.refresh(studio);
+}
+
+void InspectorView::follow_selection(const Studio& studio) {
+  const Selection& selection = studio.document.selection();
+  // What was selected right here must not move away under the mouse.
+  const bool is_elsewhere =
+      !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+  if (is_elsewhere && selection.kind != followed_.kind && *block_of(selection.kind) != '\0') {
+    block_to_open_ = block_of(selection.kind);
+    turns_to_open_ = 1;
+  }
+  followed_ = selection;
+}
+
+void InspectorView::go_to_problem(const Studio& studio, const std::string& key) {
+  filter_.clear();
+  block_to_open_ = editor::block_of(key);
+  // A key without a row of its own is shown by its block.
+  const bool has_row = sheet_->find(key) != nullptr;
+  turns_to_open_ = has_row ? kTurnsOfPatience : 2;
+  memory_.wanted_key = key;
+  memory_.wanted_turns = has_row ? kTurnsOfPatience : 0;
+  if (!key.starts_with("intruders[")) return;
+  const auto number_after = [&](const char* name) {
+    return static_cast<int>(std::strtol(key.c_str() + key.find(name) + std::string(name).size(), nullptr, 10));
+  };
+  const int intruder = number_after("intruders[");
+  if (key.find("waypoints[") != std::string::npos)
+    studio.edits.select({Selected::waypoint, intruder, number_after("waypoints[")});
+  else
+    studio.edits.select({Selected::intruder, intruder, 0});
+}
+
+void InspectorView::draw_top(const Studio& studio, FieldRows& rows) {
+  for (const Field& field : sheet_->fields())
+    if (editor::block_of(field.key).empty()) rows.row(field.key, {.label = field.key == "name" ? "Project" : ""});
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - (filter_.empty() ? 0 : icon_button_width() + scaled(2)));
+  ImGui::InputTextWithHint("##filter", "Filter settings", &filter_);
+  studio.places.note_item("inspector/filter");
+  if (!filter_.empty()) {
+    ImGui::SameLine(0, scaled(2));
+    if (icon_button("clear filter", Icon::cross, "Show all settings")) filter_.clear();
+  }
+  if (const std::optional<std::string> key = problems_.draw(studio)) go_to_problem(studio, *key);
+}
+
+void InspectorView::block(const Studio& studio, const char* title, bool opens_first,
+                          const std::function<void()>& content) {
+  const bool is_wanted = turns_to_open_ > 0 && block_to_open_ == title;
+  if (is_wanted)
+    ImGui::SetNextItemOpen(true);
+  else
+    ImGui::SetNextItemOpen(opens_first, ImGuiCond_FirstUseEver);
+  ImGui::PushFont(font(Font::bold));
+  const bool is_open = ImGui::CollapsingHeader(title);
+  ImGui::PopFont();
+  studio.places.note_item(std::string("inspector/") + title);
+  if (is_wanted && memory_.wanted_turns == 0) ImGui::SetScrollHereY(0);
+  draw_badge(problems_.count_in(title));
+  if (!is_open) return;
+  ImGui::PushID(title);
+  content();
+  ImGui::PopID();
+  ImGui::Spacing();
+}
+
+void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
+  block(studio, "Inputs", true, [&] { draw_inputs(studio, rows); });
+  block(studio, "Camera", true, [&] { rows.rows("camera."); });
+  block(studio, "Light", false, [&] { light_.draw(studio, rows); });
+  block(studio, "Intruders", true, [&] { model_.draw(studio, rows); });
+  block(studio, "Trajectory", true, [&] { trajectory_.draw(studio, rows); });
+  block(studio, "Compositing", false, [&] { draw_compositing(studio, rows); });
+  block(studio, "Export", false, [&] { draw_export(studio, rows); });
+  const bool has_arrived = !memory_.wanted_key.empty() && memory_.wanted_turns == 0;
+  if (has_arrived) memory_.wanted_key.clear();
+  turns_to_open_ = has_arrived && turns_to_open_ > 2 ? 0 : std::max(0, turns_to_open_ - 1);
+}
+
+void InspectorView::draw_found(FieldRows& rows) const {
+  std::string heading;
+  bool has_any = false;
+  for (const Field& field : sheet_->fields()) {
+    const std::string name = editor::block_of(field.key);
+    if (name.empty() || !matches(field, filter_)) continue;
+    const bool is_of_intruder = name == "Intruders" || name == "Trajectory";
+    const std::string place = is_of_intruder ? field.key.substr(0, field.key.find('.')) + " " + name : name;
+    if (place != heading) note(place);
+    heading = place;
+    rows.row(field.key);
+    has_any = true;
+  }
+  if (!has_any) note("No setting is called so.");
+}
+
+void InspectorView::draw(const Studio& studio) {
+  refresh(studio);
+  follow_selection(studio);
+  FieldRows rows(studio, *sheet_, problems_.by_field(), memory_);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
+  draw_top(studio, rows);
+  ImGui::BeginChild("settings");
+  if (filter_.empty())
+    draw_blocks(studio, rows);
+  else
+    draw_found(rows);
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  rows.finish();
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "editor/document/field_edits.h"
+#include "editor/views/inspector/light.h"
+#include "editor/views/inspector/model.h"
+#include "editor/views/inspector/problems.h"
+#include "editor/views/inspector/trajectory.h"
+#include "editor/views/studio.h"
+
+namespace sigs::editor {
+
+// Every setting of the project, made from project/fields, and problems where they are.
+class InspectorView {
+ public:
+  // Into what is left of the current ImGui window.
+  void draw(const Studio& studio);
+
+ private:
+  void refresh(const Studio& studio);
+  void follow_selection(const Studio& studio);
+  void go_to_problem(const Studio& studio, const std::string& key);
+  void draw_top(const Studio& studio, FieldRows& rows);
+  void draw_blocks(const Studio& studio, FieldRows& rows);
+  void draw_found(FieldRows& rows) const;
+  void block(const Studio& studio, const char* title, bool opens_first, const std::function<void()>& content);
+
+  std::optional<FieldSheet> sheet_;
+  std::uint64_t sheet_revision_ = 0;
+  ProblemList problems_;
+  RowMemory memory_;
+  LightBlock light_;
+  ModelBlock model_;
+  TrajectoryBlock trajectory_;
+  std::string filter_;
+  std::string block_to_open_;
+  int turns_to_open_ = 0;  // for how many turns yet
+  Selection followed_;
+};
+
+}  // namespace sigs::editor

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/inspector/model.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "editor/document/field_texts.h"
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kMostRows = 6;           // of the list, before it scrolls
+constexpr double kWidestPreview = 300;    // where the text is 15 px high
+constexpr double kTurnAPixel_rad = 0.01;  // a drag across the preview is about half a turn
+
+std::string key_of(int intruder) {
+  return "intruders[" + std::to_string(intruder) + "]";
+}
+
+bool has_problem(const ProblemsByField& problems, int intruder) {
+  const std::string key = key_of(intruder);
+  const auto found = problems.lower_bound(key);
+  return found != problems.end() && found->first.starts_with(key);
+}
+
+std::string decimetres(double metres) {
+  return number_text(std::round(metres * 10) / 10);
+}
+
+void draw_buttons(const Studio& studio, std::optional<int> intruder) {
+  ButtonFlow flow;
+  if (flow.button("Add", "Another intruder, 300 m ahead of the camera and crossing")) add_intruder(studio);
+  studio.places.note_item("inspector/add intruder");
+  if (flow.button("Duplicate", "A copy of this one, 30 m to its right", intruder.has_value()))
+    duplicate_intruder(studio, *intruder);
+  studio.places.note_item("inspector/duplicate intruder");
+  if (flow.button("Delete", "Takes this intruder out of the project", intruder.has_value()))
+    delete_intruder(studio, *intruder);
+  studio.places.note_item("inspector/delete intruder");
+}
+
+RowLook look_of(const Field& field, const IntruderSettings& intruder) {
+  RowLook look;
+  if (field.key.ends_with(".forward") || field.key.ends_with(".up")) look.names = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  if (field.key.ends_with(".forward")) look.label = "Nose along";
+  if (field.key.ends_with(".up")) look.label = "Top along";
+  if (field.key.ends_with(".scale") && intruder.model.length_m > 0)
+    look.off_because = "The length says how large it is.";
+  return look;
+}
+
+// In the middle of what is left of a frame.
+void draw_centred(ImVec2 low, ImVec2 size, const std::string& text) {
+  const std::string shown = elided(text, size.x - scaled(12));
+  const ImVec2 extent = ImGui::CalcTextSize(shown.c_str());
+  ImGui::GetWindowDrawList()->AddText({low.x + (size.x - extent.x) / 2, low.y + (size.y - extent.y) / 2}, color::kQuiet,
+                                      shown.c_str());
+}
+
+}  // namespace
+
+void ModelBlock::draw_list(const Studio& studio, const FieldRows& rows) {
+  const std::vector<IntruderSettings>& intruders = studio.project().intruders;
+  const std::optional<int> chosen = current_intruder(studio);
+  const auto count = static_cast<int>(intruders.size());
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("intruders", {0, line * static_cast<float>(std::min<double>(count, kMostRows))});
+  ImGuiListClipper clipper;
+  clipper.Begin(count, line);
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable("##intruder", chosen == i)) studio.edits.select({Selected::intruder, i, 0});
+      studio.places.note_item("inspector/" + key_of(i));
+      const ImVec2 low = ImGui::GetItemRectMin();
+      const ImVec2 high = ImGui::GetItemRectMax();
+      ImDrawList& list = *ImGui::GetWindowDrawList();
+      const float middle = (low.y + high.y) / 2;
+      list.AddCircleFilled({low.x + scaled(10), middle}, scaled(4), intruder_color(i), 12);
+      const bool is_wrong = has_problem(rows.problems(), i);
+      const std::string& name = intruders[static_cast<std::size_t>(i)].name;
+      const std::string shown = elided(name.empty() ? "(no name)" : name, high.x - low.x - scaled(is_wrong ? 44 : 24));
+      list.AddText({low.x + scaled(20), middle - ImGui::GetFontSize() / 2}, color::kText, shown.c_str());
+      if (is_wrong) draw_icon(list, Icon::warning, {high.x - scaled(12), middle}, ImGui::GetFontSize(), color::kBad);
+      ImGui::PopID();
+    }
+  ImGui::EndChild();
+}
+
+void ModelBlock::draw_preview(const Studio& studio, int intruder) {
+  const float width = std::min(ImGui::GetContentRegionAvail().x, scaled(kWidestPreview));
+  const ImVec2 size{std::floor(width), std::floor(width * 0.6F)};
+  ImGui::InvisibleButton("preview", size);
+  studio.places.note_item("inspector/model preview");
+  if (!ImGui::IsItemVisible()) return;
+  if (ImGui::IsItemActive())
+    turn_rad_ = std::remainder(turn_rad_ - kTurnAPixel_rad * static_cast<double>(ImGui::GetIO().MouseDelta.x),
+                               2 * std::numbers::pi);
+  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  studio.wishes.turntable = Wanted::Turntable{
+      .intruder = intruder, .turn_rad = turn_rad_, .size_px = {static_cast<int>(size.x), static_cast<int>(size.y)}};
+  tooltip_for_item("Drag to turn. The nose is where the arrow of the aircraft's flight would be: check the axes here.");
+
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, high, color::kCanvas, scaled(4));
+  const ModelPicture* const model = studio.shown.model.get();
+  const std::string& file = studio.project().intruders[static_cast<std::size_t>(intruder)].model.file;
+  const bool is_of_this = model != nullptr && model->file == resolved(studio.project(), file);
+  if (!is_of_this || model->rgba.empty()) {
+    draw_centred(low, size, file.empty() ? "no model" : is_of_this && !model->problem.empty() ? "no picture" : "...");
+    return;
+  }
+  list.AddImage(studio.textures.of(model->rgba, Filter::smooth), low, high);
+  note(decimetres(model->size_m.x) + " m long, " + decimetres(model->size_m.y) + " m span, " +
+       decimetres(model->size_m.z) + " m high");
+}
+
+void ModelBlock::draw(const Studio& studio, FieldRows& rows) {
+  const std::optional<int> intruder = current_intruder(studio);
+  if (intruder)
+    draw_list(studio, rows);
+  else
+    note("No intruder yet. Add one, or drop a Wavefront OBJ file onto the window.");
+  draw_buttons(studio, intruder);
+  if (!intruder) return;
+  ImGui::Spacing();
+  const std::string key = key_of(*intruder);
+  const IntruderSettings& settings = studio.project().intruders[static_cast<std::size_t>(*intruder)];
+  rows.row(key + ".name");
+  rows.row(key + ".model.file");
+  draw_preview(studio, *intruder);
+  for (const Field& field : rows.sheet().fields())
+    if (field.key.starts_with(key + ".model.") && field.key != key + ".model.file")
+      rows.row(field.key, look_of(field, settings));
+}
+
+}  // namespace sigs::editor

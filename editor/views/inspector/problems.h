@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "editor/views/inspector/field_rows.h"
+
+namespace sigs::editor {
+
+// The inspector's block that a key belongs to; "" for the project's own.
+[[nodiscard]] std::string block_of(std::string_view key);
+
+// A problem's place in words: "light-aircraft, waypoint 2: frame".
+[[nodiscard]] std::string place_of(const Project& project, std::string_view key);
+
+// What is wrong with the project, from the newest scene that is open.
+class ProblemList {
+ public:
+  void refresh(const Studio& studio);
+  [[nodiscard]] const ProblemsByField& by_field() const { return by_field_; }
+  [[nodiscard]] int count_in(const std::string& block) const;
+
+  // "2 problems", to be opened as a list; the key of the one that was clicked.
+  [[nodiscard]] std::optional<std::string> draw(const Studio& studio) const;
+
+ private:
+  std::shared_ptr<const OpenedScene> scene_;  // what they are of
+  ProblemsByField by_field_;
+  std::map<std::string, int> counts_;  // by block
+};
+
+}  // namespace sigs::editor

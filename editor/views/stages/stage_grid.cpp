@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/stages/stage_grid.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+double head_px() {
+  return std::ceil(font(Font::small)->FontSize + scaled(8));
+}
+
+double gap_px() {
+  return std::round(scaled(4));
+}
+
+}  // namespace
+
+GridShape grid_shape(int count, const glm::dvec2& picture_px, const glm::dvec2& room_px, double label_px) {
+  GridShape best;
+  double best_zoom = -1;
+  for (int columns = 1; columns <= std::max(1, count); ++columns) {
+    const int rows = (std::max(1, count) + columns - 1) / columns;
+    const glm::dvec2 tile(room_px.x / columns, room_px.y / rows - label_px);
+    const glm::dvec2 zooms = tile / glm::max(picture_px, 1.0);
+    const double zoom = std::min(zooms.x, zooms.y);
+    if (zoom <= best_zoom) continue;
+    best_zoom = zoom;
+    best = {columns, rows};
+  }
+  return best;
+}
+
+void StageGrid::zoom_to_exact() {
+  look_.zoom_to(1, look_.room_px() / 2.0);
+}
+
+void StageGrid::draw(std::span<const StageTile> tiles, const cv::Size& frame_px, const ScreenRect& rect,
+                     Textures& textures) {
+  const auto large =
+      std::find_if(tiles.begin(), tiles.end(), [&](const StageTile& tile) { return tile.label == large_; });
+  if (large != tiles.end()) tiles = tiles.subspan(static_cast<std::size_t>(large - tiles.begin()), 1);
+  const glm::dvec2 size(frame_px.width, frame_px.height);
+  const GridShape shape = grid_shape(static_cast<int>(tiles.size()), size, rect.size(), head_px() + gap_px());
+  const glm::dvec2 cell = glm::floor((rect.size() + gap_px()) / glm::dvec2(shape.columns, shape.rows));
+  look_.lay_out(frame_px, glm::max(cell - gap_px() - glm::dvec2(0, head_px()), 1.0));
+  next_pixel_.reset();
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const auto column = static_cast<int>(i) % shape.columns;
+    const auto row = static_cast<int>(i) / shape.columns;
+    const glm::dvec2 low = rect.low + cell * glm::dvec2(column, row);
+    draw_tile(tiles[i], frame_px, {low, low + glm::max(cell - gap_px(), 1.0)}, textures);
+  }
+  pixel_ = next_pixel_;
+}
+
+void StageGrid::draw_tile(const StageTile& tile, const cv::Size& frame_px, const ScreenRect& rect, Textures& textures) {
+  const bool linked = tile.picture.size() == frame_px;
+  const ScreenRect room{{rect.low.x, rect.low.y + head_px()}, rect.high};
+  if (room.size().x < 2 || room.size().y < 2) return;
+  ImGui::PushID(tile.label.c_str());
+  ImGui::SetCursorScreenPos(im(rect.low));
+  ImGui::InvisibleButton("head", im({rect.size().x, head_px()}));
+  if (ImGui::IsItemClicked()) large_ = large_.empty() ? tile.label : std::string();
+  tooltip_for_item(tile.tooltip.c_str());
+  ImGui::SetCursorScreenPos(im(room.low));
+  ImGui::InvisibleButton("picture", im(room.size()),
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+  take_mouse(tile, linked, room);
+  draw_picture_of(tile, linked, room, textures);
+  draw_head(tile, linked, rect);
+  ImGui::PopID();
+}
+
+void StageGrid::take_mouse(const StageTile& tile, bool linked, const ScreenRect& room) {
+  const glm::dvec2 mouse = dv(ImGui::GetMousePos());
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered && linked) {
+    take_zoom_input(look_, room.low);
+    const PictureCanvas canvas{*ImGui::GetWindowDrawList(), room, look_.view(room.low), tile.picture.size()};
+    next_pixel_ = canvas.pixel_at(mouse);
+  }
+  if (ImGui::IsItemActivated()) {
+    pressed_ = tile.label;
+    panned_ = false;
+    look_.begin_pan();
+  }
+  if (pressed_ != tile.label) return;
+  const ImGuiMouseButton button =
+      ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? ImGuiMouseButton_Middle : ImGuiMouseButton_Left;
+  const glm::dvec2 by = dv(ImGui::GetMouseDragDelta(button, panned_ ? 0 : scaled(3)));
+  if (ImGui::IsItemActive() && by != glm::dvec2(0, 0)) {
+    panned_ = true;
+    if (linked) look_.pan(by);
+  }
+  if (ImGui::IsItemActive()) return;
+  const bool clicked = hovered && !panned_ && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+  if (clicked) large_ = large_.empty() ? tile.label : std::string();
+  pressed_.clear();
+}
+
+void StageGrid::draw_picture_of(const StageTile& tile, bool linked, const ScreenRect& room, Textures& textures) {
+  const glm::dvec2 size(tile.picture.cols, tile.picture.rows);
+  const PictureCanvas canvas{*ImGui::GetWindowDrawList(), room, linked ? look_.view(room.low) : fitted(size, room),
+                             tile.picture.size()};
+  canvas.draw.AddRectFilled(im(room.low), im(room.high), IM_COL32(12, 13, 15, 255));
+  draw_picture(canvas.draw, textures, reduced_, tile.picture, canvas.view, room);
+  if (!linked) return;
+  draw_pixel_grid(canvas);
+  if (pixel_) {
+    draw_pixel_values(canvas, tile.picture, canvas.view.screen_of(glm::dvec2(pixel_->x, pixel_->y)));
+    draw_pixel_mark(canvas, *pixel_);
+  }
+}
+
+void StageGrid::draw_head(const StageTile& tile, bool linked, const ScreenRect& rect) const {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(im(rect.low), im({rect.high.x, rect.low.y + head_px()}), color::kPanel);
+  const float y = static_cast<float>(std::floor(rect.low.y + (head_px() - font(Font::small)->FontSize) / 2));
+  double room = rect.size().x - 2 * scaled(6);
+  std::string value;
+  if (linked && pixel_) value = pixel_text(tile.picture, *pixel_);
+  if (!linked) value = std::to_string(tile.picture.cols) + " x " + std::to_string(tile.picture.rows);
+  ImGui::PushFont(font(Font::mono));
+  const float value_width = ImGui::CalcTextSize(value.c_str()).x;
+  if (!value.empty() && value_width + scaled(40) < room) {
+    draw.AddText({static_cast<float>(rect.high.x) - scaled(6) - value_width, y},
+                 linked ? color::kAccent : color::kQuiet, value.c_str());
+    room -= value_width + scaled(8);
+  }
+  ImGui::PopFont();
+  ImGui::PushFont(font(Font::small));
+  draw.AddText({static_cast<float>(rect.low.x) + scaled(6), y}, color::kText,
+               elided(tile.label, static_cast<float>(room)).c_str());
+  ImGui::PopFont();
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/timeline/keys.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "editor/document/waypoint_edits.h"
+#include "editor/views/timeline/key_marks.h"
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+// What is worked out once for the row that is drawn.
+struct KeyRows::Row {
+  const TimelineStrip& strip;
+  int intruder = 0;
+  std::vector<double> frames;  // of its waypoints
+  float top_y = 0;
+  int under = -1;  // the waypoint below the mouse
+};
+
+namespace {
+
+int rounded_frame(double frame) {
+  return static_cast<int>(std::lround(std::clamp(frame, 0.0, 1e9)));
+}
+
+void select(const Studio& studio, int intruder, int waypoint) {
+  const Selected kind = waypoint < 0 ? Selected::intruder : Selected::waypoint;
+  studio.edits.select({kind, intruder, std::max(0, waypoint)});
+}
+
+void set_frame(const Studio& studio, int intruder, int waypoint, double frame, const std::string& gesture) {
+  studio.edits.change(
+      "move waypoint in time",
+      [=, frames = frames_of_waypoints(studio, intruder)](Project& project) {
+        TrajectoryPlan& plan = project.intruders[static_cast<std::size_t>(intruder)].trajectory;
+        move_waypoint_in_time(plan, waypoint, frame, frames);
+      },
+      gesture);
+}
+
+void add_on_curve(const Studio& studio, int intruder, double frame) {
+  if (const std::optional<glm::dvec3> position_m = position_of(studio, intruder, frame)) {
+    add_waypoint(studio, intruder, frame, *position_m);
+    go_by_hand(studio, rounded_frame(frame));
+  } else {
+    studio.edits.ask(Say{"The trajectory is not known yet; try again in a moment.", true});
+  }
+}
+
+// Whole frames; with Alt any moment.
+double snapped(double frame) {
+  return ImGui::GetIO().KeyAlt ? frame : std::round(frame);
+}
+
+const IntruderSettings& settings_of(const Studio& studio, int intruder) {
+  return studio.project().intruders[static_cast<std::size_t>(intruder)];
+}
+
+void draw_name(const Studio& studio, const TimelineStrip& strip, int intruder, float top_y, bool current) {
+  const float height = KeyRows::row_height();
+  ImGui::SetCursorScreenPos({strip.names_x, top_y});
+  if (ImGui::InvisibleButton("name", {strip.names_width, height})) select(studio, intruder, -1);
+  const std::string& name = settings_of(studio, intruder).name;
+  const std::string shown = elided(name.empty() ? "(no name)" : name, strip.names_width - height - scaled(4));
+  if (shown != name) tooltip_for_item(name.c_str());
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (ImGui::IsItemHovered())
+    list.AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), IM_COL32(255, 255, 255, 12), scaled(3));
+  const float middle_y = top_y + height / 2;
+  draw_icon(list, Icon::aircraft, {strip.names_x + height / 2, middle_y}, height * 0.72F, intruder_color(intruder));
+  list.AddText({strip.names_x + height + scaled(2), std::floor(middle_y - ImGui::GetFontSize() / 2)},
+               current ? color::kText : color::kQuiet, shown.c_str());
+}
+
+// The key nearest to the mouse within reach; of keys on one another the selected one, to be dragged off.
+int key_under_mouse(const TimelineStrip& strip, const std::vector<double>& frames, int selected) {
+  const float mouse_x = ImGui::GetIO().MousePos.x;
+  float nearest = scaled(8);
+  int found = -1;
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    const float away = std::abs(strip.moment_x(frames[static_cast<std::size_t>(i)]) - mouse_x);
+    if (away < nearest || (i == selected && away <= nearest)) {
+      nearest = away;
+      found = i;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+float KeyRows::row_height() {
+  return std::ceil(ImGui::GetFontSize() + scaled(6));
+}
+
+void KeyRows::note_places(const Studio& studio, const Row& row) {
+  if (!studio.places.wanted()) return;
+  const std::string name = "timeline/row/" + std::to_string(row.intruder);
+  studio.places.note_item(name);
+  const double reach = scaled(5);
+  for (std::size_t i = 0; i < row.frames.size(); ++i) {
+    const glm::dvec2 center{row.strip.moment_x(row.frames[i]), row.top_y + row_height() / 2};
+    studio.places.note(name + "/key/" + std::to_string(i), {center - reach, center + reach});
+  }
+}
+
+void KeyRows::drag(const Studio& studio, const Row& row) {
+  Held& held = *held_;
+  if (held.waypoint >= static_cast<int>(row.frames.size())) return;
+  if (!held.moving && !ImGui::IsMouseDragging(ImGuiMouseButton_Left, scaled(3))) return;
+  held.moving = true;
+  const double now = row.frames[static_cast<std::size_t>(held.waypoint)];
+  go_by_hand(studio, rounded_frame(now));  // one turn behind, but where its neighbours let it go
+  const double wanted = snapped(row.strip.moment_at(ImGui::GetIO().MousePos.x) + held.offset);
+  if (wanted == now) return;
+  set_frame(studio, held.intruder, held.waypoint, wanted,
+            "time " + std::to_string(held.intruder) + " " + std::to_string(held.waypoint));
+}
+
+void KeyRows::open_menu(const Studio& studio, const Row& row, int under) {
+  const double at = std::round(row.strip.moment_at(ImGui::GetIO().MousePos.x));
+  const double frame = under < 0 ? at : row.frames[static_cast<std::size_t>(under)];
+  menu_ = {.intruder = row.intruder, .waypoint = under, .frame = frame, .typed = frame};
+  select(studio, row.intruder, under);
+  menu_asked_ = true;
+}
+
+void KeyRows::take_mouse(const Studio& studio, const Row& row) {
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) open_menu(studio, row, row.under);
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && row.under < 0)
+    add_on_curve(studio, row.intruder, snapped(row.strip.moment_at(ImGui::GetIO().MousePos.x)));
+  else if (ImGui::IsItemActivated()) {
+    select(studio, row.intruder, row.under);
+    if (row.under >= 0) {
+      const double frame = row.frames[static_cast<std::size_t>(row.under)];
+      go_by_hand(studio, rounded_frame(frame));
+      held_ = Held{row.intruder, row.under, frame - row.strip.moment_at(ImGui::GetIO().MousePos.x)};
+    }
+  }
+  if (ImGui::IsItemActive() && held_ && held_->intruder == row.intruder) drag(studio, row);
+  if (ImGui::IsItemDeactivated() && held_) {
+    if (held_->moving) {
+      drag(studio, row);
+      studio.edits.end_gesture();
+    }
+    held_.reset();
+  }
+}
+
+void KeyRows::draw_key_menu(const Studio& studio) {
+  ImGui::TextDisabled("waypoint %d, frame %.6g", menu_.waypoint + 1, menu_.frame);
+  ImGui::Separator();
+  if (ImGui::MenuItem("Go to")) go_by_hand(studio, rounded_frame(menu_.frame));
+  if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(studio);
+  if (ImGui::MenuItem("Delete", "Del")) delete_selected(studio);
+  if (!ImGui::BeginMenu("Set frame...")) return;
+  ImGui::SetNextItemWidth(scaled(110));
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = ImGui::InputDouble("##frame", &menu_.typed, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SameLine();
+  if ((ImGui::Button("Set") || entered) && std::isfinite(menu_.typed)) {
+    set_frame(studio, menu_.intruder, menu_.waypoint, menu_.typed, {});
+    go_by_hand(studio, rounded_frame(menu_.typed));
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndMenu();
+}
+
+void KeyRows::draw_menu(const Studio& studio) {
+  if (std::exchange(menu_asked_, false)) ImGui::OpenPopup("key menu");
+  if (!begin_menu("key menu")) return;
+  const bool there = menu_.intruder < static_cast<int>(studio.project().intruders.size());
+  if (!there)
+    ImGui::CloseCurrentPopup();
+  else if (menu_.waypoint >= 0)
+    draw_key_menu(studio);
+  else {
+    ImGui::TextDisabled("%s, frame %.6g", elided(settings_of(studio, menu_.intruder).name, scaled(200)).c_str(),
+                        menu_.frame);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Add waypoint")) add_on_curve(studio, menu_.intruder, menu_.frame);
+    if (ImGui::MenuItem("Go there")) go_by_hand(studio, rounded_frame(menu_.frame));
+    ImGui::Separator();
+    if (ImGui::MenuItem("Duplicate intruder")) duplicate_selected(studio);
+    if (ImGui::MenuItem("Delete intruder")) delete_selected(studio);
+  }
+  ImGui::EndPopup();
+}
+
+void KeyRows::draw_row(const Studio& studio, const TimelineStrip& strip, int intruder) {
+  const bool current = current_intruder(studio) == intruder;
+  const Selection& selection = studio.document.selection();
+  const int selected = selection.kind == Selected::waypoint && selection.intruder == intruder ? selection.waypoint : -1;
+  const ImVec2 low{strip.left(), ImGui::GetCursorScreenPos().y};
+  const ImVec2 high{strip.right(), low.y + row_height()};
+  draw_name(studio, strip, intruder, low.y, current);
+  ImGui::SetCursorScreenPos(low);
+  ImGui::InvisibleButton("keys", {std::max(1.0F, high.x - low.x), row_height()});
+
+  Row row{.strip = strip, .intruder = intruder, .frames = frames_of_waypoints(studio, intruder), .top_y = low.y};
+  if (ImGui::IsItemHovered()) row.under = key_under_mouse(strip, row.frames, selected);
+  note_places(studio, row);
+  take_mouse(studio, row);
+  const int held = held_ && held_->intruder == intruder ? held_->waypoint : -1;
+  const int hot = held >= 0 ? held : row.under;
+  const KeyMarks marks{.studio = studio,
+                       .strip = strip,
+                       .intruder = intruder,
+                       .frames = row.frames,
+                       .top_y = low.y,
+                       .height = row_height(),
+                       .selected = selected,
+                       .hot = hot,
+                       .current = current};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(low, high, true);
+  draw_key_marks(list, marks);
+  list.PopClipRect();
+  if (!held_ && ImGui::IsItemHovered()) tooltip_for_keys(marks, strip.moment_at(ImGui::GetIO().MousePos.x));
+}
+
+void KeyRows::draw(const Studio& studio, const TimelineStrip& strip) {
+  const float x = ImGui::GetCursorScreenPos().x;
+  float y = ImGui::GetCursorScreenPos().y;
+  const auto count = static_cast<int>(studio.project().intruders.size());
+  for (int intruder = 0; intruder < count; ++intruder) {
+    ImGui::PushID(intruder);
+    ImGui::SetCursorScreenPos({x, y});
+    // A held key's row stays alive when it is scrolled out of sight.
+    const bool held = held_ && held_->intruder == intruder;
+    if (held || ImGui::IsRectVisible({1, row_height()})) draw_row(studio, strip, intruder);
+    ImGui::PopID();
+    y += row_height();
+    draw_row_line(*ImGui::GetWindowDrawList(), strip, y - 1);
+  }
+  ImGui::SetCursorScreenPos({x, y});
+  draw_menu(studio);
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor/views/timeline/strip.h"
+
+namespace sigs::editor {
+
+// The ruler in frames and times: scrubbing, in and out, and which frames are ready to be shown.
+class RulerRow {
+ public:
+  [[nodiscard]] static float height();
+
+  // At the cursor's height.
+  void draw(const Studio& studio, const TimelineStrip& strip);
+
+  // While the mouse holds the playhead.
+  [[nodiscard]] bool scrubbing() const { return held_ == Held::playhead; }
+
+  // The playhead follows the mouse on the item that was drawn last (a row that has no other use for it); with Shift ten
+  // times finer.
+  void scrub_on_item(const Studio& studio, const TimelineStrip& strip);
+
+ private:
+  enum class Held { none, playhead, in, out };
+
+  void take_mouse(const Studio& studio, const TimelineStrip& strip, float bar_top_y);
+  void scrub(const Studio& studio, const TimelineStrip& strip, bool pressed);
+  void draw_menu(const Studio& studio, const TimelineStrip& strip);
+
+  Held held_ = Held::none;
+  double scrub_x_ = 0;  // where the mouse would be if it did not go finer
+  int menu_frame_ = 0;
+};
+
+}  // namespace sigs::editor

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// What the mouse does in the viewport; the drawing is in viewport_view.cpp.
+#include <imgui.h>
+
+#include <cmath>
+#include <string>
+
+#include "editor/views/viewport/viewport_view.h"
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+void ViewportView::take_press(const PictureCanvas& canvas, const ToolTurn* turn) {
+  const glm::dvec2 mouse = dv(ImGui::GetMousePos());
+  grip_mouse_ = mouse;
+  grip_ = Grip::nothing;
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) {
+    grip_ = Grip::ground;
+  } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    const bool on_waypoint = turn != nullptr && waypoint_at(*turn) != nullptr;
+    if (!on_waypoint && wipe_.is_at(canvas, mouse))
+      grip_ = Grip::line;
+    else
+      grip_ = turn != nullptr && tool_.press(*turn) ? Grip::waypoint : Grip::ground;
+  }
+  if (grip_ == Grip::ground) look_.begin_pan();
+}
+
+void ViewportView::take_mouse(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn) {
+  const glm::dvec2 mouse = dv(ImGui::GetMousePos());
+  const bool down = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+  const bool on_line = grip_ == Grip::line || (grip_ == Grip::nothing && hovered_ && wipe_.is_at(canvas, mouse));
+  if (on_line) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (hovered_ && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) take_double_click(studio, canvas, turn);
+  if (tool_.is_active() && turn != nullptr && down) tool_.drag(*turn);
+  if (grip_ == Grip::line) wipe_.drag_to(canvas, mouse);
+  const bool drags = glm::distance(mouse, grip_mouse_) >= scaled(3) || !look_.is_fitted();
+  if (grip_ == Grip::ground && down && drags && mouse != grip_mouse_) look_.pan(mouse - grip_mouse_);
+  if (down) return;
+  tool_.release(studio);
+  grip_ = Grip::nothing;
+}
+
+void ViewportView::take_double_click(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn) {
+  if (grip_ == Grip::line || (turn != nullptr && waypoint_at(*turn) != nullptr)) return;
+  const glm::dvec2 mouse = dv(ImGui::GetMousePos());
+  if (turn == nullptr || !overlays_.waypoints || !current_intruder(studio) || !canvas.pixel_at(mouse)) {
+    look_.fit();
+    return;
+  }
+  tool_.release(studio);
+  add_waypoint_at(*turn, canvas.view.picture_of(mouse));
+}
+
+void ViewportView::draw_waypoint_menu(const Studio& studio) {
+  const WaypointMark& mark = *menu_waypoint_;
+  ImGui::TextDisabled("Waypoint %d, frame %.4g", mark.waypoint + 1, mark.frame);
+  ImGui::Separator();
+  if (ImGui::MenuItem("Go to its frame")) {
+    studio.edits.ask(Play{0});
+    studio.edits.go_to_frame(static_cast<int>(std::clamp(std::round(mark.frame), 0.0, 1e9)));
+  }
+  if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(studio);
+  if (ImGui::MenuItem("Delete", "Del")) delete_selected(studio);
+}
+
+void ViewportView::draw_menu(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn) {
+  if (hovered_ && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
+    menu_waypoint_.reset();
+    menu_intruder_.reset();
+    if (turn != nullptr) {
+      if (const WaypointMark* mark = waypoint_at(*turn)) {
+        menu_waypoint_ = *mark;
+        studio.edits.select({Selected::waypoint, mark->intruder, mark->waypoint});
+      }
+      menu_intruder_ = intruder_at(*turn);
+    }
+    menu_pixel_ = canvas.view.picture_of(dv(ImGui::GetMousePos()));
+    ImGui::OpenPopup("picture menu");
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(10), scaled(8)});
+  if (ImGui::BeginPopup("picture menu")) {
+    if (menu_waypoint_)
+      draw_waypoint_menu(studio);
+    else
+      draw_picture_menu(studio, turn);
+    ImGui::EndPopup();
+  }
+  ImGui::PopStyleVar(2);
+}
+
+void ViewportView::draw_picture_menu(const Studio& studio, const ToolTurn* turn) {
+  const std::vector<IntruderSettings>& intruders = studio.project().intruders;
+  if (menu_intruder_ && static_cast<std::size_t>(*menu_intruder_) < intruders.size()) {
+    const std::string text = "Select " + intruders[static_cast<std::size_t>(*menu_intruder_)].name;
+    if (ImGui::MenuItem(text.c_str())) studio.edits.select({Selected::intruder, *menu_intruder_, 0});
+    ImGui::Separator();
+  }
+  const bool can_add = turn != nullptr && current_intruder(studio).has_value();
+  if (ImGui::MenuItem("Add waypoint here", "double click", false, can_add)) add_waypoint_at(*turn, menu_pixel_);
+  if (intruders.empty() && ImGui::MenuItem("Add intruder")) add_intruder(studio);
+  ImGui::Separator();
+  if (ImGui::MenuItem("Wipe against the footage", nullptr, wipe_.is_on())) wipe_.toggle();
+  if (ImGui::MenuItem("Fit", "F")) look_.fit();
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/viewport/toolbar.h"
+
+#include <string>
+#include <vector>
+
+#include "editor/views/viewport/picture_icons.h"
+#include "editor/widgets/toolbar.h"
+
+namespace sigs::editor {
+
+namespace {
+
+ToolbarItem switch_of(const char* id, IconDrawing icon, const char* label, const char* tooltip, bool& on) {
+  return {.button = {.id = id, .icon = icon, .label = label, .tooltip = tooltip, .on = on},
+          .clicked = [&on] { on = !on; }};
+}
+
+ToolbarItem gap() {
+  return {.is_gap = true};
+}
+
+PictureGrid next(PictureGrid grid) {
+  if (grid == PictureGrid::none) return PictureGrid::thirds;
+  return grid == PictureGrid::thirds ? PictureGrid::eighths : PictureGrid::none;
+}
+
+const char* label_of(PictureGrid grid) {
+  if (grid == PictureGrid::none) return "Grid";
+  return grid == PictureGrid::thirds ? "Grid 3 x 3" : "Grid 8 x 6";
+}
+
+}  // namespace
+
+void draw_viewport_toolbar(const ViewportSwitches& switches) {
+  OverlayChoice& overlays = switches.overlays;
+  std::vector<ToolbarItem> items{
+      switch_of("box", picture_icon::box, "Box",
+                "Boxes of the truth: what is visible solid, the whole silhouette dashed", overlays.box),
+      switch_of("path", picture_icon::path, "Path", "The way of each intruder, as seen from here through the lens",
+                overlays.path),
+      switch_of("waypoints", picture_icon::waypoints, "Waypoints",
+                "Waypoints with their frames. Drag: move at constant distance; with Shift or Alt: nearer and farther. "
+                "Double click on the picture: add one",
+                overlays.waypoints),
+      switch_of("horizon", picture_icon::horizon, "Horizon", "Where the world is level", overlays.horizon),
+      switch_of("own body", picture_icon::own_body, "Own body", "The mask of the aircraft that carries the camera",
+                overlays.own_body),
+      {.button = {.id = "grid",
+                  .icon = picture_icon::grid,
+                  .label = label_of(overlays.grid),
+                  .tooltip = "Lines across the picture: thirds, 8 x 6, none",
+                  .on = overlays.grid != PictureGrid::none},
+       .clicked = [&overlays] { overlays.grid = next(overlays.grid); }},
+      gap(),
+      {.button = {.id = "wipe",
+                  .icon = picture_icon::wipe,
+                  .label = "Wipe",
+                  .tooltip = "Untouched footage left of a line that can be dragged. Hold \\: footage alone",
+                  .on = switches.wipe.is_on()},
+       .clicked = [&switches] { switches.wipe.toggle(); }},
+      gap(),
+      {.button = {.id = "fit",
+                  .icon = picture_icon::fit,
+                  .label = "Fit",
+                  .tooltip = "The whole picture (F or 0)",
+                  .on = switches.look.is_fitted()},
+       .clicked = [&switches] { switches.look.fit(); }},
+      {.button = {.id = "one to one",
+                  .label = "1:1",
+                  .tooltip = "One pixel of the screen for each of the picture (1)",
+                  .on = switches.look.zoom() == 1},
+       .clicked = [&switches] { switches.look.zoom_to(1, switches.look.room_px() / 2.0); }},
+  };
+  draw_toolbar(std::move(items));
+}
+
+}  // namespace sigs::editor

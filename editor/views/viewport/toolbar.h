@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor/views/viewport/overlays.h"
+#include "editor/views/viewport/wipe.h"
+#include "editor/widgets/zoomable_picture.h"
+
+namespace sigs::editor {
+
+// What the toolbar above the picture switches.
+struct ViewportSwitches {
+  OverlayChoice& overlays;
+  ViewportWipe& wipe;
+  ZoomablePicture& look;
+};
+
+// One row: labels where they have room, else icons alone; what has no room at all is left out.
+void draw_viewport_toolbar(const ViewportSwitches& switches);
+
+}  // namespace sigs::editor

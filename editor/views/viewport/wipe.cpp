@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/viewport/wipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+// Triangles to both sides on a plate: can be dragged.
+void draw_handle(ImDrawList& draw, const glm::dvec2& middle, ImU32 color) {
+  const double r = scaled(11);
+  draw.AddCircleFilled(im(middle), static_cast<float>(r), IM_COL32(16, 18, 22, 220));
+  draw.AddCircle(im(middle), static_cast<float>(r), color, 0, scaled(1.4));
+  for (const double side : {-1.0, 1.0})
+    draw.AddTriangleFilled(im(middle + side * glm::dvec2(0.65 * r, 0)),
+                           im(middle + side * glm::dvec2(0.2 * r, 0.38 * r)),
+                           im(middle + side * glm::dvec2(0.2 * r, -0.38 * r)), color);
+}
+
+}  // namespace
+
+double ViewportWipe::line_x(const PictureCanvas& canvas) const {
+  return std::round(canvas.rect.low.x + share_ * canvas.rect.size().x);
+}
+
+bool ViewportWipe::is_at(const PictureCanvas& canvas, const glm::dvec2& mouse) const {
+  return on_ && std::abs(mouse.x - line_x(canvas)) <= scaled(7);
+}
+
+bool ViewportWipe::is_left_of_line(const PictureCanvas& canvas, const glm::dvec2& mouse) const {
+  return on_ && mouse.x < line_x(canvas);
+}
+
+void ViewportWipe::drag_to(const PictureCanvas& canvas, const glm::dvec2& mouse) {
+  share_ = std::clamp((mouse.x - canvas.rect.low.x) / std::max(1.0, canvas.rect.size().x), 0.02, 0.98);
+}
+
+void ViewportWipe::draw_footage(const PictureCanvas& canvas, const Studio& studio, bool everywhere) {
+  if (!on_ && !everywhere) return;
+  studio.wishes.footage = true;
+  if (!studio.shown.footage) return;
+  ScreenRect left = canvas.rect;
+  if (!everywhere) left.high.x = line_x(canvas);
+  draw_picture(canvas.draw, studio.textures, reduced_, *studio.shown.footage, canvas.view, left);
+}
+
+void ViewportWipe::draw_line(const PictureCanvas& canvas, bool lit) const {
+  if (!on_) return;
+  const double x = line_x(canvas);
+  const ImU32 color = lit ? color::kAccent : IM_COL32(255, 255, 255, 220);
+  canvas.draw.AddRectFilled(im({x - 1, canvas.rect.low.y}), im({x + 1, canvas.rect.high.y}), color);
+  draw_handle(canvas.draw, {x, (canvas.rect.low.y + canvas.rect.high.y) / 2}, color);
+  const double bottom = canvas.rect.high.y - scaled(6);
+  const double width = ImGui::CalcTextSize("footage").x;
+  if (x - canvas.rect.low.x > width + scaled(20))
+    draw_label(canvas, {x - width - scaled(10), bottom}, "footage", color::kText);
+  if (canvas.rect.high.x - x > width + scaled(40))
+    draw_label(canvas, {x + scaled(8), bottom}, "composite", color::kText);
+}
+
+}  // namespace sigs::editor

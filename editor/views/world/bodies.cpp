@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "editor/views/readable.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kLeastBody_px = 30;  // across the model's largest extent
+constexpr int kMostFaces = 300;
+constexpr double kOwnColorShare = 0.35;  // of the model's, the rest is the intruder's
+constexpr double kSun_px = 6;
+
+struct ScreenFace {
+  std::array<ImVec2, 3> corners;
+  double depth_m = 0;
+  ImU32 color = 0;
+};
+
+struct Drawing {
+  glm::dmat3 world_from_body{1};
+  glm::dvec3 at_m{0, 0, 0};
+  double enlarged = 1;
+  ImU32 color = 0;
+};
+
+ImU32 shaded(ImU32 color, const glm::vec3& own, double brightness) {
+  const auto channel = [&](int shift, double own_value) {
+    const double value = static_cast<double>((color >> shift) & 0xFFU);
+    const double mixed = std::lerp(value, own_value * 255, kOwnColorShare) * brightness;
+    return static_cast<ImU32>(std::clamp(mixed, 0.0, 255.0)) << shift;
+  };
+  return channel(IM_COL32_R_SHIFT, own.r) | channel(IM_COL32_G_SHIFT, own.g) | channel(IM_COL32_B_SHIFT, own.b) |
+         IM_COL32_A_MASK;
+}
+
+double length_m(const Model& model) {
+  const glm::vec3 extent_m = model.mesh.high_m - model.mesh.low_m;
+  return std::max({extent_m.x, extent_m.y, extent_m.z, 0.01F});
+}
+
+// Bright where a face looks up and at the eye, so that the shape is seen from every side.
+double brightness_of(const glm::dvec3& normal, const glm::dvec3& to_eye) {
+  const glm::dvec3 lamp = glm::normalize(to_eye + glm::dvec3(0, 0, -1.2));
+  return 0.3 + 0.75 * std::max(0.0, glm::dot(normal, lamp));
+}
+
+// Points of the mesh in the world and on the screen; none for those out of sight.
+struct Corners {
+  std::vector<glm::dvec3> in_world_m;
+  std::vector<std::optional<glm::dvec2>> on_screen;
+};
+
+Corners corners_of(const WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& drawing) {
+  Corners corners;
+  for (const glm::vec3& point_m : mesh.points_m) {
+    corners.in_world_m.push_back(drawing.at_m + drawing.world_from_body * (glm::dvec3(point_m) * drawing.enlarged));
+    corners.on_screen.push_back(canvas.in_sight(corners.in_world_m.back(), 5000));
+  }
+  return corners;
+}
+
+std::optional<ScreenFace> seen(const WorldCanvas& canvas, const CoarseMesh::Face& face, const Corners& corners,
+                               const Drawing& drawing) {
+  ScreenFace drawn;
+  std::array<glm::dvec2, 3> at;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto point = static_cast<std::size_t>(face.corners[i]);
+    if (!corners.on_screen[point]) return std::nullopt;
+    at[i] = *corners.on_screen[point];
+    drawn.corners[i] = im(at[i]);
+    drawn.depth_m += glm::dot(corners.in_world_m[point], canvas.eye().forward());
+  }
+  const glm::dvec2 a = at[1] - at[0];
+  const glm::dvec2 b = at[2] - at[0];
+  if (a.x * b.y - a.y * b.x > 0) return std::nullopt;  // from within: clockwise, with y down
+  const glm::dvec3 normal = drawing.world_from_body * glm::dvec3(face.normal);
+  drawn.color = shaded(drawing.color, face.color, brightness_of(normal, -canvas.eye().forward()));
+  return drawn;
+}
+
+void draw_faces(WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& drawing) {
+  const Corners corners = corners_of(canvas, mesh, drawing);
+  std::vector<ScreenFace> drawn;
+  for (const CoarseMesh::Face& face : mesh.faces)
+    if (const std::optional<ScreenFace> on_screen = seen(canvas, face, corners, drawing)) drawn.push_back(*on_screen);
+  std::sort(drawn.begin(), drawn.end(), [](const ScreenFace& a, const ScreenFace& b) { return a.depth_m > b.depth_m; });
+  // Soft edges would let what lies behind shine through between neighbours.
+  ImDrawList& list = canvas.list();
+  const ImDrawListFlags flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+  for (const ScreenFace& face : drawn)
+    list.AddTriangleFilled(face.corners[0], face.corners[1], face.corners[2], face.color);
+  list.Flags = flags;
+}
+
+void draw_body(WorldCanvas& canvas, const WorldTurn& turn, const WorldBody& body, const CoarseMesh& mesh, bool lit) {
+  const glm::dvec3& at_m = body.world_from_body.translation_m;
+  const ImU32 color = intruder_color(body.intruder);
+  draw_drop_line(canvas, at_m, color);
+  const std::optional<glm::dvec2> at = canvas.in_sight(at_m, 100);
+  if (!at) return;
+  const double true_px = canvas.eye().pixels_per_metre(at_m, canvas.rect()) * length_m(*body.model);
+  const double enlarged = std::max(1.0, scaled(kLeastBody_px) / std::max(true_px, 1e-12));
+  if (lit) canvas.list().AddCircle(im(*at), scaled(kLeastBody_px) * 0.72F, color::kAccent, 0, scaled(1.5));
+  draw_faces(canvas, mesh,
+             {.world_from_body = glm::mat3_cast(body.world_from_body.rotation),
+              .at_m = at_m,
+              .enlarged = enlarged,
+              .color = color});
+  const double distance_m = glm::distance(turn.moment.world_from_camera.translation_m, at_m);
+  const double aside = scaled(kLeastBody_px) * 0.6 + scaled(4);
+  const std::string text = distance_text(distance_m);
+  if (!canvas.label(*at + glm::dvec2(aside, scaled(12)), text, color))
+    canvas.label(*at + glm::dvec2(0, -aside), text, color, WorldCanvas::Side::centre);
+}
+
+void draw_sun(ImDrawList& list, const glm::dvec2& at, ImU32 color) {
+  const double radius = scaled(kSun_px);
+  list.AddCircleFilled(im(at), static_cast<float>(radius), color, 16);
+  for (int i = 0; i < 8; ++i) {
+    const double angle = i * std::numbers::pi / 4;
+    const glm::dvec2 along{std::cos(angle), std::sin(angle)};
+    list.AddLine(im(at + along * (radius * 1.45)), im(at + along * (radius * 2.0)), color, scaled(1.5));
+  }
+}
+
+// Which way on the screen a place lies that is not in sight.
+glm::dvec2 way_to(const OrbitCamera& eye, const glm::dvec3& p_m) {
+  const glm::dvec3 from_eye = p_m - eye.eye_m();
+  const glm::dvec2 way{glm::dot(from_eye, eye.right()), -glm::dot(from_eye, eye.up())};
+  const double length = glm::length(way);
+  return length > 0 ? way / length : glm::dvec2(0, -1);
+}
+
+bool is_marked_at_edge(const WorldCanvas& canvas, const glm::dvec3& light_m) {
+  return !canvas.in_sight(light_m, -static_cast<double>(scaled(12)));
+}
+
+void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::dvec3& light_m, double distance_m,
+                         ImU32 color) {
+  const glm::dvec2 way = way_to(canvas.eye(), light_m);
+  const glm::dvec2 across{-way.y, way.x};
+  const glm::dvec2 tip = at + way * static_cast<double>(scaled(17));
+  const glm::dvec2 neck = tip - way * static_cast<double>(scaled(6));
+  const double half = scaled(4.5);
+  canvas.list().AddTriangleFilled(im(tip), im(neck + across * half), im(neck - across * half), color);
+  const std::string text = "light " + distance_text(distance_m);
+  const bool on_right = at.x > (canvas.rect().low.x + canvas.rect().high.x) / 2;
+  ImFont* face = font(Font::small);
+  const double width = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str()).x;
+  const double aside = on_right ? -scaled(18) - width : scaled(18);
+  canvas.label(at + glm::dvec2(aside, std::abs(way.y) > 0.7 ? 0 : scaled(18)), text, color::kQuiet);
+}
+
+}  // namespace
+
+const CoarseMesh& BodyShapes::of(const std::shared_ptr<const Model>& model) {
+  const auto [entry, is_new] = shapes_.try_emplace(model);
+  if (is_new) entry->second = coarse(model->mesh, kMostFaces);
+  return entry->second;
+}
+
+void BodyShapes::keep_only(const std::vector<WorldBody>& bodies) {
+  std::erase_if(shapes_, [&](const auto& entry) {
+    return std::none_of(bodies.begin(), bodies.end(), [&](const WorldBody& body) { return body.model == entry.first; });
+  });
+}
+
+void draw_bodies(WorldCanvas& canvas, const WorldTurn& turn, BodyShapes& shapes, const Selection& hovered) {
+  std::vector<const WorldBody*> far_to_near;
+  for (const WorldBody& body : turn.moment.bodies)
+    if (body.model) far_to_near.push_back(&body);
+  const glm::dvec3 forward = canvas.eye().forward();
+  std::stable_sort(far_to_near.begin(), far_to_near.end(), [&](const WorldBody* a, const WorldBody* b) {
+    return glm::dot(a->world_from_body.translation_m - b->world_from_body.translation_m, forward) > 0;
+  });
+  const Selection& selection = turn.studio.document.selection();
+  for (const WorldBody* body : far_to_near) {
+    const auto means = [&](const Selection& s) { return s.kind == Selected::intruder && s.intruder == body->intruder; };
+    draw_body(canvas, turn, *body, shapes.of(body->model), means(selection) || means(hovered));
+  }
+  shapes.keep_only(turn.moment.bodies);
+}
+
+glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m) {
+  if (!is_marked_at_edge(canvas, light_m)) return *canvas.in_sight(light_m);
+  const glm::dvec2 middle = (canvas.rect().low + canvas.rect().high) / 2.0;
+  const glm::dvec2 room = glm::max(canvas.rect().size() / 2.0 - static_cast<double>(scaled(22)), 1.0);
+  const glm::dvec2 way = way_to(canvas.eye(), light_m);
+  const double reach = std::min(room.x / std::max(std::abs(way.x), 1e-9), room.y / std::max(std::abs(way.y), 1e-9));
+  return middle + way * reach;
+}
+
+void draw_light(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
+  const glm::dvec3& light_m = turn.studio.project().light.position_m;
+  const bool lit = turn.studio.document.selection().kind == Selected::light || hovered.kind == Selected::light;
+  const ImU32 color = lit ? color::kAccent : color::kLight;
+  const glm::dvec2 at = light_mark(canvas, light_m);
+  if (is_marked_at_edge(canvas, light_m)) {
+    const double distance_m = glm::distance(light_m, turn.moment.world_from_camera.translation_m);
+    draw_arrow_to_light(canvas, at, light_m, distance_m, color);
+  } else {
+    draw_drop_line(canvas, light_m, color);
+  }
+  draw_sun(canvas.list(), at, color);
+}
+
+}  // namespace sigs::editor

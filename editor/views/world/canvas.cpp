@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kLeastStep_px = 1.5;  // what lies nearer to the point before adds nothing to a polyline
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+}
+
+bool holds(const ScreenRect& outer, const ScreenRect& inner) {
+  return inner.low.x >= outer.low.x && inner.low.y >= outer.low.y && inner.high.x <= outer.high.x &&
+         inner.high.y <= outer.high.y;
+}
+
+}  // namespace
+
+std::optional<glm::dvec2> WorldCanvas::in_sight(const glm::dvec3& p_in_world, double margin_px) const {
+  const std::optional<glm::dvec2> at = eye_.screen_of(p_in_world, rect_);
+  if (!at || !ScreenRect{rect_.low - margin_px, rect_.high + margin_px}.contains(*at)) return std::nullopt;
+  return at;
+}
+
+// Liang and Barsky 1984.
+std::optional<std::array<glm::dvec2, 2>> WorldCanvas::within_rect(const glm::dvec3& a_m, const glm::dvec3& b_m) const {
+  const auto line = screen_line(eye_, rect_, a_m, b_m);
+  if (!line) return std::nullopt;
+  const glm::dvec2 from = (*line)[0];
+  const glm::dvec2 along = (*line)[1] - from;
+  double first = 0;
+  double last = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (along[axis] == 0 && (from[axis] < rect_.low[axis] || from[axis] > rect_.high[axis])) return std::nullopt;
+    if (along[axis] == 0) continue;
+    const double to_low = (rect_.low[axis] - from[axis]) / along[axis];
+    const double to_high = (rect_.high[axis] - from[axis]) / along[axis];
+    first = std::max(first, std::min(to_low, to_high));
+    last = std::min(last, std::max(to_low, to_high));
+  }
+  if (!(first < last)) return std::nullopt;
+  return std::array{from + along * first, from + along * last};
+}
+
+void WorldCanvas::line(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width) {
+  if (const auto ends = screen_line(eye_, rect_, a_m, b_m))
+    list_.AddLine(im((*ends)[0]), im((*ends)[1]), color, scaled(width));
+}
+
+void WorldCanvas::dashes(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width) {
+  constexpr int kMostDashes = 200;
+  const auto ends = screen_line(eye_, rect_, a_m, b_m);
+  if (!ends) return;
+  const double length = glm::distance((*ends)[0], (*ends)[1]);
+  const double period = std::max<double>(scaled(9), length / kMostDashes);
+  for (double along = 0; along < length; along += period) {
+    const glm::dvec2 from = glm::mix((*ends)[0], (*ends)[1], along / length);
+    const glm::dvec2 to = glm::mix((*ends)[0], (*ends)[1], std::min(1.0, (along + period * 0.55) / length));
+    list_.AddLine(im(from), im(to), color, scaled(width));
+  }
+}
+
+// Cut lines begin a stroke of their own, the rest goes as one.
+void WorldCanvas::polyline(std::span<const glm::dvec3> points_m, ImU32 color, double width) {
+  std::vector<ImVec2> stroke;
+  glm::dvec2 last{0, 0};
+  const auto finish = [&] {
+    if (stroke.size() > 1)
+      list_.AddPolyline(stroke.data(), static_cast<int>(stroke.size()), color, ImDrawFlags_None, scaled(width));
+    stroke.clear();
+  };
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    const auto ends = screen_line(eye_, rect_, points_m[i - 1], points_m[i]);
+    if (!ends) {
+      finish();
+      continue;
+    }
+    if (!stroke.empty() && glm::distance(last, (*ends)[0]) > kLeastStep_px) finish();
+    if (stroke.empty()) stroke.push_back(im(last = (*ends)[0]));
+    const bool is_end = i + 1 == points_m.size();
+    if (is_end || glm::distance(last, (*ends)[1]) >= kLeastStep_px) stroke.push_back(im(last = (*ends)[1]));
+  }
+  finish();
+}
+
+bool WorldCanvas::label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side, Font which) {
+  ImFont* face = font(which);
+  const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str());
+  const glm::dvec2 shift = side == Side::right ? glm::dvec2(0, -size.y / 2) : glm::dvec2(-size.x / 2, -size.y / 2);
+  const ScreenRect place{at + shift, at + shift + glm::dvec2(size.x, size.y)};
+  const auto covers = [&](const ScreenRect& other) { return overlap(place, other); };
+  if (!holds(rect_, place) || std::any_of(taken_.begin(), taken_.end(), covers)) return false;
+  taken_.push_back({place.low - 2.0, place.high + 2.0});
+  const ImVec2 corner{std::round(static_cast<float>(place.low.x)), std::round(static_cast<float>(place.low.y))};
+  list_.AddText(face, face->FontSize, {corner.x + 1, corner.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
+  list_.AddText(face, face->FontSize, corner, color, text.c_str());
+  return true;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/menu.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "editor/views/readable.h"
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/keys.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr const char* kId = "world menu";
+
+void go_to(const Studio& studio, double frame) {
+  studio.edits.ask(Play{0});
+  studio.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
+}
+
+double frame_of(const Studio& studio, const Selection& waypoint) {
+  return frames_of_waypoints(studio, waypoint.intruder)[static_cast<std::size_t>(waypoint.waypoint)];
+}
+
+// The selection was moved to the waypoint when the menu was asked for; what follows acts on it.
+bool draw_waypoint_items(const WorldTurn& turn, const Selection& what) {
+  const Studio& studio = turn.studio;
+  const std::string frame = std::to_string(std::lround(frame_of(studio, what)));
+  if (ImGui::MenuItem(("Go to frame " + frame).c_str())) go_to(studio, frame_of(studio, what));
+  const bool numbers = ImGui::MenuItem("Type its position ...", "N");
+  ImGui::Separator();
+  if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(studio);
+  if (ImGui::MenuItem("Delete", "Del")) delete_selected(studio);
+  return numbers;
+}
+
+void draw_curve_items(const WorldTurn& turn, int intruder, double frame) {
+  const double whole = std::round(frame);
+  const std::string text = std::to_string(std::lround(whole));
+  if (ImGui::MenuItem(("Insert a waypoint at frame " + text).c_str()))
+    if (const std::optional<glm::dvec3> at_m = position_of(turn.studio, intruder, whole))
+      add_waypoint(turn.studio, intruder, whole, *at_m);
+  if (ImGui::MenuItem(("Go to frame " + text).c_str())) go_to(turn.studio, whole);
+}
+
+void draw_place_items(const WorldTurn& turn, const std::optional<glm::dvec3>& place_m) {
+  const Studio& studio = turn.studio;
+  if (!current_intruder(studio)) {
+    if (ImGui::MenuItem("Add an intruder")) add_intruder(studio);
+    return;
+  }
+  const std::string frame = std::to_string(studio.document.playhead());
+  if (ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value()))
+    add_waypoint_here(studio, place_m);
+  if (!place_m) return;
+  const double distance_m = glm::distance(*place_m, turn.moment.world_from_camera.translation_m);
+  ImGui::TextDisabled("%s from the camera, %s high", distance_text(distance_m).c_str(),
+                      distance_text(std::max(0.0, -place_m->z)).c_str());
+}
+
+}  // namespace
+
+void WorldMenu::open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m) {
+  pick_ = pick;
+  place_m_ = place_m;
+  state_ = State::asked;
+}
+
+std::optional<Selection> WorldMenu::draw_items(const WorldTurn& turn) const {
+  const Selection& what = pick_.what;
+  if (pick_.frame) {
+    draw_curve_items(turn, what.intruder, *pick_.frame);
+    return std::nullopt;
+  }
+  switch (what.kind) {
+    case Selected::waypoint:
+      if (!movable(turn, what)) return std::nullopt;
+      return draw_waypoint_items(turn, what) ? std::optional(what) : std::nullopt;
+    case Selected::light:
+    case Selected::camera:
+      return ImGui::MenuItem("Type its position ...", "N") ? std::optional(what) : std::nullopt;
+    case Selected::intruder:
+      if (ImGui::MenuItem("Add a waypoint here", "Enter")) add_waypoint_here(turn.studio);
+      return std::nullopt;
+    default:
+      draw_place_items(turn, place_m_);
+      return std::nullopt;
+  }
+}
+
+// As PointEntry: closed by a key only in the turn after it, so that the rest of the program leaves that key alone.
+std::optional<Selection> WorldMenu::draw(const WorldTurn& turn) {
+  if (state_ == State::closed) return std::nullopt;
+  if (state_ == State::asked) {
+    ImGui::OpenPopup(kId);
+    state_ = State::open;
+  }
+  if (!ImGui::BeginPopup(kId)) {
+    state_ = State::closed;
+    return std::nullopt;
+  }
+  std::optional<Selection> numbers_for;
+  if (state_ == State::leaving) {
+    state_ = State::closed;
+    ImGui::CloseCurrentPopup();
+  } else {
+    numbers_for = draw_items(turn);
+    if (pressed(Key::escape)) state_ = State::leaving;
+  }
+  ImGui::EndPopup();
+  return numbers_for;
+}
+
+}  // namespace sigs::editor

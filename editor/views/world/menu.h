@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "editor/views/world/picks.h"
+
+namespace sigs::editor {
+
+// What the right button offers where it was clicked.
+class WorldMenu {
+ public:
+  // place_m: where a new waypoint would be, if that can be said.
+  void open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m);
+  // Once a turn; what a position is to be typed for, if that was chosen.
+  [[nodiscard]] std::optional<Selection> draw(const WorldTurn& turn);
+
+ private:
+  enum class State { closed, asked, open, leaving };
+
+  [[nodiscard]] std::optional<Selection> draw_items(const WorldTurn& turn) const;
+
+  State state_ = State::closed;
+  WorldPick pick_;
+  std::optional<glm::dvec3> place_m_;
+};
+
+}  // namespace sigs::editor

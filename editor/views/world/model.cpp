@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "editor/geometry/round_steps.h"
+#include "scene/scene_at.h"
+#include "scene/waypoint_times.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::size_t kMostPoints = 400;  // of a trajectory
+constexpr std::size_t kMostTicks = 300;   // of a trajectory
+constexpr double kTickReach_s = 0.05;     // to see where the trajectory leads
+constexpr double kToleranceShare = 5e-5;  // of a trajectory's extent: a tenth of a pixel when it fills the screen
+constexpr int kBorderSteps = 10;          // a side of the picture, for a bent lens
+constexpr int kHalvings = 14;
+constexpr double kFlatPictureX = 0.3;  // of a ray's length: 72 degrees off the axis
+constexpr double kUsualInterval_s = 0.04;
+
+double extent_m(const std::vector<glm::dvec3>& points_m) {
+  glm::dvec3 low = points_m.front();
+  glm::dvec3 high = low;
+  for (const glm::dvec3& point_m : points_m) {
+    low = glm::min(low, point_m);
+    high = glm::max(high, point_m);
+  }
+  return glm::distance(low, high);
+}
+
+std::vector<WorldTick> ticks_along(const Trajectory& trajectory, double first_s, double last_s, double step_s) {
+  std::vector<WorldTick> ticks;
+  for (double time_s = std::ceil(first_s / step_s) * step_s; time_s <= last_s && ticks.size() <= kMostTicks;
+       time_s += step_s)
+    ticks.push_back({trajectory.position_m(time_s), trajectory.position_m(time_s + kTickReach_s)});
+  return ticks;
+}
+
+WorldCurve curve_of(const OpenedScene& opened, int intruder, const SceneIntruder& flown) {
+  const Scene& scene = opened.draft.scene;
+  const auto& waypoints = opened.project->intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
+  const std::vector<double> stops = waypoint_frames(waypoints, scene.first_frame, scene.last_frame);
+  double first = scene.first_frame;
+  double last = scene.last_frame;
+  for (const double stop : stops) {
+    first = std::min(first, stop);
+    last = std::max(last, stop);
+  }
+  const auto position = [&](double frame) {
+    return flown.trajectory.position_m(time_of_frame_s(scene.footage, frame));
+  };
+  std::vector<glm::dvec3> rough_m;
+  for (int i = 0; i <= 8; ++i) rough_m.push_back(position(std::lerp(first, last, i / 8.0)));
+  const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
+  const double first_s = time_of_frame_s(scene.footage, scene.first_frame);
+  const double last_s = time_of_frame_s(scene.footage, scene.last_frame);
+  const double step_s = std::max(1.0, round_step((last_s - first_s) / double(kMostTicks)));
+  return {.intruder = intruder,
+          .samples = sampled_curve(position, first, last, stops, tolerance_m, kMostPoints),
+          .range_first = static_cast<double>(scene.first_frame),
+          .range_last = static_cast<double>(scene.last_frame),
+          .ticks = ticks_along(flown.trajectory, first_s, last_s, step_s),
+          .tick_step_s = step_s};
+}
+
+double farthest_from_camera_m(const Scene& scene, const WorldCurve& curve) {
+  double farthest_m = 0;
+  for (std::size_t i = 0; i < curve.samples.at.size(); ++i) {
+    const double frame = curve.samples.at[i];
+    if (frame < curve.range_first || frame > curve.range_last) continue;
+    const double time_s = time_of_frame_s(scene.footage, frame);
+    const glm::dvec3 camera_m = camera_at(scene.motion, time_s).translation_m;
+    farthest_m = std::max(farthest_m, glm::distance(camera_m, curve.samples.points_m[i]));
+  }
+  return farthest_m;
+}
+
+// Of a pixel, or where the lens has none there, of the outermost on the way to it from the picture's middle.
+std::optional<glm::dvec3> ray_towards(const Lens& lens, const glm::dvec2& middle, const glm::dvec2& pixel) {
+  if (const std::optional<glm::dvec3> ray = lens.ray(pixel)) return ray;
+  double seen = 0;
+  double unseen = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double share = (seen + unseen) / 2;
+    (lens.ray(glm::mix(middle, pixel, share)) ? seen : unseen) = share;
+  }
+  return lens.ray(glm::mix(middle, pixel, seen));
+}
+
+void make_flat_if_ahead(PictureBorder& border) {
+  const bool ahead =
+      std::all_of(border.rays.begin(), border.rays.end(), [](const glm::dvec3& ray) { return ray.x > kFlatPictureX; });
+  if (!ahead) return;
+  for (glm::dvec3& ray : border.rays) ray /= ray.x;
+}
+
+std::shared_ptr<const Model> shared_model(const Scene& scene, const Model* model) {
+  const auto found = std::find_if(scene.models.begin(), scene.models.end(),
+                                  [&](const std::shared_ptr<const Model>& held) { return held.get() == model; });
+  return found == scene.models.end() ? nullptr : *found;
+}
+
+}  // namespace
+
+PictureBorder picture_border(const Camera& camera) {
+  const glm::dvec2 low{-0.5, -0.5};
+  const glm::dvec2 high{camera.size_px.width - 0.5, camera.size_px.height - 0.5};
+  const std::array<glm::dvec2, 5> corners{low, {high.x, low.y}, high, {low.x, high.y}, low};
+  const int steps = camera.lens.is_pinhole() ? 1 : kBorderSteps;
+  PictureBorder border;
+  for (std::size_t side = 0; side < 4; ++side)
+    for (int step = 0; step < steps; ++step) {
+      const glm::dvec2 pixel = glm::mix(corners[side], corners[side + 1], static_cast<double>(step) / steps);
+      const std::optional<glm::dvec3> ray = ray_towards(camera.lens, (low + high) / 2.0, pixel);
+      if (!ray) continue;
+      if (step == 0) border.corners.push_back(border.rays.size());
+      border.rays.push_back(*ray);
+    }
+  make_flat_if_ahead(border);
+  return border;
+}
+
+WorldModel world_model(const OpenedScene& opened) {
+  const Scene& scene = opened.draft.scene;
+  WorldModel model{.revision = opened.revision, .border = picture_border(scene.camera)};
+  const std::vector<int>& numbers = opened.draft.intruder_of_project;
+  for (std::size_t i = 0; i < numbers.size() && i < opened.project->intruders.size(); ++i) {
+    if (numbers[i] < 0) continue;
+    const SceneIntruder& flown = scene.intruders[static_cast<std::size_t>(numbers[i])];
+    model.curves.push_back(curve_of(opened, static_cast<int>(i), flown));
+    model.farthest_m = std::max(model.farthest_m, farthest_from_camera_m(scene, model.curves.back()));
+  }
+  return model;
+}
+
+CameraPose camera_pose_at(const Project& project, double time_s) {
+  constexpr double kRadPerDeg = std::numbers::pi / 180;
+  const CameraSettings& camera = project.camera;
+  const Attitude attitude{camera.roll_deg * kRadPerDeg, camera.pitch_deg * kRadPerDeg, camera.yaw_deg * kRadPerDeg};
+  return camera_at(
+      {.world_from_camera_at_start = {rotation_of(attitude), camera.position_m}, .speed_mps = camera.speed_mps},
+      time_s);
+}
+
+double time_of(const Studio& studio, double frame) {
+  if (!studio.shown.scene) return frame * kUsualInterval_s;
+  return time_of_frame_s(studio.shown.scene->draft.scene.footage, frame);
+}
+
+WorldMoment world_moment(const Studio& studio) {
+  const double time_s = time_of(studio, studio.document.playhead());
+  WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(studio.project(), time_s)};
+  if (!studio.shown.scene) return moment;
+  const DraftScene& draft = studio.shown.scene->draft;
+  const std::size_t count = std::min(draft.intruder_of_project.size(), studio.project().intruders.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (draft.intruder_of_project[i] < 0) continue;
+    const SceneIntruder& flown = draft.scene.intruders[static_cast<std::size_t>(draft.intruder_of_project[i])];
+    moment.bodies.push_back({.intruder = static_cast<int>(i),
+                             .world_from_body = flown.trajectory.world_from_body(time_s),
+                             .model = shared_model(draft.scene, flown.model)});
+  }
+  return moment;
+}
+
+std::vector<glm::dvec3> points_of_interest(const Studio& studio, const WorldModel& model) {
+  const Document& document = studio.document;
+  std::vector<glm::dvec3> points_m;
+  for (const int frame : {document.first_frame(), document.last_frame()})
+    points_m.push_back(camera_pose_at(studio.project(), time_of(studio, frame)).translation_m);
+  for (const IntruderSettings& intruder : studio.project().intruders)
+    for (const WaypointSettings& waypoint : intruder.trajectory.waypoints) points_m.push_back(waypoint.position_m);
+  for (const WorldCurve& curve : model.curves) {
+    const std::vector<glm::dvec3> flown_m = stretch(curve.samples, curve.range_first, curve.range_last);
+    points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());
+  }
+  if (points_m.front() == points_m[1] && points_m.size() == 2)  // a camera that hangs in the air, alone
+    points_m.push_back(points_m.front() + glm::dvec3(100, 0, 0));
+  return points_m;
+}
+
+}  // namespace sigs::editor

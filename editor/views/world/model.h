@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "editor/geometry/image_drag.h"
+#include "editor/preview/previewer.h"
+#include "editor/views/world/curve_samples.h"
+#include "editor/views/studio.h"
+
+namespace sigs::editor {
+
+// A place on a trajectory and where it leads, for a mark across it.
+struct WorldTick {
+  glm::dvec3 at_m{0, 0, 0};
+  glm::dvec3 next_m{0, 0, 0};
+};
+
+// An intruder's way through the world, over the range and as far as its waypoints go.
+struct WorldCurve {
+  int intruder = 0;      // of the project
+  CurveSamples samples;  // by frame
+  double range_first = 0;
+  double range_last = 0;
+  std::vector<WorldTick> ticks;  // each tick_step_s of the range
+  double tick_step_s = 1;
+};
+
+// The edge of the picture as rays of the camera frame, once around; rays of length 1, or that reach X = 1 where the
+// whole picture lies well before the camera.
+struct PictureBorder {
+  std::vector<glm::dvec3> rays;
+  std::vector<std::size_t> corners;  // which of them are the picture's corners
+};
+
+// What takes some time to find out of an opened scene, found once for each.
+struct WorldModel {
+  std::uint64_t revision = 0;
+  std::vector<WorldCurve> curves;
+  PictureBorder border;
+  double farthest_m = 0;  // of all intruders from the camera, over the range; 0: there is none
+};
+[[nodiscard]] WorldModel world_model(const OpenedScene& opened);
+[[nodiscard]] PictureBorder picture_border(const Camera& camera);
+
+// The playhead's moment. The camera is the document's own, so that it does not lag behind a drag.
+struct WorldBody {
+  int intruder = 0;  // of the project
+  Pose<frame::World, frame::Body> world_from_body;
+  std::shared_ptr<const Model> model;
+};
+struct WorldMoment {
+  double time_s = 0;
+  CameraPose world_from_camera;
+  std::vector<WorldBody> bodies;
+};
+[[nodiscard]] WorldMoment world_moment(const Studio& studio);
+
+// By the document's settings.
+[[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
+
+// Of a frame, by the footage where it is known, else by 25 frames a second.
+[[nodiscard]] double time_of(const Studio& studio, double frame);
+
+// Everything near that should be in sight when a project is first shown: camera, trajectories within the range,
+// waypoints; not the light.
+[[nodiscard]] std::vector<glm::dvec3> points_of_interest(const Studio& studio, const WorldModel& model);
+
+}  // namespace sigs::editor

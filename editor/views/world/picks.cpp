@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/picks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "editor/geometry/world_picking.h"
+#include "editor/views/waypoint_actions.h"
+#include "editor/views/world/bodies.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kReach_px = 9;
+constexpr double kBodyReach_px = 16;
+constexpr double kCurveReach_px = 6;
+constexpr double kFarthest_m = 1e6;   // of a new waypoint from the camera
+constexpr double kLeastSlope = 0.12;  // below, the view looks along level ground
+
+double depth_m(const WorldCanvas& canvas, const glm::dvec3& at_m) {
+  return glm::dot(at_m - canvas.eye().eye_m(), canvas.eye().forward());
+}
+
+// What can be picked, and where the screen shows it.
+struct Offers {
+  std::vector<Selection> what;
+  std::vector<PickPoint> points;
+
+  void add(const Selection& offered, const WorldCanvas& canvas, const glm::dvec3& at_m) {
+    what.push_back(offered);
+    points.push_back({canvas.in_sight(at_m, 20), depth_m(canvas, at_m)});
+  }
+  [[nodiscard]] std::optional<Selection> at(const glm::dvec2& mouse, double reach_px) const {
+    const std::optional<std::size_t> found = nearest_point(points, mouse, reach_px);
+    return found ? std::optional(what[*found]) : std::nullopt;
+  }
+};
+
+// Those of the intruder that is worked on come first.
+Offers waypoints_offered(const WorldCanvas& canvas, const Studio& studio, bool of_current) {
+  Offers offers;
+  const std::optional<int> current = current_intruder(studio);
+  for (int i = 0; i < static_cast<int>(studio.project().intruders.size()); ++i) {
+    if ((i == current) != of_current) continue;
+    const auto& waypoints = studio.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
+    for (int w = 0; w < static_cast<int>(waypoints.size()); ++w)
+      offers.add({Selected::waypoint, i, w}, canvas, waypoints[static_cast<std::size_t>(w)].position_m);
+  }
+  return offers;
+}
+
+Offers things_offered(const WorldCanvas& canvas, const WorldTurn& turn) {
+  Offers offers;
+  for (const WorldBody& body : turn.moment.bodies)
+    offers.add({Selected::intruder, body.intruder, 0}, canvas, body.world_from_body.translation_m);
+  offers.add({Selected::camera, 0, 0}, canvas, turn.moment.world_from_camera.translation_m);
+  offers.what.push_back({Selected::light, 0, 0});
+  offers.points.push_back({light_mark(canvas, turn.studio.project().light.position_m), 1e9});
+  return offers;
+}
+
+struct CurvePlace {
+  WorldPick pick;
+  double distance_px = 0;
+};
+
+std::optional<CurvePlace> place_on(const WorldCurve& curve, const WorldCanvas& canvas, const glm::dvec2& mouse) {
+  const CurveSamples& samples = curve.samples;
+  std::vector<std::optional<glm::dvec2>> on_screen;
+  for (const glm::dvec3& point_m : samples.points_m) on_screen.push_back(canvas.in_sight(point_m, 1e5));
+  const std::optional<PlaceOnLine> place = nearest_place(on_screen, mouse, scaled(kCurveReach_px));
+  if (!place) return std::nullopt;
+  const std::size_t i = place->segment;
+  const bool parallel = canvas.eye().projection == Projection::parallel;
+  const double share = parallel ? place->share
+                                : share_in_world(place->share, depth_m(canvas, samples.points_m[i]),
+                                                 depth_m(canvas, samples.points_m[i + 1]));
+  const double frame = std::lerp(samples.at[i], samples.at[i + 1], share);
+  return CurvePlace{{{Selected::nothing, curve.intruder, 0}, frame}, place->distance_px};
+}
+
+WorldPick curve_at(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse) {
+  CurvePlace nearest{.distance_px = 1e9};
+  for (const WorldCurve& curve : turn.model.curves) {
+    if (static_cast<std::size_t>(curve.intruder) >= turn.studio.project().intruders.size()) continue;
+    const std::optional<CurvePlace> place = place_on(curve, canvas, mouse);
+    if (place && place->distance_px < nearest.distance_px) nearest = *place;
+  }
+  return nearest.pick;
+}
+
+std::string waypoint_title(const Studio& studio, const Selection& what) {
+  const std::vector<double> frames = frames_of_waypoints(studio, what.intruder);
+  const long frame = std::lround(frames[static_cast<std::size_t>(what.waypoint)]);
+  return "Waypoint at frame " + std::to_string(frame);
+}
+
+const WaypointSettings* waypoint_of(const Project& project, const Selection& what) {
+  const auto intruder = static_cast<std::size_t>(what.intruder);
+  const auto waypoint = static_cast<std::size_t>(what.waypoint);
+  if (what.kind != Selected::waypoint || intruder >= project.intruders.size()) return nullptr;
+  const auto& waypoints = project.intruders[intruder].trajectory.waypoints;
+  return waypoint < waypoints.size() ? &waypoints[waypoint] : nullptr;
+}
+
+}  // namespace
+
+WorldPick pick_at(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse) {
+  for (const bool of_current : {true, false})
+    if (const auto found = waypoints_offered(canvas, turn.studio, of_current).at(mouse, scaled(kReach_px)))
+      return {*found, {}};
+  if (const auto found = things_offered(canvas, turn).at(mouse, scaled(kBodyReach_px))) return {*found, {}};
+  return curve_at(canvas, turn, mouse);
+}
+
+std::optional<Movable> movable(const WorldTurn& turn) {
+  return movable(turn, turn.studio.document.selection());
+}
+
+std::optional<Movable> movable(const WorldTurn& turn, const Selection& what) {
+  const Project& project = turn.studio.project();
+  if (what.kind == Selected::light) return Movable{what, "Light", project.light.position_m};
+  if (what.kind == Selected::camera) return Movable{what, "Camera", turn.moment.world_from_camera.translation_m};
+  if (const WaypointSettings* waypoint = waypoint_of(project, what))
+    return Movable{what, waypoint_title(turn.studio, what), waypoint->position_m};
+  return std::nullopt;
+}
+
+void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m) {
+  Edits& edits = turn.studio.edits;
+  if (moved.what.kind == Selected::waypoint) move_waypoint(turn.studio, moved.what.intruder, moved.what.waypoint, to_m);
+  if (moved.what.kind == Selected::light)
+    edits.change(
+        "move light", [=](Project& project) { project.light.position_m = to_m; }, "move light");
+  if (moved.what.kind != Selected::camera) return;
+  // The project holds where it starts.
+  const glm::dvec3 flown_m{turn.studio.project().camera.speed_mps * turn.moment.time_s, 0, 0};
+  edits.change(
+      "move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, "move camera");
+}
+
+std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn,
+                                             const glm::dvec2& mouse) {
+  const Studio& studio = turn.studio;
+  const std::optional<int> intruder = current_intruder(studio);
+  if (!intruder) return std::nullopt;
+  const glm::dvec3 camera_m = turn.moment.world_from_camera.translation_m;
+  const glm::dvec3 through_m = position_of(studio, *intruder, studio.document.playhead()).value_or(camera_m);
+  const Ray ray = canvas.eye().ray_at(mouse, canvas.rect());
+  const bool level = std::abs(ray.direction.z) >= kLeastSlope;
+  const glm::dvec3 forward = canvas.eye().forward();
+  const glm::dvec3 normal = level ? glm::dvec3(0, 0, 1) : glm::normalize(glm::dvec3(forward.x, forward.y, 0));
+  const double slope = glm::dot(ray.direction, normal);
+  const double along_m = glm::dot(through_m - ray.origin_m, normal) / slope;
+  const bool before = canvas.eye().projection == Projection::parallel || along_m > 0;
+  const glm::dvec3 place_m = ray.origin_m + ray.direction * along_m;
+  if (!std::isfinite(along_m) || !before || glm::distance(place_m, camera_m) > kFarthest_m) return std::nullopt;
+  return place_m;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "editor/views/world/scene.h"
+
+namespace sigs::editor {
+
+// What the mouse is at in the world view: something that can be selected, else a trajectory.
+struct WorldPick {
+  Selection what;
+  std::optional<double> frame;  // of the trajectory of what.intruder, where nothing else is at the mouse
+};
+
+// The nearest within reach; waypoints before aircraft, camera and light, of equals the one that is worked on.
+[[nodiscard]] WorldPick pick_at(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse);
+
+// A point of the world that a handle moves, and how.
+struct Movable {
+  Selection what;
+  std::string title;  // "Waypoint at frame 150"
+  glm::dvec3 at_m{0, 0, 0};
+};
+// What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the playhead).
+[[nodiscard]] std::optional<Movable> movable(const WorldTurn& turn);
+[[nodiscard]] std::optional<Movable> movable(const WorldTurn& turn, const Selection& what);
+// Part of a gesture.
+void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m);
+
+// Where a waypoint put at a place of the screen is to be: at the height of the intruder that is worked on; where the
+// view looks along that plane, upright through the intruder. None where the plane is not under the mouse.
+[[nodiscard]] std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn,
+                                                           const glm::dvec2& mouse);
+
+}  // namespace sigs::editor

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "editor/views/readable.h"
+#include "editor/views/waypoint_actions.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kCamera_px = 13;  // of the little camera, along its axis
+constexpr double kTick_px = 3.5;   // half a mark across a trajectory
+constexpr double kLeastTickGap_px = 7;
+constexpr ImU32 kCameraColor = IM_COL32(214, 222, 235, 255);
+
+bool is_current(const Studio& studio, int intruder) {
+  return current_intruder(studio) == intruder;
+}
+
+// The picture's edge at a depth, in the world.
+std::vector<glm::dvec3> border_at(const PictureBorder& border, double depth_m, const CameraPose& world_from_camera) {
+  std::vector<glm::dvec3> points_m;
+  for (const glm::dvec3& ray : border.rays) points_m.push_back(world_from_camera * (ray * depth_m));
+  if (!points_m.empty()) points_m.push_back(points_m.front());
+  return points_m;
+}
+
+void draw_field_of_view(WorldCanvas& canvas, const PictureBorder& border, double depth_m, const CameraPose& pose) {
+  const std::vector<glm::dvec3> edge_m = border_at(border, depth_m, pose);
+  for (const std::size_t corner : border.corners)
+    canvas.line(pose.translation_m, edge_m[corner], faded(kCameraColor, 0.3));
+  canvas.polyline(edge_m, faded(kCameraColor, 0.42), 1.2);
+}
+
+// A small pyramid open to where the camera looks, and a mark on its upper side.
+void draw_camera_icon(WorldCanvas& canvas, const CameraPose& pose, ImU32 color) {
+  const double length_m = scaled(kCamera_px) / canvas.eye().pixels_per_metre(pose.translation_m, canvas.rect());
+  const auto at = [&](double x, double y, double z) { return pose * (glm::dvec3(x, y, z) * length_m); };
+  const std::array<glm::dvec3, 5> frame{at(1, -0.7, -0.5), at(1, 0.7, -0.5), at(1, 0.7, 0.5), at(1, -0.7, 0.5),
+                                        at(1, -0.7, -0.5)};
+  for (std::size_t i = 0; i < 4; ++i) canvas.line(pose.translation_m, frame[i], color, 1.4);
+  canvas.polyline(frame, color, 1.4);
+  const std::array<glm::dvec3, 3> up{at(1, -0.35, -0.6), at(1, 0, -0.95), at(1, 0.35, -0.6)};
+  canvas.polyline(up, color, 1.4);
+}
+
+void draw_ticks(WorldCanvas& canvas, const WorldCurve& curve, ImU32 color) {
+  std::optional<glm::dvec2> last;
+  for (const WorldTick& tick : curve.ticks) {
+    const std::optional<glm::dvec2> at = canvas.in_sight(tick.at_m);
+    const std::optional<glm::dvec2> next = canvas.eye().screen_of(tick.next_m, canvas.rect());
+    if (!at || !next) continue;
+    const double length = glm::distance(*at, *next);
+    if (length < 1e-6 || (last && glm::distance(*last, *at) < scaled(kLeastTickGap_px))) continue;
+    const glm::dvec2 along = (*next - *at) / length;
+    const glm::dvec2 across = glm::dvec2(-along.y, along.x) * static_cast<double>(scaled(kTick_px));
+    canvas.list().AddLine(im(*at - across), im(*at + across), color, scaled(1.2));
+    last = at;
+  }
+}
+
+const Survey* survey_of(const Studio& studio, int intruder) {
+  const auto& surveys = studio.shown.surveys;
+  const auto index = static_cast<std::size_t>(intruder);
+  return index < surveys.size() ? surveys[index].get() : nullptr;
+}
+
+void draw_flagged(WorldCanvas& canvas, const WorldCurve& curve, const Survey* survey) {
+  if (survey == nullptr) return;
+  for (const FlightFlag& flag : survey->flags)
+    canvas.polyline(stretch(curve.samples, flag.first_frame - 0.5, flag.last_frame + 0.5), color::kBad, 3);
+}
+
+// Waypoints off the curve pull at it: the lines between them say how.
+void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 color) {
+  if (plan.spline != SplineChoice::approximating) return;
+  for (std::size_t i = 1; i < plan.waypoints.size() && i < 100; ++i)
+    canvas.line(plan.waypoints[i - 1].position_m, plan.waypoints[i].position_m, faded(color, 0.25));
+}
+
+std::string frame_text(double frame) {
+  const double whole = std::round(frame);
+  if (std::abs(frame - whole) < 0.05) return std::to_string(static_cast<long>(whole));
+  const std::string text = std::to_string(frame);
+  return text.substr(0, text.find('.') + 2);
+}
+
+}  // namespace
+
+double view_depth_m(const WorldModel& model) {
+  // A bent edge bulges around the camera and would hide what is within.
+  const bool is_bent = std::any_of(model.border.rays.begin(), model.border.rays.end(),
+                                   [](const glm::dvec3& ray) { return ray.x < 0.999; });
+  return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_bent ? 0.5 : 1.05), 20.0, 5000.0) : 200;
+}
+
+void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color) {
+  const glm::dvec3 foot_m{from_m.x, from_m.y, 0};
+  canvas.line(from_m, foot_m, faded(color, 0.35));
+  if (const std::optional<glm::dvec2> foot = canvas.in_sight(foot_m))
+    canvas.list().AddCircleFilled(im(*foot), scaled(2), faded(color, 0.6));
+}
+
+void draw_camera(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
+  const Document& document = turn.studio.document;
+  const auto place = [&](int frame) {
+    return camera_pose_at(turn.studio.project(), time_of(turn.studio, frame)).translation_m;
+  };
+  canvas.line(place(document.first_frame()), place(document.last_frame()), faded(kCameraColor, 0.55), 1.6);
+  const CameraPose& pose = turn.moment.world_from_camera;
+  draw_field_of_view(canvas, turn.model.border, view_depth_m(turn.model), pose);
+  draw_drop_line(canvas, pose.translation_m, kCameraColor);
+  const bool lit = document.selection().kind == Selected::camera || hovered.kind == Selected::camera;
+  draw_camera_icon(canvas, pose, lit ? color::kAccent : kCameraColor);
+}
+
+void draw_trajectories(WorldCanvas& canvas, const WorldTurn& turn) {
+  const Project& project = turn.studio.project();
+  for (const WorldCurve& curve : turn.model.curves) {
+    const auto index = static_cast<std::size_t>(curve.intruder);
+    if (index >= project.intruders.size()) continue;
+    const bool current = is_current(turn.studio, curve.intruder);
+    const ImU32 color = faded(intruder_color(curve.intruder), current ? 1 : 0.6);
+    draw_control_lines(canvas, project.intruders[index].trajectory, color);
+    canvas.polyline(stretch(curve.samples, -1e300, curve.range_first), faded(color, 0.3), 1.2);
+    canvas.polyline(stretch(curve.samples, curve.range_last, 1e300), faded(color, 0.3), 1.2);
+    canvas.polyline(stretch(curve.samples, curve.range_first, curve.range_last), color, current ? 2.2 : 1.6);
+    draw_flagged(canvas, curve, survey_of(turn.studio, curve.intruder));
+    draw_ticks(canvas, curve, faded(color, current ? 0.8 : 0.45));
+  }
+}
+
+void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
+  const Studio& studio = turn.studio;
+  const Selection& selection = studio.document.selection();
+  for (int i = 0; i < static_cast<int>(studio.project().intruders.size()); ++i) {
+    const auto& waypoints = studio.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
+    const std::vector<double> frames = frames_of_waypoints(studio, i);
+    const bool current = is_current(studio, i);
+    for (int w = 0; w < static_cast<int>(waypoints.size()); ++w) {
+      const glm::dvec3& at_m = waypoints[static_cast<std::size_t>(w)].position_m;
+      const Selection self{Selected::waypoint, i, w};
+      if (selection == self) draw_drop_line(canvas, at_m, color::kAccent);
+      const std::optional<glm::dvec2> at = canvas.in_sight(at_m, 8);
+      if (!at) continue;
+      const bool lit = selection == self || hovered == self;
+      const float radius = scaled(lit ? 5 : current ? 4 : 3);
+      canvas.list().AddCircleFilled(im(*at), radius + scaled(1.5), IM_COL32(0, 0, 0, 150), 12);
+      canvas.list().AddCircleFilled(im(*at), radius,
+                                    lit       ? color::kAccent
+                                    : current ? color::kWaypoint
+                                              : intruder_color(i),
+                                    12);
+      if (!current && !lit) continue;
+      const double aside = selection == self ? 14 : 9;  // of the gizmo's middle
+      canvas.label(*at + glm::dvec2(scaled(aside), -scaled(9)), frame_text(frames[static_cast<std::size_t>(w)]),
+                   lit ? color::kAccent : color::kText);
+    }
+  }
+}
+
+void draw_closest_approaches(WorldCanvas& canvas, const WorldTurn& turn) {
+  for (const WorldCurve& curve : turn.model.curves) {
+    const Survey* survey = survey_of(turn.studio, curve.intruder);
+    if (survey == nullptr || !(survey->closest.distance_m > 0)) continue;
+    const ClosestApproach& closest = survey->closest;
+    const glm::dvec3 camera_m = camera_pose_at(turn.studio.project(), closest.time_s).translation_m;
+    const std::optional<glm::dvec3> body_m = position_of(turn.studio, curve.intruder, closest.frame);
+    if (!body_m) continue;
+    const bool current = is_current(turn.studio, curve.intruder);
+    const ImU32 color = faded(color::kPartly, current ? 0.95 : 0.5);
+    canvas.dashes(camera_m, *body_m, color, 1.3);
+    // While something is dragged the lines are ahead of the survey: the label says what is drawn.
+    const double distance_m = glm::distance(camera_m, *body_m);
+    const std::optional<glm::dvec2> middle = canvas.in_sight((camera_m + *body_m) / 2.0);
+    if (middle && current)
+      canvas.label(*middle + glm::dvec2(scaled(8), scaled(9)), "closest " + distance_text(distance_m), color);
+  }
+}
+
+}  // namespace sigs::editor

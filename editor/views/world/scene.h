@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor/document/edits.h"
+#include "editor/views/studio.h"
+#include "editor/views/world/canvas.h"
+#include "editor/views/world/model.h"
+
+namespace sigs::editor {
+
+// What the world view draws from in one turn.
+struct WorldTurn {
+  const Studio& studio;
+  const WorldModel& model;
+  const WorldMoment& moment;
+};
+
+// Camera path, camera and its field of view, trajectories with what is flagged on them, closest approaches. `hovered`
+// is lit as if it were selected.
+void draw_camera(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered);
+void draw_trajectories(WorldCanvas& canvas, const WorldTurn& turn);
+void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered);
+void draw_closest_approaches(WorldCanvas& canvas, const WorldTurn& turn);
+
+// A line from a place of the air to the ground below (or above) it, with a mark where it stands.
+void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color);
+
+// How far the field of view is drawn.
+[[nodiscard]] double view_depth_m(const WorldModel& model);
+
+}  // namespace sigs::editor
