@@ -17,12 +17,12 @@ function(sigs_room name)
   target_link_libraries(sigs_${name} PUBLIC sigs_flags ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
 endfunction()
 
-# sigs_test(NAME SOURCES a_test.cpp ... LINKS libraries): one doctest program, each test case known to ctest by name.
-# A case that prints "SKIPPED" counts as skipped.
+# sigs_test(NAME [SERIAL] SOURCES a_test.cpp ... LINKS libraries): one doctest program, each test case known to ctest by
+# name. A case that prints "SKIPPED" counts as skipped. SERIAL: nothing else runs beside its cases.
 function(sigs_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "SERIAL" "" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE sigs_test_support ${TEST_LINKS})
   doctest_discover_tests(test_${name} TEST_PREFIX "${name}: "
-    PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED" TIMEOUT 600)
+    PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED" TIMEOUT 600 RUN_SERIAL ${TEST_SERIAL})
 endfunction()

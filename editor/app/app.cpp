@@ -87,6 +87,8 @@ void App::play(double speed) {
 void App::draw(const Shown& shown) {
   wishes_ = {};
   places_.clear();
+  // A key that ends a dialog or a menu in this turn was meant for that.
+  const bool keys_are_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
   const Studio studio{.document = document_,
                       .shown = shown,
                       .settings = settings_,
@@ -103,8 +105,8 @@ void App::draw(const Shown& shown) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::Begin("SIGS", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(2);
   if (desk_.has_project())
     layout_.draw(studio, settings_);
@@ -112,7 +114,7 @@ void App::draw(const Shown& shown) {
     desk_.draw_start_page(studio);
   ImGui::End();
   desk_.draw_over_all(studio);
-  take_keys(studio, desk_.has_project());
+  if (!keys_are_taken) take_keys(studio, desk_.has_project());
 }
 
 void App::take(const Request& request) {

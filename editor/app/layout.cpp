@@ -36,11 +36,17 @@ void Layout::draw_pictures(const Studio& studio, Settings& settings) {
   const float left = settings.show_world ? room.x - bar - world : room.x;
   panel("pictures", {left, room.y}, false, color::kCanvas, [&] {
     if (ImGui::BeginTabBar("picture tabs")) {
-      if (ImGui::BeginTabItem("Footage")) {
+      const bool footage = ImGui::BeginTabItem("Footage");
+      studio.places.note_item("tab/footage");
+      if (footage) {
         viewport_.draw(studio);
+        const glm::dvec2 low(ImGui::GetWindowPos().x, ImGui::GetWindowPos().y);
+        first_steps_.draw(studio, {low, low + glm::dvec2(ImGui::GetWindowSize().x, ImGui::GetWindowSize().y)});
         ImGui::EndTabItem();
       }
-      if (ImGui::BeginTabItem("Stages")) {
+      const bool stages = ImGui::BeginTabItem("Stages");
+      studio.places.note_item("tab/stages");
+      if (stages) {
         stages_.draw(studio);
         ImGui::EndTabItem();
       }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "editor/document/settings.h"
+#include "editor/views/first_steps.h"
 #include "editor/views/inspector/inspector_view.h"
 #include "editor/views/stages/stages_view.h"
 #include "editor/views/timeline/timeline_view.h"
@@ -25,6 +26,7 @@ class Layout {
   TimelineView timeline_;
   InspectorView inspector_;
   StagesView stages_;
+  FirstSteps first_steps_;
 };
 
 }  // namespace sigs::editor

@@ -2,10 +2,24 @@
 #include "editor/app/probe.h"
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "base/partial_file.h"
 
 namespace sigs::editor {
+
+namespace {
+
+std::vector<std::string> problems_of(const Shown& shown) {
+  std::vector<std::string> problems;
+  if (!shown.scene) return problems;
+  if (!shown.scene->footage->problem.empty()) problems.push_back(shown.scene->footage->problem);
+  for (const Problem& problem : shown.scene->draft.problems) problems.push_back(problem.field + ": " + problem.what);
+  return problems;
+}
+
+}  // namespace
 
 void Probe::tell(const Document& document, const Shown& shown, const Places& places, const ProbedWindow& window) {
   if (!wanted()) return;
@@ -16,6 +30,7 @@ void Probe::tell(const Document& document, const Shown& shown, const Places& pla
   json["current"] = shown.picture_is_current;
   json["busy"] = shown.busy;
   json["page"] = window.page;
+  json["problems"] = problems_of(shown);
   json["turns_a_second"] = window.turns_a_second;
   for (const auto& [name, rect] : places.all())
     json["places"][name] = {rect.low.x, rect.low.y, rect.size().x, rect.size().y};

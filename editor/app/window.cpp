@@ -11,27 +11,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <set>
 #include <utility>
 
+#include "editor/app/canvas.h"
+#include "editor/app/key_queue.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
 namespace {
 
-struct KeyEvent {
-  int key = 0;
-  int scancode = 0;
-  int action = 0;
-  int modifiers = 0;
-};
-
 // What comes in between two turns.
 struct Incoming {
   std::vector<std::filesystem::path> dropped;
-  std::deque<KeyEvent> keys;
+  KeyQueue keys;
+  bool needs_all = false;  // to be drawn
 };
 
 Incoming& incoming_of(GLFWwindow* window) {
@@ -44,6 +38,7 @@ struct Window::State {
   GLFWwindow* window = nullptr;
   double text_px = 0;  // of the fonts that are loaded
   Incoming incoming;
+  std::unique_ptr<Canvas> canvas = std::make_unique<Canvas>();  // goes before OpenGL does
   bool full_screen = false;
   int x = 0, y = 0, width = 0, height = 0;  // before it filled the screen
 };
@@ -61,18 +56,37 @@ void note_dropped(GLFWwindow* window, int count, const char** paths) {
   dropped.insert(dropped.end(), paths, paths + count);
 }
 
-void note_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
-  incoming_of(window).keys.push_back({key, scancode, action, modifiers});
+KeyKind kind_of(int key, int modifiers) {
+  if (key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER) return KeyKind::modifier;
+  const bool is_chord = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
+  return key >= GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT && !is_chord ? KeyKind::sign : KeyKind::action;
 }
 
-// ImGui up to 1.86 looks at keys once a turn: one that goes down and up in between goes by unseen. So a key that has
-// changed in this turn waits with its next change, and all that come after it, for the next turn.
+// Another window lay over this one, or it was hidden: what it showed is gone.
+void note_refresh(GLFWwindow* window) {
+  incoming_of(window).needs_all = true;
+}
+
+void note_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+  if (action == GLFW_REPEAT) return;  // ImGui repeats on its own
+  incoming_of(window).keys.push({.key = key,
+                                 .scancode = scancode,
+                                 .down = action == GLFW_PRESS,
+                                 .modifiers = modifiers,
+                                 .kind = kind_of(key, modifiers)});
+}
+
+void note_character(GLFWwindow* window, unsigned character) {
+  incoming_of(window).keys.push({.character = character});
+}
+
 void hand_on_keys(GLFWwindow* window) {
-  std::set<int> changed;
-  std::deque<KeyEvent>& keys = incoming_of(window).keys;
-  for (; !keys.empty() && changed.insert(keys.front().key).second; keys.pop_front()) {
-    const KeyEvent& event = keys.front();
-    ImGui_ImplGlfw_KeyCallback(window, event.key, event.scancode, event.action, event.modifiers);
+  for (const KeyEvent& event : incoming_of(window).keys.take_for_turn(ImGui::GetIO().WantTextInput)) {
+    if (event.character != 0)
+      ImGui_ImplGlfw_CharCallback(window, event.character);
+    else
+      ImGui_ImplGlfw_KeyCallback(window, event.key, event.scancode, event.down ? GLFW_PRESS : GLFW_RELEASE,
+                                 event.modifiers);
   }
 }
 
@@ -120,12 +134,15 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   glfwSetWindowSizeLimits(window, 800, 480, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSetWindowUserPointer(window, &state->incoming);
   glfwSetDropCallback(window, note_dropped);
+  glfwSetWindowRefreshCallback(window, note_refresh);
   start_imgui(window);
   glfwSetKeyCallback(window, note_key);
+  glfwSetCharCallback(window, note_character);
   return std::unique_ptr<Window>(new Window(std::move(state)));
 }
 
 Window::~Window() {
+  state_->canvas.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -154,6 +171,7 @@ void Window::begin(const Settings& settings) {
     apply_theme();
     // Made anew, with the fonts, by the next NewFrame.
     ImGui_ImplOpenGL3_DestroyDeviceObjects();
+    state_->canvas->forget();
     state_->text_px = text_px;
   }
   hand_on_keys(state_->window);
@@ -167,11 +185,8 @@ void Window::end() {
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(state_->window, &width, &height);
-  glViewport(0, 0, width, height);
-  glClearColor(0.07F, 0.075F, 0.086F, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  glfwSwapBuffers(state_->window);
+  if (std::exchange(state_->incoming.needs_all, false)) state_->canvas->forget();
+  if (state_->canvas->draw(*ImGui::GetDrawData(), width, height)) glfwSwapBuffers(state_->window);
 }
 
 bool Window::wants_to_close() const {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "editor/document/field_edits.h"
 #include "project/fields.h"
@@ -28,5 +29,8 @@ namespace sigs::editor {
 // shown beside numbers (frames are not).
 [[nodiscard]] std::string number_format(double value, std::string_view unit);
 [[nodiscard]] std::string number_text(double value, std::string_view unit = "");
+
+// What the files of a path field are usually called: {".obj"}; empty: no telling.
+[[nodiscard]] std::vector<std::string> extensions_for(std::string_view key);
 
 }  // namespace sigs::editor

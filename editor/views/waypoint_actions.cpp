@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "editor/document/waypoint_edits.h"
 #include "scene/scene_at.h"
 #include "scene/waypoint_times.h"
@@ -20,11 +21,19 @@ const TrajectoryPlan& plan_of(const Studio& studio, int intruder) {
   return studio.project().intruders[static_cast<std::size_t>(intruder)].trajectory;
 }
 
-// Ahead of the camera at a frame, in the world.
+// Ahead of the camera at a frame and to its right, in the world, where it looks.
 glm::dvec3 ahead_of_camera(const Studio& studio, int frame, double forward_m, double right_m) {
   const CameraSettings& camera = studio.project().camera;
-  const double time_s = studio.shown.scene ? time_of_frame_s(studio.shown.scene->draft.scene.footage, frame) : frame * 0.04;
-  return camera.position_m + glm::dvec3(camera.speed_mps * time_s + forward_m, right_m, 0);
+  const double time_s =
+      studio.shown.scene ? time_of_frame_s(studio.shown.scene->draft.scene.footage, frame) : frame * 0.04;
+  const double yaw_rad = rad_of_deg(camera.yaw_deg);
+  const double pitch_rad = rad_of_deg(camera.pitch_deg);
+  const glm::dvec3 ahead(std::cos(pitch_rad) * std::cos(yaw_rad), std::cos(pitch_rad) * std::sin(yaw_rad),
+                         -std::sin(pitch_rad));
+  const glm::dvec3 right(-std::sin(yaw_rad), std::cos(yaw_rad), 0);
+  const glm::dvec3 here_m = camera.position_m + glm::dvec3(camera.speed_mps * time_s, 0, 0);
+  // Centimetres keep the numbers short.
+  return glm::round((here_m + forward_m * ahead + right_m * right) * 100.0) / 100.0;
 }
 
 }  // namespace
@@ -73,9 +82,8 @@ void add_waypoint_here(const Studio& studio, std::optional<glm::dvec3> position_
 }
 
 void delete_intruder(const Studio& studio, int intruder) {
-  studio.edits.change("delete intruder", [=](Project& project) {
-    project.intruders.erase(project.intruders.begin() + intruder);
-  });
+  studio.edits.change("delete intruder",
+                      [=](Project& project) { project.intruders.erase(project.intruders.begin() + intruder); });
   studio.edits.select({});
 }
 
@@ -97,9 +105,10 @@ void delete_selected(const Studio& studio) {
     studio.edits.ask(Say{"An intruder needs one waypoint at least; delete the intruder instead.", true});
     return;
   }
-  studio.edits.change("delete waypoint", [=, frames = frames_of_waypoints(studio, selection.intruder)](Project& project) {
-    delete_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
-  });
+  studio.edits.change("delete waypoint",
+                      [=, frames = frames_of_waypoints(studio, selection.intruder)](Project& project) {
+                        delete_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
+                      });
 }
 
 void duplicate_selected(const Studio& studio) {
@@ -145,7 +154,7 @@ void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::
       gesture);
 }
 
-void add_intruder(const Studio& studio) {
+IntruderSettings new_intruder(const Studio& studio) {
   const Project& now = studio.project();
   IntruderSettings intruder;
   if (!now.intruders.empty()) intruder.model = now.intruders.back().model;
@@ -156,8 +165,13 @@ void add_intruder(const Studio& studio) {
       {.frame = first, .position_m = ahead_of_camera(studio, first, 300, -120)},
       {.frame = last, .position_m = ahead_of_camera(studio, last, 300, 120)},
   };
-  studio.edits.change("add intruder", [=](Project& project) { project.intruders.push_back(intruder); });
-  studio.edits.select({Selected::intruder, static_cast<int>(now.intruders.size()), 0});
+  return intruder;
+}
+
+void add_intruder(const Studio& studio) {
+  studio.edits.change("add intruder",
+                      [intruder = new_intruder(studio)](Project& project) { project.intruders.push_back(intruder); });
+  studio.edits.select({Selected::intruder, static_cast<int>(studio.project().intruders.size()), 0});
 }
 
 }  // namespace sigs::editor

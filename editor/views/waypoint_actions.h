@@ -34,7 +34,8 @@ void go_to_waypoint(const Studio& studio, int direction);
 // Moves one, as part of a drag; ends with studio.edits.end_gesture().
 void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::dvec3& position_m);
 
-// An intruder of the same model as the last one (or none) 300 m ahead of the camera, crossing; selects it.
+// An intruder of the same model as the last one (or none) 300 m ahead of the camera, crossing. Adding selects it.
+[[nodiscard]] IntruderSettings new_intruder(const Studio& studio);
 void add_intruder(const Studio& studio);
 
 }  // namespace sigs::editor

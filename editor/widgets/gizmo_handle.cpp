@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 #include "editor/widgets/keys.h"
 #include "editor/widgets/screen_vec.h"
@@ -103,6 +104,37 @@ void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoStag
       draw_arrow(list, shape->center, *shape->tips[i], hot(kArrows[i]) ? color::kWaypoint : kArrowColors[i], kNames[i]);
   list.AddCircleFilled(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), IM_COL32(0, 0, 0, 130));
   list.AddCircle(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), color::kWaypoint, 0, scaled(1.8));
+}
+
+std::vector<ScreenRect> GizmoHandle::covered(const glm::dvec3& at_m, const GizmoStage& stage) const {
+  std::vector<ScreenRect> rects;
+  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+  if (!shape) return rects;
+  const double half = scaled(6);
+  constexpr int kSteps = 8;  // along an arrow, with its letter
+  for (const auto& tip : shape->tips)
+    for (int i = 0; tip && i <= kSteps; ++i) {
+      const glm::dvec2 at = glm::mix(shape->center, *tip, 1.15 * i / kSteps);
+      rects.push_back({at - half, at + half});
+    }
+  for (const auto& plane : shape->planes)
+    if (plane)
+      rects.push_back({glm::min(glm::min((*plane)[0], (*plane)[1]), glm::min((*plane)[2], (*plane)[3])),
+                       glm::max(glm::max((*plane)[0], (*plane)[1]), glm::max((*plane)[2], (*plane)[3]))});
+  return rects;
+}
+
+void GizmoHandle::note_places(Places& places, const glm::dvec3& at_m, const GizmoStage& stage) const {
+  if (!places.wanted()) return;
+  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+  if (!shape) return;
+  const auto note = [&](const char* name, const glm::dvec2& at) {
+    places.note(std::string("gizmo/") + name, {at - 4.0, at + 4.0});
+  };
+  constexpr std::array<const char*, 3> kPlaces{"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (shape->tips[i]) note(kPlaces[i], glm::mix(shape->center, *shape->tips[i], 0.85));
+  note("middle", shape->center);
 }
 
 }  // namespace sigs::editor

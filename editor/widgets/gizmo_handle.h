@@ -3,8 +3,10 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "editor/geometry/gizmo.h"
+#include "editor/widgets/places.h"
 
 struct ImDrawList;
 
@@ -33,6 +35,10 @@ class GizmoHandle {
   // Once a turn with the point as it is; takes the mouse.
   [[nodiscard]] GizmoAnswer update(const glm::dvec3& at_m, const GizmoStage& stage);
   void draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoStage& stage) const;
+  // What it covers on the screen, in small rects.
+  [[nodiscard]] std::vector<ScreenRect> covered(const glm::dvec3& at_m, const GizmoStage& stage) const;
+  // Where its arrows' tips and its middle are: "gizmo/x", ..., "gizmo/middle".
+  void note_places(Places& places, const glm::dvec3& at_m, const GizmoStage& stage) const;
   // The mouse, pressed in this turn, has hold of a part.
   void take(GizmoPart part, const glm::dvec3& at_m);
   // The drag, if there is one, is over without an answer: what was dragged has gone.

@@ -54,6 +54,17 @@ void draw_value(const PictureCanvas& canvas, const cv::Mat& picture, int x, int 
   }
 }
 
+glm::dvec2 plate_margin() {
+  return {scaled(5), scaled(2)};
+}
+
+ScreenRect plate_at(const PictureCanvas& canvas, const glm::dvec2& at, const std::string& text) {
+  const glm::dvec2 plate = label_size(text);
+  const glm::dvec2 most = glm::max(canvas.rect.low, canvas.rect.high - plate);
+  const glm::dvec2 low = glm::floor(glm::clamp(glm::dvec2(at.x, at.y - plate.y), canvas.rect.low, most));
+  return {low, low + plate};
+}
+
 }  // namespace
 
 ScreenRect PictureCanvas::picture_on_screen() const {
@@ -66,15 +77,32 @@ std::optional<cv::Point> PictureCanvas::pixel_at(const glm::dvec2& screen) const
   return cv::Point(static_cast<int>(p.x), static_cast<int>(p.y));
 }
 
+glm::dvec2 label_size(const std::string& text) {
+  ImFont* const small = font(Font::small);
+  return dv(small->CalcTextSizeA(small->FontSize, 1e6F, 0, text.c_str())) + 2.0 * plate_margin();
+}
+
 void draw_label(const PictureCanvas& canvas, const glm::dvec2& at, const std::string& text, ImU32 color) {
   ImFont* const small = font(Font::small);
-  const ImVec2 size = small->CalcTextSizeA(small->FontSize, 1e6F, 0, text.c_str());
-  const glm::dvec2 margin(scaled(5), scaled(2));
-  const glm::dvec2 plate = dv(size) + 2.0 * margin;
-  const glm::dvec2 most = glm::max(canvas.rect.low, canvas.rect.high - plate);
-  const glm::dvec2 low = glm::floor(glm::clamp(glm::dvec2(at.x, at.y - plate.y), canvas.rect.low, most));
-  canvas.draw.AddRectFilled(im(low), im(low + plate), IM_COL32(12, 13, 16, 190), scaled(3));
-  canvas.draw.AddText(small, small->FontSize, im(low + margin), color, text.c_str());
+  const ScreenRect plate = plate_at(canvas, at, text);
+  canvas.draw.AddRectFilled(im(plate.low), im(plate.high), IM_COL32(12, 13, 16, 190), scaled(3));
+  canvas.draw.AddText(small, small->FontSize, im(plate.low + plate_margin()), color, text.c_str());
+}
+
+void PictureLabels::draw(const PictureCanvas& canvas, std::span<const glm::dvec2> places, const std::string& text,
+                         ImU32 color, bool in_any_case) {
+  const auto is_free = [&](const glm::dvec2& at) {
+    const ScreenRect plate = plate_at(canvas, at, text);
+    return std::none_of(taken_.begin(), taken_.end(), [&](const ScreenRect& other) {
+      return plate.low.x < other.high.x && other.low.x < plate.high.x && plate.low.y < other.high.y &&
+             other.low.y < plate.high.y;
+    });
+  };
+  auto place = std::find_if(places.begin(), places.end(), is_free);
+  if (place == places.end() && !in_any_case) return;
+  if (place == places.end()) place = places.begin();
+  keep_free(plate_at(canvas, *place, text));
+  draw_label(canvas, *place, text, color);
 }
 
 void draw_outline(const PictureCanvas& canvas, const ScreenRect& outlined, ImU32 color, bool dashed) {

@@ -6,7 +6,9 @@
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "editor/geometry/picture_view.h"
 
@@ -27,6 +29,21 @@ struct PictureCanvas {
 
 // A small text on a dark plate, kept within the rect; `at` is its lower left corner.
 void draw_label(const PictureCanvas& canvas, const glm::dvec2& at, const std::string& text, ImU32 color);
+
+// Such texts, none over another.
+class PictureLabels {
+ public:
+  // Nothing may cover this.
+  void keep_free(const ScreenRect& taken) { taken_.push_back(taken); }
+  // At the first of the places, as above, where it covers nothing; without any at the first of all, or not at all.
+  void draw(const PictureCanvas& canvas, std::span<const glm::dvec2> places, const std::string& text, ImU32 color,
+            bool in_any_case);
+
+ private:
+  std::vector<ScreenRect> taken_;
+};
+// How large the plate of a text is.
+[[nodiscard]] glm::dvec2 label_size(const std::string& text);
 
 // The outline of a rect of the screen, just outside it; dashes where asked for. Its corners may lie anywhere.
 void draw_outline(const PictureCanvas& canvas, const ScreenRect& outlined, ImU32 color, bool dashed);

@@ -37,18 +37,6 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-bool ends_with(const Field& field, std::string_view end) {
-  return field.key.ends_with(end);
-}
-
-std::vector<std::string> extensions_of(const Field& field) {
-  if (ends_with(field, ".video")) return {".mp4", ".mov", ".mkv", ".avi", ".webm", ".m4v", ".mts", ".png"};
-  if (ends_with(field, ".calibration")) return {".xml", ".yml", ".yaml", ".json"};
-  if (ends_with(field, "mask")) return {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
-  if (ends_with(field, ".model.file")) return {".obj"};
-  return {};
-}
-
 bool takes_whole_row(const Field& field, const RowLook& look) {
   return std::holds_alternative<glm::dvec3*>(field.value) && !look.is_color;
 }
@@ -111,7 +99,7 @@ void FieldRows::browse(const Field& field) {
   if (start.empty() || !std::filesystem::is_directory(start, code)) start = project.file.parent_path();
   Edits& edits = studio_.edits;
   studio_.edits.ask(AskForFile{.title = "Choose: " + lower_first(label_of(field.key)),
-                               .extensions = extensions_of(field),
+                               .extensions = extensions_for(field.key),
                                .start = start,
                                .chosen = [&edits, key = field.key](const std::filesystem::path& path) {
                                  edits.change("choose " + lower_first(label_of(key)), [key, path](Project& changed) {

@@ -11,6 +11,7 @@
 #include "editor/views/viewport/picture_icons.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/popup.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -51,7 +52,10 @@ float method_choice_width() {
 bool begin_choice(const char* id, const std::string& shown) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
   const bool open = ImGui::BeginCombo(id, shown.c_str());
-  if (!open) ImGui::PopStyleVar();
+  if (open)
+    close_by_escape();
+  else
+    ImGui::PopStyleVar();
   return open;
 }
 
@@ -158,11 +162,15 @@ void StagesView::draw_method_choice(const Studio& studio) {
   const bool comparing = look_ == Look::against_method;
   const std::string shown = comparing ? "with " + name_of(other_method(studio)) : method_ ? name_of(*method_) : own;
   ImGui::SetNextItemWidth(method_choice_width());
-  if (begin_choice("##method", shown)) {
+  const bool open = begin_choice("##method", shown);
+  studio.places.note_item("stages/method");
+  if (open) {
     if (!comparing && ImGui::Selectable(own.c_str(), other_method(studio) == own_method(studio))) method_.reset();
-    for (const MethodChoice method : kMethods)
-      if (method != own_method(studio))
-        if (ImGui::Selectable(name_of(method).c_str(), method == other_method(studio))) method_ = method;
+    for (const MethodChoice method : kMethods) {
+      if (method == own_method(studio)) continue;
+      if (ImGui::Selectable(name_of(method).c_str(), method == other_method(studio))) method_ = method;
+      studio.places.note_item("stages/method/" + name_of(method));
+    }
     end_choice();
   }
   tooltip_for_item(comparing ? "The method to compare the project's own with"
@@ -219,7 +227,7 @@ void StagesView::draw_toolbar_of(const Studio& studio) {
   items.push_back({.is_gap = true});
   items.push_back({.button = {.id = "to intruder",
                               .icon = picture_icon::target,
-                              .label = "Intruder",
+                              .label = "To intruder",
                               .tooltip = "Zoom to the intruder"},
                    .clicked = [&] { zoom_to_intruder(studio); }});
   items.push_back({.button = {.id = "fit",

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/widgets/keys.h"
+#include "editor/widgets/popup.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -65,7 +65,7 @@ std::string time_text_of(const Studio& studio, int frame) {
 
 bool begin_menu(const char* id) {
   if (!ImGui::BeginPopup(id)) return false;
-  if (pressed(Key::escape)) ImGui::CloseCurrentPopup();
+  close_by_escape();
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include "editor/views/viewport/overlays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -24,7 +25,7 @@ Box edges_of(const cv::Rect& pixels) {
   return {pixels.x - 0.5, pixels.y - 0.5, static_cast<double>(pixels.width), static_cast<double>(pixels.height)};
 }
 
-void draw_box(const PictureCanvas& canvas, const Studio& studio, const IntruderTruth& truth) {
+void draw_box(const PictureCanvas& canvas, const Studio& studio, const IntruderTruth& truth, PictureLabels& labels) {
   const std::optional<int> intruder = project_intruder(studio, truth.id);
   const Selection& selection = studio.document.selection();
   const bool selected = intruder && selection.intruder == *intruder &&
@@ -39,7 +40,12 @@ void draw_box(const PictureCanvas& canvas, const Studio& studio, const IntruderT
   if (!in_sight) return;
   std::string text = truth.name + "  " + distance_text(glm::length(truth.position_m));
   if (!truth.box) text += truth.in_picture ? "  hidden" : "  not in the picture";
-  draw_label(canvas, outer.low - glm::dvec2(0, scaled(4)), text, selected ? color::kAccent : color::kBox);
+  const double height = label_size(text).y;
+  const double above = outer.low.y - scaled(4);
+  const double below = outer.high.y + scaled(4) + height;
+  const std::array places{glm::dvec2(outer.low.x, above), glm::dvec2(outer.low.x, below),
+                          glm::dvec2(outer.low.x, above - height - 1), glm::dvec2(outer.low.x, below + height + 1)};
+  labels.draw(canvas, places, text, selected ? color::kAccent : color::kBox, true);
 }
 
 void draw_diamond(ImDrawList& draw, const glm::dvec2& at, double radius, ImU32 fill, ImU32 rim) {
@@ -81,6 +87,19 @@ void draw_mark(const PictureCanvas& canvas, const WaypointMark& mark, const Mark
     draw_diamond(canvas.draw, at, radius, fill, style.worked_on ? IM_COL32(20, 22, 26, 255) : faded(own, 0.9));
 }
 
+void draw_frame(const PictureCanvas& canvas, const glm::dvec2& at, double frame, const MarkStyle& style,
+                PictureLabels& labels) {
+  const std::string text = frame_text(frame);
+  const glm::dvec2 size = label_size(text);
+  const double right = at.x + scaled(9);
+  const double left = at.x - scaled(9) - size.x;
+  const double below = at.y + scaled(4) + size.y;
+  const double above = at.y - scaled(4);
+  const std::array places{glm::dvec2(right, below), glm::dvec2(left, below), glm::dvec2(right, above),
+                          glm::dvec2(left, above)};
+  labels.draw(canvas, places, text, style.selected ? color::kAccent : color::kText, style.selected);
+}
+
 }  // namespace
 
 void OwnBodyTint::draw(const PictureCanvas& canvas, Textures& textures, const cv::Mat& own_body) {
@@ -114,33 +133,29 @@ void draw_picture_grid(const PictureCanvas& canvas, PictureGrid grid) {
   canvas.draw.PopClipRect();
 }
 
-void draw_boxes(const PictureCanvas& canvas, const Studio& studio, const Picture& picture) {
-  for (const IntruderTruth& truth : picture.truth.intruders) draw_box(canvas, studio, truth);
+void draw_boxes(const PictureCanvas& canvas, const Studio& studio, const Picture& picture, PictureLabels& labels) {
+  for (const IntruderTruth& truth : picture.truth.intruders) draw_box(canvas, studio, truth, labels);
 }
 
 void draw_waypoints(const PictureCanvas& canvas, const Studio& studio, std::span<const WaypointMark> marks,
-                    const FootageEye& eye) {
+                    const FootageEye& eye, PictureLabels& labels) {
   const Selection& selection = studio.document.selection();
   const std::optional<int> current = current_intruder(studio);
   const double radius = scaled(6);
-  int labels = 0;
-  double last_x = -1e9;
-  double last_y = -1e9;
+  int named = 0;
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
   for (const WaypointMark& mark : marks) {
     const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
     if (!ScreenRect{canvas.rect.low - radius, canvas.rect.high + radius}.contains(at)) continue;
+    studio.places.note("viewport/waypoint/" + std::to_string(mark.intruder) + "/" + std::to_string(mark.waypoint),
+                       {at - radius, at + radius});
     const MarkStyle style{.selected = selection == Selection{Selected::waypoint, mark.intruder, mark.waypoint},
                           .worked_on = current == mark.intruder,
                           .here = std::abs(mark.frame - eye.frame) < 0.5};
     draw_mark(canvas, mark, style);
     // Waypoints crowd where the flight goes straight away: the first of a crowd is named, and what is selected.
-    const bool crowded = std::abs(at.x - last_x) < scaled(34) && std::abs(at.y - last_y) < scaled(16);
-    if (!style.worked_on || (crowded && !style.selected) || ++labels > kMostLabels) continue;
-    last_x = at.x;
-    last_y = at.y;
-    draw_label(canvas, at + glm::dvec2(scaled(9), scaled(22)), frame_text(mark.frame),
-               style.selected ? color::kAccent : color::kText);
+    if (!style.worked_on || ++named > kMostLabels) continue;
+    draw_frame(canvas, at, mark.frame, style, labels);
   }
   canvas.draw.PopClipRect();
 }

@@ -39,7 +39,10 @@ void ViewportView::draw(const Studio& studio) {
   const glm::dvec2 low = glm::round(dv(ImGui::GetCursorScreenPos()));
   draw_canvas(studio, {low, low + glm::max(glm::floor(room), 1.0)});
   ImGui::SetCursorScreenPos(im({low.x, low.y + std::max(1.0, std::floor(room.y))}));
+  // In a panel of its own: when the mouse moves, its text alone is drawn anew.
+  ImGui::BeginChild("readout");
   draw_readout(studio, {.pixel = pixel_, .of_footage = over_footage_, .zoom = look_.zoom()});
+  ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::PopID();
 }
@@ -58,6 +61,8 @@ void ViewportView::draw_canvas(const Studio& studio, const ScreenRect& rect) {
   footage_alone_ = hovered_ && !ImGui::GetIO().WantTextInput && held(Key::backslash);
 
   const PictureCanvas canvas{*ImGui::GetWindowDrawList(), rect, look_.view(rect.low), size};
+  studio.places.note("viewport", rect);
+  studio.places.note("viewport/picture", canvas.picture_on_screen());
   const std::optional<FootageEye> eye = eye_at(studio, frame_of_overlays(studio));
   const std::vector<WaypointMark> none;
   const std::vector<WaypointMark>& marks = eye && overlays_.waypoints ? marks_.of(studio, *eye) : none;
@@ -108,10 +113,11 @@ void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canv
   if (values != nullptr) draw_pixel_values(canvas, *values, dv(ImGui::GetMousePos()));
   draw_picture_grid(canvas, overlays_.grid);
   if (footage_alone_) return;
+  PictureLabels labels;
   if (overlays_.horizon && eye != nullptr) draw_horizon(canvas, *eye);
   if (overlays_.path && eye != nullptr) path_.draw(canvas, studio, *eye);
-  if (overlays_.box && picture != nullptr) draw_boxes(canvas, studio, *picture);
-  if (eye != nullptr) draw_waypoints(canvas, studio, marks, *eye);
+  if (overlays_.box && picture != nullptr) draw_boxes(canvas, studio, *picture, labels);
+  if (eye != nullptr) draw_waypoints(canvas, studio, marks, *eye, labels);
 }
 
 }  // namespace sigs::editor

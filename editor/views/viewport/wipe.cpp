@@ -10,6 +10,8 @@ namespace sigs::editor {
 
 namespace {
 
+constexpr double kHandleHeight = 0.8;  // of the rect, from above
+
 // Triangles to both sides on a plate: can be dragged.
 void draw_handle(ImDrawList& draw, const glm::dvec2& middle, ImU32 color) {
   const double r = scaled(11);
@@ -53,7 +55,8 @@ void ViewportWipe::draw_line(const PictureCanvas& canvas, bool lit) const {
   const double x = line_x(canvas);
   const ImU32 color = lit ? color::kAccent : IM_COL32(255, 255, 255, 220);
   canvas.draw.AddRectFilled(im({x - 1, canvas.rect.low.y}), im({x + 1, canvas.rect.high.y}), color);
-  draw_handle(canvas.draw, {x, (canvas.rect.low.y + canvas.rect.high.y) / 2}, color);
+  // Below the middle, where intruders are looked for.
+  draw_handle(canvas.draw, {x, std::round(std::lerp(canvas.rect.low.y, canvas.rect.high.y, kHandleHeight))}, color);
   const double bottom = canvas.rect.high.y - scaled(6);
   const double width = ImGui::CalcTextSize("footage").x;
   if (x - canvas.rect.low.x > width + scaled(20))

@@ -144,14 +144,14 @@ bool is_marked_at_edge(const WorldCanvas& canvas, const glm::dvec3& light_m) {
 }
 
 void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::dvec3& light_m, double distance_m,
-                         ImU32 color) {
+                         bool selected, ImU32 color) {
   const glm::dvec2 way = way_to(canvas.eye(), light_m);
   const glm::dvec2 across{-way.y, way.x};
   const glm::dvec2 tip = at + way * static_cast<double>(scaled(17));
   const glm::dvec2 neck = tip - way * static_cast<double>(scaled(6));
   const double half = scaled(4.5);
   canvas.list().AddTriangleFilled(im(tip), im(neck + across * half), im(neck - across * half), color);
-  const std::string text = "light " + distance_text(distance_m);
+  const std::string text = "light " + distance_text(distance_m) + (selected ? "  (F: in sight)" : "");
   const bool on_right = at.x > (canvas.rect().low.x + canvas.rect().high.x) / 2;
   ImFont* face = font(Font::small);
   const double width = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str()).x;
@@ -200,12 +200,13 @@ glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m) {
 
 void draw_light(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
   const glm::dvec3& light_m = turn.studio.project().light.position_m;
-  const bool lit = turn.studio.document.selection().kind == Selected::light || hovered.kind == Selected::light;
+  const bool is_selected = turn.studio.document.selection().kind == Selected::light;
+  const bool lit = is_selected || hovered.kind == Selected::light;
   const ImU32 color = lit ? color::kAccent : color::kLight;
   const glm::dvec2 at = light_mark(canvas, light_m);
   if (is_marked_at_edge(canvas, light_m)) {
     const double distance_m = glm::distance(light_m, turn.moment.world_from_camera.translation_m);
-    draw_arrow_to_light(canvas, at, light_m, distance_m, color);
+    draw_arrow_to_light(canvas, at, light_m, distance_m, is_selected, color);
   } else {
     draw_drop_line(canvas, light_m, color);
   }

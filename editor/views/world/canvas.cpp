@@ -19,6 +19,12 @@ bool holds(const ScreenRect& outer, const ScreenRect& inner) {
          inner.high.y <= outer.high.y;
 }
 
+glm::dvec2 size_of(const std::string& text, Font which) {
+  ImFont* face = font(which);
+  const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str());
+  return {size.x, size.y};
+}
+
 }  // namespace
 
 std::optional<glm::dvec2> WorldCanvas::in_sight(const glm::dvec3& p_in_world, double margin_px) const {
@@ -88,11 +94,9 @@ void WorldCanvas::polyline(std::span<const glm::dvec3> points_m, ImU32 color, do
   finish();
 }
 
-bool WorldCanvas::label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side, Font which) {
+bool WorldCanvas::put(const glm::dvec2& low, const std::string& text, ImU32 color, Font which) {
   ImFont* face = font(which);
-  const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str());
-  const glm::dvec2 shift = side == Side::right ? glm::dvec2(0, -size.y / 2) : glm::dvec2(-size.x / 2, -size.y / 2);
-  const ScreenRect place{at + shift, at + shift + glm::dvec2(size.x, size.y)};
+  const ScreenRect place{low, low + size_of(text, which)};
   const auto covers = [&](const ScreenRect& other) { return overlap(place, other); };
   if (!holds(rect_, place) || std::any_of(taken_.begin(), taken_.end(), covers)) return false;
   taken_.push_back({place.low - 2.0, place.high + 2.0});
@@ -100,6 +104,22 @@ bool WorldCanvas::label(const glm::dvec2& at, const std::string& text, ImU32 col
   list_.AddText(face, face->FontSize, {corner.x + 1, corner.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
   list_.AddText(face, face->FontSize, corner, color, text.c_str());
   return true;
+}
+
+bool WorldCanvas::label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side, Font which) {
+  const glm::dvec2 size = size_of(text, which);
+  return put(at - size * glm::dvec2(side == Side::right ? 0 : 0.5, 0.5), text, color, which);
+}
+
+bool WorldCanvas::label_beside(const glm::dvec2& at, double gap_px, const std::string& text, ImU32 color) {
+  const glm::dvec2 size = size_of(text, Font::small);
+  const glm::dvec2 slanted = glm::dvec2(gap_px, 0.25 * gap_px);
+  const glm::dvec2 half = size / 2.0;
+  for (const glm::dvec2 side : {glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, -1), glm::dvec2(-1, 1)})
+    if (put(at + side * (half + slanted) - half, text, color, Font::small)) return true;
+  for (const glm::dvec2 side : {glm::dvec2(0, -1), glm::dvec2(0, 1), glm::dvec2(1, 0), glm::dvec2(-1, 0)})
+    if (put(at + side * (half + gap_px) - half, text, color, Font::small)) return true;
+  return false;
 }
 
 }  // namespace sigs::editor

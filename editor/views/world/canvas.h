@@ -40,10 +40,15 @@ class WorldCanvas {
   // Beside or around a place of the screen; false: there was no room.
   bool label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side = Side::right,
              Font font = Font::small);
+  // Beside a place of the screen, that far from it, on whichever side there is room.
+  bool label_beside(const glm::dvec2& at, double gap_px, const std::string& text, ImU32 color);
   // No label may cover this.
   void keep_free(const ScreenRect& taken) { taken_.push_back(taken); }
 
  private:
+  // With its upper left corner there.
+  bool put(const glm::dvec2& low, const std::string& text, ImU32 color, Font font);
+
   ImDrawList& list_;
   const OrbitCamera& eye_;
   ScreenRect rect_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "editor/geometry/ground_grid.h"
 
@@ -21,6 +22,10 @@ bool is_edge_on(const OrbitCamera& eye) {
   return std::abs(eye.elevation_rad) < kEdgeOn_rad;
 }
 
+std::string text_of(const GridLine& line) {
+  return (line.is_of_x ? "X " : "Y ") + round_distance_text(line.at_m);
+}
+
 void draw_label(WorldCanvas& canvas, const GridLine& line, double text_px) {
   const double from_target_m = std::abs(line.at_m - canvas.eye().target_m[line.is_of_x ? 0 : 1]);
   if (from_target_m > kLabelledReach * canvas.eye().distance_m) return;
@@ -31,8 +36,8 @@ void draw_label(WorldCanvas& canvas, const GridLine& line, double text_px) {
   const bool a_is_it = line.is_of_x == (std::abs(canvas.eye().right().y) > 0.7) ? a.x < b.x : a.y > b.y;
   const glm::dvec2 at = a_is_it ? a : b;
   const glm::dvec2 inwards = glm::normalize((a_is_it ? b : a) - at + glm::dvec2(1e-9));
-  const ImU32 color = faded(line.is_of_x ? color::kAxisX : color::kAxisY, 0.75);
-  canvas.label(at + inwards * (2.2 * text_px), round_distance_text(line.at_m), color, WorldCanvas::Side::centre);
+  const ImU32 color = faded(line.is_of_x ? color::kAxisX : color::kAxisY, 0.9);
+  canvas.label(at + inwards * (2.2 * text_px), text_of(line), color, WorldCanvas::Side::centre);
 }
 
 // Level with the ground it is one line, with the metres along it.
@@ -47,7 +52,7 @@ void draw_edge_on(WorldCanvas& canvas, const GroundGrid& grid, double text_px) {
     const glm::dvec2 down{0, text_px * (marked ? 0.6 : 0.35)};
     canvas.list().AddLine(im(*foot), im(*foot + down), faded(color::kQuiet, 0.6));
     if (marked)
-      canvas.label(*foot + glm::dvec2(0, text_px * 1.3), round_distance_text(line.at_m),
+      canvas.label(*foot + glm::dvec2(0, text_px * 1.3), text_of(line),
                    faded(along_x ? color::kAxisX : color::kAxisY, 0.75), WorldCanvas::Side::centre);
   }
   const auto across =

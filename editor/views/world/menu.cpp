@@ -9,7 +9,7 @@
 
 #include "editor/views/readable.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
+#include "editor/widgets/popup.h"
 
 namespace sigs::editor {
 
@@ -54,8 +54,10 @@ void draw_place_items(const WorldTurn& turn, const std::optional<glm::dvec3>& pl
     return;
   }
   const std::string frame = std::to_string(studio.document.playhead());
-  if (ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value()))
-    add_waypoint_here(studio, place_m);
+  const bool add =
+      ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value());
+  studio.places.note_item("world/menu/add waypoint");
+  if (add) add_waypoint_here(studio, place_m);
   if (!place_m) return;
   const double distance_m = glm::distance(*place_m, turn.moment.world_from_camera.translation_m);
   ImGui::TextDisabled("%s from the camera, %s high", distance_text(distance_m).c_str(),
@@ -92,7 +94,6 @@ std::optional<Selection> WorldMenu::draw_items(const WorldTurn& turn) const {
   }
 }
 
-// As PointEntry: closed by a key only in the turn after it, so that the rest of the program leaves that key alone.
 std::optional<Selection> WorldMenu::draw(const WorldTurn& turn) {
   if (state_ == State::closed) return std::nullopt;
   if (state_ == State::asked) {
@@ -103,14 +104,8 @@ std::optional<Selection> WorldMenu::draw(const WorldTurn& turn) {
     state_ = State::closed;
     return std::nullopt;
   }
-  std::optional<Selection> numbers_for;
-  if (state_ == State::leaving) {
-    state_ = State::closed;
-    ImGui::CloseCurrentPopup();
-  } else {
-    numbers_for = draw_items(turn);
-    if (pressed(Key::escape)) state_ = State::leaving;
-  }
+  close_by_escape();
+  const std::optional<Selection> numbers_for = draw_items(turn);
   ImGui::EndPopup();
   return numbers_for;
 }

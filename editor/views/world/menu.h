@@ -16,7 +16,7 @@ class WorldMenu {
   [[nodiscard]] std::optional<Selection> draw(const WorldTurn& turn);
 
  private:
-  enum class State { closed, asked, open, leaving };
+  enum class State { closed, asked, open };
 
   [[nodiscard]] std::optional<Selection> draw_items(const WorldTurn& turn) const;
 

@@ -175,6 +175,7 @@ std::vector<glm::dvec3> points_of_interest(const Studio& studio, const WorldMode
     points_m.push_back(camera_pose_at(studio.project(), time_of(studio, frame)).translation_m);
   for (const IntruderSettings& intruder : studio.project().intruders)
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints) points_m.push_back(waypoint.position_m);
+  if (document.selection().kind == Selected::light) points_m.push_back(studio.project().light.position_m);
   for (const WorldCurve& curve : model.curves) {
     const std::vector<glm::dvec3> flown_m = stretch(curve.samples, curve.range_first, curve.range_last);
     points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());

@@ -66,7 +66,7 @@ struct WorldMoment {
 [[nodiscard]] double time_of(const Studio& studio, double frame);
 
 // Everything near that should be in sight when a project is first shown: camera, trajectories within the range,
-// waypoints; not the light.
+// waypoints; the light only while it is selected.
 [[nodiscard]] std::vector<glm::dvec3> points_of_interest(const Studio& studio, const WorldModel& model);
 
 }  // namespace sigs::editor

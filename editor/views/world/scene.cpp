@@ -30,11 +30,12 @@ std::vector<glm::dvec3> border_at(const PictureBorder& border, double depth_m, c
   return points_m;
 }
 
-void draw_field_of_view(WorldCanvas& canvas, const PictureBorder& border, double depth_m, const CameraPose& pose) {
+void draw_field_of_view(WorldCanvas& canvas, const PictureBorder& border, double depth_m, const CameraPose& pose,
+                        bool lit) {
   const std::vector<glm::dvec3> edge_m = border_at(border, depth_m, pose);
   for (const std::size_t corner : border.corners)
-    canvas.line(pose.translation_m, edge_m[corner], faded(kCameraColor, 0.3));
-  canvas.polyline(edge_m, faded(kCameraColor, 0.42), 1.2);
+    canvas.line(pose.translation_m, edge_m[corner], faded(kCameraColor, lit ? 0.4 : 0.14));
+  canvas.polyline(edge_m, faded(kCameraColor, lit ? 0.5 : 0.2), 1);
 }
 
 // A small pyramid open to where the camera looks, and a mark on its upper side.
@@ -96,7 +97,7 @@ double view_depth_m(const WorldModel& model) {
   // A bent edge bulges around the camera and would hide what is within.
   const bool is_bent = std::any_of(model.border.rays.begin(), model.border.rays.end(),
                                    [](const glm::dvec3& ray) { return ray.x < 0.999; });
-  return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_bent ? 0.5 : 1.05), 20.0, 5000.0) : 200;
+  return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_bent ? 0.35 : 1.05), 20.0, 5000.0) : 200;
 }
 
 void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color) {
@@ -113,9 +114,9 @@ void draw_camera(WorldCanvas& canvas, const WorldTurn& turn, const Selection& ho
   };
   canvas.line(place(document.first_frame()), place(document.last_frame()), faded(kCameraColor, 0.55), 1.6);
   const CameraPose& pose = turn.moment.world_from_camera;
-  draw_field_of_view(canvas, turn.model.border, view_depth_m(turn.model), pose);
-  draw_drop_line(canvas, pose.translation_m, kCameraColor);
   const bool lit = document.selection().kind == Selected::camera || hovered.kind == Selected::camera;
+  draw_field_of_view(canvas, turn.model.border, view_depth_m(turn.model), pose, lit);
+  draw_drop_line(canvas, pose.translation_m, kCameraColor);
   draw_camera_icon(canvas, pose, lit ? color::kAccent : kCameraColor);
 }
 
@@ -150,6 +151,8 @@ void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection&
       if (!at) continue;
       const bool lit = selection == self || hovered == self;
       const float radius = scaled(lit ? 5 : current ? 4 : 3);
+      studio.places.note("world/waypoint/" + std::to_string(i) + "/" + std::to_string(w),
+                         {*at - glm::dvec2(radius), *at + glm::dvec2(radius)});
       canvas.list().AddCircleFilled(im(*at), radius + scaled(1.5), IM_COL32(0, 0, 0, 150), 12);
       canvas.list().AddCircleFilled(im(*at), radius,
                                     lit       ? color::kAccent
@@ -157,9 +160,8 @@ void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection&
                                               : intruder_color(i),
                                     12);
       if (!current && !lit) continue;
-      const double aside = selection == self ? 14 : 9;  // of the gizmo's middle
-      canvas.label(*at + glm::dvec2(scaled(aside), -scaled(9)), frame_text(frames[static_cast<std::size_t>(w)]),
-                   lit ? color::kAccent : color::kText);
+      canvas.label_beside(*at, scaled(9), frame_text(frames[static_cast<std::size_t>(w)]),
+                          lit ? color::kAccent : color::kText);
     }
   }
 }
@@ -179,7 +181,7 @@ void draw_closest_approaches(WorldCanvas& canvas, const WorldTurn& turn) {
     const double distance_m = glm::distance(camera_m, *body_m);
     const std::optional<glm::dvec2> middle = canvas.in_sight((camera_m + *body_m) / 2.0);
     if (middle && current)
-      canvas.label(*middle + glm::dvec2(scaled(8), scaled(9)), "closest " + distance_text(distance_m), color);
+      canvas.label_beside(*middle, scaled(8), "closest " + distance_text(distance_m), color);
   }
 }
 

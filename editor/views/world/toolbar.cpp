@@ -75,7 +75,7 @@ WorldToolbarAnswer draw_world_toolbar(WorldLook& look) {
       stand({"side", side_icon, "Side", "From the right-hand side, the camera flying to the right"}, WorldStand::side),
       stand({"camera", camera_icon, "Camera", "From behind the camera, going with it"}, WorldStand::camera),
       {.is_gap = true},
-      {.button = {"frame", frame_icon, "", "Everything in sight (F)"}, .clicked = [&] { answer.frame_all = true; }},
+      {.button = {"frame", frame_icon, "", "Everything in sight (F); the light too while it is selected"}, .clicked = [&] { answer.frame_all = true; }},
       {.button = {"perspective", perspective_icon, "", "Perspective; off: parallel, true to scale",
                   look.eye.projection == Projection::perspective},
        .clicked =

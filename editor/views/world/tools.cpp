@@ -204,11 +204,20 @@ void WorldTools::draw_readout(WorldCanvas& canvas, const Movable& moved, double 
   draw_plate(canvas, lines);
 }
 
+void WorldTools::keep_handle_free(WorldCanvas& canvas, const WorldTurn& turn) const {
+  const std::optional<Movable> target = handle_.dragging() ? movable(turn, dragged_) : movable(turn);
+  if (!target) return;
+  const glm::dvec3 at_m = moved_to_.value_or(target->at_m);
+  for (const ScreenRect& rect : handle_.covered(at_m, {.camera = canvas.eye(), .rect = canvas.rect()}))
+    canvas.keep_free(rect);
+}
+
 void WorldTools::draw(WorldCanvas& canvas, const WorldTurn& turn, const WorldLook& look) {
   const std::optional<Movable> target = handle_.dragging() ? movable(turn, dragged_) : movable(turn);
   if (target) {
     const glm::dvec3 at_m = moved_to_.value_or(target->at_m);
     handle_.draw(canvas.list(), at_m, {.camera = canvas.eye(), .rect = canvas.rect()});
+    handle_.note_places(turn.studio.places, at_m, {.camera = canvas.eye(), .rect = canvas.rect()});
     if (handle_.dragging() && moved_to_) draw_readout(canvas, *target, snap_now_m(canvas, look, at_m));
   }
   draw_entry(turn);

@@ -17,6 +17,8 @@ class WorldTools {
  public:
   // Once a turn, right after the canvas' item, before anything is drawn; moves the look.
   void update(const WorldTurn& turn, const WorldCanvas& canvas, WorldLook& look);
+  // Before labels are drawn: none may cover the handle.
+  void keep_handle_free(WorldCanvas& canvas, const WorldTurn& turn) const;
   // After the world: the handle and what is being typed or chosen.
   void draw(WorldCanvas& canvas, const WorldTurn& turn, const WorldLook& look);
 

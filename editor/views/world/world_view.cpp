@@ -81,6 +81,7 @@ void WorldView::go_with_camera(const WorldTurn& turn) {
 void WorldView::draw_world(WorldCanvas& canvas, const WorldTurn& turn) {
   const Selection& hovered = tools_.hovered().what;
   draw_axes(canvas);
+  tools_.keep_handle_free(canvas, turn);
   draw_ground(canvas);
   draw_light(canvas, turn, hovered);
   draw_closest_approaches(canvas, turn);

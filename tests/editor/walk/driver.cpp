@@ -29,12 +29,13 @@ void rest(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-// Starts a program; where a file is named, what it prints goes there.
+// Starts a program in the folder of its log, where what it prints goes.
 pid_t started(const std::vector<std::string>& words, const std::map<std::string, std::string>& environment,
               const fs::path& log) {
   const pid_t child = fork();
   if (child != 0) return child;
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+  if (chdir(log.parent_path().c_str()) != 0) _exit(126);
   const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   dup2(out, STDOUT_FILENO);
   dup2(out, STDERR_FILENO);
@@ -112,7 +113,8 @@ void EditorDriver::start(const std::vector<std::string>& arguments) {
                                                        {"XDG_STATE_HOME", (home_ / "state").string()},
                                                        {"LIBGL_ALWAYS_SOFTWARE", "1"}};
   editor_ = started(words, environment, home_ / "editor.log");
-  wait_for("the first turn", [](const nlohmann::json& now) { return now.contains("frame"); }, 60);
+  wait_for(
+      "the first turn", [](const nlohmann::json& now) { return now.contains("frame"); }, 60);
 }
 
 void EditorDriver::kill() {
@@ -156,7 +158,8 @@ ScreenPlace EditorDriver::place(const std::string& name) {
 
 void EditorDriver::wait_for(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so,
                             double seconds) {
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   while (!is_so(state())) {
     if (!running())
       throw std::runtime_error("the editor ended with " + std::to_string(exit_status_) + " while waiting for " + what +
@@ -168,7 +171,8 @@ void EditorDriver::wait_for(const std::string& what, const std::function<bool(co
 
 void EditorDriver::wait_for_picture() {
   settle();
-  wait_for("the picture", [](const nlohmann::json& now) { return now.value("current", false); }, 60);
+  wait_for(
+      "the picture", [](const nlohmann::json& now) { return now.value("current", false); }, 60);
   settle();
 }
 
@@ -183,8 +187,13 @@ void EditorDriver::xdotool(const std::vector<std::string>& arguments) const {
   if (status != 0) throw std::runtime_error("xdotool failed: " + read(home_ / "xdotool.log"));
 }
 
+namespace {
+
 // ImGui looks at the mouse once a turn: a press and release between two turns would go by unseen.
 constexpr double kTurn_s = 0.08;
+const char* const kTurn = "0.08";
+
+}  // namespace
 
 void EditorDriver::move(double x, double y) {
   xdotool({"mousemove", whole(x), whole(y)});
@@ -192,10 +201,8 @@ void EditorDriver::move(double x, double y) {
 }
 
 void EditorDriver::click(double x, double y, int button) {
-  move(x, y);
-  xdotool({"mousedown", std::to_string(button)});
-  rest(kTurn_s);
-  xdotool({"mouseup", std::to_string(button)});
+  const std::string number = std::to_string(button);
+  xdotool({"mousemove", whole(x), whole(y), "sleep", kTurn, "mousedown", number, "sleep", kTurn, "mouseup", number});
   rest(kTurn_s);
 }
 
@@ -205,30 +212,25 @@ void EditorDriver::click(const std::string& name, int button) {
 }
 
 void EditorDriver::double_click(double x, double y) {
-  move(x, y);
-  for (int i = 0; i < 2; ++i) {
-    xdotool({"mousedown", "1"});
-    rest(0.05);
-    xdotool({"mouseup", "1"});
-    rest(0.05);
-  }
+  xdotool({"mousemove", whole(x), whole(y), "sleep", kTurn, "mousedown", "1", "sleep", "0.05", "mouseup", "1",  //
+           "sleep", "0.05", "mousedown", "1", "sleep", "0.05", "mouseup", "1"});
   rest(kTurn_s);
 }
 
 void EditorDriver::drag(double x, double y, double to_x, double to_y, int button, const std::string& held_key) {
-  move(x, y);
-  if (!held_key.empty()) xdotool({"keydown", held_key});
-  xdotool({"mousedown", std::to_string(button)});
-  rest(kTurn_s);
+  const std::string number = std::to_string(button);
+  std::vector<std::string> words{"mousemove", whole(x), whole(y), "sleep", kTurn};
+  const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+  if (!held_key.empty()) add({"keydown", held_key});
+  add({"mousedown", number, "sleep", kTurn});
   constexpr int kSteps = 8;
   for (int i = 1; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;
-    xdotool({"mousemove", whole(x + share * (to_x - x)), whole(y + share * (to_y - y))});
-    rest(0.04);
+    add({"mousemove", whole(x + share * (to_x - x)), whole(y + share * (to_y - y)), "sleep", "0.04"});
   }
-  rest(kTurn_s);
-  xdotool({"mouseup", std::to_string(button)});
-  if (!held_key.empty()) xdotool({"keyup", held_key});
+  add({"sleep", kTurn, "mouseup", number});
+  if (!held_key.empty()) add({"keyup", held_key});
+  xdotool(words);
   rest(kTurn_s);
 }
 
@@ -251,15 +253,15 @@ void EditorDriver::key(const std::string& keys) {
 }
 
 void EditorDriver::type(const std::string& text) {
-  xdotool({"type", "--delay", "60", text});
+  xdotool({"type", "--delay", "30", "--", text});
   rest(kTurn_s);
 }
 
 void EditorDriver::screenshot(const fs::path& file) const {
   fs::create_directories(file.parent_path());
   const std::string size = std::to_string(width_px_) + "x" + std::to_string(height_px_);
-  const int status = status_of(started({"ffmpeg", "-v", "error", "-y", "-f", "x11grab", "-draw_mouse", "0", "-video_size", size,
-                                        "-i", display_, "-frames:v", "1", file.string()},
+  const int status = status_of(started({"ffmpeg", "-v", "error", "-y", "-f", "x11grab", "-draw_mouse", "0",
+                                        "-video_size", size, "-i", display_, "-frames:v", "1", file.string()},
                                        {}, home_ / "screenshot.log"));
   if (status != 0) throw std::runtime_error("no screenshot: " + read(home_ / "screenshot.log"));
 }

@@ -24,8 +24,8 @@ struct ScreenPlace {
 // True where Xvfb and xdotool are there; else says SKIPPED.
 [[nodiscard]] bool can_drive_windows();
 
-// A screen without hardware and the editor on it, driven with real mouse and key events. Throws std::runtime_error where
-// something does not come about in time.
+// A screen without hardware and the editor on it, driven with real mouse and key events. Throws std::runtime_error
+// where something does not come about in time.
 class EditorDriver {
  public:
   //   home  an empty folder for settings and recovery files

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/key_queue.h"
+
+#include <set>
+
+namespace sigs::editor {
+
+std::vector<KeyEvent> KeyQueue::take_for_turn(bool types_text) {
+  std::vector<KeyEvent> taken;
+  std::set<int> changed;
+  bool is_pressed = false;  // a key went down, with the modifiers as they were
+  bool acts = false;        // and it may change what is done with text
+  for (; !events_.empty(); events_.pop_front()) {
+    const KeyEvent& event = events_.front();
+    const bool is_character = event.character != 0;
+    const bool waits = is_character                      ? acts
+                       : event.kind == KeyKind::modifier ? is_pressed || changed.contains(event.key)
+                                                         : changed.contains(event.key);
+    if (waits) break;
+    const bool is_told_twice = types_text && event.kind == KeyKind::sign;
+    if (!is_character && !is_told_twice) {
+      changed.insert(event.key);
+      is_pressed = is_pressed || (event.down && event.kind != KeyKind::modifier);
+      acts = acts || (event.down && event.kind == KeyKind::action);
+    }
+    taken.push_back(event);
+  }
+  return taken;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/first_steps.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "editor/document/field_edits.h"
+#include "editor/document/field_texts.h"
+#include "editor/document/moved_paths.h"
+#include "editor/views/waypoint_actions.h"
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FirstStep {
+  const char* name;
+  const char* what;  // is wanted
+  std::string file;  // chosen, "": none yet
+  std::vector<std::string> extensions;
+  std::function<void(const fs::path&)> choose;
+};
+
+// The first that has no model; else as many as there are: one more is wanted.
+std::size_t intruder_without_model(const Project& project) {
+  const auto found = std::find_if(project.intruders.begin(), project.intruders.end(),
+                                  [](const IntruderSettings& intruder) { return intruder.model.file.empty(); });
+  return static_cast<std::size_t>(found - project.intruders.begin());
+}
+
+std::function<void(const fs::path&)> put_file(const Studio& studio, const char* name, const char* key) {
+  return [&edits = studio.edits, name, key](const fs::path& path) {
+    edits.change(name, [key, path](Project& project) { put_value(project, key, path_in_project(project, path)); });
+  };
+}
+
+std::function<void(const fs::path&)> put_aircraft(const Studio& studio) {
+  return [&edits = studio.edits, intruder = new_intruder(studio)](const fs::path& path) {
+    edits.change("choose aircraft", [intruder, path](Project& project) {
+      const std::size_t wanted = intruder_without_model(project);
+      if (wanted == project.intruders.size()) {
+        project.intruders.push_back(intruder);
+        project.intruders.back().name = path.stem().string();
+      }
+      project.intruders[wanted].model.file = path_in_project(project, path);
+    });
+  };
+}
+
+std::array<FirstStep, 3> steps_of(const Studio& studio) {
+  const Project& project = studio.project();
+  const bool has_aircraft = !project.intruders.empty() && intruder_without_model(project) == project.intruders.size();
+  return {{{.name = "Footage",
+            .what = "The video of a real flight",
+            .file = project.footage.video,
+            .extensions = extensions_for("footage.video"),
+            .choose = put_file(studio, "choose video", "footage.video")},
+           {.name = "Calibration",
+            .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
+            .file = project.footage.calibration,
+            .extensions = extensions_for("footage.calibration"),
+            .choose = put_file(studio, "choose calibration", "footage.calibration")},
+           {.name = "Aircraft",
+            .what = "A model as Wavefront OBJ; it is put 300 m ahead",
+            .file = has_aircraft ? project.intruders.front().model.file : "",
+            .extensions = extensions_for("intruders[0].model.file"),
+            .choose = put_aircraft(studio)}}};
+}
+
+void ask(const Studio& studio, const FirstStep& step) {
+  // Calibration and model often lie near the footage: the browser starts where it was last.
+  studio.edits.ask(
+      AskForFile{.title = std::string("Choose: ") + step.name, .extensions = step.extensions, .chosen = step.choose});
+}
+
+void draw_number(int number, bool is_done, bool is_next) {
+  const float side = ImGui::GetFrameHeight();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 centre{low.x + side / 2, low.y + side * 0.75F};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (is_done) {
+    draw_icon(list, Icon::check, centre, ImGui::GetFontSize(), color::kGood);
+  } else {
+    const std::string text = std::to_string(number);
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    const ImU32 shade = is_next ? color::kAccent : color::kQuiet;
+    list.AddCircle(centre, side * 0.45F, shade, 24, scaled(1.5));
+    list.AddText({centre.x - extent.x / 2, centre.y - extent.y / 2}, shade, text.c_str());
+  }
+  ImGui::Dummy({side, side * 1.5F});
+}
+
+void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_next) {
+  const bool is_done = !step.file.empty();
+  ImGui::PushID(number);
+  draw_number(number, is_done, is_next);
+  ImGui::SameLine();
+  const float button = is_done ? 0 : dialog_button_width("Choose...") + scaled(8);
+  const float room = ImGui::GetContentRegionAvail().x - button;
+  const float left = ImGui::GetCursorPosX();
+  const float top = ImGui::GetCursorPosY();
+  ImGui::BeginGroup();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, scaled(1)});
+  ImGui::PushFont(font(Font::bold));
+  ImGui::TextUnformatted(elided(step.name, room).c_str());
+  ImGui::PopFont();
+  ImGui::PushFont(font(Font::small));
+  const std::string told = is_done ? fs::path(step.file).filename().string() : step.what;
+  ImGui::TextDisabled("%s", elided(told, room).c_str());
+  ImGui::PopFont();
+  ImGui::PopStyleVar();
+  ImGui::EndGroup();
+  if (!is_done) {
+    ImGui::SetCursorPos({left + room + scaled(8), top + scaled(3)});
+    if (dialog_button("Choose...", is_next)) ask(studio, step);
+    studio.places.note_item(std::string("first steps/") + step.name);
+  }
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void FirstSteps::draw(const Studio& studio, const ScreenRect& room) {
+  const std::array<FirstStep, 3> steps = steps_of(studio);
+  const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return step.file.empty(); });
+  const std::uint64_t document = studio.document.first_number();
+  if (next == steps.end() || put_away_ == document) return;
+  const float row = ImGui::GetFrameHeight() * 1.5F + scaled(8);
+  const ImVec2 size{std::min(scaled(400), static_cast<float>(room.size().x) - scaled(16)),
+                    scaled(74) + 3 * row + ImGui::GetFrameHeight()};
+  if (size.x < scaled(220) || size.y > static_cast<float>(room.size().y)) return;
+  const glm::dvec2 middle = (room.low + room.high) / 2.0;
+  ImGui::SetCursorScreenPos(
+      {std::floor(static_cast<float>(middle.x) - size.x / 2), std::floor(static_cast<float>(middle.y) - size.y / 2)});
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, color::kPanel);
+  ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, scaled(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(16), scaled(14)});
+  ImGui::BeginChild("first steps", size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushFont(font(Font::bold));
+  ImGui::TextUnformatted("What it takes");
+  ImGui::PopFont();
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - icon_button_width());
+  if (icon_button("put away", Icon::cross, "Put this away; the inspector has all of it")) put_away_ = document;
+  studio.places.note_item("first steps/close");
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    draw_step(studio, steps[i], static_cast<int>(i) + 1, &steps[i] == &*next);
+  ImGui::TextDisabled("%s", elided("Or drop the files onto this window.", ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::EndChild();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "editor/geometry/picture_view.h"
+#include "editor/views/studio.h"
+
+namespace sigs::editor {
+
+// What a project needs before there is anything to see, in the order in which it is usually chosen: a card over the
+// picture, until all of it is there or the person puts the card away.
+class FirstSteps {
+ public:
+  // In the middle of `room`, in the current ImGui window.
+  void draw(const Studio& studio, const ScreenRect& room);
+
+ private:
+  std::uint64_t put_away_ = 0;  // the document for which it is not wanted
+};
+
+}  // namespace sigs::editor

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/changed_regions.h"
+
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+using namespace sigs::editor;
+
+namespace {
+
+// ImGui without a window: what it would draw is all that matters.
+class Screen {
+ public:
+  Screen() {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    unsigned char* pixels = nullptr;
+    int width = 0;
+    int height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+    resize(800, 600);
+  }
+  ~Screen() { ImGui::DestroyContext(); }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  void resize(float width, float height) { ImGui::GetIO().DisplaySize = {width, height}; }
+
+  std::vector<ImVec4> turn(const std::function<void()>& draw) {
+    ImGui::GetIO().DeltaTime = 1.0F / 60;
+    ImGui::NewFrame();
+    draw();
+    ImGui::Render();
+    return changed_.of(*ImGui::GetDrawData());
+  }
+
+ private:
+  ChangedRegions changed_;
+};
+
+void panel(const char* name, float x, float y, float width, float height, const std::string& text) {
+  ImGui::SetNextWindowPos({x, y});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoNav);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::End();
+}
+
+bool within(const ImVec4& inner, const ImVec4& outer) {
+  return inner.x >= outer.x && inner.y >= outer.y && inner.z <= outer.z && inner.w <= outer.w;
+}
+
+// All panels at rest.
+void settle(Screen& screen, const std::function<void()>& draw) {
+  for (int i = 0; i < 4; ++i) (void)screen.turn(draw);
+}
+
+}  // namespace
+
+TEST_CASE("the first turn draws the whole window, the next one nothing") {
+  Screen screen;
+  const auto draw = [] { panel("a", 0, 0, 300, 200, "same"); };
+  const std::vector<ImVec4> first = screen.turn(draw);
+  REQUIRE(first.size() == 1);
+  CHECK(within({0, 0, 800, 600}, first[0]));
+  settle(screen, draw);
+  CHECK(screen.turn(draw).empty());
+}
+
+TEST_CASE("a panel that changes is drawn, its neighbour is not") {
+  Screen screen;
+  std::string text = "before";
+  const auto draw = [&] {
+    panel("a", 0, 0, 300, 200, text);
+    panel("b", 400, 300, 300, 200, "still");
+  };
+  settle(screen, draw);
+  text = "after!";
+  const std::vector<ImVec4> changed = screen.turn(draw);
+  REQUIRE(changed.size() == 1);
+  CHECK(within({12, 11, 44, 17}, changed[0]));  // where the text stands
+  CHECK(within(changed[0], {0, 0, 300, 200}));
+}
+
+TEST_CASE("of a panel's pictures the one that is exchanged is drawn, the others are not") {
+  Screen screen;
+  int picture = 7;
+  const auto draw = [&] {
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize({700, 500});
+    ImGui::Begin("pictures", nullptr, ImGuiWindowFlags_NoDecoration);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(5)), {20, 20}, {120, 120});
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture)), {300, 200}, {400, 300});
+    list.AddText({500, 400}, IM_COL32_WHITE, "after it");
+    ImGui::End();
+  };
+  settle(screen, draw);
+  picture = 8;
+  const std::vector<ImVec4> changed = screen.turn(draw);
+  REQUIRE(changed.size() == 1);
+  CHECK(within({300, 200, 400, 300}, changed[0]));
+  CHECK(within(changed[0], {299, 199, 401, 301}));
+}
+
+TEST_CASE("what a panel leaves behind as it moves is drawn too") {
+  Screen screen;
+  float x = 20;
+  const auto draw = [&] { panel("a", x, 40, 100, 100, "moves"); };
+  settle(screen, draw);
+  x = 500;
+  const std::vector<ImVec4> changed = screen.turn(draw);
+  const auto holds = [&](const ImVec4& rect) {
+    return std::any_of(changed.begin(), changed.end(), [&](const ImVec4& region) { return within(rect, region); });
+  };
+  CHECK(holds({20, 40, 120, 140}));
+  CHECK(holds({500, 40, 600, 140}));
+}
+
+TEST_CASE("a panel that comes, goes or changes its place in the pile draws everything") {
+  Screen screen;
+  bool second = false;
+  const auto draw = [&] {
+    panel("a", 0, 0, 100, 100, "a");
+    if (second) panel("b", 300, 300, 100, 100, "b");
+  };
+  settle(screen, draw);
+  second = true;
+  (void)screen.turn(draw);  // ImGui shows a new window one turn later
+  std::vector<ImVec4> changed = screen.turn(draw);
+  settle(screen, draw);
+  second = false;
+  changed = screen.turn(draw);
+  REQUIRE(changed.size() == 1);
+  CHECK(within({0, 0, 800, 600}, changed[0]));
+}
+
+TEST_CASE("a window of another size is drawn whole") {
+  Screen screen;
+  const auto draw = [] { panel("a", 0, 0, 100, 100, "a"); };
+  settle(screen, draw);
+  screen.resize(1000, 700);
+  const std::vector<ImVec4> changed = screen.turn(draw);
+  REQUIRE(changed.size() == 1);
+  CHECK(within({0, 0, 1000, 700}, changed[0]));
+}
+
+TEST_CASE("regions are few and never overlap, and hold every panel that changed") {
+  Screen screen;
+  int turn = 0;
+  const auto draw = [&] {
+    for (int i = 0; i < 9; ++i) {
+      const int phase = (turn * (i + 3)) / 7;
+      panel(std::to_string(i).c_str(), static_cast<float>(20 + 250 * (i % 3)), static_cast<float>(20 + 190 * (i / 3)),
+            150, 120, std::to_string(phase));
+    }
+  };
+  settle(screen, draw);
+  for (turn = 1; turn < 40; ++turn) {
+    const std::vector<ImVec4> changed = screen.turn(draw);
+    CHECK(changed.size() <= 3);
+    for (std::size_t i = 0; i < changed.size(); ++i)
+      for (std::size_t j = i + 1; j < changed.size(); ++j) {
+        const ImVec4 both = common_part(changed[i], changed[j]);
+        CHECK((both.z <= both.x || both.w <= both.y));
+      }
+    for (int i = 0; i < 9; ++i) {
+      if ((turn * (i + 3)) / 7 == ((turn - 1) * (i + 3)) / 7) continue;
+      // Amid the digit, which stands 8 px inside its panel.
+      const auto x = static_cast<float>(31 + 250 * (i % 3));
+      const auto y = static_cast<float>(33 + 190 * (i / 3));
+      const ImVec4 text{x, y, x + 1, y + 1};
+      CHECK(std::any_of(changed.begin(), changed.end(), [&](const ImVec4& region) { return within(text, region); }));
+    }
+  }
+}
+
+TEST_CASE("the common part of apart rectangles is none") {
+  const ImVec4 none = common_part({0, 0, 10, 10}, {20, 0, 30, 10});
+  CHECK(none.z <= none.x);
+  const ImVec4 some = common_part({0, 0, 10, 10}, {5, -5, 30, 7});
+  CHECK(some.x == 5);
+  CHECK(some.y == 0);
+  CHECK(some.z == 10);
+  CHECK(some.w == 7);
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+#include "docs/process.h"
+#include "editor/walk/walk.h"
+
+namespace sigs::test {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr double kMouse_px = 1.6;  // the mouse stands on whole pixels, places are rounded outwards
+
+// Where the head-on sample's camera is: 22 m/s along X, footage of 25 frames a second.
+glm::dvec3 camera_m(int frame) {
+  return {22.0 * frame / 25, 0, -150};
+}
+
+double apart_px(const ScreenPlace& place, double x, double y) {
+  return std::hypot(place.center_x() - x, place.center_y() - y);
+}
+
+bool all_finite(const std::vector<glm::dvec3>& points) {
+  for (const glm::dvec3& p : points)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+  return true;
+}
+
+// Along one arrow of the handle, outwards by half its length.
+void drag_arrow(EditorDriver& editor, const std::string& axis) {
+  const ScreenPlace middle = editor.place("gizmo/middle");
+  const ScreenPlace tip = editor.place("gizmo/" + axis);
+  editor.drag("gizmo/" + axis, (tip.center_x() - middle.center_x()) / 2, (tip.center_y() - middle.center_y()) / 2);
+  editor.wait_for_picture();
+}
+
+// The world's point moved along one axis alone.
+void check_moved_along(const glm::dvec3& from_m, const glm::dvec3& to_m, int axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (i == axis)
+      CHECK(std::abs(to_m[i] - from_m[i]) > 0.5);
+    else
+      CHECK(to_m[i] == doctest::Approx(from_m[i]).epsilon(1e-12));
+  }
+}
+
+// Opens the sample from the start page and saves it under another name, by the file browser.
+fs::path open_and_save_elsewhere(Walk& walk) {
+  EditorDriver& editor = walk.editor();
+  editor.start({});
+  CHECK(editor.state()["page"] == "start");
+  (void)editor.place("start/sample.head-on");
+  for (int i = 0; i < 8; ++i) editor.settle();  // the pictures on the cards
+  walk.picture("start");
+  editor.click("start/sample.head-on");
+  editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  editor.wait_for_picture();
+  const fs::path project = walk.folder() / "encounters/mine.json";
+  fs::create_directories(project.parent_path());
+  editor.key("ctrl+shift+s");
+  (void)editor.place("browser/answer");
+  walk.fill_in("browser/name", project.string());
+  walk.picture("files");
+  editor.key("Return");
+  editor.wait_for("the copy", [&](const Json&) { return fs::exists(project); });
+  return project;
+}
+
+void check_files_still_meant(const fs::path& project, const Json& saved) {
+  const Json sample = sample_project("head-on");
+  for (const char* key : {"video", "calibration", "own_body_mask"}) {
+    const fs::path named = saved["footage"][key].get<std::string>();
+    CHECK(fs::weakly_canonical(project.parent_path() / named) == fs::path(sample["footage"][key].get<std::string>()));
+  }
+}
+
+// Adds one over the footage at frame 60 and drags it over the footage, at constant distance.
+void add_over_footage(Walk& walk, const fs::path& project) {
+  EditorDriver& editor = walk.editor();
+  walk.scrub_to(60);
+  const ScreenPlace picture = editor.place("viewport/picture");
+  const double x = std::round(picture.x + picture.width * 0.62);
+  const double y = std::round(picture.y + picture.height * 0.4);
+  editor.double_click(x, y);
+  editor.wait_for_picture();
+  CHECK(apart_px(editor.place("viewport/waypoint/0/1"), x, y) < kMouse_px);
+  const Json before = walk.saved(project);
+  REQUIRE(waypoint_frames(before) == std::vector<double>{0, 60, 150, 199});
+
+  editor.drag(x, y, x - 90, y + 40);
+  editor.wait_for_picture();
+  CHECK(apart_px(editor.place("viewport/waypoint/0/1"), x - 90, y + 40) < kMouse_px);
+  walk.picture("footage");
+  const Json after = walk.saved(project);
+  const glm::dvec3 from_m = waypoints_m(before)[1];
+  const glm::dvec3 to_m = waypoints_m(after)[1];
+  CHECK(glm::distance(from_m, to_m) > 5);
+  CHECK(glm::distance(to_m, camera_m(60)) == doctest::Approx(glm::distance(from_m, camera_m(60))).epsilon(1e-6));
+}
+
+// Adds one in the world view at frame 110, by the menu of a place beside the trajectory.
+void add_in_world(Walk& walk, const fs::path& project) {
+  EditorDriver& editor = walk.editor();
+  walk.scrub_to(110);
+  const ScreenPlace near = editor.place("world/waypoint/0/2");
+  const double x = std::round(near.center_x() + 45);
+  const double y = std::round(near.center_y() - 30);
+  editor.click(x, y, 3);
+  editor.click("world/menu/add waypoint");
+  editor.wait_for_picture();
+  CHECK(apart_px(editor.place("world/waypoint/0/2"), x, y) < kMouse_px);
+  CHECK(waypoint_frames(walk.saved(project)) == std::vector<double>{0, 60, 110, 150, 199});
+}
+
+// Picks both that were added in the world view and moves each by an arrow.
+void drag_by_arrows(Walk& walk, const fs::path& project) {
+  EditorDriver& editor = walk.editor();
+  const std::vector<glm::dvec3> before = waypoints_m(json_of(project));
+  editor.click("world/waypoint/0/1");
+  drag_arrow(editor, "z");
+  walk.picture("world");
+  const std::vector<glm::dvec3> between = waypoints_m(walk.saved(project));
+  check_moved_along(before[1], between[1], 2);
+  CHECK(between[2] == before[2]);
+
+  editor.click("world/waypoint/0/2");
+  drag_arrow(editor, "y");
+  const std::vector<glm::dvec3> after = waypoints_m(walk.saved(project));
+  check_moved_along(between[2], after[2], 1);
+  CHECK(after[1] == between[1]);
+  CHECK(all_finite(after));
+}
+
+void undo_and_redo_all(Walk& walk, const fs::path& project, int first_revision, int steps) {
+  EditorDriver& editor = walk.editor();
+  const Json edited = walk.saved(project);
+  const int last_revision = revision_of(editor.state());
+  for (int i = 0; i < steps; ++i) {
+    CHECK(revision_of(editor.state()) != first_revision);
+    editor.key("ctrl+z");
+    editor.settle();
+  }
+  editor.wait_for("all undone", [&](const Json& now) { return revision_of(now) == first_revision; });
+  editor.wait_for_picture();
+  CHECK(is_unsaved(editor.state()));
+  CHECK(waypoints_m(walk.saved(project)) == waypoints_m(sample_project("head-on")));
+  for (int i = 0; i < steps; ++i) {
+    editor.key(i % 2 == 0 ? "ctrl+shift+z" : "ctrl+y");
+    editor.settle();
+  }
+  editor.wait_for("all redone", [&](const Json& now) { return revision_of(now) == last_revision; });
+  editor.wait_for_picture();
+  CHECK(walk.saved(project) == edited);
+}
+
+void change_light(Walk& walk, const fs::path& project) {
+  EditorDriver& editor = walk.editor();
+  const Json before = json_of(project)["light"];
+  const ScreenPlace filter = editor.place("inspector/filter");
+  editor.wheel(filter.center_x(), 500, 30);  // the inspector stands at the waypoint that was selected
+  editor.settle();
+  editor.click("inspector/Light");
+  editor.settle();
+  editor.click("inspector/light preset Left");
+  editor.wait_for_picture();
+  walk.picture("light");
+  const Json after = walk.saved(project)["light"];
+  CHECK(after["position_m"] != before["position_m"]);
+  // To the left of a camera that looks along X: no nearer to ahead than to behind, and Y negative.
+  CHECK(after["position_m"][1].get<double>() < -100);
+  CHECK(after["position_m"][0].get<double>() == doctest::Approx(camera_m(140).x).epsilon(0.001));
+}
+
+void look_at_stages(Walk& walk) {
+  EditorDriver& editor = walk.editor();
+  const auto is_idle = [](const Json& now) { return now.value("current", false) && !now.value("busy", true); };
+  const int revision = revision_of(editor.state());
+  editor.click("tab/stages");
+  (void)editor.place("stages/method");
+  editor.settle();
+  editor.wait_for("the stages", is_idle, 60);
+  walk.picture("stages-direct");
+  editor.click("stages/method");
+  editor.click("stages/method/classic");
+  editor.settle();
+  editor.wait_for("the stages of classic", is_idle, 60);
+  walk.picture("stages-classic");
+  CHECK(revision_of(editor.state()) == revision);  // looking changes nothing
+  editor.click("tab/footage");
+  (void)editor.place("viewport");
+}
+
+std::set<fs::path> files_below(const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder));
+  return files;
+}
+
+void export_both_ways(Walk& walk, const fs::path& project) {
+  EditorDriver& editor = walk.editor();
+  const fs::path here = walk.folder() / "from editor";
+  const fs::path there = walk.folder() / "from command line";
+  editor.key("ctrl+e");
+  walk.fill_in("export/folder", here.string());
+  walk.picture("export");
+  editor.click("export/go");
+  (void)editor.place("export/hide");
+  editor.settle();
+  walk.picture("exporting");
+  // It tells some ten times a second how far it is; the probe is silent on it.
+  editor.wait_for(
+      "the export's end", [&](const Json& now) { return now["places"].contains("export/again"); }, 200);
+  walk.picture("exported");
+  editor.click("export/close");
+  const Finished finished = run("'" + (build_dir() / "sigs").string() + "' export '" + project.string() + "' --out '" +
+                                there.string() + "' --progress none");
+  REQUIRE_MESSAGE(finished.status == 0, finished.output);
+  REQUIRE(files_below(here) == std::set<fs::path>{"head-on.masks.mkv", "head-on.mkv", "head-on.xml"});
+  REQUIRE(files_below(there) == files_below(here));
+  for (const fs::path& file : files_below(here)) {
+    const std::string bytes = bytes_of(here / file);
+    CHECK(bytes.size() > 1000);
+    CHECK_MESSAGE(bytes == bytes_of(there / file), file << " differs");
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a person authors an encounter, and the command line exports the same bytes") {
+  if (!can_drive_windows()) return;
+  Walk walk("walk");
+  const fs::path project = open_and_save_elsewhere(walk);
+  EditorDriver& editor = walk.editor();
+  const int first_revision = revision_of(editor.state());
+  walk.scrub_to(140);
+  walk.picture("open");
+  add_over_footage(walk, project);
+  add_in_world(walk, project);
+  drag_by_arrows(walk, project);
+  undo_and_redo_all(walk, project, first_revision, 5);
+  walk.scrub_to(140);
+  change_light(walk, project);
+  look_at_stages(walk);
+  check_files_still_meant(project, walk.saved(project));
+  export_both_ways(walk, project);
+  editor.key("ctrl+q");
+  CHECK(editor.exit_status() == 0);
+}
+
+}  // namespace sigs::test
