@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md and docs/ anew: scripts/pictures.sh (after scripts/demo.sh).
+# Makes the pictures of README.md and docs/ anew: scripts/pictures.sh [BUILD FOLDER] (after
+# scripts/test.sh; Xvfb and xdotool are needed).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+build=${1:-build/release}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # The head-on encounter at frame 148; below, the intruder and its mask, four times enlarged.
-build/release/sigs frame projects/head-on/head-on.json --frame 148 --stages --out "$work" >/dev/null
+"$build"/sigs frame projects/head-on/head-on.json --frame 148 --stages --out "$work" >/dev/null
 mkdir -p docs/pictures
 ffmpeg -v error -y -i "$work/frame_148.png" -i "$work"/frame_148_*_mask.png -filter_complex "
   [0]split[whole][part];
@@ -17,7 +19,7 @@ ffmpeg -v error -y -i "$work/frame_148.png" -i "$work"/frame_148_*_mask.png -fil
   [top][bottom]vstack" -q:v 3 docs/pictures/head-on.jpg
 
 # The paper's figure 4: every stage of the classic method at frame 140.
-build/release/sigs frame projects/crossing/crossing.json --frame 140 --stages --out "$work" \
+"$build"/sigs frame projects/crossing/crossing.json --frame 140 --stages --out "$work" \
   --set compositing.method=classic >/dev/null
 stages=()
 for stage in input1 input2 a b c d f output; do
@@ -28,3 +30,18 @@ ffmpeg -v error -y "${stages[@]}" -filter_complex "
   [4]scale=400:-1[s4];[5]scale=400:-1[s5];[6]scale=400:-1[s6];[7]scale=400:-1[s7];
   [s0][s1][s2][s3]hstack=4[upper];[s4][s5][s6][s7]hstack=4[lower];[upper][lower]vstack" \
   -q:v 4 docs/pictures/classic-stages.jpg
+
+# The editor, as a test drives it.
+"$build"/test_editor_walk --test-case='a person authors*' >"$work/walk.log" || {
+  cat "$work/walk.log"
+  exit 1
+}
+editor_picture() {  # NAME SCREENSHOT
+  ffmpeg -v error -y -i "$build/screenshots/walk-$2.png" -vf scale=1200:-1:flags=lanczos -q:v 5 \
+    "docs/pictures/editor-$1.jpg"
+}
+editor_picture open open
+editor_picture footage footage
+editor_picture world world
+editor_picture light light
+editor_picture stages stages-classic

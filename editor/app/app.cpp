@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/app/shortcuts.h"
+#include "editor/widgets/popups.h"
 #include "project/json.h"
 
 namespace sigs::editor {
@@ -88,7 +89,8 @@ void App::draw(const Shown& shown) {
   wishes_ = {};
   places_.clear();
   // A key that ends a dialog or a menu in this turn was meant for that.
-  const bool keys_are_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
+  const bool keys_are_taken = any_popup_open();
+  close_popup_with_escape();
   const Studio studio{.document = document_,
                       .shown = shown,
                       .settings = settings_,

@@ -86,6 +86,15 @@ void FrontDesk::take_own_requests() {
   for (const Request& request : files_.take_requests()) take(request);
 }
 
+// Who went on with other things meanwhile is not interrupted.
+void FrontDesk::tell_of_export() {
+  if (export_view_.is_open()) return;
+  const ExportState state = export_.state();
+  if (state.phase == ExportPhase::done)
+    toasts_.say({"Exported into " + state.request.folder.string() + "; Ctrl + E shows it"}, now_s_);
+  if (state.phase == ExportPhase::failed) toasts_.say({"The export failed; Ctrl + E shows why", true}, now_s_);
+}
+
 void FrontDesk::turn(double now_s) {
   now_s_ = now_s;
   for (const auto& step : std::exchange(answered_, {})) step();
@@ -93,7 +102,7 @@ void FrontDesk::turn(double now_s) {
   take_own_requests();
   if (std::exchange(project_file_, document_.project().file) != document_.project().file) export_view_.forget_folder();
   const bool exporting = export_.is_running();
-  if (std::exchange(was_exporting_, exporting) && !exporting && !export_view_.is_open()) export_view_.open(document_);
+  if (std::exchange(was_exporting_, exporting) && !exporting) tell_of_export();
 }
 
 void FrontDesk::draw_menu(const Studio& studio) {

@@ -54,6 +54,7 @@ class FrontDesk {
  private:
   void ask_for_file(const AskForFile& wanted);
   void take_own_requests();
+  void tell_of_export();
   void draw_dialog(const Studio& studio);
 
   Document& document_;

@@ -68,7 +68,9 @@ void Layout::draw(const Studio& studio, Settings& settings) {
   const float bar = splitter_thickness();
   const double most_timeline = room.y / scaled(1) - 200;
   const float timeline = scaled(std::clamp(settings.timeline_height, 90.0, std::max(90.0, most_timeline)));
-  const float inspector = settings.show_inspector ? scaled(settings.inspector_width) : 0;
+  // In a small window, or with large text, the pictures keep the larger part.
+  const float most_inspector = std::max(scaled(160), room.x * 0.42F);
+  const float inspector = settings.show_inspector ? std::min(scaled(settings.inspector_width), most_inspector) : 0;
   const float left = settings.show_inspector ? room.x - inspector - bar : room.x;
   const auto with_usual_spacing = [&](auto content) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
@@ -90,7 +92,10 @@ void Layout::draw(const Studio& studio, Settings& settings) {
   if (settings.show_inspector) {
     ImGui::SameLine(0, 0);
     const SplitterMove side = vertical_splitter("inspector splitter", room.y);
-    move(settings.inspector_width, -side.by_px, 200, room.x / scaled(1) - 400);
+    if (side.by_px != 0) {
+      settings.inspector_width = inspector / scaled(1);
+      move(settings.inspector_width, -side.by_px, 200, most_inspector / scaled(1));
+    }
     if (side.reset) settings.inspector_width = Settings().inspector_width;
     ImGui::SameLine(0, 0);
     panel("inspector", {inspector, room.y}, true, color::kPanel,

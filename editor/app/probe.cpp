@@ -23,7 +23,7 @@ std::vector<std::string> problems_of(const Shown& shown) {
 
 void Probe::tell(const Document& document, const Shown& shown, const Places& places, const ProbedWindow& window) {
   if (!wanted()) return;
-  nlohmann::ordered_json json;
+  nlohmann::json json;
   json["frame"] = document.playhead();
   json["revision"] = document.revision().number;
   json["unsaved"] = document.has_unsaved_changes();

@@ -15,7 +15,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<Shortcut, 24> kShortcuts{{
+constexpr std::array<Shortcut, 29> kShortcuts{{
     {"Playing", "Space, K", "play, stop"},
     {"Playing", "L", "play on; again: faster"},
     {"Playing", "J", "play backwards; again: faster"},
@@ -38,6 +38,11 @@ constexpr std::array<Shortcut, 24> kShortcuts{{
     {"Project", "Ctrl + E", "export"},
     {"Project", "Ctrl + Q", "quit"},
     {"Footage", "wheel; middle drag", "zoom at the cursor; pan"},
+    {"Footage", "F or 0; 1", "whole picture; pixel for pixel"},
+    {"Footage", "Shift or Alt in a drag", "along the line of sight"},
+    {"Footage", "Backslash, held", "the footage alone"},
+    {"World", "F", "everything in sight"},
+    {"World", "N", "type a position"},
     {"Window", "F11", "full screen"},
     {"Window", "?", "this list"},
 }};

@@ -29,9 +29,13 @@ namespace fs = std::filesystem;
 struct FirstStep {
   const char* name;
   const char* what;  // is wanted
+  std::string key;   // of the field
   std::string file;  // chosen, "": none yet
   std::vector<std::string> extensions;
   std::function<void(const fs::path&)> choose;
+  std::string problem;  // with the file that was chosen
+
+  [[nodiscard]] bool is_done() const { return !file.empty() && problem.empty(); }
 };
 
 // The first that has no model; else as many as there are: one more is wanted.
@@ -60,24 +64,38 @@ std::function<void(const fs::path&)> put_aircraft(const Studio& studio) {
   };
 }
 
+// What is wrong with files that were chosen, by the newest scene that is open.
+std::array<FirstStep, 3> with_problems(std::array<FirstStep, 3> steps, const Shown& shown) {
+  if (!shown.scene) return steps;
+  for (FirstStep& step : steps)
+    for (const Problem& problem : shown.scene->draft.problems)
+      if (problem.field == step.key && !step.file.empty()) step.problem = problem.what;
+  if (shown.scene->footage && !steps[0].file.empty()) steps[0].problem = shown.scene->footage->problem;
+  return steps;
+}
+
 std::array<FirstStep, 3> steps_of(const Studio& studio) {
   const Project& project = studio.project();
   const bool has_aircraft = !project.intruders.empty() && intruder_without_model(project) == project.intruders.size();
-  return {{{.name = "Footage",
-            .what = "The video of a real flight",
-            .file = project.footage.video,
-            .extensions = extensions_for("footage.video"),
-            .choose = put_file(studio, "choose video", "footage.video")},
-           {.name = "Calibration",
-            .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
-            .file = project.footage.calibration,
-            .extensions = extensions_for("footage.calibration"),
-            .choose = put_file(studio, "choose calibration", "footage.calibration")},
-           {.name = "Aircraft",
-            .what = "A model as Wavefront OBJ; it is put 300 m ahead",
-            .file = has_aircraft ? project.intruders.front().model.file : "",
-            .extensions = extensions_for("intruders[0].model.file"),
-            .choose = put_aircraft(studio)}}};
+  std::array<FirstStep, 3> steps{{{.name = "Footage",
+                                   .what = "The video of a real flight",
+                                   .key = "footage.video",
+                                   .file = project.footage.video,
+                                   .extensions = extensions_for("footage.video"),
+                                   .choose = put_file(studio, "choose video", "footage.video")},
+                                  {.name = "Calibration",
+                                   .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
+                                   .key = "footage.calibration",
+                                   .file = project.footage.calibration,
+                                   .extensions = extensions_for("footage.calibration"),
+                                   .choose = put_file(studio, "choose calibration", "footage.calibration")},
+                                  {.name = "Aircraft",
+                                   .what = "A model as Wavefront OBJ; it is put 300 m ahead",
+                                   .key = "intruders[0].model.file",
+                                   .file = has_aircraft ? project.intruders.front().model.file : "",
+                                   .extensions = extensions_for("intruders[0].model.file"),
+                                   .choose = put_aircraft(studio)}}};
+  return with_problems(std::move(steps), studio.shown);
 }
 
 void ask(const Studio& studio, const FirstStep& step) {
@@ -104,7 +122,7 @@ void draw_number(int number, bool is_done, bool is_next) {
 }
 
 void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_next) {
-  const bool is_done = !step.file.empty();
+  const bool is_done = step.is_done();
   ImGui::PushID(number);
   draw_number(number, is_done, is_next);
   ImGui::SameLine();
@@ -118,8 +136,13 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::TextUnformatted(elided(step.name, room).c_str());
   ImGui::PopFont();
   ImGui::PushFont(font(Font::small));
-  const std::string told = is_done ? fs::path(step.file).filename().string() : step.what;
-  ImGui::TextDisabled("%s", elided(told, room).c_str());
+  const std::string told = is_done                ? fs::path(step.file).filename().string()
+                           : step.problem.empty() ? step.what
+                                                  : step.problem;
+  ImGui::PushStyleColor(ImGuiCol_Text, step.problem.empty() ? color::kQuiet : color::kBad);
+  ImGui::TextUnformatted(elided(told, room).c_str());
+  ImGui::PopStyleColor();
+  if (!step.problem.empty()) tooltip_for_item(step.problem.c_str());
   ImGui::PopFont();
   ImGui::PopStyleVar();
   ImGui::EndGroup();
@@ -135,12 +158,15 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
 
 void FirstSteps::draw(const Studio& studio, const ScreenRect& room) {
   const std::array<FirstStep, 3> steps = steps_of(studio);
-  const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return step.file.empty(); });
+  const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return !step.is_done(); });
   const std::uint64_t document = studio.document.first_number();
-  if (next == steps.end() || put_away_ == document) return;
-  const float row = ImGui::GetFrameHeight() * 1.5F + scaled(8);
-  const ImVec2 size{std::min(scaled(400), static_cast<float>(room.size().x) - scaled(16)),
-                    scaled(74) + 3 * row + ImGui::GetFrameHeight()};
+  if (std::any_of(steps.begin(), steps.end(), [](const FirstStep& step) { return step.file.empty(); }))
+    begun_ = document;
+  if (next == steps.end() || put_away_ == document || begun_ != document) return;
+  const float line = ImGui::GetFrameHeight();
+  const float gaps = 4 * ImGui::GetStyle().ItemSpacing.y;
+  const ImVec2 size{std::min(scaled(480), static_cast<float>(room.size().x) - scaled(16)),
+                    std::ceil(scaled(28) + line + 3 * 1.5F * line + gaps + ImGui::GetTextLineHeight())};
   if (size.x < scaled(220) || size.y > static_cast<float>(room.size().y)) return;
   const glm::dvec2 middle = (room.low + room.high) / 2.0;
   ImGui::SetCursorScreenPos(
@@ -151,7 +177,7 @@ void FirstSteps::draw(const Studio& studio, const ScreenRect& room) {
   ImGui::BeginChild("first steps", size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted("What it takes");
+  ImGui::TextUnformatted("First steps");
   ImGui::PopFont();
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - icon_button_width());
   if (icon_button("put away", Icon::cross, "Put this away; the inspector has all of it")) put_away_ = document;

@@ -16,6 +16,7 @@ class FirstSteps {
   void draw(const Studio& studio, const ScreenRect& room);
 
  private:
+  std::uint64_t begun_ = 0;     // the document that had not all of it
   std::uint64_t put_away_ = 0;  // the document for which it is not wanted
 };
 

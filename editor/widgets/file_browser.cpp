@@ -130,17 +130,18 @@ void FileBrowser::activate(int entry) {
 
 void FileBrowser::answer_with(const fs::path& path) {
   answer_ = path;
+  folder_ = path.parent_path();  // where the next question begins
   open_ = false;
 }
 
 void FileBrowser::answer_by_name() {
   fs::path path = folder_ / name_;
   if (name_.empty() || !path.has_filename()) return;
-  if (!path.has_extension() && !question_.extensions.empty()) path += question_.extensions.front();
   if (is_folder(path)) {
     enter(path.lexically_normal());
     return;
   }
+  if (!path.has_extension() && !question_.extensions.empty()) path += question_.extensions.front();
   if (!is_folder(path.parent_path())) {
     problem_ = "there is no folder " + path.parent_path().string();
     return;

@@ -268,11 +268,13 @@ void FileBrowser::draw_answer() {
       new_folder_.clear();
       focus_bottom_ = true;
     }
+    marks_->note_item("browser/new folder");
     ImGui::SameLine();
   }
   const char* const labels[] = {"Cancel", main};
   align_buttons_right(labels, 2);
   if (dialog_button("Cancel")) open_ = false;
+  marks_->note_item("browser/cancel");
   ImGui::SameLine();
   const bool can = saving ? !name_.empty() : of_folder || selected_ >= 0;
   const bool clicked = dialog_button(main, true, can);

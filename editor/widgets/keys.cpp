@@ -46,8 +46,4 @@ bool held(Key key) {
   return ImGui::IsKeyDown(kCodes[static_cast<std::size_t>(key)]);
 }
 
-bool released(Key key) {
-  return ImGui::IsKeyReleased(kCodes[static_cast<std::size_t>(key)]);
-}
-
 }  // namespace sigs::editor

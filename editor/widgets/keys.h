@@ -14,6 +14,5 @@ enum class Key {
 // Went down in this turn; or, where it repeats, is held and due again.
 [[nodiscard]] bool pressed(Key key, bool repeats = false);
 [[nodiscard]] bool held(Key key);
-[[nodiscard]] bool released(Key key);  // went up in this turn
 
 }  // namespace sigs::editor

@@ -19,8 +19,8 @@ struct ToolbarItem {
 };
 
 // One row on the panel's colour, as wide as the window: labels where all of them have room, else icons alone where
-// there are icons; what has no room then is left out at the end.
-void draw_toolbar(std::vector<ToolbarItem> items);
+// there are icons; what has no room then is behind a button at the end.
+void draw_toolbar(const std::vector<ToolbarItem>& items);
 [[nodiscard]] float toolbar_height();
 
 }  // namespace sigs::editor

@@ -8,9 +8,13 @@
 namespace sigs {
 namespace {
 
-void append(DrawList& list, int material, Surface surface, const std::uint32_t* corners) {
-  if (list.runs.empty() || list.runs.back().material != material || list.runs.back().surface != surface)
-    list.runs.push_back({material, surface, static_cast<std::uint32_t>(list.indices.size()), 0});
+void append(DrawList& list, int material, Surface surface, const std::uint32_t* corners,
+            HiddenSide hidden = HiddenSide::none) {
+  const auto continues = [&](const Run& run) {
+    return run.material == material && run.surface == surface && run.hidden == hidden;
+  };
+  if (list.runs.empty() || !continues(list.runs.back()))
+    list.runs.push_back({material, surface, static_cast<std::uint32_t>(list.indices.size()), 0, hidden});
   list.indices.insert(list.indices.end(), corners, corners + 3);
   list.runs.back().count += 3;
 }
@@ -26,11 +30,18 @@ void for_each_triangle(const Mesh& mesh, const std::vector<Surface>& surfaces, V
 }  // namespace
 
 DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces) {
+  const std::vector<HiddenSide> hidden = hidden_sides_of(mesh, surfaces);
   DrawList list;
-  for (const Surface wanted : {Surface::solid, Surface::cutout})
-    for_each_triangle(mesh, surfaces, [&](int material, Surface surface, const std::uint32_t* corners) {
-      if (surface == wanted) append(list, material, surface, corners);
-    });
+  for (const Surface wanted : {Surface::solid, Surface::cutout}) {
+    std::size_t first = 0;  // triangle of the part
+    for (const MeshPart& part : mesh.parts) {
+      for (const HiddenSide side : {HiddenSide::none, HiddenSide::back, HiddenSide::front})
+        for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3)
+          if (surfaces[first + i / 3] == wanted && hidden[first + i / 3] == side)
+            append(list, part.material, wanted, &mesh.indices[part.first_index + i], side);
+      first += part.index_count / 3;
+    }
+  }
   return list;
 }
 

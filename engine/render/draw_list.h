@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "render/closed.h"
 #include "render/opacity.h"
 
 namespace sigs {
@@ -16,6 +17,7 @@ struct Run {
   Surface surface = Surface::solid;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
+  HiddenSide hidden = HiddenSide::none;  // to an eye outside the body
 };
 
 struct DrawList {
@@ -31,7 +33,8 @@ struct SeeThrough {
   glm::vec3 centroid_m{0, 0, 0};  // body axes
 };
 
-// What is drawn with the depth buffer alone, in the order of the mesh's parts: solid triangles and cutouts.
+// What is drawn with the depth buffer alone, in the order of the mesh's parts: solid triangles and cutouts. Those of a
+// part that hide the same side come together.
 [[nodiscard]] DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces);
 
 // Cutouts and glass.

@@ -78,8 +78,14 @@ void set_material(const Program& program, const Material& material) {
   program.set("opacity", material.opacity >= kSolidOpacity ? 1.0F : std::max(material.opacity, 0.0F));
 }
 
+void leave_out(HiddenSide side) {
+  if (side == HiddenSide::none) return glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
+  glCullFace(side == HiddenSide::back ? GL_BACK : GL_FRONT);
+}
+
 void draw_runs(const Program& program, const Mesh& mesh, const GpuMesh& gpu, const std::vector<Run>& runs,
-               bool is_solid_pass) {
+               bool is_solid_pass, bool from_outside = false) {
   for (const Run& run : runs) {
     set_material(program, mesh.materials[run.material]);
     gpu.bind_picture(run.material);
@@ -87,15 +93,21 @@ void draw_runs(const Program& program, const Mesh& mesh, const GpuMesh& gpu, con
     program.set("solid", run.surface == Surface::solid);
     program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kSeen);
     program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
+    leave_out(from_outside ? run.hidden : HiddenSide::none);
     gpu.draw(run);
   }
 }
 
-void draw_solid(const Program& program, const Mesh& mesh, const GpuMesh& gpu) {
+// Outside the body with all of it beyond the near plane.
+bool sees_from_outside(const ViewFromBody& view_from_body, const Mesh& mesh) {
+  return view_from_body.translation_m.x > 1.01 * mesh.radius_m;
+}
+
+void draw_solid(const Program& program, const Mesh& mesh, const GpuMesh& gpu, bool from_outside) {
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
   gpu.bind_solid();
-  draw_runs(program, mesh, gpu, gpu.solid_runs(), true);
+  draw_runs(program, mesh, gpu, gpu.solid_runs(), true, from_outside);
 }
 
 void draw_see_through(const Program& program, const Mesh& mesh, const GpuMesh& gpu, const DrawList& sorted) {
@@ -113,7 +125,6 @@ void set_fixed_state() {
   glEnable(GL_MULTISAMPLE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glDisable(GL_CULL_FACE);
   glFrontFace(GL_CW);  // the window's rows run down the picture, so counter-clockwise triangles turn the other way
 }
 
@@ -195,7 +206,7 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
     if (!clip) return layer;
     if (const auto begun = state_->target.begin(piece.size()); !begun) return fail(begun.error());
     program.set("clip_from_body", glm::mat4(*clip));
-    draw_solid(program, mesh, gpu);
+    draw_solid(program, mesh, gpu, sees_from_outside(view_from_body, mesh));
     draw_see_through(program, mesh, gpu, sorted);
     state_->target.read(layer.color(piece), layer.coverage(piece));
   }

@@ -27,8 +27,11 @@ bool is_narrow() {
   return ImGui::GetContentRegionAvail().x < scaled(kNarrow);
 }
 
+// A file's name at the beginning stays as it is.
 std::string capitalised(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  const std::string first_word = text.substr(0, text.find(' '));
+  if (!text.empty() && first_word.find_first_of("._/") == std::string::npos)
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }
 
@@ -179,7 +182,13 @@ void FieldRows::rows(std::string_view prefix, const std::function<RowLook(const 
 void FieldRows::problem_lines(std::string_view key) {
   const auto [first, last] = problems_.equal_range(key);
   for (auto found = first; found != last; ++found) {
-    const std::string what_to_do = advice(found->second, sheet_.find(key));
+    const Field* const field = sheet_.find(key);
+    const std::string what_to_do = advice(found->second, field);
+    // Nothing is wrong with what was not chosen yet: its empty frame is red enough.
+    if (field != nullptr && field->is_path && std::get<std::string*>(field->value)->empty()) {
+      note(what_to_do);
+      continue;
+    }
     ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted((capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do)).c_str());

@@ -11,7 +11,6 @@
 #include "editor/views/viewport/picture_icons.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/popup.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -52,10 +51,7 @@ float method_choice_width() {
 bool begin_choice(const char* id, const std::string& shown) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
   const bool open = ImGui::BeginCombo(id, shown.c_str());
-  if (open)
-    close_by_escape();
-  else
-    ImGui::PopStyleVar();
+  if (!open) ImGui::PopStyleVar();
   return open;
 }
 
@@ -241,7 +237,7 @@ void StagesView::draw_toolbar_of(const Studio& studio) {
                               .tooltip = "One pixel of the screen for each of the picture (1)",
                               .on = grid_.look().zoom() == 1},
                    .clicked = [this] { grid_.zoom_to_exact(); }});
-  draw_toolbar(std::move(items));
+  draw_toolbar(items);
 }
 
 void StagesView::draw_notice(const Studio& studio, const ScreenRect& rect) const {
@@ -256,6 +252,7 @@ void StagesView::draw_notice(const Studio& studio, const ScreenRect& rect) const
   else if (look_ == Look::stages && stage_picture(*picture, "bent") == nullptr &&
            stage_picture(*picture, "input2") == nullptr)
     text = "No intruder can be seen in this frame: the output is the footage.";
+  if (text.empty()) studio.places.note("stages/ready", rect);
   if (text.empty()) return;
   PictureCanvas canvas{*ImGui::GetWindowDrawList(), rect, {}, {}};
   draw_label(canvas, {rect.low.x + scaled(8), rect.high.y - scaled(8)}, text, color::kPartly);

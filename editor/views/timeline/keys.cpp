@@ -178,7 +178,7 @@ void KeyRows::draw_key_menu(const Studio& studio) {
 
 void KeyRows::draw_menu(const Studio& studio) {
   if (std::exchange(menu_asked_, false)) ImGui::OpenPopup("key menu");
-  if (!begin_menu("key menu")) return;
+  if (!ImGui::BeginPopup("key menu")) return;
   const bool there = menu_.intruder < static_cast<int>(studio.project().intruders.size());
   if (!there)
     ImGui::CloseCurrentPopup();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "editor/widgets/theme.h"
 
@@ -29,7 +30,8 @@ const LaneStyle& style_of(Lane lane) {
   static const std::array<LaneStyle, kLanes> kStyles{{
       {"Visibility", "what the camera sees of it", color::kGood, 1, Scaling::linear, std::nullopt},
       {"Distance", "from the camera", IM_COL32(120, 200, 255, 255), 1, Scaling::linear, std::nullopt},
-      {"Size", "longer side of its outline in the picture", color::kBox, 1, Scaling::logarithmic, std::nullopt},
+      {"Size", "longer side of its outline, where the picture shows some of it", color::kBox, 1, Scaling::logarithmic,
+       std::nullopt},
       {"Speed", "over ground", IM_COL32(170, 220, 110, 255), 2, Scaling::linear, std::nullopt},
       {"Load factor", "1 in level flight; felt along the aircraft's own up axis", IM_COL32(240, 150, 205, 255), 0.2,
        Scaling::linear, 1.0},
@@ -43,6 +45,8 @@ double value_in(const Survey& survey, Lane lane, std::size_t i) {
     case Lane::distance:
       return survey.outlooks[i].distance_m;
     case Lane::size:
+      // Behind a wide lens an outline would be as large as the way around the picture.
+      if (survey.outlooks[i].sighting == Sighting::out_of_view) return std::numeric_limits<double>::quiet_NaN();
       return survey.outlooks[i].size_px;
     case Lane::speed:
       return survey.flight[i].speed_mps;
@@ -60,10 +64,13 @@ LaneValues values_of(const Survey& survey, Lane lane) {
   LaneValues result;
   for (std::size_t i = 0; i < count_of(survey, lane); ++i) result.values.push_back(value_in(survey, lane, i));
   result.scale = scale_for(result.values, style_of(lane).least_span, style_of(lane).scaling);
-  if (result.values.empty()) return result;
-  const auto [least, most] = std::minmax_element(result.values.begin(), result.values.end());
-  result.least = *least;
-  result.most = *most;
+  bool is_first = true;
+  for (const double value : result.values) {
+    if (!std::isfinite(value)) continue;
+    result.least = is_first ? value : std::min(result.least, value);
+    result.most = is_first ? value : std::max(result.most, value);
+    is_first = false;
+  }
   return result;
 }
 

@@ -76,7 +76,7 @@ void LaneRows::refresh(std::shared_ptr<const Survey> survey) {
 
 void LaneRows::draw_chooser() {
   if (icon_button("lanes", Icon::settings, "choose the lanes below")) ImGui::OpenPopup("choose lanes");
-  if (!begin_menu("choose lanes")) return;
+  if (!ImGui::BeginPopup("choose lanes")) return;
   for (int lane = 0; lane < kLanes; ++lane)
     ImGui::Checkbox(style_of(static_cast<Lane>(lane)).title, &shown_[static_cast<std::size_t>(lane)]);
   ImGui::EndPopup();

@@ -177,7 +177,7 @@ void RulerRow::draw_menu(const Studio& studio, const TimelineStrip& strip) {
     menu_frame_ = strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, document.first_frame(), document.last_frame());
     ImGui::OpenPopup("ruler menu");
   }
-  if (!begin_menu("ruler menu")) return;
+  if (!ImGui::BeginPopup("ruler menu")) return;
   ImGui::TextDisabled("frame %d", menu_frame_);
   ImGui::Separator();
   if (ImGui::MenuItem("Go there")) go_by_hand(studio, menu_frame_);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/widgets/popup.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -61,12 +60,6 @@ void draw_row_line(ImDrawList& list, const TimelineStrip& strip, float y) {
 std::string time_text_of(const Studio& studio, int frame) {
   if (!studio.shown.scene) return {};
   return time_text(time_of_frame_s(studio.shown.scene->footage->shape, frame));
-}
-
-bool begin_menu(const char* id) {
-  if (!ImGui::BeginPopup(id)) return false;
-  close_by_escape();
-  return true;
 }
 
 void go_by_hand(const Studio& studio, int frame) {

@@ -38,9 +38,6 @@ void draw_row_line(ImDrawList& list, const TimelineStrip& strip, float y);
 // Time of a frame by the footage that is open; none before one is.
 [[nodiscard]] std::string time_text_of(const Studio& studio, int frame);
 
-// A popup menu that was opened under this name; Esc closes it. Ends with ImGui::EndPopup() where true.
-[[nodiscard]] bool begin_menu(const char* id);
-
 // Playing stops and the playhead goes there.
 void go_by_hand(const Studio& studio, int frame);
 

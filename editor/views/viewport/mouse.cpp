@@ -7,7 +7,6 @@
 
 #include "editor/views/viewport/viewport_view.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/popup.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -83,7 +82,6 @@ void ViewportView::draw_menu(const Studio& studio, const PictureCanvas& canvas, 
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(10), scaled(8)});
   if (ImGui::BeginPopup("picture menu")) {
-    close_by_escape();
     if (menu_waypoint_)
       draw_waypoint_menu(studio);
     else

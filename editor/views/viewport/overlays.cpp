@@ -15,7 +15,9 @@ namespace sigs::editor {
 
 namespace {
 
+constexpr double kMark_px = 6;  // half a diamond
 constexpr int kMostLabels = 120;
+constexpr double kLeastSeen_px = 0.5;  // a smaller silhouette leaves no trace
 
 ScreenRect on_screen(const PictureCanvas& canvas, const Box& box) {
   return {canvas.view.screen_of({box.x, box.y}), canvas.view.screen_of({box.x + box.width, box.y + box.height})};
@@ -23,6 +25,12 @@ ScreenRect on_screen(const PictureCanvas& canvas, const Box& box) {
 
 Box edges_of(const cv::Rect& pixels) {
   return {pixels.x - 0.5, pixels.y - 0.5, static_cast<double>(pixels.width), static_cast<double>(pixels.height)};
+}
+
+const char* why_unseen(const IntruderTruth& truth) {
+  if (!truth.in_picture) return "  not in the picture";
+  const bool tiny = truth.silhouette && std::max(truth.silhouette->width, truth.silhouette->height) < kLeastSeen_px;
+  return tiny ? "  too small to be seen" : "  hidden";
 }
 
 void draw_box(const PictureCanvas& canvas, const Studio& studio, const IntruderTruth& truth, PictureLabels& labels) {
@@ -39,7 +47,7 @@ void draw_box(const PictureCanvas& canvas, const Studio& studio, const IntruderT
                         outer.low.x <= canvas.rect.high.x && outer.low.y <= canvas.rect.high.y;
   if (!in_sight) return;
   std::string text = truth.name + "  " + distance_text(glm::length(truth.position_m));
-  if (!truth.box) text += truth.in_picture ? "  hidden" : "  not in the picture";
+  if (!truth.box) text += why_unseen(truth);
   const double height = label_size(text).y;
   const double above = outer.low.y - scaled(4);
   const double below = outer.high.y + scaled(4) + height;
@@ -78,7 +86,7 @@ struct MarkStyle {
 
 void draw_mark(const PictureCanvas& canvas, const WaypointMark& mark, const MarkStyle& style) {
   const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
-  const double radius = scaled(style.worked_on ? 6 : 4);
+  const double radius = scaled(style.worked_on ? kMark_px : 4);
   const ImU32 own = intruder_color(mark.intruder);
   const ImU32 fill = style.selected ? color::kAccent : style.worked_on ? color::kWaypoint : faded(own, 0.7);
   if (style.here)
@@ -137,11 +145,23 @@ void draw_boxes(const PictureCanvas& canvas, const Studio& studio, const Picture
   for (const IntruderTruth& truth : picture.truth.intruders) draw_box(canvas, studio, truth, labels);
 }
 
+void keep_waypoints_free(const PictureCanvas& canvas, const Studio& studio, std::span<const WaypointMark> marks,
+                         PictureLabels& labels) {
+  const std::optional<int> current = current_intruder(studio);
+  const double radius = scaled(kMark_px) - 1;
+  int kept = 0;
+  for (const WaypointMark& mark : marks) {
+    const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
+    if (mark.intruder != current || !canvas.rect.contains(at) || ++kept > kMostLabels) continue;
+    labels.keep_free({at - radius, at + radius});
+  }
+}
+
 void draw_waypoints(const PictureCanvas& canvas, const Studio& studio, std::span<const WaypointMark> marks,
                     const FootageEye& eye, PictureLabels& labels) {
   const Selection& selection = studio.document.selection();
   const std::optional<int> current = current_intruder(studio);
-  const double radius = scaled(6);
+  const double radius = scaled(kMark_px);
   int named = 0;
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
   for (const WaypointMark& mark : marks) {

@@ -38,6 +38,10 @@ void draw_picture_grid(const PictureCanvas& canvas, PictureGrid grid);
 // The boxes of a picture's truth: of what is visible solid, of the whole silhouette dashed; name and distance.
 void draw_boxes(const PictureCanvas& canvas, const Studio& studio, const Picture& picture, PictureLabels& labels);
 
+// No label over the diamonds of the intruder that is worked on.
+void keep_waypoints_free(const PictureCanvas& canvas, const Studio& studio, std::span<const WaypointMark> marks,
+                         PictureLabels& labels);
+
 // Diamonds with the number of their frame; those of the intruder that is worked on larger.
 void draw_waypoints(const PictureCanvas& canvas, const Studio& studio, std::span<const WaypointMark> marks,
                     const FootageEye& eye, PictureLabels& labels);

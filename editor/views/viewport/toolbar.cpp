@@ -34,7 +34,7 @@ const char* label_of(PictureGrid grid) {
 
 void draw_viewport_toolbar(const ViewportSwitches& switches) {
   OverlayChoice& overlays = switches.overlays;
-  std::vector<ToolbarItem> items{
+  const std::vector<ToolbarItem> items{
       switch_of("box", picture_icon::box, "Box",
                 "Boxes of the truth: what is visible solid, the whole silhouette dashed", overlays.box),
       switch_of("path", picture_icon::path, "Path", "The way of each intruder, as seen from here through the lens",
@@ -72,7 +72,7 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
                   .on = switches.look.zoom() == 1},
        .clicked = [&switches] { switches.look.zoom_to(1, switches.look.room_px() / 2.0); }},
   };
-  draw_toolbar(std::move(items));
+  draw_toolbar(items);
 }
 
 }  // namespace sigs::editor

@@ -114,6 +114,7 @@ void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canv
   draw_picture_grid(canvas, overlays_.grid);
   if (footage_alone_) return;
   PictureLabels labels;
+  keep_waypoints_free(canvas, studio, marks, labels);
   if (overlays_.horizon && eye != nullptr) draw_horizon(canvas, *eye);
   if (overlays_.path && eye != nullptr) path_.draw(canvas, studio, *eye);
   if (overlays_.box && picture != nullptr) draw_boxes(canvas, studio, *picture, labels);

@@ -9,7 +9,6 @@
 
 #include "editor/views/readable.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/popup.h"
 
 namespace sigs::editor {
 
@@ -104,7 +103,6 @@ std::optional<Selection> WorldMenu::draw(const WorldTurn& turn) {
     state_ = State::closed;
     return std::nullopt;
   }
-  close_by_escape();
   const std::optional<Selection> numbers_for = draw_items(turn);
   ImGui::EndPopup();
   return numbers_for;

@@ -68,14 +68,15 @@ WorldToolbarAnswer draw_world_toolbar(WorldLook& look) {
     button.on = look.stand == wanted;
     return ToolbarItem{.button = button, .clicked = [&answer, wanted] { answer.stand = wanted; }};
   };
-  std::vector<ToolbarItem> items{
+  const std::vector<ToolbarItem> items{
       stand({"orbit", orbit_icon, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
             WorldStand::orbit),
       stand({"top", top_icon, "Top", "From above, the camera's way upwards"}, WorldStand::top),
       stand({"side", side_icon, "Side", "From the right-hand side, the camera flying to the right"}, WorldStand::side),
       stand({"camera", camera_icon, "Camera", "From behind the camera, going with it"}, WorldStand::camera),
       {.is_gap = true},
-      {.button = {"frame", frame_icon, "", "Everything in sight (F); the light too while it is selected"}, .clicked = [&] { answer.frame_all = true; }},
+      {.button = {"frame", frame_icon, "", "Everything in sight (F); the light too while it is selected"},
+       .clicked = [&] { answer.frame_all = true; }},
       {.button = {"perspective", perspective_icon, "", "Perspective; off: parallel, true to scale",
                   look.eye.projection == Projection::perspective},
        .clicked =
@@ -86,7 +87,7 @@ WorldToolbarAnswer draw_world_toolbar(WorldLook& look) {
       {.button = {"snap", snap_icon, "", "Move in round steps (Ctrl: the other way for once)", look.snap},
        .clicked = [&] { look.snap = !look.snap; }},
   };
-  draw_toolbar(std::move(items));
+  draw_toolbar(items);
   return answer;
 }
 

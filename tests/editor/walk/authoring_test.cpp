@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "docs/process.h"
 #include "editor/walk/walk.h"
@@ -178,17 +179,14 @@ void change_light(Walk& walk, const fs::path& project) {
 
 void look_at_stages(Walk& walk) {
   EditorDriver& editor = walk.editor();
-  const auto is_idle = [](const Json& now) { return now.value("current", false) && !now.value("busy", true); };
   const int revision = revision_of(editor.state());
   editor.click("tab/stages");
-  (void)editor.place("stages/method");
-  editor.settle();
-  editor.wait_for("the stages", is_idle, 60);
+  (void)editor.place("stages/ready");
   walk.picture("stages-direct");
   editor.click("stages/method");
   editor.click("stages/method/classic");
   editor.settle();
-  editor.wait_for("the stages of classic", is_idle, 60);
+  (void)editor.place("stages/ready");
   walk.picture("stages-classic");
   CHECK(revision_of(editor.state()) == revision);  // looking changes nothing
   editor.click("tab/footage");
@@ -218,8 +216,10 @@ void export_both_ways(Walk& walk, const fs::path& project) {
       "the export's end", [&](const Json& now) { return now["places"].contains("export/again"); }, 200);
   walk.picture("exported");
   editor.click("export/close");
-  const Finished finished = run("'" + (build_dir() / "sigs").string() + "' export '" + project.string() + "' --out '" +
-                                there.string() + "' --progress none");
+  std::ostringstream command;  // paths come quoted
+  command << build_dir() / "sigs"
+          << " export " << project << " --out " << there << " --progress none";
+  const Finished finished = run(command.str());
   REQUIRE_MESSAGE(finished.status == 0, finished.output);
   REQUIRE(files_below(here) == std::set<fs::path>{"head-on.masks.mkv", "head-on.mkv", "head-on.xml"});
   REQUIRE(files_below(there) == files_below(here));
@@ -239,6 +239,7 @@ TEST_CASE("a person authors an encounter, and the command line exports the same 
   EditorDriver& editor = walk.editor();
   const int first_revision = revision_of(editor.state());
   walk.scrub_to(140);
+  for (int i = 0; i < 12; ++i) editor.settle();  // the model's picture comes after those of the frames
   walk.picture("open");
   add_over_footage(walk, project);
   add_in_world(walk, project);

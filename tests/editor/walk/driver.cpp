@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -63,8 +64,9 @@ std::string read(const fs::path& file) {
   return text.str();
 }
 
+// Not below zero: a minus would look like an option.
 std::string whole(double x) {
-  return std::to_string(std::lround(x));
+  return std::to_string(std::max(0L, std::lround(x)));
 }
 
 // Xvfb on a free display; its number is what it writes once it is ready.
@@ -80,7 +82,7 @@ pid_t start_screen(const fs::path& home, int width_px, int height_px, std::strin
     rest(0.05);
   }
   if (display.empty()) throw std::runtime_error("Xvfb did not start: " + read(log));
-  display = ":" + display.substr(0, display.size() - 1);
+  display = std::string(":").append(display, 0, display.size() - 1);
   return screen;
 }
 
@@ -191,19 +193,27 @@ namespace {
 
 // ImGui looks at the mouse once a turn: a press and release between two turns would go by unseen.
 constexpr double kTurn_s = 0.08;
-const char* const kTurn = "0.08";
 
 }  // namespace
 
+std::string EditorDriver::paused(double seconds) const {
+  return std::to_string(seconds * pace_);
+}
+
+void EditorDriver::rest_a_turn() const {
+  rest(kTurn_s * pace_);
+}
+
 void EditorDriver::move(double x, double y) {
   xdotool({"mousemove", whole(x), whole(y)});
-  rest(kTurn_s);
+  rest_a_turn();
 }
 
 void EditorDriver::click(double x, double y, int button) {
   const std::string number = std::to_string(button);
-  xdotool({"mousemove", whole(x), whole(y), "sleep", kTurn, "mousedown", number, "sleep", kTurn, "mouseup", number});
-  rest(kTurn_s);
+  xdotool({"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s), "mousedown", number, "sleep", paused(kTurn_s),
+           "mouseup", number});
+  rest_a_turn();
 }
 
 void EditorDriver::click(const std::string& name, int button) {
@@ -212,26 +222,27 @@ void EditorDriver::click(const std::string& name, int button) {
 }
 
 void EditorDriver::double_click(double x, double y) {
-  xdotool({"mousemove", whole(x), whole(y), "sleep", kTurn, "mousedown", "1", "sleep", "0.05", "mouseup", "1",  //
-           "sleep", "0.05", "mousedown", "1", "sleep", "0.05", "mouseup", "1"});
-  rest(kTurn_s);
+  xdotool({"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s), "mousedown", "1", "sleep", paused(0.05),
+           "mouseup", "1",  //
+           "sleep", paused(0.05), "mousedown", "1", "sleep", paused(0.05), "mouseup", "1"});
+  rest_a_turn();
 }
 
 void EditorDriver::drag(double x, double y, double to_x, double to_y, int button, const std::string& held_key) {
   const std::string number = std::to_string(button);
-  std::vector<std::string> words{"mousemove", whole(x), whole(y), "sleep", kTurn};
+  std::vector<std::string> words{"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s)};
   const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (!held_key.empty()) add({"keydown", held_key});
-  add({"mousedown", number, "sleep", kTurn});
+  add({"mousedown", number, "sleep", paused(kTurn_s)});
   constexpr int kSteps = 8;
   for (int i = 1; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;
-    add({"mousemove", whole(x + share * (to_x - x)), whole(y + share * (to_y - y)), "sleep", "0.04"});
+    add({"mousemove", whole(x + share * (to_x - x)), whole(y + share * (to_y - y)), "sleep", paused(0.04)});
   }
-  add({"sleep", kTurn, "mouseup", number});
+  add({"sleep", paused(kTurn_s), "mouseup", number});
   if (!held_key.empty()) add({"keyup", held_key});
   xdotool(words);
-  rest(kTurn_s);
+  rest_a_turn();
 }
 
 void EditorDriver::drag(const std::string& name, double by_x, double by_y, int button, const std::string& held_key) {
@@ -243,18 +254,18 @@ void EditorDriver::wheel(double x, double y, int clicks) {
   move(x, y);
   for (int i = 0; i < std::abs(clicks); ++i) {
     xdotool({"click", clicks > 0 ? "4" : "5"});
-    rest(kTurn_s);
+    rest_a_turn();
   }
 }
 
 void EditorDriver::key(const std::string& keys) {
-  xdotool({"key", "--delay", "60", keys});
-  rest(kTurn_s);
+  xdotool({"key", "--delay", whole(60 * pace_), keys});
+  rest_a_turn();
 }
 
 void EditorDriver::type(const std::string& text) {
-  xdotool({"type", "--delay", "30", "--", text});
-  rest(kTurn_s);
+  xdotool({"type", "--delay", whole(30 * pace_), "--", text});
+  rest_a_turn();
 }
 
 void EditorDriver::screenshot(const fs::path& file) const {

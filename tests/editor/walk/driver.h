@@ -47,6 +47,8 @@ class EditorDriver {
   // The picture of the present revision and frame is shown, and nothing else is under way.
   void wait_for_picture();
   void settle();  // some turns of the window's loop
+  // Mouse and keys from here on with pauses so many times as long; below 1 the window may miss some.
+  void set_pace(double pace) { pace_ = pace; }
 
   void move(double x, double y);
   void click(double x, double y, int button = 1);
@@ -62,6 +64,8 @@ class EditorDriver {
   void screenshot(const std::filesystem::path& file) const;  // PNG
 
  private:
+  [[nodiscard]] std::string paused(double seconds) const;  // for xdotool
+  void rest_a_turn() const;
   void xdotool(const std::vector<std::string>& arguments) const;
 
   std::filesystem::path home_;
@@ -72,6 +76,7 @@ class EditorDriver {
   pid_t screen_ = -1;
   pid_t editor_ = -1;
   int exit_status_ = 0;
+  double pace_ = 1;
 };
 
 }  // namespace sigs::test

@@ -80,7 +80,6 @@ TEST_CASE("nothing unsaved is given up without a question") {
   const fs::path project = put(sample_project("head-on"), walk.folder() / "mine.json");
   const std::string original = bytes_of(project);
   open(walk, project);
-  add_waypoint(walk);  // joins the one in frame 0 or moves nothing: the next one counts
   walk.scrub_to(75);
   add_waypoint(walk);
   const int revision = revision_of(editor.state());
