@@ -7,8 +7,8 @@
 
 namespace sigs::editor {
 
-// A key and what it does, for the help page: what take_keys follows, and below that what views take themselves while the
-// mouse is over them.
+// A key and what it does, for the help page: what take_keys follows, and below that what views take themselves while
+// the mouse is over them.
 struct Shortcut {
   const char* group;
   const char* keys;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <utility>
 
+#include "editor/app/button_queue.h"
 #include "editor/app/canvas.h"
 #include "editor/app/key_queue.h"
 #include "editor/widgets/theme.h"
@@ -25,6 +26,7 @@ namespace {
 struct Incoming {
   std::vector<std::filesystem::path> dropped;
   KeyQueue keys;
+  ButtonQueue buttons;
   bool needs_all = false;  // to be drawn
 };
 
@@ -90,6 +92,25 @@ void hand_on_keys(GLFWwindow* window) {
   }
 }
 
+#if IMGUI_VERSION_NUM < 18700
+void note_button(GLFWwindow* window, int button, int action, int) {
+  ButtonEvent event{.button = button, .down = action == GLFW_PRESS};
+  glfwGetCursorPos(window, &event.x, &event.y);
+  incoming_of(window).buttons.push(event);
+}
+
+// After the back end has put the buttons as they are at this moment.
+void hand_on_buttons(GLFWwindow* window) {
+  const Buttons buttons = incoming_of(window).buttons.take_for_turn();
+  ImGuiIO& io = ImGui::GetIO();
+  for (std::size_t i = 0; i < buttons.down.size(); ++i) io.MouseDown[i] = buttons.down[i];
+  if (buttons.at) io.MousePos = {static_cast<float>(buttons.at->x), static_cast<float>(buttons.at->y)};
+}
+#else
+// Keeps the order of events itself.
+void hand_on_buttons(GLFWwindow*) {}
+#endif
+
 double screen_scale(GLFWwindow* window) {
   float x = 1;
   float y = 1;
@@ -103,6 +124,7 @@ void start_imgui(GLFWwindow* window) {
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
   ImGui::GetIO().ConfigInputTextCursorBlink = false;
   ImGui::GetIO().ConfigDragClickToInputText = true;  // on a number, a click types and a drag drags
+  ImGui::GetIO().MouseDoubleClickTime = 0.4F;        // as desktops have it
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330");
 }
@@ -138,6 +160,9 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   start_imgui(window);
   glfwSetKeyCallback(window, note_key);
   glfwSetCharCallback(window, note_character);
+#if IMGUI_VERSION_NUM < 18700
+  glfwSetMouseButtonCallback(window, note_button);
+#endif
   return std::unique_ptr<Window>(new Window(std::move(state)));
 }
 
@@ -151,13 +176,14 @@ Window::~Window() {
 }
 
 bool Window::wait(double timeout_s) {
-  if (!state_->incoming.keys.empty()) timeout_s = 0;
+  const Incoming& incoming = state_->incoming;
+  if (!incoming.keys.empty() || !incoming.buttons.empty()) timeout_s = 0;
   const double start_s = glfwGetTime();
   if (timeout_s > 0)
     glfwWaitEventsTimeout(timeout_s);
   else
     glfwPollEvents();
-  return !state_->incoming.keys.empty() || glfwGetTime() - start_s < timeout_s;
+  return !incoming.keys.empty() || !incoming.buttons.empty() || glfwGetTime() - start_s < timeout_s;
 }
 
 void Window::wake() {
@@ -177,6 +203,7 @@ void Window::begin(const Settings& settings) {
   hand_on_keys(state_->window);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  hand_on_buttons(state_->window);
   ImGui::NewFrame();
 }
 

@@ -158,14 +158,16 @@ void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
   turns_to_open_ = has_arrived && turns_to_open_ > 2 ? 0 : std::max(0, turns_to_open_ - 1);
 }
 
-void InspectorView::draw_found(FieldRows& rows) const {
+void InspectorView::draw_found(const Studio& studio, FieldRows& rows) const {
   std::string heading;
   bool has_any = false;
   for (const Field& field : sheet_->fields()) {
     const std::string name = editor::block_of(field.key);
     if (name.empty() || !matches(field, filter_)) continue;
     const bool is_of_intruder = name == "Intruders" || name == "Trajectory";
-    const std::string place = is_of_intruder ? field.key.substr(0, field.key.find('.')) + " " + name : name;
+    // By the intruder's name: "airliner, scale" without the field's own.
+    const std::string whole = place_of(studio.project(), field.key);
+    const std::string place = is_of_intruder ? whole.substr(0, whole.rfind(", ")) : name;
     if (place != heading) note(place);
     heading = place;
     rows.row(field.key);
@@ -184,7 +186,7 @@ void InspectorView::draw(const Studio& studio) {
   if (filter_.empty())
     draw_blocks(studio, rows);
   else
-    draw_found(rows);
+    draw_found(studio, rows);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   rows.finish();

@@ -27,7 +27,7 @@ class InspectorView {
   void go_to_problem(const Studio& studio, const std::string& key);
   void draw_top(const Studio& studio, FieldRows& rows);
   void draw_blocks(const Studio& studio, FieldRows& rows);
-  void draw_found(FieldRows& rows) const;
+  void draw_found(const Studio& studio, FieldRows& rows) const;
   void block(const Studio& studio, const char* title, bool opens_first, const std::function<void()>& content);
 
   std::optional<FieldSheet> sheet_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 
@@ -66,6 +67,12 @@ void draw_centred(ImVec2 low, ImVec2 size, const std::string& text) {
                                       shown.c_str());
 }
 
+// However it is spelt: a project that was saved elsewhere names the same file by another way.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code code;
+  return std::filesystem::absolute(a, code).lexically_normal() == std::filesystem::absolute(b, code).lexically_normal();
+}
+
 }  // namespace
 
 void ModelBlock::draw_list(const Studio& studio, const FieldRows& rows) {
@@ -116,12 +123,13 @@ void ModelBlock::draw_preview(const Studio& studio, int intruder) {
   list.AddRectFilled(low, high, color::kCanvas, scaled(4));
   const ModelPicture* const model = studio.shown.model.get();
   const std::string& file = studio.project().intruders[static_cast<std::size_t>(intruder)].model.file;
-  const bool is_of_this = model != nullptr && model->file == resolved(studio.project(), file);
+  const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(studio.project(), file));
   if (!is_of_this || model->rgba.empty()) {
     draw_centred(low, size, file.empty() ? "no model" : is_of_this && !model->problem.empty() ? "no picture" : "...");
     return;
   }
   list.AddImage(studio.textures.of(model->rgba, Filter::smooth), low, high);
+  studio.places.note_item("inspector/model picture");
   note(decimetres(model->size_m.x) + " m long, " + decimetres(model->size_m.y) + " m span, " +
        decimetres(model->size_m.z) + " m high");
 }

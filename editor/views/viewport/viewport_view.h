@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "editor/views/viewport/problem_banner.h"
 #include "editor/views/studio.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/views/viewport/path.h"
-#include "editor/views/viewport/wipe.h"
+#include "editor/views/viewport/problem_banner.h"
 #include "editor/views/viewport/waypoint_tool.h"
+#include "editor/views/viewport/wipe.h"
 #include "editor/widgets/zoomable_picture.h"
 
 namespace sigs::editor {

@@ -8,8 +8,8 @@
 
 #include "editor/geometry/image_drag.h"
 #include "editor/preview/previewer.h"
-#include "editor/views/world/curve_samples.h"
 #include "editor/views/studio.h"
+#include "editor/views/world/curve_samples.h"
 
 namespace sigs::editor {
 

@@ -71,10 +71,11 @@ const Survey* survey_of(const Studio& studio, int intruder) {
   return index < surveys.size() ? surveys[index].get() : nullptr;
 }
 
+// Wider than the curve, to be seen beside one of any colour.
 void draw_flagged(WorldCanvas& canvas, const WorldCurve& curve, const Survey* survey) {
   if (survey == nullptr) return;
   for (const FlightFlag& flag : survey->flags)
-    canvas.polyline(stretch(curve.samples, flag.first_frame - 0.5, flag.last_frame + 0.5), color::kBad, 3);
+    canvas.polyline(stretch(curve.samples, flag.first_frame - 0.5, flag.last_frame + 0.5), faded(color::kBad, 0.75), 7);
 }
 
 // Waypoints off the curve pull at it: the lines between them say how.
@@ -128,10 +129,10 @@ void draw_trajectories(WorldCanvas& canvas, const WorldTurn& turn) {
     const bool current = is_current(turn.studio, curve.intruder);
     const ImU32 color = faded(intruder_color(curve.intruder), current ? 1 : 0.6);
     draw_control_lines(canvas, project.intruders[index].trajectory, color);
+    draw_flagged(canvas, curve, survey_of(turn.studio, curve.intruder));
     canvas.polyline(stretch(curve.samples, -1e300, curve.range_first), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_last, 1e300), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_first, curve.range_last), color, current ? 2.2 : 1.6);
-    draw_flagged(canvas, curve, survey_of(turn.studio, curve.intruder));
     draw_ticks(canvas, curve, faded(color, current ? 0.8 : 0.45));
   }
 }
@@ -180,8 +181,7 @@ void draw_closest_approaches(WorldCanvas& canvas, const WorldTurn& turn) {
     // While something is dragged the lines are ahead of the survey: the label says what is drawn.
     const double distance_m = glm::distance(camera_m, *body_m);
     const std::optional<glm::dvec2> middle = canvas.in_sight((camera_m + *body_m) / 2.0);
-    if (middle && current)
-      canvas.label_beside(*middle, scaled(8), "closest " + distance_text(distance_m), color);
+    if (middle && current) canvas.label_beside(*middle, scaled(8), "closest " + distance_text(distance_m), color);
   }
 }
 

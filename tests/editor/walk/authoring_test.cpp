@@ -32,12 +32,20 @@ bool all_finite(const std::vector<glm::dvec3>& points) {
   return true;
 }
 
-// Along one arrow of the handle, outwards by half its length.
-void drag_arrow(EditorDriver& editor, const std::string& axis) {
+// Picks a waypoint in the world view and drags one arrow of its handle, outwards by half its length.
+void drag_arrow(Walk& walk, const std::string& waypoint, const std::string& axis) {
+  EditorDriver& editor = walk.editor();
+  const ScreenPlace there = editor.place(waypoint);
+  editor.click(waypoint);
+  editor.wait_for("the handle at " + waypoint, [&](const Json&) {
+    return editor.has_place("gizmo/" + axis) &&
+           apart_px(editor.place("gizmo/middle"), there.center_x(), there.center_y()) < kMouse_px;
+  });
   const ScreenPlace middle = editor.place("gizmo/middle");
   const ScreenPlace tip = editor.place("gizmo/" + axis);
-  editor.drag("gizmo/" + axis, (tip.center_x() - middle.center_x()) / 2, (tip.center_y() - middle.center_y()) / 2);
-  editor.wait_for_picture();
+  walk.edit([&] {
+    editor.drag("gizmo/" + axis, (tip.center_x() - middle.center_x()) / 2, (tip.center_y() - middle.center_y()) / 2);
+  });
 }
 
 // The world's point moved along one axis alone.
@@ -87,14 +95,12 @@ void add_over_footage(Walk& walk, const fs::path& project) {
   const ScreenPlace picture = editor.place("viewport/picture");
   const double x = std::round(picture.x + picture.width * 0.62);
   const double y = std::round(picture.y + picture.height * 0.4);
-  editor.double_click(x, y);
-  editor.wait_for_picture();
+  walk.edit([&] { editor.double_click(x, y); });
   CHECK(apart_px(editor.place("viewport/waypoint/0/1"), x, y) < kMouse_px);
   const Json before = walk.saved(project);
   REQUIRE(waypoint_frames(before) == std::vector<double>{0, 60, 150, 199});
 
-  editor.drag(x, y, x - 90, y + 40);
-  editor.wait_for_picture();
+  walk.edit([&] { editor.drag(x, y, x - 90, y + 40); });
   CHECK(apart_px(editor.place("viewport/waypoint/0/1"), x - 90, y + 40) < kMouse_px);
   walk.picture("footage");
   const Json after = walk.saved(project);
@@ -112,25 +118,21 @@ void add_in_world(Walk& walk, const fs::path& project) {
   const double x = std::round(near.center_x() + 45);
   const double y = std::round(near.center_y() - 30);
   editor.click(x, y, 3);
-  editor.click("world/menu/add waypoint");
-  editor.wait_for_picture();
+  walk.edit([&] { editor.click("world/menu/add waypoint"); });
   CHECK(apart_px(editor.place("world/waypoint/0/2"), x, y) < kMouse_px);
   CHECK(waypoint_frames(walk.saved(project)) == std::vector<double>{0, 60, 110, 150, 199});
 }
 
 // Picks both that were added in the world view and moves each by an arrow.
 void drag_by_arrows(Walk& walk, const fs::path& project) {
-  EditorDriver& editor = walk.editor();
   const std::vector<glm::dvec3> before = waypoints_m(json_of(project));
-  editor.click("world/waypoint/0/1");
-  drag_arrow(editor, "z");
+  drag_arrow(walk, "world/waypoint/0/1", "z");
   walk.picture("world");
   const std::vector<glm::dvec3> between = waypoints_m(walk.saved(project));
   check_moved_along(before[1], between[1], 2);
   CHECK(between[2] == before[2]);
 
-  editor.click("world/waypoint/0/2");
-  drag_arrow(editor, "y");
+  drag_arrow(walk, "world/waypoint/0/2", "y");
   const std::vector<glm::dvec3> after = waypoints_m(walk.saved(project));
   check_moved_along(between[2], after[2], 1);
   CHECK(after[1] == between[1]);
@@ -167,8 +169,7 @@ void change_light(Walk& walk, const fs::path& project) {
   editor.settle();
   editor.click("inspector/Light");
   editor.settle();
-  editor.click("inspector/light preset Left");
-  editor.wait_for_picture();
+  walk.edit([&] { editor.click("inspector/light preset Left"); });
   walk.picture("light");
   const Json after = walk.saved(project)["light"];
   CHECK(after["position_m"] != before["position_m"]);
@@ -239,7 +240,10 @@ TEST_CASE("a person authors an encounter, and the command line exports the same 
   EditorDriver& editor = walk.editor();
   const int first_revision = revision_of(editor.state());
   walk.scrub_to(140);
-  for (int i = 0; i < 12; ++i) editor.settle();  // the model's picture comes after those of the frames
+  // The model's picture comes after those of the frames that are made ahead.
+  editor.wait_for(
+      "rest", [](const Json& now) { return !now.value("busy", true); }, 60);
+  (void)editor.place("inspector/model picture");
   walk.picture("open");
   add_over_footage(walk, project);
   add_in_world(walk, project);

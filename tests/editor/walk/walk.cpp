@@ -63,6 +63,13 @@ void Walk::scrub_to(int frame, int last) {
   editor_.wait_for_picture();
 }
 
+void Walk::edit(const std::function<void()>& action) {
+  const int before = revision_of(editor_.state());
+  action();
+  editor_.wait_for("an edit", [&](const Json& now) { return revision_of(now) != before; });
+  editor_.wait_for_picture();
+}
+
 Json Walk::saved(const fs::path& project) {
   editor_.key("ctrl+s");
   editor_.wait_for("the project to be saved", [](const Json& now) { return !is_unsaved(now); });
@@ -70,7 +77,10 @@ Json Walk::saved(const fs::path& project) {
 }
 
 void Walk::fill_in(const std::string& place, const std::string& text) {
+  (void)editor_.place(place);
+  editor_.settle();  // a dialog that has just opened takes the focus for itself first
   editor_.click(place);
+  editor_.settle();
   editor_.key("ctrl+a");
   editor_.type(text);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -27,6 +28,8 @@ class Walk {
 
   // With the mouse on the ruler. The first intruder's waypoints have to reach from frame 0 to `last`.
   void scrub_to(int frame, int last = 199);
+  // What changes the project; returns when it has, and the picture with it.
+  void edit(const std::function<void()>& action);
   // Ctrl+S; what lies in the file then.
   [[nodiscard]] nlohmann::json saved(const std::filesystem::path& project);
   // Into the text field at a place, instead of what is there.
