@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/preview/polite.h"
+
 namespace sigs::editor {
 
 namespace {
@@ -17,6 +19,7 @@ constexpr int kBackgroundTasks = 3;
 }  // namespace
 
 void Composing::run() {
+  be_polite(kNicenessOfPictures);
   while (const std::optional<Turn> turn = board_.turn()) {
     if (step(*turn)) continue;
     board_.rest(turn->version, turn->ahead ? kLookAtFiles : kNap);

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/export_job.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <utility>
+
+#include "editor/preview/polite.h"
 
 namespace sigs::editor {
 
 namespace {
-
-constexpr int kNiceness = 10;
-
-// Linux keeps niceness by thread, and threads inherit it from the one that makes them: those of the exporter, of the
-// codecs and of the OpenGL driver follow. Where it is refused, the export is merely less polite.
-void be_polite() {
-  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
-}
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -43,7 +34,7 @@ bool ExportJob::start(ExportRequest request) {
 }
 
 void ExportJob::run() {
-  be_polite();
+  be_polite(kNicenessOfExport);
   const ExportControl control{.progress =
                                   [this](int done, int total) {
                                     {
