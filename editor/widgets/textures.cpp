@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <cstdint>
+#include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
 
@@ -13,16 +14,17 @@ namespace {
 
 constexpr int kTurnsKept = 30;
 
-GLenum format_of(const cv::Mat& picture) {
-  switch (picture.type()) {
-    case CV_8UC1: return GL_RED;
-    case CV_8UC3: return GL_BGR;
-    case CV_8UC4: return GL_RGBA;
-    default: ENSURE(!"a picture of another kind"); return GL_RED;
-  }
+// Three channels are widened here: drivers that draw in software do it sample by sample.
+cv::Mat uploadable(const cv::Mat& picture) {
+  ENSURE(picture.type() == CV_8UC1 || picture.type() == CV_8UC3 || picture.type() == CV_8UC4);
+  if (picture.channels() != 3) return picture;
+  cv::Mat widened;
+  cv::cvtColor(picture, widened, cv::COLOR_BGR2RGBA);
+  return widened;
 }
 
-unsigned int uploaded(const cv::Mat& picture) {
+unsigned int uploaded(const cv::Mat& shown) {
+  const cv::Mat picture = uploadable(shown);
   unsigned int name = 0;
   glGenTextures(1, &name);
   glBindTexture(GL_TEXTURE_2D, name);
@@ -33,9 +35,10 @@ unsigned int uploaded(const cv::Mat& picture) {
     glTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, grey);
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(picture.step1() / static_cast<std::size_t>(picture.channels())));
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.cols, picture.rows, 0, format_of(picture), GL_UNSIGNED_BYTE,
-               picture.data);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH,
+                static_cast<GLint>(picture.step1() / static_cast<std::size_t>(picture.channels())));
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.cols, picture.rows, 0, picture.channels() == 1 ? GL_RED : GL_RGBA,
+               GL_UNSIGNED_BYTE, picture.data);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   return name;

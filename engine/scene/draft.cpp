@@ -117,7 +117,10 @@ FootageShape stand_in_footage(const Project& project) {
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
       last = std::max(last, std::ceil(waypoint.frame.value_or(0)));
   const int count = static_cast<int>(std::clamp<double>(last + 1, kFewestFrames, kMostFrames));
-  FootageShape footage{.size_px = {kStandInWidth_px, kStandInHeight_px}, .frame_interval_s = kStandInInterval_s};
+  // The size that the calibration is made for: else a second fault would be seen where there is one.
+  const Result<Camera> camera = read_calibration(resolved(sound, sound.footage.calibration));
+  FootageShape footage{.size_px = camera ? camera->size_px : cv::Size(kStandInWidth_px, kStandInHeight_px),
+                       .frame_interval_s = kStandInInterval_s};
   for (int frame = 0; frame < count; ++frame) footage.times_s.push_back(frame * kStandInInterval_s);
   return footage;
 }

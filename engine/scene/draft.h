@@ -21,8 +21,8 @@ struct DraftScene {
 // Never fails. The range is clamped to the footage, which must have at least one frame.
 [[nodiscard]] DraftScene draft_scene(const Project& project, const FootageShape& footage, SceneFiles& files);
 
-// The footage of a project whose video cannot be opened: 1280x960, 25 frames a second, as long as the project's last
-// frame or waypoint asks for, at least 250 and at most 100000 frames.
+// The footage of a project whose video cannot be opened: of the size that its calibration states, else 1280x960; 25
+// frames a second, as long as the project's last frame or waypoint asks for, at least 250 and at most 100000 frames.
 [[nodiscard]] FootageShape stand_in_footage(const Project& project);
 
 }  // namespace sigs

@@ -325,3 +325,18 @@ TEST_CASE("stand-in footage is as long as the project asks for") {
   project.intruders[0].trajectory.waypoints[2].frame = kNaN;
   CHECK(stand_in_footage(project).times_s.size() == 1202);
 }
+
+TEST_CASE("stand-in footage has the size that the calibration is made for") {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "lens.yaml") << "%YAML:1.0\n---\nimage_width: 854\nimage_height: 480\n"
+                                         "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+                                         "   data: [ 500., 0., 427., 0., 500., 240., 0., 0., 1. ]\n"
+                                         "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 4\n   dt: d\n"
+                                         "   data: [ 0., 0., 0., 0. ]\n";
+  Project project;
+  project.file = folder / "p.json";
+  project.footage.calibration = "lens.yaml";
+  CHECK(stand_in_footage(project).size_px == cv::Size(854, 480));
+  project.footage.calibration = "nowhere.yaml";
+  CHECK(stand_in_footage(project).size_px == cv::Size(1280, 960));
+}

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 
+#include "editor/geometry/thinning.h"
 #include "editor/views/readable.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/theme.h"
@@ -163,15 +164,17 @@ void draw_waypoints(const PictureCanvas& canvas, const Studio& studio, std::span
   const std::optional<int> current = current_intruder(studio);
   const double radius = scaled(kMark_px);
   int named = 0;
+  Thinning thinning(scaled(3));
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
   for (const WaypointMark& mark : marks) {
     const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
     if (!ScreenRect{canvas.rect.low - radius, canvas.rect.high + radius}.contains(at)) continue;
+    const bool is_selected = selection == Selection{Selected::waypoint, mark.intruder, mark.waypoint};
+    if (thinning.leaves_out(at) && !is_selected) continue;
     studio.places.note("viewport/waypoint/" + std::to_string(mark.intruder) + "/" + std::to_string(mark.waypoint),
                        {at - radius, at + radius});
-    const MarkStyle style{.selected = selection == Selection{Selected::waypoint, mark.intruder, mark.waypoint},
-                          .worked_on = current == mark.intruder,
-                          .here = std::abs(mark.frame - eye.frame) < 0.5};
+    const MarkStyle style{
+        .selected = is_selected, .worked_on = current == mark.intruder, .here = std::abs(mark.frame - eye.frame) < 0.5};
     draw_mark(canvas, mark, style);
     // Waypoints crowd where the flight goes straight away: the first of a crowd is named, and what is selected.
     if (!style.worked_on || ++named > kMostLabels) continue;

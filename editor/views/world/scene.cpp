@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "editor/geometry/thinning.h"
 #include "editor/views/readable.h"
 #include "editor/views/waypoint_actions.h"
 
@@ -144,6 +145,7 @@ void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection&
     const auto& waypoints = studio.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
     const std::vector<double> frames = frames_of_waypoints(studio, i);
     const bool current = is_current(studio, i);
+    Thinning thinning(scaled(3));
     for (int w = 0; w < static_cast<int>(waypoints.size()); ++w) {
       const glm::dvec3& at_m = waypoints[static_cast<std::size_t>(w)].position_m;
       const Selection self{Selected::waypoint, i, w};
@@ -151,6 +153,7 @@ void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection&
       const std::optional<glm::dvec2> at = canvas.in_sight(at_m, 8);
       if (!at) continue;
       const bool lit = selection == self || hovered == self;
+      if (thinning.leaves_out(*at) && !lit) continue;
       const float radius = scaled(lit ? 5 : current ? 4 : 3);
       studio.places.note("world/waypoint/" + std::to_string(i) + "/" + std::to_string(w),
                          {*at - glm::dvec2(radius), *at + glm::dvec2(radius)});

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+namespace sigs::editor {
+
+// Of marks that are drawn in order, leaves out those that nobody could tell from the last one drawn.
+class Thinning {
+ public:
+  explicit Thinning(double least_px) : least_px_(least_px) {}
+
+  // True: leave it out. False: it is drawn, and what follows is compared with it.
+  [[nodiscard]] bool leaves_out(const glm::dvec2& at) {
+    if (last_ && glm::distance(*last_, at) < least_px_) return true;
+    last_ = at;
+    return false;
+  }
+
+ private:
+  double least_px_;
+  std::optional<glm::dvec2> last_;
+};
+
+}  // namespace sigs::editor
