@@ -2,7 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
+#include <limits>
 
 namespace sigs::editor {
 
@@ -13,14 +13,14 @@ class Thinning {
 
   // True: leave it out. False: it is drawn, and what follows is compared with it.
   [[nodiscard]] bool leaves_out(const glm::dvec2& at) {
-    if (last_ && glm::distance(*last_, at) < least_px_) return true;
+    if (glm::distance(last_, at) < least_px_) return true;
     last_ = at;
     return false;
   }
 
  private:
   double least_px_;
-  std::optional<glm::dvec2> last_;
+  glm::dvec2 last_{std::numeric_limits<double>::infinity()};  // none yet: far from everything
 };
 
 }  // namespace sigs::editor

@@ -13,7 +13,9 @@ namespace sigs::test {
 namespace {
 
 std::string help_of(const std::string& verb) {
-  const Finished finished = run("'" + (build_dir() / "sigs").string() + "' " + verb + " --help");
+  std::string command = "'";
+  command.append(build_dir() / "sigs").append("' ").append(verb).append(" --help");
+  const Finished finished = run(command);
   REQUIRE_MESSAGE(finished.status == 0, finished.output);
   return finished.output;
 }

@@ -31,8 +31,8 @@ std::string turns_of(KeyQueue& queue, bool types_text) {
       if (event.character != 0)
         told += static_cast<char>(event.character);
       else
-        told += (event.down ? "[" : "]") +
-                (event.key > 9 ? std::string(1, static_cast<char>(event.key)) : std::to_string(event.key));
+        told.append(event.down ? "[" : "]")
+            .append(event.key > 9 ? std::string(1, static_cast<char>(event.key)) : std::to_string(event.key));
     }
   }
   return told;
