@@ -118,6 +118,14 @@ double screen_scale(GLFWwindow* window) {
   return std::clamp(static_cast<double>(std::max(x, y)), 0.5, 4.0);
 }
 
+// No larger than the screen has room for.
+std::pair<int, int> fitting_size(const Settings& settings) {
+  int x = 0, y = 0, width = 0, height = 0;
+  if (GLFWmonitor* screen = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(screen, &x, &y, &width, &height);
+  if (width <= 0 || height <= 0) return {settings.window_width_px, settings.window_height_px};
+  return {std::min(settings.window_width_px, width), std::min(settings.window_height_px, height)};
+}
+
 void start_imgui(GLFWwindow* window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // what is to be remembered is in our own settings
@@ -143,7 +151,8 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   glfwWindowHint(GLFW_MAXIMIZED, settings.maximised ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "sigs-editor");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "sigs-editor");
-  GLFWwindow* window = glfwCreateWindow(settings.window_width_px, settings.window_height_px, "SIGS", nullptr, nullptr);
+  const auto [width, height] = fitting_size(settings);
+  GLFWwindow* window = glfwCreateWindow(width, height, "SIGS", nullptr, nullptr);
   if (window == nullptr) {
     const Error error = glfw_error("no window with OpenGL 3.3 can be opened");
     glfwTerminate();
