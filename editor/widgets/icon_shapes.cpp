@@ -54,10 +54,6 @@ void pause(IconPen& pen) {
   pen.filled_box({0.2F, -0.8F}, {0.65F, 0.8F});
 }
 
-void stop(IconPen& pen) {
-  pen.filled_box({-0.7F, -0.7F}, {0.7F, 0.7F});
-}
-
 void back(IconPen& pen) {
   pen.fill({{0.1F, -0.75F}, {0.1F, 0.75F}, {-0.85F, 0}});
   pen.filled_box({0.4F, -0.7F}, {0.68F, 0.7F});
@@ -92,10 +88,6 @@ void plus(IconPen& pen) {
   pen.line({{0, -0.8F}, {0, 0.8F}});
 }
 
-void minus(IconPen& pen) {
-  pen.line({{-0.8F, 0}, {0.8F, 0}});
-}
-
 void trash(IconPen& pen) {
   pen.line({{-0.85F, -0.55F}, {0.85F, -0.55F}});
   pen.line({{-0.3F, -0.6F}, {-0.3F, -0.9F}, {0.3F, -0.9F}, {0.3F, -0.6F}});
@@ -109,17 +101,6 @@ void copy(IconPen& pen) {
   pen.line({{-0.4F, 0.35F}, {-0.85F, 0.35F}, {-0.85F, -0.85F}, {0.35F, -0.85F}, {0.35F, -0.4F}});
 }
 
-void eye(IconPen& pen) {
-  pen.line({{-1, 0}, {-0.5F, -0.45F}, {0, -0.6F}, {0.5F, -0.45F}, {1, 0}, {0.5F, 0.45F}, {0, 0.6F}, {-0.5F, 0.45F}},
-           true);
-  pen.dot({0, 0}, 0.28F);
-}
-
-void eye_off(IconPen& pen) {
-  eye(pen);
-  pen.line({{-0.8F, 0.85F}, {0.8F, -0.85F}});
-}
-
 void folder(IconPen& pen) {
   pen.line({{-0.9F, 0.7F}, {-0.9F, -0.65F}, {-0.25F, -0.65F}, {0, -0.35F}, {0.9F, -0.35F}, {0.9F, 0.7F}}, true);
 }
@@ -127,12 +108,6 @@ void folder(IconPen& pen) {
 void file(IconPen& pen) {
   pen.line({{-0.65F, -0.9F}, {0.2F, -0.9F}, {0.65F, -0.45F}, {0.65F, 0.9F}, {-0.65F, 0.9F}}, true);
   pen.line({{0.2F, -0.85F}, {0.2F, -0.45F}, {0.6F, -0.45F}});
-}
-
-void save(IconPen& pen) {
-  pen.line({{-0.8F, -0.8F}, {0.5F, -0.8F}, {0.8F, -0.5F}, {0.8F, 0.8F}, {-0.8F, 0.8F}}, true);
-  pen.line({{-0.4F, -0.75F}, {-0.4F, -0.3F}, {0.35F, -0.3F}, {0.35F, -0.75F}});
-  pen.line({{-0.45F, 0.75F}, {-0.45F, 0.15F}, {0.45F, 0.15F}, {0.45F, 0.75F}});
 }
 
 void warning(IconPen& pen) {
@@ -161,29 +136,6 @@ void reset(IconPen& pen) {
   pen.fill({{-0.8F, -0.85F}, {-0.2F, -0.2F}, {-0.88F, -0.15F}});
 }
 
-void undo(IconPen& pen) {
-  pen.line({{-0.4F, -0.85F}, {-0.9F, -0.35F}, {-0.4F, 0.15F}});
-  pen.line({{-0.85F, -0.35F}, {0.3F, -0.35F}});
-  pen.arc({0.3F, 0.2F}, 0.55F, -1.57F, 1.57F);
-  pen.line({{0.3F, 0.75F}, {-0.4F, 0.75F}});
-}
-
-void redo(IconPen& pen) {
-  pen.line({{0.4F, -0.85F}, {0.9F, -0.35F}, {0.4F, 0.15F}});
-  pen.line({{0.85F, -0.35F}, {-0.3F, -0.35F}});
-  pen.arc({-0.3F, 0.2F}, 0.55F, 1.57F, 4.71F);
-  pen.line({{-0.3F, 0.75F}, {0.4F, 0.75F}});
-}
-
-void magnet(IconPen& pen) {
-  pen.arc({0, 0.1F}, 0.75F, 0, 3.1416F);
-  pen.arc({0, 0.1F}, 0.3F, 0, 3.1416F);
-  pen.line({{-0.3F, 0.1F}, {-0.3F, -0.85F}, {-0.75F, -0.85F}, {-0.75F, 0.1F}});
-  pen.line({{0.3F, 0.1F}, {0.3F, -0.85F}, {0.75F, -0.85F}, {0.75F, 0.1F}});
-  pen.line({{-0.75F, -0.45F}, {-0.3F, -0.45F}});
-  pen.line({{0.3F, -0.45F}, {0.75F, -0.45F}});
-}
-
 void search(IconPen& pen) {
   pen.circle({-0.2F, -0.2F}, 0.6F);
   pen.line({{0.25F, 0.25F}, {0.9F, 0.9F}});
@@ -196,34 +148,10 @@ void settings(IconPen& pen) {
   pen.dot({0.1F, 0.6F}, 0.24F);
 }
 
-void grid(IconPen& pen) {
-  for (const float at : {-0.35F, 0.35F}) {
-    pen.line({{-0.9F, at}, {0.9F, at}});
-    pen.line({{at, -0.9F}, {at, 0.9F}});
-  }
-}
-
 void fit(IconPen& pen) {
   for (const float x : {-1.0F, 1.0F})
     for (const float y : {-1.0F, 1.0F})
       pen.line({{x * 0.35F, y * 0.85F}, {x * 0.85F, y * 0.85F}, {x * 0.85F, y * 0.35F}});
-}
-
-void split(IconPen& pen) {
-  pen.box({-0.9F, -0.7F}, {0.9F, 0.7F}, 0.15F);
-  pen.filled_box({-0.85F, -0.65F}, {0, 0.65F});
-}
-
-void camera(IconPen& pen) {
-  pen.box({-0.95F, -0.55F}, {0.35F, 0.6F}, 0.15F);
-  pen.line({{0.4F, 0}, {0.95F, -0.5F}, {0.95F, 0.55F}}, true);
-}
-
-void light(IconPen& pen) {
-  pen.dot({0, 0}, 0.38F);
-  for (const ImVec2 ray :
-       {ImVec2{1, 0}, {0.7F, 0.7F}, {0, 1}, {-0.7F, 0.7F}, {-1, 0}, {-0.7F, -0.7F}, {0, -1}, {0.7F, -0.7F}})
-    pen.line({{ray.x * 0.62F, ray.y * 0.62F}, ray});
 }
 
 void aircraft(IconPen& pen) {
@@ -231,33 +159,6 @@ void aircraft(IconPen& pen) {
   pen.fill({{-0.1F, -0.35F}, {-0.1F, 0.1F}, {-0.95F, 0.35F}, {-0.95F, 0.12F}});
   pen.fill({{0.1F, -0.35F}, {0.95F, 0.12F}, {0.95F, 0.35F}, {0.1F, 0.1F}});
   pen.fill({{0, 0.5F}, {0.45F, 0.85F}, {-0.45F, 0.85F}});
-}
-
-void waypoint(IconPen& pen) {
-  pen.fill({{0, -0.8F}, {0.8F, 0}, {0, 0.8F}, {-0.8F, 0}});
-}
-
-void link(IconPen& pen) {
-  pen.arc({-0.45F, 0}, 0.45F, 1.57F, 4.71F);
-  pen.arc({0.45F, 0}, 0.45F, -1.57F, 1.57F);
-  pen.line({{-0.45F, -0.45F}, {-0.1F, -0.45F}});
-  pen.line({{-0.45F, 0.45F}, {-0.1F, 0.45F}});
-  pen.line({{0.45F, -0.45F}, {0.1F, -0.45F}});
-  pen.line({{0.45F, 0.45F}, {0.1F, 0.45F}});
-  pen.line({{-0.35F, 0}, {0.35F, 0}});
-}
-
-void lock(IconPen& pen) {
-  pen.filled_box({-0.65F, -0.1F}, {0.65F, 0.85F});
-  pen.arc({0, -0.3F}, 0.42F, -3.1416F, 0);
-  pen.line({{-0.42F, -0.3F}, {-0.42F, 0}});
-  pen.line({{0.42F, -0.3F}, {0.42F, 0}});
-}
-
-void out(IconPen& pen) {
-  pen.line({{-0.45F, -0.1F}, {-0.85F, -0.1F}, {-0.85F, 0.85F}, {0.85F, 0.85F}, {0.85F, -0.1F}, {0.45F, -0.1F}});
-  pen.line({{0, 0.4F}, {0, -0.85F}});
-  pen.line({{-0.4F, -0.5F}, {0, -0.9F}, {0.4F, -0.5F}});
 }
 
 void mark_in(IconPen& pen) {
@@ -272,23 +173,14 @@ void chevron_left(IconPen& pen) {
   pen.line({{0.35F, -0.7F}, {-0.35F, 0}, {0.35F, 0.7F}});
 }
 
-void chevron_right(IconPen& pen) {
-  pen.line({{-0.35F, -0.7F}, {0.35F, 0}, {-0.35F, 0.7F}});
-}
-
-void chevron_down(IconPen& pen) {
-  pen.line({{-0.7F, -0.35F}, {0, 0.35F}, {0.7F, -0.35F}});
-}
-
 using Shape = void (*)(IconPen&);
 
 // In the order of Icon.
 constexpr Shape kShapes[] = {
-    play,     pause, stop,    back,   forward,  to_start, to_end,       loop,          plus,        minus, trash,
-    copy,     eye,   eye_off, folder, file,     save,     warning,      info,          check,       cross, reset,
-    undo,     redo,  magnet,  search, settings, grid,     fit,          split,         camera,      light, aircraft,
-    waypoint, link,  lock,    out,    mark_in,  mark_out, chevron_left, chevron_right, chevron_down};
-static_assert(std::size(kShapes) == static_cast<std::size_t>(Icon::chevron_down) + 1);
+    play,    pause, back,  forward, to_start, to_end, loop,     plus, trash,    copy,    folder,   file,
+    warning, info,  check, cross,   reset,    search, settings, fit,  aircraft, mark_in, mark_out, chevron_left,
+};
+static_assert(std::size(kShapes) == static_cast<std::size_t>(Icon::chevron_left) + 1);
 
 }  // namespace
 

@@ -9,46 +9,28 @@ namespace sigs::editor {
 enum class Icon {
   play,
   pause,
-  stop,
   back,     // one frame
   forward,  // one frame
   to_start,
   to_end,
   loop,
   plus,
-  minus,
   trash,
   copy,
-  eye,
-  eye_off,
   folder,
   file,
-  save,
   warning,
   info,
   check,
   cross,
   reset,  // an arrow that turns back
-  undo,
-  redo,
-  magnet,
   search,
   settings,
-  grid,
-  fit,    // four corners
-  split,  // a picture halved
-  camera,
-  light,
+  fit,  // four corners
   aircraft,
-  waypoint,
-  link,
-  lock,
-  out,       // an arrow out of a box: export
   mark_in,   // [
   mark_out,  // ]
   chevron_left,
-  chevron_right,
-  chevron_down,
 };
 
 // Within a square of side `size` about a centre.
