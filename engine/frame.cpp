@@ -37,7 +37,7 @@ FrameTruth truth_of(const SceneMoment& moment, int frame, std::vector<IntruderTr
 
 Result<Renderer*> Bench::renderer() {
   if (!renderer_) {
-    Result<Renderer> made = Renderer::create();
+    Result<Renderer> made = Renderer::create(settings_.samples_per_pixel);
     if (!made) return fail(made.error());
     renderer_.emplace(std::move(*made));
   }

@@ -12,6 +12,7 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "video/frame.h"
+#include "work.h"
 
 namespace sigs {
 
@@ -21,10 +22,16 @@ struct Stage {
   cv::Mat picture;
 };
 
+struct BenchSettings {
+  int samples_per_pixel = 4;  // that OpenGL takes of a view's pixel: 1, 2, 4 or 8, as far as the driver can
+};
+
 // What composing needs beside the scene: OpenGL, made when the first intruder comes into view, and what depends on the
 // camera alone. One bench serves one thread, one scene after the other.
 class Bench {
  public:
+  explicit Bench(const BenchSettings& settings = {}) : settings_(settings) {}
+
   // Error unavailable where no OpenGL can be had.
   [[nodiscard]] Result<Renderer*> renderer();
 
@@ -38,6 +45,7 @@ class Bench {
   [[nodiscard]] std::string renderer_description() const;
 
  private:
+  BenchSettings settings_;
   std::optional<Renderer> renderer_;
   std::optional<DistortMaps> maps_;
   std::optional<Camera> camera_of_maps_;
@@ -58,6 +66,7 @@ struct ComposedFrame {
   FrameTruth truth;
   std::vector<Stage> stages;  // where asked for
   FrameTimes times;
+  Work work;
 };
 
 enum class Stages { leave_out, keep };

@@ -161,12 +161,14 @@ void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const V
 
 }  // namespace
 
-Result<Renderer> Renderer::create() {
+Result<Renderer> Renderer::create(int samples_per_pixel) {
+  ENSURE(samples_per_pixel >= 1 && samples_per_pixel <= 8);
   Result<EglContext> context = EglContext::create();
   if (!context) return fail(context.error());
   Result<Program> program = Program::create();
   if (!program) return fail(program.error());
-  return Renderer(std::unique_ptr<State>(new State{std::move(*context), std::move(*program), Target(), {}}));
+  return Renderer(
+      std::unique_ptr<State>(new State{std::move(*context), std::move(*program), Target(samples_per_pixel), {}}));
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -26,7 +26,8 @@ class Renderer {
  public:
   // Makes a context on EGL's surfaceless platform, else on the first EGL device that works.
   // Error unavailable where there is none; it says what was tried.
-  [[nodiscard]] static Result<Renderer> create();
+  //   samples_per_pixel  1 (no multisampling), 2, 4 or 8, as far as the driver can
+  [[nodiscard]] static Result<Renderer> create(int samples_per_pixel = 4);
 
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -39,9 +40,9 @@ class Renderer {
   [[nodiscard]] int max_size_px() const;
 
   // The mesh as the view sees it, covering the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
-  // 4 samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and kept
-  // for as long as the renderer lives, by the address of the mesh: keep meshes alive and where they are. A mesh that
-  // has changed is uploaded again, as far as a look at some thousand of its vertices and texels tells. Depth and
+  // several samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and
+  // kept for as long as the renderer lives, by the address of the mesh: keep meshes alive and where they are. A mesh
+  // that has changed is uploaded again, as far as a look at some thousand of its vertices and texels tells. Depth and
   // position are relative to the camera, so nothing shakes far from the world's origin. Everything given must be
   // finite. A view of no size gives an empty layer. Errors: bad_data where the view is larger than max_size_px();
   // unavailable where the driver fails.

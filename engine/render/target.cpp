@@ -11,8 +11,6 @@
 namespace sigs {
 namespace {
 
-constexpr int kSamples = 4;
-
 unsigned int renderbuffer(const cv::Size& size, int samples, GLenum format) {
   GLuint name = 0;
   glGenRenderbuffers(1, &name);
@@ -34,7 +32,7 @@ void read_plane(GLenum attachment, GLenum format, cv::Mat& plane) {
 
 }  // namespace
 
-Result<Target::Buffers> Target::make(const cv::Size& size, int samples, unsigned int color_format) {
+Result<Target::Buffers> Target::make(const cv::Size& size, int samples, bool with_depth, unsigned int color_format) {
   Buffers buffers;
   glGenFramebuffers(1, &buffers.framebuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, buffers.framebuffer);
@@ -42,7 +40,7 @@ Result<Target::Buffers> Target::make(const cv::Size& size, int samples, unsigned
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers.color);
   buffers.coverage = renderbuffer(size, samples, color_format == GL_RGBA32F ? GL_R32F : GL_R16F);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_RENDERBUFFER, buffers.coverage);
-  if (samples > 0) {
+  if (with_depth) {
     buffers.depth = renderbuffer(size, samples, GL_DEPTH_COMPONENT32F);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers.depth);
   }
@@ -68,8 +66,8 @@ Result<void> Target::grow(const cv::Size& size) {
   size_ = {0, 0};
   const GLenum formats[] = {GL_RGBA32F, GL_RGBA16F};  // the second: half floats are all that some drivers multisample
   for (const GLenum format : formats) {
-    const Result<Buffers> drawn = make(size, kSamples, format);
-    const Result<Buffers> resolved = make(size, 0, format);
+    const Result<Buffers> drawn = make(size, samples_, true, format);
+    const Result<Buffers> resolved = make(size, 0, false, format);
     if (drawn && resolved) {
       drawn_ = *drawn;
       resolved_ = *resolved;

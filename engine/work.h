@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace sigs {
+
+// What composing one frame took, counted where it is done. The same on every machine, unlike seconds.
+struct Work {
+  std::int64_t lens_evaluations = 0;  // directions to pixels and pixels to directions through the lens' own formulas
+  std::int64_t pixels_drawn = 0;      // of the views given to OpenGL
+  std::int64_t triangles_drawn = 0;
+  std::int64_t bytes_uploaded = 0;  // meshes and textures
+  std::int64_t pixels_bent = 0;     // of layers sampled through the lens
+  std::int64_t pixels_blurred = 0;
+  std::int64_t pixels_blended = 0;    // rewritten in the picture
+  std::int64_t pixels_converted = 0;  // of whole pictures between code values and BGR
+};
+
+}  // namespace sigs
