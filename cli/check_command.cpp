@@ -3,10 +3,12 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cli/options.h"
 #include "export.h"
 #include "project/validate.h"
+#include "scene/path_stiffness.h"
 #include "scene/scene.h"
 #include "video/frame_source.h"
 
@@ -16,6 +18,19 @@ namespace {
 
 void print(const Error& error) {
   std::printf("%s\n", error.text().c_str());
+}
+
+// One line an intruder. The condition is that of spline/stiffness.h.
+void print_paths(const Project& project, const Scene& scene) {
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const IntruderSettings& intruder = project.intruders[i];
+    const std::size_t count = intruder.trajectory.waypoints.size();
+    std::printf("intruders[%zu] \"%s\": %zu %s", i, intruder.name.c_str(), count,
+                count == 1 ? "waypoint" : "waypoints");
+    if (const std::optional<double> condition = path_condition(project, i, scene))
+      std::printf(", condition %.4g", *condition);
+    std::printf("\n");
+  }
 }
 
 // What can be seen without opening anything; then what only opening shows.
@@ -35,6 +50,7 @@ Result<void> check(const ProjectOptions& options) {
   const Result<Scene> scene = open_scene(*project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
   for (const Warning& warning : scene->warnings) print_warning(warning);
+  print_paths(*project, *scene);
   std::printf("%s: nothing is wrong; frames %d to %d, %zu %s\n", project->file.c_str(), scene->first_frame,
               scene->last_frame, scene->intruders.size(), scene->intruders.size() == 1 ? "intruder" : "intruders");
   return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/export_command.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -73,6 +75,15 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   return request;
 }
 
+// Pictures and layers of some megabytes come and go with every frame. Memory that the program keeps instead of handing
+// it back to the system costs no page faults when it is taken again.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
 void print_times(const ExportReport& report) {
   const StopTimes& times = report.times;
   const double per_frame_ms = 1000.0 / std::max(1, report.frames);
@@ -88,6 +99,7 @@ void print_times(const ExportReport& report) {
 Result<void> run(const ExportOptions& options) {
   const Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
+  keep_freed_memory();
   Progress progress(kProgressStyles.at(options.progress));
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                               .warn =

@@ -6,6 +6,7 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 
 #include "base/partial_file.h"
 #include "cli/options.h"
@@ -46,10 +47,11 @@ Result<ComposedFrame> composed(const FrameOptions& options) {
   const Result<Scene> scene = open_scene(*project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
   for (const Warning& warning : scene->warnings) print_warning(warning);
-  const Result<Frame> background = source->read(options.frame);
+  Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
   Bench bench;
-  return compose_frame(*scene, options.frame, *background, bench, options.stages ? Stages::keep : Stages::leave_out);
+  return compose_frame(*scene, options.frame, std::move(*background), bench,
+                       options.stages ? Stages::keep : Stages::leave_out);
 }
 
 Result<void> run(const FrameOptions& options) {

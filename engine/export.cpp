@@ -70,7 +70,7 @@ class Pipeline {
   void compose() {
     Bench bench;
     while (std::optional<DecodedFrame> decoded = decoded_.take()) {
-      Result<ComposedFrame> composed = compose_frame(scene_, decoded->number, decoded->picture, bench);
+      Result<ComposedFrame> composed = compose_frame(scene_, decoded->number, std::move(decoded->picture), bench);
       remember(bench.renderer_description());
       if (!finished_.put(decoded->number, std::move(composed))) break;
     }
@@ -122,12 +122,13 @@ Result<void> write_frames(Pipeline& pipeline, const FrameRange& range, ExportFil
   const int total = range.last - range.first + 1;
   for (int done = 1; done <= total; ++done) {
     if (cancelled(control)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-    const Result<ComposedFrame> frame = pipeline.next();
-    if (!frame) return fail(frame.error());
-    const Clock::time_point start = Clock::now();
-    if (const Result<void> step = files.write(*frame); !step) return step;
-    report.times.encode_s += seconds_since(start);
+    Result<ComposedFrame> frame = pipeline.next();
+    if (!frame) {
+      const Result<void> before = files.settle();
+      return fail(before ? frame.error() : before.error());
+    }
     count(*frame, report);
+    if (const Result<void> step = files.write(std::move(*frame)); !step) return step;
     if (control.progress) control.progress(done, total);
   }
   report.times.decode_s = pipeline.decode_s();
@@ -173,10 +174,9 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
     if (const Result<void> step = write_frames(pipeline, *range, *files, control, report); !step)
       return fail(step.error());
   }
-  const Clock::time_point before_end = Clock::now();
   Result<std::vector<std::filesystem::path>> written = files->keep();
   if (!written) return fail(written.error());
-  report.times.encode_s += seconds_since(before_end);
+  report.times.encode_s = files->spent_s();
   report.written = std::move(*written);
   report.times.wall_s = seconds_since(start);
   if (report.damaged_frames > 0)

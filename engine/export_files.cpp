@@ -80,12 +80,11 @@ std::string with_extension(const std::string& name, const VideoFormat& format) {
   return format.codec == VideoCodec::png ? name : name + "." + extension_of(format.container);
 }
 
-Frame frame_of_mask(const ComposedFrame& composed) {
-  const cv::Size size = composed.picture.size_px();
+Frame frame_of_mask(cv::Mat mask, double time_s) {
   return {.layout = PixelLayout::gray,
           .color = {.range = ColorRange::full, .range_stated = true},
-          .planes = {composed.mask.empty() ? cv::Mat(cv::Mat::zeros(size, CV_8UC1)) : composed.mask},
-          .time_s = composed.picture.time_s};
+          .planes = {std::move(mask)},
+          .time_s = time_s};
 }
 
 Result<void> make_folder(const fs::path& folder) {
@@ -132,7 +131,7 @@ Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const V
   if (!file) return fail(file.error());
   Result<VideoWriter> writer = VideoWriter::open(file->part(), format);
   if (!writer) return fail(writer.error());
-  return Video{std::move(*file), std::move(*writer)};
+  return Video{std::move(*file), std::make_unique<WriterThread>(std::move(*writer))};
 }
 
 Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const FootageTruth& footage,
@@ -192,16 +191,42 @@ Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoI
   return files;
 }
 
-Result<void> ExportFiles::write(const ComposedFrame& frame) {
-  Result<void> step = video_->writer.write(frame.picture, frame.truth.index);
-  if (step && masks_) step = masks_->writer.write(frame_of_mask(frame), frame.truth.index);
-  if (step && labels_) step = labels_->writer.write(frame.truth);
-  return step;
+Result<void> ExportFiles::write(ComposedFrame frame) {
+  const int number = frame.truth.index;
+  const double time_s = frame.picture.time_s;
+  bool goes_on = video_->writer->put(std::move(frame.picture), number);
+  if (masks_) {
+    WriterThread& masks = *masks_->writer;
+    goes_on &= frame.mask.empty() ? masks.put_blank(time_s, number)
+                                  : masks.put(frame_of_mask(std::move(frame.mask), time_s), number);
+  }
+  if (labels_)
+    if (const Result<void> written = labels_->writer.write(frame.truth); !written) {
+      labels_->failure = {number, written.error()};
+      goes_on = false;
+    }
+  return goes_on ? Result<void>() : settle();
+}
+
+Result<void> ExportFiles::settle() {
+  std::vector<std::optional<FrameFailure>> failures{video_->writer->settle()};
+  if (masks_) failures.push_back(masks_->writer->settle());
+  if (labels_) failures.push_back(labels_->failure);
+  std::erase(failures, std::nullopt);
+  if (failures.empty()) return {};
+  const auto first = std::min_element(failures.begin(), failures.end(),
+                                      [](const auto& a, const auto& b) { return a->frame < b->frame; });
+  return fail((*first)->error);
+}
+
+double ExportFiles::spent_s() const {
+  return video_->writer->spent_s() + (masks_ ? masks_->writer->spent_s() : 0);
 }
 
 Result<void> ExportFiles::finish() {
-  Result<void> step = video_->writer.finish();
-  if (step && masks_) step = masks_->writer.finish();
+  Result<void> step = settle();
+  if (step) step = video_->writer->finish();
+  if (step && masks_) step = masks_->writer->finish();
   if (step && labels_) step = labels_->writer.finish();
   return step;
 }

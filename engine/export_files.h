@@ -2,27 +2,35 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "annotation/sigs_xml.h"
 #include "base/partial_file.h"
 #include "export.h"
+#include "export_writer.h"
 #include "frame.h"
-#include "video/video_writer.h"
 
 namespace sigs {
 
-// The files of one export, written frame by frame.
+// The files of one export, written frame by frame: each video on a thread of its own, the labels on the caller's.
 class ExportFiles {
  public:
   [[nodiscard]] static Result<ExportFiles> open(const ExportRequest& request, const VideoInfo& footage,
                                                 const FrameRange& range);
 
-  [[nodiscard]] Result<void> write(const ComposedFrame& frame);
+  // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
+  [[nodiscard]] Result<void> write(ComposedFrame frame);
+
+  // Waits until everything handed over is written. Error: that of the first frame that could not be.
+  [[nodiscard]] Result<void> settle();
 
   // Completes all of them, then gives them their final names. Returns those.
   [[nodiscard]] Result<std::vector<std::filesystem::path>> keep();
+
+  // Seconds spent encoding and writing, added up over the outputs. Call it after settle() or keep().
+  [[nodiscard]] double spent_s() const;
 
  private:
   ExportFiles() = default;
@@ -30,11 +38,12 @@ class ExportFiles {
   // A file or, for numbered pictures, a folder.
   struct Video {
     PartialFile file;
-    VideoWriter writer;
+    std::unique_ptr<WriterThread> writer;
   };
   struct Labels {
     PartialFile file;
     SigsXmlWriter writer;
+    std::optional<FrameFailure> failure{};
   };
   [[nodiscard]] static Result<Video> open_video(const std::filesystem::path& path, const VideoFormat& format,
                                                 bool overwrite);

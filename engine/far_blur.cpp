@@ -56,18 +56,16 @@ std::optional<CellGrid> cell_grid(const std::optional<Box>& box, const Camera& c
   return CellGrid{cell_px, pixels_touched(coarse_box(*part, cell_px), 1, kEverywhere), target};
 }
 
-std::vector<VirtualView> views_of_cells(const CellGrid& grid, const Camera& camera, const Sitter& sitter,
+std::vector<VirtualView> views_of_cells(const CellGrid& grid, LensTable& lens, const Sitter& sitter,
                                         double supersampling, int max_size_px) {
   // As fine as a pixel wants it at most, and fine enough that a cell's mean is right to a thousandth.
   const double finer = std::min(grid.cell_px, 4);
-  return aimed_views(coarse_camera(camera, grid.cell_px), sitter.corners, grid.cells, supersampling * finer,
-                     max_size_px);
+  return aimed_views(lens, sitter.corners, grid.cells, supersampling * finer, max_size_px);
 }
 
-Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views, const Camera& camera,
+Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views, LensTable& lens,
                   double sigma_px) {
-  const Layer cells =
-      views.empty() ? in_cells(sharp, grid.cell_px) : bent(views, coarse_camera(camera, grid.cell_px), grid.cells);
+  const Layer cells = views.empty() ? in_cells(sharp, grid.cell_px) : bent(views, lens, grid.cells);
   if (most_after_blur(cells, grid.cell_px, sigma_px) < kLeastLight) return {};
   Layer soft = blurred_from_cells(cells, grid.cell_px, sigma_px, grid.target);
   soft.coverage = coverage_over(grid.target, sharp);

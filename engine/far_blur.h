@@ -5,6 +5,7 @@
 #include <span>
 
 #include "annotation/measure.h"
+#include "camera/lens_table.h"
 #include "coarse.h"
 
 namespace sigs {
@@ -24,13 +25,15 @@ struct CellGrid {
                                                 const cv::Rect& picture, double sigma_px);
 
 // The views to draw for the grid's cells.
-[[nodiscard]] std::vector<VirtualView> views_of_cells(const CellGrid& grid, const Camera& camera, const Sitter& sitter,
+//   lens  of the coarse camera with a pixel for each cell
+[[nodiscard]] std::vector<VirtualView> views_of_cells(const CellGrid& grid, LensTable& lens, const Sitter& sitter,
                                                       double supersampling, int max_size_px);
 
 // The blurred layer over the grid's target; empty where it is too faint to change any 8-bit sample.
 //   sharp  the part within the picture, whose coverage is taken over
 //   views  for the grid's cells; none: `sharp` is the whole intruder and the cells are made of its pixels
+//   lens   of the coarse camera
 [[nodiscard]] Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views,
-                                const Camera& camera, double sigma_px);
+                                LensTable& lens, double sigma_px);
 
 }  // namespace sigs

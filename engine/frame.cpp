@@ -52,6 +52,11 @@ const DistortMaps& Bench::maps_of(const Camera& camera) {
   return *maps_;
 }
 
+LensTable& Bench::lens_of(const Camera& camera) {
+  if (!lens_ || !is_same(lens_->camera(), camera)) lens_.emplace(camera, settings_.lens_tolerance_px);
+  return *lens_;
+}
+
 void Bench::forget(const Mesh& mesh) {
   if (renderer_) renderer_->forget(mesh);
 }
@@ -60,8 +65,7 @@ std::string Bench::renderer_description() const {
   return renderer_ ? renderer_->description() : std::string();
 }
 
-Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, Bench& bench,
-                                    Stages stages) {
+Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, Bench& bench, Stages stages) {
   ENSURE(background.size_px() == scene.footage.size_px);
   const SceneMoment moment = scene_at(scene, frame);
 
@@ -74,10 +78,16 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& 
     draw_s += intruder->draw_s;
     seen.push_back(std::move(*intruder));
   }
-  ComposedFrame composed = laid_on(background, scene, seen, bench, stages);
+  ComposedFrame composed = laid_on(std::move(background), scene, seen, bench, stages);
+  for (const SeenIntruder& intruder : seen) composed.work += intruder.work;
   composed.truth = truth_of(moment, frame, measured(scene, seen, composed.mask));
   composed.times = {draw_s, seconds_since(start) - draw_s};
   return composed;
+}
+
+Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, Bench& bench,
+                                    Stages stages) {
+  return compose_frame(scene, frame, cloned(background), bench, stages);
 }
 
 }  // namespace sigs

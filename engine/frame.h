@@ -8,6 +8,7 @@
 
 #include "annotation/annotation.h"
 #include "base/result.h"
+#include "camera/lens_table.h"
 #include "compositor/classic.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -24,6 +25,7 @@ struct Stage {
 
 struct BenchSettings {
   int samples_per_pixel = 4;  // that OpenGL takes of a view's pixel: 1, 2, 4 or 8, as far as the driver can
+  double lens_tolerance_px = LensTable::kTolerance_px;  // of tabulated rays, in the picture; 0: all rays exact
 };
 
 // What composing needs beside the scene: OpenGL, made when the first intruder comes into view, and what depends on the
@@ -38,6 +40,14 @@ class Bench {
   // Made anew where the camera is another one than at the last call. Valid until the next call.
   [[nodiscard]] const DistortMaps& maps_of(const Camera& camera);
 
+  // The camera's rays, kept from one call to the next with the same camera. Valid until a call with another.
+  [[nodiscard]] LensTable& lens_of(const Camera& camera);
+
+  [[nodiscard]] const BenchSettings& settings() const { return settings_; }
+
+  // Pictures of the classic method that nobody looks at any more, for the next frame to write over.
+  [[nodiscard]] ClassicStages& classic_buffers() { return classic_buffers_; }
+
   // Call it before a mesh that was drawn goes away, where the bench outlives it.
   void forget(const Mesh& mesh);
 
@@ -49,6 +59,8 @@ class Bench {
   std::optional<Renderer> renderer_;
   std::optional<DistortMaps> maps_;
   std::optional<Camera> camera_of_maps_;
+  ClassicStages classic_buffers_;
+  std::optional<LensTable> lens_;
 };
 
 // Seconds that the stops of one frame took.
@@ -74,8 +86,11 @@ enum class Stages { leave_out, keep };
 // The one door: everything that shows or writes a picture of a scene calls this. Same scene, frame and background give
 // the same bytes on every thread.
 //   frame       counts the footage's frames from 0
-//   background  that frame of the footage, of the scene's size
+//   background  that frame of the footage, of the scene's size; copied where it is not handed over. Handed over, its
+//               samples become the picture's: nobody else may share them
 [[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, Bench& bench,
+                                                  Stages stages = Stages::leave_out);
+[[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, Bench& bench,
                                                   Stages stages = Stages::leave_out);
 
 }  // namespace sigs

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include "camera/aimed_view.h"
+#include "camera/lens_table.h"
 #include "coarse.h"
 #include "compositor/blur.h"
 #include "compositor/hide.h"
@@ -18,7 +21,7 @@ namespace {
 
 constexpr int kLargestView_px = 4096;  // some 300 MB; a larger picture of a nearer intruder is drawn coarser
 constexpr double kRounding = 1e-6;     // of sums of floats: a visible share below it is none
-constexpr int kWholeAreaSteps = 256;   // pixels across in which a silhouette beyond the picture's edge is measured
+constexpr int kWholeAreaSteps = 128;   // pixels across in which a silhouette beyond the picture's edge is measured
 
 cv::Rect picture_of(const Scene& scene) {
   return {{0, 0}, scene.footage.size_px};
@@ -37,63 +40,99 @@ cv::Rect reach_of(const std::optional<Box>& bounds, int blur_px, const cv::Rect&
   return bounds ? pixels_touched(*bounds, 1, grown) : grown;
 }
 
+// Draws the views, and adds the seconds that took.
+Result<std::vector<DrawnView>> drawn_in_time(double& draw_s, const std::vector<VirtualView>& views,
+                                             const Sitter& sitter, Renderer& renderer) {
+  const auto start = std::chrono::steady_clock::now();
+  Result<std::vector<DrawnView>> drawn = drawn_views(views, sitter, renderer);
+  draw_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return drawn;
+}
+
+// The same lens before coarser pixels, for this one intruder.
+LensTable coarse_lens(const LensTable& lens, double step) {
+  return LensTable(coarse_camera(lens.camera(), step), lens.tolerance_px());
+}
+
 // Where the silhouette reaches beyond the pixels that were bent, its whole area is measured on a coarser grid through
-// the same lens, in views of their own.
-Result<double> whole_area_px(const SeenIntruder& seen, const Camera& camera, const Sitter& sitter, Renderer& renderer) {
+// the same lens, in views of their own: means by area keep it, however coarse they are.
+Result<double> whole_area_px(SeenIntruder& seen, const LensTable& lens, const Sitter& sitter, Renderer& renderer) {
   const Box& box = seen.silhouette->box;
   const cv::Rect whole = pixels_touched(box, 1, kEverywhere);
   if ((whole & seen.sharp.rect) == whole) return area_px(seen.sharp.coverage);
   // By the box itself, not by its clamped pixels: near the plane of a pinhole's lens it can be 1e9 px wide.
   const double step = std::max({1.0, box.width / kWholeAreaSteps, box.height / kWholeAreaSteps});
-  const Camera coarse = coarse_camera(camera, step);
-  const Result<std::vector<DrawnView>> drawn =
-      drawn_views(aimed_views(coarse, sitter.corners, std::nullopt, 2, 4 * kWholeAreaSteps), sitter, renderer);
+  LensTable coarse = coarse_lens(lens, step);
+  const cv::Rect cells = pixels_touched(coarse_box(box, step), 1, kEverywhere);
+  const std::vector<VirtualView> views = aimed_views(coarse, sitter.corners, cells, 1, 4 * kWholeAreaSteps);
+  const Result<std::vector<DrawnView>> drawn = drawn_in_time(seen.draw_s, views, sitter, renderer);
   if (!drawn) return fail(drawn.error());
   if (drawn->empty()) return 0;
-  const cv::Rect cells = pixels_touched(coarse_box(box, step), 1, kEverywhere);
-  return area_px(bent(*drawn, coarse, cells).coverage) * step * step;
+  const double area_cells = area_px(bent(*drawn, coarse, cells).coverage);
+  seen.work.pixels_bent += cells.area();
+  seen.work.lens_evaluations += coarse.evaluations();
+  return area_cells * step * step;
 }
 
 // What is to be drawn of an intruder, and where it goes.
 struct Sitting {
   cv::Rect reach;                 // of its sharp layer
   std::optional<CellGrid> cells;  // of its blurred one, where that is made in cells
+  std::optional<LensTable> lens_of_cells;
   std::vector<VirtualView> views;
   std::vector<VirtualView> views_of_cells;  // empty: the sharp layer holds all that they need
 };
 
-Sitting sitting_for(const SeenIntruder& seen, const Camera& camera, const Sitter& sitter, const Scene& scene) {
+Sitting sitting_for(const SeenIntruder& seen, LensTable& lens, const Sitter& sitter, const Scene& scene) {
   const bool is_far_blurred = seen.sigma_px > kSigmaOfCells_px;
   const double supersampling = scene.compositing.supersampling;
   const std::optional<Box> bounds = bounds_of(seen, sitter.mesh.radius_m);
   const cv::Rect picture = picture_of(scene);
   Sitting sitting{.reach = reach_of(bounds, is_far_blurred ? 0 : blur_reach_px(seen.sigma_px), picture)};
-  if (is_far_blurred) sitting.cells = cell_grid(bounds, camera, picture, seen.sigma_px);
-  if (!sitting.reach.empty())
-    sitting.views = aimed_views(camera, sitter.corners, sitting.reach, supersampling, kLargestView_px);
+  if (is_far_blurred) sitting.cells = cell_grid(bounds, lens.camera(), picture, seen.sigma_px);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kEverywhere) == sitting.reach;
-  if (sitting.cells && (sitting.views.empty() || !is_within))
-    sitting.views_of_cells = views_of_cells(*sitting.cells, camera, sitter, supersampling, kLargestView_px);
+  // Of a body that lies within there is nothing to cut off.
+  const std::optional<cv::Rect> target = is_within ? std::nullopt : std::optional(sitting.reach);
+  if (!sitting.reach.empty()) sitting.views = aimed_views(lens, sitter.corners, target, supersampling, kLargestView_px);
+  if (!sitting.cells) return sitting;
+  sitting.lens_of_cells.emplace(coarse_lens(lens, sitting.cells->cell_px));
+  if (sitting.views.empty() || !is_within)
+    sitting.views_of_cells =
+        views_of_cells(*sitting.cells, *sitting.lens_of_cells, sitter, supersampling, kLargestView_px);
   return sitting;
 }
 
+void count_bending(Work& work, const SeenIntruder& seen, const Sitting& sitting) {
+  work.pixels_bent += seen.sharp.rect.area();
+  if (sitting.cells) {
+    work.lens_evaluations += sitting.lens_of_cells->evaluations();
+    if (!sitting.views_of_cells.empty()) work.pixels_bent += sitting.cells->cells.area();
+  }
+  if (seen.sigma_px > 0) work.pixels_blurred += seen.blurred.rect.area();
+}
+
 // Draws the views and makes the layers of them.
-Result<void> sit(SeenIntruder& seen, const Sitting& sitting, const Camera& camera, const Sitter& sitter,
-                 const Scene& scene, Renderer& renderer) {
-  const auto start = std::chrono::steady_clock::now();
-  Result<std::vector<DrawnView>> drawn = drawn_views(sitting.views, sitter, renderer);
+Result<void> sit(SeenIntruder& seen, Sitting& sitting, LensTable& lens, const Sitter& sitter, const Scene& scene,
+                 Renderer& renderer) {
+  Result<std::vector<DrawnView>> drawn = drawn_in_time(seen.draw_s, sitting.views, sitter, renderer);
   if (!drawn) return fail(drawn.error());
-  Result<std::vector<DrawnView>> drawn_for_cells = drawn_views(sitting.views_of_cells, sitter, renderer);
+  Result<std::vector<DrawnView>> drawn_for_cells = drawn_in_time(seen.draw_s, sitting.views_of_cells, sitter, renderer);
   if (!drawn_for_cells) return fail(drawn_for_cells.error());
-  seen.draw_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!drawn->empty()) seen.sharp = bent(*drawn, camera, sitting.reach);
+  if (!drawn->empty()) seen.sharp = bent(*drawn, lens, sitting.reach);
   if (sitting.cells)
-    seen.blurred = far_blurred(*sitting.cells, seen.sharp, *drawn_for_cells, camera, seen.sigma_px);
+    seen.blurred = far_blurred(*sitting.cells, seen.sharp, *drawn_for_cells, *sitting.lens_of_cells, seen.sigma_px);
   else
     seen.blurred = clipped(blurred(seen.sharp, seen.sigma_px), picture_of(scene));
   seen.soft = hidden_by_body(seen.blurred, scene.own_body);
   seen.views = std::move(drawn->empty() ? *drawn_for_cells : *drawn);
+  count_bending(seen.work, seen, sitting);
   return {};
+}
+
+void count_drawing(Work& work, const RenderWork& before, const RenderWork& after) {
+  work.pixels_drawn += after.pixels_drawn - before.pixels_drawn;
+  work.triangles_drawn += after.triangles_drawn - before.triangles_drawn;
+  work.bytes_uploaded += after.bytes_uploaded - before.bytes_uploaded;
 }
 
 }  // namespace
@@ -106,28 +145,36 @@ Camera seeing_camera(const Scene& scene) {
 
 Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
                                   Bench& bench) {
-  const Camera camera = seeing_camera(scene);
+  LensTable& lens = bench.lens_of(seeing_camera(scene));
+  const std::int64_t evaluations_before = lens.evaluations();
   const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
   SeenIntruder seen{.placed = placed};
-  seen.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
+  seen.silhouette = silhouette_of(model.points_m, placed.camera_from_body, lens.camera().lens);
+  if (!lens.camera().lens.is_pinhole()) seen.work.lens_evaluations = std::ssize(model.points_m);
   if (scene.compositing.method != MethodChoice::plain)
     seen.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
 
   if (!seen.silhouette && placed.distance_m() > model.mesh.radius_m) return seen;
   const Light light{moment.light_in_camera, scene.light.color, scene.light.ambient};
   const Sitter sitter{model.mesh, seen.placed, light, corners_in_camera(model.mesh, placed.camera_from_body)};
-  const Sitting sitting = sitting_for(seen, camera, sitter, scene);
-  if (sitting.views.empty() && sitting.views_of_cells.empty()) return seen;
+  Sitting sitting = sitting_for(seen, lens, sitter, scene);
+  if (sitting.views.empty() && sitting.views_of_cells.empty()) {
+    seen.work.lens_evaluations += lens.evaluations() - evaluations_before;
+    return seen;
+  }
 
   const Result<Renderer*> renderer = bench.renderer();
   if (!renderer) return fail(renderer.error());
-  const Result<void> sat = sit(seen, sitting, camera, sitter, scene, **renderer);
+  const RenderWork drawn_before = (*renderer)->work();
+  const Result<void> sat = sit(seen, sitting, lens, sitter, scene, **renderer);
   if (!sat) return fail(sat.error());
   if (seen.silhouette && !seen.sharp.empty()) {
-    const Result<double> area = whole_area_px(seen, camera, sitter, **renderer);
+    const Result<double> area = whole_area_px(seen, lens, sitter, **renderer);
     if (!area) return fail(area.error());
     seen.whole_area_px = *area;
   }
+  count_drawing(seen.work, drawn_before, (*renderer)->work());
+  seen.work.lens_evaluations += lens.evaluations() - evaluations_before;
   return seen;
 }
 

@@ -22,6 +22,7 @@ struct SeenIntruder {
   Layer blurred;  // the same, blurred, clipped to the picture; empty where too faint to change any sample
   Layer soft;     // the same, hidden by the own body; shares its samples where there is none
   double draw_s = 0;         // what OpenGL took
+  Work work;                 // that this intruder took up to here
   double whole_area_px = 0;  // of the silhouette, also where it lies outside the picture
 };
 

@@ -3,17 +3,15 @@
 // SPDX-License-Identifier: MIT
 // Lambert and Blinn-Phong (Blinn 1977) in linear light; the result is premultiplied.
 
-uniform vec3 diffuse;  // linear
-uniform vec3 specular;
-uniform float shininess;
-uniform float opacity;
+// Compiled three times: without a picture; with PICTURE, of which only opaque texels are touched; with PICTURE and
+// LAYERED, of which only fragments whose opacity lies within [lowest, highest) belong to the pass.
+#ifdef PICTURE
 uniform sampler2D picture;  // premultiplied; decoded from sRGB by the sampler
-
-// Fragments whose opacity lies outside [lowest, highest) belong to another pass. solid: the picture's opacity is to be
-// ignored, because this surface touches only its opaque texels.
+#endif
+#ifdef LAYERED
 uniform float lowest_opacity;
 uniform float highest_opacity;
-uniform bool solid;
+#endif
 
 uniform vec3 light_color;
 uniform float ambient;
@@ -26,6 +24,8 @@ uniform float eye_scale;
 in vec3 surface_m;
 centroid in vec3 surface_normal;
 in vec2 surface_uv;
+flat in vec4 surface_color;  // linear diffuse, opacity
+flat in vec4 surface_gloss;  // specular, shininess
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out float coverage;
@@ -35,6 +35,7 @@ vec3 unit_or(vec3 v, vec3 fallback) {
   return size > 1e-12 ? v / size : fallback;
 }
 
+#ifdef PICTURE
 // Anisotropic filtering: up to 16 trilinear taps along the longer axis of the pixel's footprint. Written out, because
 // software drivers walk every texel of a footprint, and one at a grazing angle then takes seconds.
 vec4 filtered(vec2 uv) {
@@ -45,7 +46,8 @@ vec4 filtered(vec2 uv) {
   vec2 axis = wide ? across : down;
   float longer = length(axis);
   float shorter = length(wide ? down : across);
-  if (!(longer < 1e5)) return textureLod(picture, uv, 100.0);
+  // Edge on, uv can be no number at all; the last level is a single texel.
+  if (!(longer < 1e5)) return textureLod(picture, vec2(0.5), 100.0);
   float taps = clamp(ceil(longer / max(shorter, 1.0)), 1.0, 16.0);
 #ifdef GL_ARB_gpu_shader5
   // Software drivers shade whole blocks of pixels, of which a small triangle covers few. The rest needs no taps.
@@ -56,12 +58,22 @@ vec4 filtered(vec2 uv) {
   for (float i = 0.5; i < taps; i += 1.0) sum += textureLod(picture, uv + axis / size * (i / taps - 0.5), level);
   return sum / max(taps, 1.0);
 }
+#endif
 
 void main() {
+#ifdef PICTURE
   vec4 texel = filtered(surface_uv);
-  if (solid) texel = vec4(texel.rgb / max(texel.a, 1e-4), 1.0);
+#ifndef LAYERED
+  texel = vec4(texel.rgb / max(texel.a, 1e-4), 1.0);
+#endif
+#else
+  vec4 texel = vec4(1.0);
+#endif
+  float opacity = surface_color.a;
   float alpha = texel.a * opacity;
+#ifdef LAYERED
   if (alpha < lowest_opacity || alpha >= highest_opacity) discard;
+#endif
 
   vec3 outside = unit_or(surface_normal, vec3(-1.0, 0.0, 0.0));
   vec3 n = gl_FrontFacing ? outside : -outside;
@@ -71,9 +83,9 @@ void main() {
 
   float facing = max(dot(n, to_light), 0.0);
   float direct = 1.0 - ambient;
-  vec3 matt = diffuse * texel.rgb * (ambient + direct * facing);
+  vec3 matt = surface_color.rgb * texel.rgb * (ambient + direct * facing);
   // A quarter: MTL writers give aircraft paint a specular colour that would outshine its own.
-  float gloss = facing > 0.0 ? 0.25 * direct * pow(max(dot(n, between), 0.0), shininess) : 0.0;
-  color = vec4(light_color * opacity * (matt + specular * (gloss * texel.a)), alpha);
+  float gloss = facing > 0.0 ? 0.25 * direct * pow(max(dot(n, between), 0.0), surface_gloss.a) : 0.0;
+  color = vec4(light_color * opacity * (matt + surface_gloss.rgb * (gloss * texel.a)), alpha);
   coverage = 1.0;
 }

@@ -9,16 +9,22 @@ uniform mat3 view_from_body;
 layout(location = 0) in vec3 position_m;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 color;
+layout(location = 4) in vec4 gloss;
 
 out vec3 surface_m;
 // At rims the middle of the pixel may lie outside the triangle, where a normal could point anywhere. The picture on the
 // surface wants the very middle: drivers take any covered sample for the centroid, which would shift it.
 centroid out vec3 surface_normal;
 out vec2 surface_uv;
+flat out vec4 surface_color;
+flat out vec4 surface_gloss;
 
 void main() {
   gl_Position = clip_from_body * vec4(position_m, 1.0);
   surface_m = view_from_body * position_m;
   surface_normal = view_from_body * normal;
   surface_uv = vec2(uv.x, 1.0 - uv.y);  // the first row of the picture is its top
+  surface_color = color;
+  surface_gloss = gloss;
 }

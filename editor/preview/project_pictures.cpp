@@ -72,10 +72,10 @@ Result<cv::Mat> untouched_picture(FrameSource& source, cv::Size size_px) {
 Result<cv::Mat> composed_picture(const Scene& scene, FrameSource& source, cv::Size size_px) {
   const std::optional<Outlook> sight = best_sight(scene);
   if (!sight) return fail("", "no intruder comes into view");
-  const Result<Frame> background = source.read(sight->frame);
+  Result<Frame> background = source.read(sight->frame);
   if (!background) return fail(background.error());
   Bench bench;
-  const Result<ComposedFrame> composed = compose_frame(scene, sight->frame, *background, bench);
+  const Result<ComposedFrame> composed = compose_frame(scene, sight->frame, std::move(*background), bench);
   if (!composed) return fail(composed.error());
   const cv::Mat bgr = bgr_of(composed->picture);
   const Box& box = *sight->silhouette;

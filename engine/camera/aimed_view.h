@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "camera/lens_table.h"
 #include "camera/virtual_view.h"
 
 namespace sigs {
@@ -15,11 +16,18 @@ namespace sigs {
 // The views in which to draw a body so that the lens can then ask them for its colours.
 //   corners_in_camera  the eight corners of a box around the body, metres, camera frame
 //   target             pixels that will be asked for; what lies outside is cut off the views. None: the whole body
-//   supersampling      drawn pixels a picture pixel, each way, where the picture is finest; >= 1
+//   supersampling      drawn pixels a picture pixel, each way, where the picture (within target) is finest; >= 1
 //   max_size_px        largest side of a view; a body that would need more is drawn coarser
 // One view that just holds the box where it spans less than about 100 degrees; else the six faces of a cube around the
 // camera. Small bodies are drawn at least some 50 pixels large, so that their share of a picture pixel is right.
 // None where the camera sees no part of the body's surroundings at all.
+// Before a pinhole lens with fx == fy the view lies in the picture's own plane, a whole number of its pixels to each of
+// the picture's, edges on edges, as far as supersampling is whole and max_size_px allows: then nothing is resampled.
+[[nodiscard]] std::vector<VirtualView> aimed_views(LensTable& lens, const std::array<glm::dvec3, 8>& corners_in_camera,
+                                                   const std::optional<cv::Rect>& target, double supersampling,
+                                                   int max_size_px);
+
+// The same through a table that is made for this one body.
 [[nodiscard]] std::vector<VirtualView> aimed_views(const Camera& camera,
                                                    const std::array<glm::dvec3, 8>& corners_in_camera,
                                                    const std::optional<cv::Rect>& target, double supersampling,

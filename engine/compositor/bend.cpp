@@ -1,177 +1,120 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/bend.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/ensure.h"
-#include "compositor/layer_pyramid.h"
+#include "compositor/area_mean.h"
 
 namespace sigs {
 
 namespace {
 
-using Ray = std::optional<glm::dvec3>;
-using Corners = std::array<glm::dvec2, 4>;  // upper left, upper right, lower left, lower right; view pixels
-
-struct Sample {
-  cv::Vec4f color{0, 0, 0, 0};
-  float coverage = 0;
-};
+constexpr int kNone = -1;
 
 struct Source {
-  const VirtualView* view;
-  LayerPyramid pyramid;
+  glm::dvec3 axis;         // of the view, camera frame
+  glm::dmat3 from_camera;  // x along the axis; y and z times the focal length
+  glm::dvec2 center_px;    // measured from the corner of the layer
+  AreaReader reader;
 };
 
-// Rays of the corners of target's pixels, row by row: (width + 1) x (height + 1).
-std::vector<Ray> corner_rays(const Camera& camera, const cv::Rect& target) {
-  std::vector<Ray> rays;
-  rays.reserve(static_cast<std::size_t>(target.width + 1) * static_cast<std::size_t>(target.height + 1));
-  for (int j = 0; j <= target.height; ++j)
-    for (int i = 0; i <= target.width; ++i) rays.push_back(camera.lens.ray({target.x + i - 0.5, target.y + j - 0.5}));
-  return rays;
+Source source_of(const DrawnView& drawn) {
+  const glm::dmat3 turn = glm::mat3_cast(drawn.view.view_from_camera.rotation);
+  const double f = drawn.view.focal_px;
+  const glm::dmat3 scale{{1, 0, 0}, {0, f, 0}, {0, 0, f}};
+  return {glm::transpose(turn)[0], scale * turn, drawn.view.center_px + 0.5, AreaReader(drawn.layer)};
 }
 
-// The view that looks most nearly along the ray.
-const Source& nearest_source(std::span<const Source> sources, const glm::dvec3& ray) {
-  const auto along_axis = [&ray](const Source& source) { return (source.view->view_from_camera.rotation * ray).x; };
-  return *std::max_element(sources.begin(), sources.end(),
-                           [&](const Source& a, const Source& b) { return along_axis(a) < along_axis(b); });
+// Where a ray meets the view; not a number behind the view and where there is no ray.
+glm::dvec2 projected(const Source& source, const glm::dvec3& ray) {
+  const glm::dvec3 p = source.from_camera * ray;
+  if (!(p.x > 0)) return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+  return source.center_px + glm::dvec2(p.y, p.z) / p.x;
 }
 
-std::optional<Corners> corners_in_view(const VirtualView& view, const std::array<const Ray*, 4>& rays) {
-  Corners corners;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::optional<glm::dvec2> pixel = view.pixel(**rays[i]);
-    if (!pixel) return std::nullopt;
-    corners[i] = *pixel + 0.5;  // measured from the corner of the layer, as pyramids are
+// The source that looks most nearly along the ray.
+int nearest_source(std::span<const Source> sources, const glm::dvec3& ray) {
+  if (ray == glm::dvec3(0)) return kNone;
+  int nearest = 0;
+  double longest = glm::dot(sources[0].axis, ray);
+  for (std::size_t i = 1; i < sources.size(); ++i) {
+    const double along = glm::dot(sources[i].axis, ray);
+    if (along > longest) longest = along, nearest = static_cast<int>(i);
   }
-  return corners;
+  return nearest;
 }
 
-// Adds weight times the bilinear value at (x, y), in texels from the corner of the level; outside is empty.
-void add_bilinear(const LayerPyramid::Level& level, double x, double y, float weight, Sample& sum) {
-  const double left = std::floor(x - 0.5);
-  const double top = std::floor(y - 0.5);
-  const auto right_share = static_cast<float>(x - 0.5 - left);
-  const auto lower_share = static_cast<float>(y - 0.5 - top);
-  for (int dj = 0; dj < 2; ++dj)
-    for (int di = 0; di < 2; ++di) {
-      const double i = left + di;
-      const double j = top + dj;
-      if (i < 0 || j < 0 || i >= level.color.cols || j >= level.color.rows) continue;
-      const float share =
-          weight * (di == 0 ? 1 - right_share : right_share) * (dj == 0 ? 1 - lower_share : lower_share);
-      sum.color += share * level.color.at<cv::Vec4f>(static_cast<int>(j), static_cast<int>(i));
-      sum.coverage += share * level.coverage.at<float>(static_cast<int>(j), static_cast<int>(i));
+// One row of pixels after the other, with the corners' rays on both sides of it.
+class Bender {
+ public:
+  Bender(std::span<const DrawnView> views, LensTable& lens, const cv::Rect& target) : lens_(lens), target_(target) {
+    for (const DrawnView& drawn : views) sources_.push_back(source_of(drawn));
+  }
+
+  Layer layer() {
+    Layer out{target_, cv::Mat::zeros(target_.size(), CV_32FC4), cv::Mat::zeros(target_.size(), CV_32FC1)};
+    if (target_.empty()) return out;
+    find_lower_rays(0);
+    for (int j = 0; j < target_.height; ++j) {
+      std::swap(upper_, lower_);
+      find_lower_rays(j + 1);
+      bend_row(out.color.ptr<cv::Vec4f>(j), out.coverage.ptr<float>(j));
     }
-}
+    return out;
+  }
 
-// How a pixel's image in the view is read: from which level, and with how many taps along its two sides.
-struct Reading {
-  int level = 0;
-  double texel = 1;  // of that level, in view pixels
-  int taps_across = 1;
-  int taps_down = 1;
-  bool is_point = false;  // the whole layer is so small in the pixel's image that taps could miss it
+ private:
+  void find_lower_rays(int j) {
+    const std::span<const glm::dvec3> rays = lens_.corner_rays(target_.x, target_.y + j, target_.width + 1);
+    lower_.assign(rays.begin(), rays.end());
+  }
+
+  // Pixels that ask the same source, one run after the other.
+  void bend_row(cv::Vec4f* color, float* coverage) {
+    for (int i = 0; i < target_.width;) {
+      const int nearest = nearest_source(sources_, upper_[static_cast<std::size_t>(i)]);
+      int end = i + 1;
+      while (end < target_.width && nearest_source(sources_, upper_[static_cast<std::size_t>(end)]) == nearest) ++end;
+      if (nearest != kNone) bend_run(sources_[static_cast<std::size_t>(nearest)], i, end, color, coverage);
+      i = end;
+    }
+  }
+
+  void bend_run(Source& source, int first, int end, cv::Vec4f* color, float* coverage) {
+    glm::dvec2 upper_left = projected(source, upper_[static_cast<std::size_t>(first)]);
+    glm::dvec2 lower_left = projected(source, lower_[static_cast<std::size_t>(first)]);
+    for (int i = first; i < end; ++i) {
+      const glm::dvec2 upper_right = projected(source, upper_[static_cast<std::size_t>(i) + 1]);
+      const glm::dvec2 lower_right = projected(source, lower_[static_cast<std::size_t>(i) + 1]);
+      const AreaMean mean = source.reader.mean_over({upper_left, upper_right, lower_right, lower_left});
+      color[i] = mean.color;
+      coverage[i] = mean.coverage;
+      upper_left = upper_right;
+      lower_left = lower_right;
+    }
+  }
+
+  LensTable& lens_;
+  cv::Rect target_;
+  std::vector<Source> sources_;
+  std::vector<glm::dvec3> upper_;
+  std::vector<glm::dvec3> lower_;
 };
-
-int level_with(double span, double most_texels) {
-  return span > most_texels ? static_cast<int>(std::ceil(std::log2(span / most_texels))) : 0;
-}
-
-// The level is chosen so that the shorter side spans two to four texels, the longer one no more than 32. With taps half
-// a texel apart or closer, what one texel adds up to over all pixels is right to within 2 / (2.5 pi)^2 = 3 % each way
-// (the spectrum of its tent at the taps' frequency), and without that limit over several texels; a surface of one
-// colour is always exact.
-Reading reading_of(const Corners& c, int level_count) {
-  constexpr double kRounding = 1e-6;  // must not make a third tap of a span of one texel
-  constexpr double kMostTexels = 32;
-  const double across = std::max(glm::distance(c[0], c[1]), glm::distance(c[2], c[3]));
-  const double down = std::max(glm::distance(c[0], c[2]), glm::distance(c[1], c[3]));
-  const int wanted = std::max(level_with(std::min(across, down), 4), level_with(std::max(across, down), kMostTexels));
-  Reading reading{.level = std::min(wanted, level_count - 1)};
-  reading.texel = std::ldexp(1.0, reading.level);
-  const auto taps = [&reading](double span) {
-    return static_cast<int>(std::clamp(std::ceil(2 * span / reading.texel - kRounding), 1.0, 2 * kMostTexels));
-  };
-  reading.taps_across = taps(across);
-  reading.taps_down = taps(down);
-  reading.is_point = std::max(across, down) > kMostTexels * reading.texel;
-  return reading;
-}
-
-// Bilinear reading reaches a texel beyond the layer.
-bool misses(const Corners& corners, const cv::Size& size, double texel) {
-  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x, corners[3].x});
-  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y, corners[3].y});
-  return right < -texel || bottom < -texel || left > size.width + texel || top > size.height + texel;
-}
-
-// Mean over the quadrilateral.
-Sample mean_over(const LayerPyramid& pyramid, const Corners& c, const Reading& reading) {
-  const LayerPyramid::Level& level = pyramid.level(reading.level);
-  const float weight = 1.0F / static_cast<float>(reading.taps_across * reading.taps_down);
-  Sample sum;
-  for (int j = 0; j < reading.taps_down; ++j)
-    for (int i = 0; i < reading.taps_across; ++i) {
-      const double u = (i + 0.5) / reading.taps_across;
-      const double v = (j + 0.5) / reading.taps_down;
-      const glm::dvec2 p = ((1 - v) * ((1 - u) * c[0] + u * c[1]) + v * ((1 - u) * c[2] + u * c[3])) / reading.texel;
-      add_bilinear(level, p.x, p.y, weight, sum);
-    }
-  return sum;
-}
-
-// The layer as a point in its middle: the one pixel around it takes all of its energy. texel: the last level's.
-Sample mean_of_point(const LayerPyramid::Level& last, const cv::Size& size, const Corners& c, double texel) {
-  const glm::dvec2 point(size.width / 2.0, size.height / 2.0);
-  const std::array<glm::dvec2, 4> round{c[0], c[1], c[3], c[2]};
-  bool inside = false;
-  double doubled_area = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const glm::dvec2 a = round[i] - point;
-    const glm::dvec2 b = round[(i + 1) % 4] - point;
-    doubled_area += a.x * b.y - b.x * a.y;
-    if ((a.y > 0) != (b.y > 0) && a.x - a.y * (b.x - a.x) / (b.y - a.y) > 0) inside = !inside;
-  }
-  if (!inside || doubled_area == 0) return {};
-  const auto share = static_cast<float>(2 * texel * texel / std::abs(doubled_area));
-  return {last.color.at<cv::Vec4f>(0, 0) * share, last.coverage.at<float>(0, 0) * share};
-}
 
 }  // namespace
 
-Layer bent(std::span<const DrawnView> views, const Camera& camera, const cv::Rect& target) {
+Layer bent(std::span<const DrawnView> views, LensTable& lens, const cv::Rect& target) {
   ENSURE(!views.empty());
-  Layer out{target, cv::Mat::zeros(target.size(), CV_32FC4), cv::Mat::zeros(target.size(), CV_32FC1)};
-  std::vector<Source> sources;
-  for (const DrawnView& drawn : views) sources.push_back({&drawn.view, LayerPyramid(drawn.layer)});
-  const std::vector<Ray> rays = corner_rays(camera, target);
-  const int stride = target.width + 1;
-  for (int j = 0; j < target.height; ++j) {
-    for (int i = 0; i < target.width; ++i) {
-      const Ray* upper = &rays[static_cast<std::size_t>(j * stride + i)];
-      const Ray* lower = upper + stride;
-      if (!upper[0] || !upper[1] || !lower[0] || !lower[1]) continue;
-      const Source& source = nearest_source(sources, *upper[0]);
-      const std::optional<Corners> corners = corners_in_view(*source.view, {upper, upper + 1, lower, lower + 1});
-      if (!corners) continue;
-      const Reading reading = reading_of(*corners, source.pyramid.level_count());
-      const cv::Size& size = source.view->size_px;
-      if (misses(*corners, size, reading.texel)) continue;
-      const Sample sample = reading.is_point
-                                ? mean_of_point(source.pyramid.level(reading.level), size, *corners, reading.texel)
-                                : mean_over(source.pyramid, *corners, reading);
-      out.color.at<cv::Vec4f>(j, i) = sample.color;
-      out.coverage.at<float>(j, i) = sample.coverage;
-    }
-  }
-  return out;
+  return Bender(views, lens, target).layer();
+}
+
+Layer bent(std::span<const DrawnView> views, const Camera& camera, const cv::Rect& target) {
+  LensTable lens(camera);
+  return bent(views, lens, target);
 }
 
 }  // namespace sigs

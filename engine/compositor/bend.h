@@ -6,6 +6,7 @@
 
 #include "base/layer.h"
 #include "camera/camera.h"
+#include "camera/lens_table.h"
 #include "camera/virtual_view.h"
 
 namespace sigs {
@@ -17,10 +18,13 @@ struct DrawnView {
 };
 
 // The intruder as the camera sees it, over the pixels of target (which may reach beyond the picture): each pixel asks
-// the lens for the rays of its four corners and takes the mean of what the view shows between them. Pixels that have no
-// ray stay empty. Several views (the faces of a cube around the camera) must not overlap in direction; each ray asks
-// the one whose axis it is nearest to. Energy is kept: the sum over pixels is the sum over the view, times the ratio of
-// their pixel areas.
+// the lens for the rays of its four corners and takes the mean of what the view shows between them, by area
+// (compositor/area_mean.h). Pixels that have no ray stay empty. Several views (the faces of a cube around the camera)
+// must not overlap in direction; each pixel asks the one whose axis its upper left ray is nearest to. Energy is kept:
+// the sum over pixels is the sum over the view, times the ratio of their pixel areas.
+[[nodiscard]] Layer bent(std::span<const DrawnView> views, LensTable& lens, const cv::Rect& target);
+
+// The same through a table that is made for this one layer.
 [[nodiscard]] Layer bent(std::span<const DrawnView> views, const Camera& camera, const cv::Rect& target);
 
 }  // namespace sigs

@@ -2,41 +2,62 @@
 #include "compositor/blend.h"
 
 #include "base/ensure.h"
-#include "base/transfer.h"
 #include "compositor/plane_writer.h"
+#include "compositor/transfer_table.h"
 
 namespace sigs {
 
 namespace {
 
-cv::Vec3f over_in_linear_light(const cv::Vec4f& layer, const cv::Vec3f& below) {
+cv::Vec3f over_in_linear_light(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferTable& curve) {
   const float through = 1 - layer[3];
   cv::Vec3f out;
-  for (int c = 0; c < 3; ++c) out[c] = display_of_linear(layer[c] + through * linear_of_display(below[c]));
+  for (int c = 0; c < 3; ++c) out[c] = curve.display_of_linear(layer[c] + through * curve.linear_of_display(below[c]));
   return out;
 }
 
 // The layer's own colour is made a display value first, then mixed by opacity.
-cv::Vec3f over_in_display_values(const cv::Vec4f& layer, const cv::Vec3f& below) {
+cv::Vec3f over_in_display_values(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferTable& curve) {
   const float opacity = layer[3];
   cv::Vec3f out;
-  for (int c = 0; c < 3; ++c) out[c] = opacity * display_of_linear(layer[c] / opacity) + (1 - opacity) * below[c];
+  for (int c = 0; c < 3; ++c) out[c] = opacity * curve.display_of_linear(layer[c] / opacity) + (1 - opacity) * below[c];
   return out;
 }
 
+template <BlendSpace space>
+struct LayerRow {
+  const cv::Vec4f* colors;
+  int left;
+  const TransferTable& curve;
+
+  [[nodiscard]] bool changes(int x) const { return colors[x - left][3] > 0; }
+
+  [[nodiscard]] cv::Vec3f over(int x, const cv::Vec3f& below) const {
+    const cv::Vec4f& color = colors[x - left];
+    return space == BlendSpace::linear ? over_in_linear_light(color, below, curve)
+                                       : over_in_display_values(color, below, curve);
+  }
+};
+
+template <BlendSpace space>
+struct LayerPixels {
+  const Layer& layer;
+  const TransferTable& curve;
+
+  [[nodiscard]] LayerRow<space> row(int y) const {
+    return {layer.color.ptr<cv::Vec4f>(y - layer.rect.y), layer.rect.x, curve};
+  }
+};
+
 }  // namespace
 
-void blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
-  if (layer.empty()) return;
+std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
+  if (layer.empty()) return 0;
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
-  const auto at = [&layer](int x, int y) -> const cv::Vec4f& {
-    return layer.color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x);
-  };
-  const auto covered = [&at](int x, int y) { return at(x, y)[3] > 0; };
-  PixelBlocks(frame).rewrite(layer.rect, covered, [&at, space](int x, int y, const cv::Vec3f& below) {
-    return space == BlendSpace::linear ? over_in_linear_light(at(x, y), below)
-                                       : over_in_display_values(at(x, y), below);
-  });
+  PixelBlocks blocks(frame);
+  const TransferTable& curve = transfer_table();
+  return space == BlendSpace::linear ? blocks.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{layer, curve})
+                                     : blocks.rewrite(layer.rect, LayerPixels<BlendSpace::display>{layer, curve});
 }
 
 }  // namespace sigs

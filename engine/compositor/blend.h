@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "base/layer.h"
 #include "video/frame.h"
 
@@ -14,7 +16,7 @@ enum class BlendSpace {
 // Lays the layer over the frame, in the frame's own planes. Only samples that the layer covers are converted and
 // rewritten; every other sample keeps its bits. A luma sample is covered where the opacity of its pixel is above 0, a
 // chroma sample where that of any of its pixels is; it moves by the mean of what its pixels' chroma moves by.
-// The layer lies within the picture.
-void blend_over(Frame& frame, const Layer& layer, BlendSpace space);
+// The layer lies within the picture. Gives back how many pixels were rewritten.
+std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space);
 
 }  // namespace sigs

@@ -26,6 +26,58 @@ int cell_of(int pixel, int cell_px) {
   return pixel >= 0 ? pixel / cell_px : -((cell_px - 1 - pixel) / cell_px);
 }
 
+// Variance of weights exp(-n^2 log_ratio) on all whole numbers n; up to 1, a dozen of them say it all.
+double variance_of_samples(double log_ratio) {
+  double sum = 0.5;
+  double moment = 0;
+  for (int n = 1; n <= 12; ++n) {
+    const double weight = std::exp(-n * n * log_ratio);
+    sum += weight;
+    moment += n * n * weight;
+  }
+  return moment / sum;
+}
+
+// For the weights exp(-n^2 log_ratio) of the pixels n away whose variance is sigma^2. From one pixel on these are the
+// Gaussian's own samples (to seven digits). A narrower Gaussian falls between the samples and would hardly blur at all:
+// the one that is sampled has to be wider.
+double log_ratio_for(double sigma_px) {
+  if (sigma_px >= 1) return 0.5 / (sigma_px * sigma_px);
+  constexpr int kHalvings = 60;
+  double low = 0.5;
+  double high = 100;  // next to no blur
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (variance_of_samples(middle) > sigma_px * sigma_px ? low : high) = middle;
+  }
+  return low;
+}
+
+// One axis of the kernel, 2 reach + 1 samples that sum to one. What could not change any 8-bit sample is 0: a blur of
+// next to nothing touches no neighbour.
+cv::Mat sampled_gaussian(double sigma_px, int reach) {
+  constexpr double kLeast = 1e-6;
+  const double log_ratio = log_ratio_for(sigma_px);
+  cv::Mat kernel(2 * reach + 1, 1, CV_64FC1);
+  for (int n = -reach; n <= reach; ++n) {
+    const double weight = std::exp(-n * n * log_ratio);
+    kernel.at<double>(n + reach) = weight < kLeast ? 0 : weight;
+  }
+  kernel /= cv::sum(kernel)[0];
+  kernel.convertTo(kernel, CV_32F);
+  return kernel;
+}
+
+cv::Rect grown(const cv::Rect& rect, int by_px) {
+  return {rect.x - by_px, rect.y - by_px, rect.width + 2 * by_px, rect.height + 2 * by_px};
+}
+
+cv::Mat with_border(const cv::Mat& image, int width_px) {
+  cv::Mat out;
+  cv::copyMakeBorder(image, out, width_px, width_px, width_px, width_px, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  return out;
+}
+
 }  // namespace
 
 int blur_reach_px(double sigma_px) {
@@ -36,11 +88,9 @@ int blur_reach_px(double sigma_px) {
 Layer blurred(const Layer& layer, double sigma_px) {
   const int reach = blur_reach_px(sigma_px);
   if (reach == 0 || layer.empty()) return layer;
-  Layer out;
-  out.rect = {layer.rect.x - reach, layer.rect.y - reach, layer.rect.width + 2 * reach, layer.rect.height + 2 * reach};
-  cv::copyMakeBorder(layer.color, out.color, reach, reach, reach, reach, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  cv::copyMakeBorder(layer.coverage, out.coverage, reach, reach, reach, reach, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  cv::GaussianBlur(out.color, out.color, {2 * reach + 1, 2 * reach + 1}, sigma_px, sigma_px, cv::BORDER_CONSTANT);
+  Layer out{grown(layer.rect, reach), with_border(layer.color, reach), with_border(layer.coverage, reach)};
+  const cv::Mat kernel = sampled_gaussian(sigma_px, reach);
+  cv::sepFilter2D(out.color, out.color, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
   return out;
 }
 

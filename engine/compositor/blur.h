@@ -7,7 +7,10 @@ namespace sigs {
 
 // Blurs as the lens does at distance. Works on premultiplied colour, so the sky never bleeds in. The rectangle grows by
 // blur_reach_px(sigma_px) on every side; coverage, the truth, is not softened. sigma_px == 0 returns the layer
-// unchanged. The kernel is cut at three sigmas and sums to one: energy is kept.
+// unchanged. The kernel is a Gaussian on whole pixels with the variance sigma_px^2, also far below a pixel; cut at
+// three sigmas, which takes up to 2.7 % of the variance, and of sum one: energy is kept. What it leaves at an edge is
+// at most 8 % of the step (at sigma 0.4; 2 % from 1 on, half a percent from 2 on) away from the light blurred before
+// pixels average it.
 [[nodiscard]] Layer blurred(const Layer& layer, double sigma_px);
 
 // How far blur carries a pixel: ceil(3 sigma_px).

@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <utility>
 
 #include "base/ensure.h"
 #include "base/pose.h"
@@ -32,10 +33,10 @@ cv::Vec3b keyed_color(const cv::Vec4f& premultiplied) {
   return bgr == kKeyGreen ? cv::Vec3b(0, 254, 0) : bgr;
 }
 
-cv::Mat is_not_green(const cv::Mat& bgr) {
-  cv::Mat green;
-  cv::inRange(bgr, kGreenBorder, kGreenBorder, green);
-  return ~green;
+cv::Mat is_not_green(const cv::Mat& bgr, cv::Mat buffer) {
+  cv::inRange(bgr, kGreenBorder, kGreenBorder, buffer);
+  cv::bitwise_not(buffer, buffer);
+  return buffer;
 }
 
 cv::Matx33d matrix_of(const LensParameters& lens) {
@@ -43,21 +44,47 @@ cv::Matx33d matrix_of(const LensParameters& lens) {
 }
 
 // Stage A, equations (3) and (4), with the camera matrix kept.
-cv::Mat undistorted(const cv::Mat& picture, const Camera& camera) {
+FixedMap undistorting_map(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
   const cv::Matx33d matrix = matrix_of(lens);
-  cv::Mat out;
+  FixedMap map;
   if (lens.model == LensModel::kannala_brandt)
-    cv::fisheye::undistortImage(picture, out, matrix, lens.coefficients, matrix);
+    cv::fisheye::initUndistortRectifyMap(matrix, lens.coefficients, cv::Matx33d::eye(), matrix, camera.size_px,
+                                         CV_16SC2, map.pixels, map.shares);
   else
-    cv::undistort(picture, out, matrix, lens.coefficients);
-  return out;
+    cv::initUndistortRectifyMap(matrix, lens.coefficients, cv::noArray(), matrix, camera.size_px, CV_16SC2, map.pixels,
+                                map.shares);
+  return map;
 }
 
-cv::Mat pasted(const cv::Mat& below, const cv::Mat& above, const cv::Mat& where) {
-  cv::Mat out = below.clone();
-  above.copyTo(out, where);
-  return out;
+void find_origins(const Camera& camera, int v, DistortMaps& maps) {
+  const LensParameters& lens = camera.lens.parameters();
+  for (int u = 0; u < camera.size_px.width; ++u) {
+    const std::optional<glm::dvec3> ray = camera.lens.ray({u, v});
+    if (!ray || ray->x <= 1e-6) continue;  // at 90 degrees and beyond a pinhole picture has no place for it
+    const glm::dvec3 optical = optical_of(*ray);
+    maps.x.at<float>(v, u) = static_cast<float>(lens.fx * optical.x / optical.z + lens.cx);
+    maps.y.at<float>(v, u) = static_cast<float>(lens.fy * optical.y / optical.z + lens.cy);
+  }
+}
+
+cv::Mat moved(const cv::Mat& picture, const FixedMap& map, const cv::Scalar& border, cv::Mat buffer = {}) {
+  cv::remap(picture, buffer, map.pixels, map.shares, cv::INTER_LINEAR, cv::BORDER_CONSTANT, border);
+  return buffer;
+}
+
+cv::Mat pasted(const cv::Mat& below, const cv::Mat& above, const cv::Mat& where, cv::Mat buffer) {
+  below.copyTo(buffer);
+  above.copyTo(buffer, where);
+  return buffer;
+}
+
+// Where a stage changes nothing, its picture is the one before: no buffer of its own.
+ClassicStages apart(ClassicStages buffers) {
+  if (buffers.d.data == buffers.c.data) buffers.d.release();
+  if (buffers.f.data == buffers.e.data) buffers.f.release();
+  if (buffers.changed.data == buffers.key.data) buffers.changed.release();
+  return buffers;
 }
 
 // Blurs along one axis, at places a quarter of sigma apart, and back to pixels.
@@ -88,65 +115,75 @@ cv::Mat widely_softened(const cv::Mat& picture, double sigma_px) {
 
 }  // namespace
 
-cv::Mat on_green_screen(const Layer& layer, cv::Size picture_size_px) {
-  cv::Mat picture(picture_size_px, CV_8UC3, kGreenBorder);
+cv::Mat on_green_screen(const Layer& layer, cv::Size picture_size_px, cv::Mat buffer) {
+  buffer.create(picture_size_px, CV_8UC3);
+  buffer.setTo(kGreenBorder);
   const cv::Rect inside = layer.rect & cv::Rect({0, 0}, picture_size_px);
   for (int y = inside.y; y < inside.y + inside.height; ++y)
     for (int x = inside.x; x < inside.x + inside.width; ++x) {
       if (layer.coverage.at<float>(y - layer.rect.y, x - layer.rect.x) < 0.5F) continue;
-      picture.at<cv::Vec3b>(y, x) = keyed_color(layer.color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x));
+      buffer.at<cv::Vec3b>(y, x) = keyed_color(layer.color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x));
     }
-  return picture;
+  return buffer;
 }
 
 DistortMaps distort_maps(const Camera& camera) {
-  const LensParameters& lens = camera.lens.parameters();
-  DistortMaps maps{cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1)),
-                   cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1))};
-  for (int v = 0; v < camera.size_px.height; ++v)
-    for (int u = 0; u < camera.size_px.width; ++u) {
-      const std::optional<glm::dvec3> ray = camera.lens.ray({u, v});
-      if (!ray || ray->x <= 1e-6) continue;  // at 90 degrees and beyond a pinhole picture has no place for it
-      const glm::dvec3 optical = optical_of(*ray);
-      maps.x.at<float>(v, u) = static_cast<float>(lens.fx * optical.x / optical.z + lens.cx);
-      maps.y.at<float>(v, u) = static_cast<float>(lens.fy * optical.y / optical.z + lens.cy);
-    }
+  DistortMaps maps{.x = cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1)),
+                   .y = cv::Mat(camera.size_px, CV_32FC1, cv::Scalar(-1)),
+                   .undistorting = undistorting_map(camera)};
+  cv::parallel_for_({0, camera.size_px.height}, [&](const cv::Range& rows) {
+    for (int v = rows.start; v < rows.end; ++v) find_origins(camera, v, maps);
+  });
+  cv::convertMaps(maps.x, maps.y, maps.distorting.pixels, maps.distorting.shares, CV_16SC2);
   return maps;
 }
 
 cv::Mat distorted(const cv::Mat& picture, const DistortMaps& maps, const cv::Scalar& border) {
-  cv::Mat out;
-  cv::remap(picture, out, maps.x, maps.y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, border);
-  return out;
+  return moved(picture, maps.distorting, border);
 }
 
-cv::Mat softened(const cv::Mat& picture, double sigma_px) {
+cv::Mat distorted(const cv::Mat& picture, const DistortMaps& maps, const cv::Scalar& border, const cv::Rect& part) {
+  return moved(picture, {maps.distorting.pixels(part), maps.distorting.shares(part)}, border);
+}
+
+cv::Mat softened(const cv::Mat& picture, double sigma_px, cv::Mat buffer) {
   ENSURE(sigma_px >= 0 && std::isfinite(sigma_px));
   if (sigma_px == 0) return picture;
   if (sigma_px > kSigmaOfCells_px) return widely_softened(picture, sigma_px);
-  cv::Mat out;
-  cv::GaussianBlur(picture, out, {0, 0}, sigma_px);
-  return out;
+  cv::GaussianBlur(picture, buffer, {0, 0}, sigma_px);
+  return buffer;
 }
 
-ClassicStages classic_stages(const cv::Mat& input1, const cv::Mat& input2, const Camera& camera,
-                             const DistortMaps& maps, double sigma_px) {
+cv::Rect softened_from(const cv::Rect& part, double sigma_px, cv::Size picture_size_px) {
+  const cv::Rect whole({0, 0}, picture_size_px);
+  if (sigma_px == 0) return part;
+  if (sigma_px > kSigmaOfCells_px) return whole;
+  const int reach = static_cast<int>(std::ceil(3 * sigma_px)) + 1;  // of OpenCV's kernel for 8 bits
+  return cv::Rect(part.x - reach, part.y - reach, part.width + 2 * reach, part.height + 2 * reach) & whole;
+}
+
+ClassicStages classic_stages(const cv::Mat& input1, const cv::Mat& input2, const DistortMaps& maps, double sigma_px,
+                             ClassicStages buffers) {
   ENSURE(input1.type() == CV_8UC3 && input2.type() == CV_8UC3 && input1.size() == input2.size());
+  buffers = apart(std::move(buffers));
   ClassicStages stages{.input1 = input1, .input2 = input2};
-  stages.a = undistorted(input1, camera);
-  stages.b = pasted(stages.a, input2, is_not_green(input2));
-  stages.c = distorted(stages.b, maps, cv::Scalar::all(0));
-  stages.d = softened(stages.c, sigma_px);
-  stages.f = softened(distorted(input2, maps, kGreenBorder), sigma_px);
-  stages.changed = is_not_green(stages.f);
-  stages.output = pasted(input1, stages.d, stages.changed);
+  stages.key = is_not_green(input2, buffers.key);
+  stages.a = moved(input1, maps.undistorting, cv::Scalar::all(0), buffers.a);
+  stages.b = pasted(stages.a, input2, stages.key, buffers.b);
+  stages.c = moved(stages.b, maps.distorting, cv::Scalar::all(0), buffers.c);
+  stages.d = softened(stages.c, sigma_px, buffers.d);
+  stages.e = moved(input2, maps.distorting, kGreenBorder, buffers.e);
+  stages.f = softened(stages.e, sigma_px, buffers.f);
+  stages.changed = is_not_green(stages.f, buffers.changed);
+  stages.output = pasted(input1, stages.d, stages.changed, buffers.output);
   return stages;
 }
 
-ClassicStages plain_stages(const cv::Mat& input1, const cv::Mat& input2) {
+ClassicStages plain_stages(const cv::Mat& input1, const cv::Mat& input2, ClassicStages buffers) {
   ClassicStages stages{.input1 = input1, .input2 = input2};
-  stages.changed = is_not_green(input2);
-  stages.output = pasted(input1, input2, stages.changed);
+  stages.key = is_not_green(input2, buffers.key);
+  stages.changed = stages.key;
+  stages.output = pasted(input1, input2, stages.changed, buffers.output);
   return stages;
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/layer_pyramid.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "base/ensure.h"
 
 namespace sigs {
 
@@ -16,12 +20,42 @@ cv::Mat halved(const cv::Mat& image) {
   return half;
 }
 
+cv::Range span_of_row(const cv::Vec4f* color, const float* coverage, int width) {
+  const auto is_empty = [&](int i) {  // no short cuts: one comparison of vectors
+    const cv::Vec4f& c = color[i];
+    return ((c[0] == 0) & (c[1] == 0) & (c[2] == 0) & (c[3] == 0) & (coverage[i] == 0)) != 0;
+  };
+  int first = 0;
+  while (first < width && is_empty(first)) ++first;
+  int end = width;
+  while (end > first && is_empty(end - 1)) --end;
+  return {first, end};
+}
+
+LayerPyramid::Level level_of(cv::Mat color, cv::Mat coverage) {
+  LayerPyramid::Level level{std::move(color), std::move(coverage), {}, {}};
+  level.spans.reserve(static_cast<std::size_t>(level.color.rows));
+  for (int j = 0; j < level.color.rows; ++j) {
+    const cv::Range span = span_of_row(level.color.ptr<cv::Vec4f>(j), level.coverage.ptr<float>(j), level.color.cols);
+    level.spans.push_back(span);
+    if (span.size() > 0) level.occupied |= cv::Rect(span.start, j, span.size(), 1);
+  }
+  return level;
+}
+
 }  // namespace
 
 LayerPyramid::LayerPyramid(const Layer& layer) {
-  levels_.push_back({layer.color, layer.coverage});
-  while (levels_.back().color.cols > 1 || levels_.back().color.rows > 1)
-    levels_.push_back({halved(levels_.back().color), halved(levels_.back().coverage)});
+  ENSURE(!layer.color.empty() && layer.color.size() == layer.coverage.size());
+  levels_.push_back(level_of(layer.color, layer.coverage));
+  for (int side = std::max(layer.color.cols, layer.color.rows); side > 1; side = (side + 1) / 2) ++level_count_;
+}
+
+const LayerPyramid::Level& LayerPyramid::level(int n) {
+  ENSURE(n >= 0 && n < level_count_);
+  while (static_cast<int>(levels_.size()) <= n)
+    levels_.push_back(level_of(halved(levels_.back().color), halved(levels_.back().coverage)));
+  return levels_[static_cast<std::size_t>(n)];
 }
 
 }  // namespace sigs

@@ -6,17 +6,44 @@
 
 namespace sigs {
 
-void replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight) {
-  ENSURE(bgr.type() == CV_8UC3 && bgr.size() == frame.size_px());
-  ENSURE(weight.type() == CV_32FC1 && weight.size() == frame.size_px());
-  const auto changed = [&weight](int x, int y) { return weight.at<float>(y, x) > 0; };
-  const auto mixed = [&](int x, int y, const cv::Vec3f& below) -> cv::Vec3f {
-    const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(y, x);
+namespace {
+
+struct MixedRow {
+  const cv::Vec3b* bgr;
+  const float* weights;
+  int left;
+
+  [[nodiscard]] bool changes(int x) const { return weights[x - left] > 0; }
+
+  [[nodiscard]] cv::Vec3f over(int x, const cv::Vec3f& below) const {
+    const cv::Vec3b& pixel = bgr[x - left];
     const cv::Vec3f rgb(pixel[2] / 255.0F, pixel[1] / 255.0F, pixel[0] / 255.0F);
-    const float share = weight.at<float>(y, x);
+    const float share = weights[x - left];
     return rgb * share + below * (1 - share);
-  };
-  PixelBlocks(frame).rewrite(cv::Rect({0, 0}, frame.size_px()), changed, mixed);
+  }
+};
+
+struct MixedPixels {
+  const cv::Rect& rect;
+  const cv::Mat& bgr;
+  const cv::Mat& weight;
+
+  [[nodiscard]] MixedRow row(int y) const {
+    return {bgr.ptr<cv::Vec3b>(y - rect.y), weight.ptr<float>(y - rect.y), rect.x};
+  }
+};
+
+}  // namespace
+
+std::int64_t replace_pixels(Frame& frame, const cv::Rect& rect, const cv::Mat& bgr, const cv::Mat& weight) {
+  ENSURE((rect & cv::Rect({0, 0}, frame.size_px())) == rect);
+  ENSURE(bgr.type() == CV_8UC3 && bgr.size() == rect.size());
+  ENSURE(weight.type() == CV_32FC1 && weight.size() == rect.size());
+  return PixelBlocks(frame).rewrite(rect, MixedPixels{rect, bgr, weight});
+}
+
+std::int64_t replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight) {
+  return replace_pixels(frame, {{0, 0}, frame.size_px()}, bgr, weight);
 }
 
 }  // namespace sigs

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "render/sets.h"
+
 namespace sigs {
 namespace {
 
@@ -68,20 +70,6 @@ std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles) {
   std::sort(edges.begin(), edges.end());
   return edges;
 }
-
-// Disjoint sets (Tarjan 1975) of triangles.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t root(std::uint32_t of) {
-    while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
-    return of;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // By the root of its set.
 struct Shell {

@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <numeric>
 
 namespace sigs {
 namespace {
 
-void append(DrawList& list, int material, Surface surface, const std::uint32_t* corners,
+void append(DrawList& list, int picture, Surface surface, const std::uint32_t* corners,
             HiddenSide hidden = HiddenSide::none) {
-  const auto continues = [&](const Run& run) {
-    return run.material == material && run.surface == surface && run.hidden == hidden;
-  };
-  if (list.runs.empty() || !continues(list.runs.back()))
-    list.runs.push_back({material, surface, static_cast<std::uint32_t>(list.indices.size()), 0, hidden});
+  const Run run{picture, surface, static_cast<std::uint32_t>(list.indices.size()), 0, hidden};
+  if (list.runs.empty() || !is_drawn_alike(list.runs.back(), run)) list.runs.push_back(run);
   list.indices.insert(list.indices.end(), corners, corners + 3);
   list.runs.back().count += 3;
 }
@@ -27,28 +25,61 @@ void for_each_triangle(const Mesh& mesh, const std::vector<Surface>& surfaces, V
       visit(part.material, surfaces[triangle++], &mesh.indices[part.first_index + i]);
 }
 
+// Parts [first, last), whose first triangle is so many after the mesh's.
+struct Group {
+  std::size_t first;
+  std::size_t last;
+  std::size_t triangle;
+};
+
+std::vector<Group> groups_of(const Mesh& mesh, const std::vector<int>& pictures) {
+  std::vector<Group> groups;
+  std::size_t triangle = 0;
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    const auto picture = [&](std::size_t part) { return pictures[mesh.parts[part].material]; };
+    if (groups.empty() || picture(groups.back().first) != picture(i)) groups.push_back({i, i, triangle});
+    groups.back().last = i + 1;
+    triangle += mesh.parts[i].index_count / 3;
+  }
+  return groups;
+}
+
 }  // namespace
 
-DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces) {
+std::vector<int> pictures_of(const Mesh& mesh) {
+  std::map<const unsigned char*, int> known;
+  std::vector<int> pictures;
+  for (const Material& material : mesh.materials)
+    pictures.push_back(material.texture.empty()
+                           ? kNoPicture
+                           : known.try_emplace(material.texture.data, static_cast<int>(known.size())).first->second);
+  return pictures;
+}
+
+DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces, const std::vector<int>& pictures) {
   const std::vector<HiddenSide> hidden = hidden_sides_of(mesh, surfaces);
+  const std::vector<Group> groups = groups_of(mesh, pictures);
   DrawList list;
-  for (const Surface wanted : {Surface::solid, Surface::cutout}) {
-    std::size_t first = 0;  // triangle of the part
-    for (const MeshPart& part : mesh.parts) {
-      for (const HiddenSide side : {HiddenSide::none, HiddenSide::back, HiddenSide::front})
-        for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3)
-          if (surfaces[first + i / 3] == wanted && hidden[first + i / 3] == side)
-            append(list, part.material, wanted, &mesh.indices[part.first_index + i], side);
-      first += part.index_count / 3;
+  const auto append_of = [&](const Group& group, Surface wanted, HiddenSide side) {
+    std::size_t triangle = group.triangle;
+    for (std::size_t p = group.first; p < group.last; ++p) {
+      const MeshPart& part = mesh.parts[p];
+      for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3, ++triangle)
+        if (surfaces[triangle] == wanted && hidden[triangle] == side)
+          append(list, pictures[part.material], wanted, &mesh.indices[part.first_index + i], side);
     }
-  }
+  };
+  for (const Surface wanted : {Surface::solid, Surface::cutout})
+    for (const Group& group : groups)
+      for (const HiddenSide side : {HiddenSide::none, HiddenSide::back, HiddenSide::front})
+        append_of(group, wanted, side);
   return list;
 }
 
 std::vector<SeeThrough> see_through(const Mesh& mesh, const std::vector<Surface>& surfaces) {
   std::vector<SeeThrough> triangles;
   for_each_triangle(mesh, surfaces, [&](int material, Surface surface, const std::uint32_t* corners) {
-    if (surface == Surface::solid) return;
+    if (surface == Surface::solid || !(mesh.materials[material].opacity >= kSeenOpacity)) return;
     const glm::vec3 sum = mesh.vertices[corners[0]].position_m + mesh.vertices[corners[1]].position_m +
                           mesh.vertices[corners[2]].position_m;
     triangles.push_back({{corners[0], corners[1], corners[2]}, material, surface, sum / 3.0F});
@@ -56,7 +87,8 @@ std::vector<SeeThrough> see_through(const Mesh& mesh, const std::vector<Surface>
   return triangles;
 }
 
-DrawList sorted_list(const std::vector<SeeThrough>& triangles, const glm::dvec3& eye_m) {
+DrawList sorted_list(const std::vector<SeeThrough>& triangles, const std::vector<int>& pictures,
+                     const glm::dvec3& eye_m) {
   std::vector<double> distances_m;
   distances_m.reserve(triangles.size());
   for (const SeeThrough& triangle : triangles)
@@ -66,7 +98,7 @@ DrawList sorted_list(const std::vector<SeeThrough>& triangles, const glm::dvec3&
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return distances_m[a] > distances_m[b]; });
   DrawList list;
-  for (const std::size_t i : order) append(list, triangles[i].material, triangles[i].surface, triangles[i].indices);
+  for (const std::size_t i : order) append(list, pictures[triangles[i].material], triangles[i].surface, triangles[i].indices);
   return list;
 }
 

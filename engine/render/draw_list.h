@@ -11,14 +11,21 @@
 
 namespace sigs {
 
+inline constexpr int kNoPicture = -1;
+inline constexpr float kSeenOpacity = 1.0F / 255.0F;  // below, light passes as if nothing were there
+
 // Triangles that are drawn with one call: indices [first, first + count).
 struct Run {
-  int material = 0;
+  int picture = kNoPicture;
   Surface surface = Surface::solid;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   HiddenSide hidden = HiddenSide::none;  // to an eye outside the body
 };
+
+[[nodiscard]] inline bool is_drawn_alike(const Run& a, const Run& b) {
+  return a.picture == b.picture && a.surface == b.surface && a.hidden == b.hidden;
+}
 
 struct DrawList {
   std::vector<std::uint32_t> indices;
@@ -33,14 +40,19 @@ struct SeeThrough {
   glm::vec3 centroid_m{0, 0, 0};  // body axes
 };
 
-// What is drawn with the depth buffer alone, in the order of the mesh's parts: solid triangles and cutouts. Those of a
-// part that hide the same side come together.
-[[nodiscard]] DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces);
+// For each material the number of its picture, counted from 0 by the pixels that materials share.
+[[nodiscard]] std::vector<int> pictures_of(const Mesh& mesh);
 
-// Cutouts and glass.
+// What is drawn with the depth buffer alone: solid triangles, then cutouts, in the order of the mesh's parts. Of
+// neighbouring parts with the same picture, those that hide the same side come together.
+[[nodiscard]] DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces,
+                                  const std::vector<int>& pictures);
+
+// Cutouts and glass, as far as they can be seen at all.
 [[nodiscard]] std::vector<SeeThrough> see_through(const Mesh& mesh, const std::vector<Surface>& surfaces);
 
 // Far to near by centroid, as the eye (body axes) sees them; equals keep their order.
-[[nodiscard]] DrawList sorted_list(const std::vector<SeeThrough>& triangles, const glm::dvec3& eye_m);
+[[nodiscard]] DrawList sorted_list(const std::vector<SeeThrough>& triangles, const std::vector<int>& pictures,
+                                   const glm::dvec3& eye_m);
 
 }  // namespace sigs

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstddef>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "base/ensure.h"
 #include "base/transfer.h"
+#include "render/paint.h"
 
 namespace sigs {
 namespace {
@@ -57,15 +59,19 @@ GLuint uploaded(const cv::Mat& picture) {
   return name;
 }
 
+// Of what Holder the current buffer is full of.
+template <class Holder>
 void set_attribute(GLuint index, GLint count, std::size_t offset) {
   glEnableVertexAttribArray(index);
-  glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offset));
+  glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, sizeof(Holder), reinterpret_cast<const void*>(offset));
 }
 
 template <class T>
-void upload(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usage) {
+std::int64_t upload(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usage) {
+  const std::size_t size = data.size() * sizeof(T);
   glBindBuffer(target, buffer);
-  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+  glBufferData(target, static_cast<GLsizeiptr>(size), data.data(), usage);
+  return static_cast<std::int64_t>(size);
 }
 
 // FNV-1a (Fowler, Noll, Vo), word by word.
@@ -107,6 +113,9 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
     print.add(std::uint64_t{part.index_count});
   }
   for (const Material& material : mesh.materials) {
+    print.add(material.diffuse);
+    print.add(material.specular);
+    print.add(material.shininess);
     print.add(material.opacity);
     add_texture(print, material.texture);
   }
@@ -115,33 +124,43 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
 
 }  // namespace
 
-GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)) {
-  const std::vector<Surface> surfaces = surfaces_of(mesh);
-  const DrawList solid = solid_list(mesh, surfaces);
-  solid_runs_ = solid.runs;
-  see_through_ = sigs::see_through(mesh, surfaces);
+GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)), picture_of_material_(pictures_of(mesh)), radius_m_(mesh.radius_m) {
+  Mesh split = split_by_material(mesh);
+  const std::vector<Surface> surfaces = surfaces_of(split);
+  whole_ = solid_list(split, surfaces, picture_of_material_);
+  see_through_ = sigs::see_through(split, surfaces);
 
   glGenVertexArrays(1, &vertex_array_);
   glGenBuffers(1, &vertex_buffer_);
-  glGenBuffers(1, &solid_indices_);
+  glGenBuffers(1, &paint_buffer_);
   glGenBuffers(1, &sorted_indices_);
   glBindVertexArray(vertex_array_);
-  upload(GL_ARRAY_BUFFER, vertex_buffer_, mesh.vertices, GL_STATIC_DRAW);
-  upload(GL_ELEMENT_ARRAY_BUFFER, solid_indices_, solid.indices, GL_STATIC_DRAW);
-  set_attribute(0, 3, offsetof(Vertex, position_m));
-  set_attribute(1, 3, offsetof(Vertex, normal));
-  set_attribute(2, 2, offsetof(Vertex, uv));
+  bytes_uploaded_ += upload(GL_ARRAY_BUFFER, vertex_buffer_, split.vertices, GL_STATIC_DRAW);
+  set_attribute<Vertex>(0, 3, offsetof(Vertex, position_m));
+  set_attribute<Vertex>(1, 3, offsetof(Vertex, normal));
+  set_attribute<Vertex>(2, 2, offsetof(Vertex, uv));
+  bytes_uploaded_ += upload(GL_ARRAY_BUFFER, paint_buffer_, paints_of(split), GL_STATIC_DRAW);
+  set_attribute<Paint>(3, 4, offsetof(Paint, color));
+  set_attribute<Paint>(4, 4, offsetof(Paint, gloss));
+  whole_level_ = uploaded_level(whole_);
   upload_pictures(mesh);
+  vertices_ = std::move(split.vertices);
 }
 
 void GpuMesh::upload_pictures(const Mesh& mesh) {
-  const cv::Mat white(1, 1, CV_8UC4, cv::Scalar::all(255));
-  for (const Material& material : mesh.materials) {
-    const unsigned char* pixels = material.texture.empty() ? nullptr : material.texture.data;
-    const auto [entry, is_first] = picture_of_pixels_.try_emplace(pixels, 0);
-    if (is_first) entry->second = uploaded(pixels == nullptr ? white : material.texture);
-    pictures_.push_back(entry->second);
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const cv::Mat& texture = mesh.materials[i].texture;
+    if (picture_of_material_[i] != static_cast<int>(pictures_.size())) continue;  // has none, or it is there
+    pictures_.push_back(uploaded(texture));
+    bytes_uploaded_ += static_cast<std::int64_t>(texture.total() * texture.elemSize());
   }
+}
+
+GpuMesh::Level GpuMesh::uploaded_level(const DrawList& list) {
+  Level level{.runs = list.runs};
+  glGenBuffers(1, &level.indices);
+  bytes_uploaded_ += upload(GL_ELEMENT_ARRAY_BUFFER, level.indices, list.indices, GL_STATIC_DRAW);
+  return level;
 }
 
 bool GpuMesh::is_copy_of(const Mesh& mesh) const {
@@ -149,15 +168,33 @@ bool GpuMesh::is_copy_of(const Mesh& mesh) const {
 }
 
 void GpuMesh::release() {
-  const std::array<GLuint, 3> buffers{vertex_buffer_, solid_indices_, sorted_indices_};
+  std::vector<GLuint> buffers{vertex_buffer_, paint_buffer_, sorted_indices_, whole_level_.indices};
+  for (const auto& [step, level] : levels_) buffers.push_back(level.indices);
   glDeleteBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   glDeleteVertexArrays(1, &vertex_array_);
-  for (const auto& [pixels, picture] : picture_of_pixels_) glDeleteTextures(1, &picture);
+  glDeleteTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
 }
 
-void GpuMesh::bind_solid() const {
+DrawList GpuMesh::sorted_for(const glm::dvec3& eye_m) const {
+  return sorted_list(see_through_, picture_of_material_, eye_m);
+}
+
+std::optional<int> GpuMesh::worthwhile_step(double error_m) const {
+  constexpr std::size_t kFewTriangles = 1000;  // are drawn as fast whole
+  constexpr double kLeastError = 1.0 / 4096;   // of the radius: in so large a view it is pixels that cost
+  constexpr double kMostError = 1.0 / 64;      // of the radius: what is coarser is not worth its memory
+  if (whole_.indices.size() < 3 * kFewTriangles || !(error_m > kLeastError * radius_m_)) return std::nullopt;
+  return step_for(std::min(error_m, kMostError * radius_m_));
+}
+
+const std::vector<Run>& GpuMesh::bind_solid(double error_m) {
   glBindVertexArray(vertex_array_);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, solid_indices_);
+  const std::optional<int> step = worthwhile_step(error_m);
+  if (step && !levels_.contains(*step))
+    levels_.emplace(*step, uploaded_level(detail_of(vertices_, whole_, *step).list));
+  const Level& level = step ? levels_.at(*step) : whole_level_;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, level.indices);
+  return level.runs;
 }
 
 void GpuMesh::bind_sorted(const DrawList& list) const {
@@ -170,9 +207,10 @@ void GpuMesh::draw(const Run& run) const {
                  reinterpret_cast<const void*>(run.first * sizeof(std::uint32_t)));
 }
 
-void GpuMesh::bind_picture(int material) const {
+void GpuMesh::bind_picture(int picture) const {
+  if (picture == kNoPicture) return;
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, pictures_[material]);
+  glBindTexture(GL_TEXTURE_2D, pictures_[picture]);
 }
 
 }  // namespace sigs

@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "render/detail.h"
 #include "render/draw_list.h"
 
 namespace sigs {
@@ -22,29 +25,46 @@ class GpuMesh {
   // Returns what was uploaded to the driver.
   void release();
 
-  [[nodiscard]] const std::vector<SeeThrough>& see_through() const { return see_through_; }
-  [[nodiscard]] const std::vector<Run>& solid_runs() const { return solid_runs_; }
+  // What is seen through, far to near as the eye (body axes) sees it.
+  [[nodiscard]] DrawList sorted_for(const glm::dvec3& eye_m) const;
 
-  // Makes the following calls of draw() take their triangles from the solid list, or from a list of this moment.
-  void bind_solid() const;
+  // Makes the following calls of draw() take their triangles from the solid ones, off by error_m at most, whose runs it
+  // returns; or from a list of this moment. Fewer triangles are made where first wanted, and kept.
+  const std::vector<Run>& bind_solid(double error_m);
   void bind_sorted(const DrawList& list) const;
   void draw(const Run& run) const;
 
-  // Binds a material's picture; plain white where it has none.
-  void bind_picture(int material) const;
+  // Binds the picture of a run; nothing where it has none.
+  void bind_picture(int picture) const;
+
+  // Since the last time it was asked.
+  [[nodiscard]] std::int64_t take_bytes_uploaded() { return std::exchange(bytes_uploaded_, 0); }
 
  private:
+  struct Level {
+    std::vector<Run> runs;
+    unsigned int indices = 0;
+  };
+
+  // Nothing: the whole mesh.
+  [[nodiscard]] std::optional<int> worthwhile_step(double error_m) const;
   void upload_pictures(const Mesh& mesh);
+  [[nodiscard]] Level uploaded_level(const DrawList& list);
 
   std::uint64_t fingerprint_;
-  std::vector<Run> solid_runs_;
+  std::vector<Vertex> vertices_;
+  std::vector<int> picture_of_material_;
   std::vector<SeeThrough> see_through_;
+  DrawList whole_;
+  Level whole_level_;
+  std::map<int, Level> levels_;  // by step, detail.h
+  std::int64_t bytes_uploaded_ = 0;
+  double radius_m_;
   unsigned int vertex_array_ = 0;
   unsigned int vertex_buffer_ = 0;
-  unsigned int solid_indices_ = 0;
+  unsigned int paint_buffer_ = 0;
   unsigned int sorted_indices_ = 0;
-  std::vector<unsigned int> pictures_;                              // by material
-  std::map<const unsigned char*, unsigned int> picture_of_pixels_;  // each picture once; null: white
+  std::vector<unsigned int> pictures_;
 };
 
 }  // namespace sigs

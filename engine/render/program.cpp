@@ -14,9 +14,13 @@
 namespace sigs {
 namespace {
 
-Result<GLuint> compiled(GLenum stage, const char* source) {
+Result<GLuint> compiled(GLenum stage, const std::string& defines, std::string_view source) {
+  const std::size_t after_version = source.find('\n') + 1;  // which GLSL wants first
+  const std::string text =
+      std::string(source.substr(0, after_version)) + defines + std::string(source.substr(after_version));
+  const char* start = text.c_str();
   const GLuint shader = glCreateShader(stage);
-  glShaderSource(shader, 1, &source, nullptr);
+  glShaderSource(shader, 1, &start, nullptr);
   glCompileShader(shader);
   GLint is_good = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &is_good);
@@ -43,10 +47,10 @@ std::map<std::string, int, std::less<>> locations_of(GLuint program) {
 
 }  // namespace
 
-Result<Program> Program::create() {
-  const Result<GLuint> vertex = compiled(GL_VERTEX_SHADER, shaders::kIntruderVert);
+Result<Program> Program::create(const std::string& defines) {
+  const Result<GLuint> vertex = compiled(GL_VERTEX_SHADER, defines, shaders::kIntruderVert);
   if (!vertex) return fail(vertex.error());
-  const Result<GLuint> fragment = compiled(GL_FRAGMENT_SHADER, shaders::kIntruderFrag);
+  const Result<GLuint> fragment = compiled(GL_FRAGMENT_SHADER, defines, shaders::kIntruderFrag);
   if (!fragment) return fail(fragment.error());
   const GLuint program = glCreateProgram();
   glAttachShader(program, *vertex);

@@ -12,8 +12,9 @@ namespace sigs {
 // The shaders of assets/shaders, compiled in the current context, which owns them.
 class Program {
  public:
+  //   defines  lines to go before the shaders: "#define NAME\n..."
   // Error unavailable with the driver's own words.
-  [[nodiscard]] static Result<Program> create();
+  [[nodiscard]] static Result<Program> create(const std::string& defines);
 
   void use() const;
 

@@ -12,9 +12,9 @@
 
 #include "base/ensure.h"
 #include "base/transfer.h"
-#include "render/draw_list.h"
 #include "render/egl_context.h"
 #include "render/gpu_mesh.h"
+#include "render/passes.h"
 #include "render/program.h"
 #include "render/projection.h"
 #include "render/target.h"
@@ -23,18 +23,16 @@ namespace sigs {
 
 struct Renderer::State {
   EglContext context;
-  Program program;
+  Programs programs;
   Target target;
   std::map<const Mesh*, GpuMesh> meshes;
+  RenderWork work;
 };
 
 namespace {
 
 constexpr int kLargestView_px = 16384;
-constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
-constexpr float kSeen = 1.0F / 255.0F;      // below, light passes as if nothing were there
-constexpr float kAnyOpacity = 1e9F;
-
+constexpr double kDetail_px = 1.0 / 8;  // of a view: solid parts may be drawn so far off, the accuracy of its samples
 using ViewFromBody = Pose<frame::View, frame::Body>;
 
 bool is_finite(const glm::dvec3& v) {
@@ -54,12 +52,9 @@ ScaledPoint scaled_point(const glm::dvec3& p) {
   return {p * scale, static_cast<float>(scale)};
 }
 
-glm::vec3 linear_color(const glm::vec3& display) {
-  return {linear_of_display(display.x), linear_of_display(display.y), linear_of_display(display.z)};
-}
-
 void set_light(const Program& program, const Light& light, const ViewFromBody& view_from_body,
                const Pose<frame::View, frame::Camera>& view_from_camera) {
+  program.use();
   const ScaledPoint lamp = scaled_point(view_from_camera * light.p_in_camera - view_from_body.translation_m);
   const ScaledPoint eye = scaled_point(-view_from_body.translation_m);
   program.set("light_color", glm::vec3(light.color));
@@ -71,54 +66,15 @@ void set_light(const Program& program, const Light& light, const ViewFromBody& v
   program.set("view_from_body", glm::mat3(glm::mat3_cast(view_from_body.rotation)));
 }
 
-void set_material(const Program& program, const Material& material) {
-  program.set("diffuse", linear_color(material.diffuse));
-  program.set("specular", material.specular);
-  program.set("shininess", std::clamp(material.shininess, 1.0F, 200.0F));
-  program.set("opacity", material.opacity >= kSolidOpacity ? 1.0F : std::max(material.opacity, 0.0F));
-}
-
-void leave_out(HiddenSide side) {
-  if (side == HiddenSide::none) return glDisable(GL_CULL_FACE);
-  glEnable(GL_CULL_FACE);
-  glCullFace(side == HiddenSide::back ? GL_BACK : GL_FRONT);
-}
-
-void draw_runs(const Program& program, const Mesh& mesh, const GpuMesh& gpu, const std::vector<Run>& runs,
-               bool is_solid_pass, bool from_outside = false) {
-  for (const Run& run : runs) {
-    set_material(program, mesh.materials[run.material]);
-    gpu.bind_picture(run.material);
-    const bool is_cutout = run.surface == Surface::cutout;
-    program.set("solid", run.surface == Surface::solid);
-    program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kSeen);
-    program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
-    leave_out(from_outside ? run.hidden : HiddenSide::none);
-    gpu.draw(run);
-  }
-}
-
 // Outside the body with all of it beyond the near plane.
 bool sees_from_outside(const ViewFromBody& view_from_body, const Mesh& mesh) {
   return view_from_body.translation_m.x > 1.01 * mesh.radius_m;
 }
 
-void draw_solid(const Program& program, const Mesh& mesh, const GpuMesh& gpu, bool from_outside) {
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
-  gpu.bind_solid();
-  draw_runs(program, mesh, gpu, gpu.solid_runs(), true, from_outside);
-}
-
-void draw_see_through(const Program& program, const Mesh& mesh, const GpuMesh& gpu, const DrawList& sorted) {
-  if (sorted.runs.empty()) return;
-  glEnablei(GL_BLEND, 0);
-  glDisablei(GL_BLEND, 1);  // coverage is replaced: glass covers wholly
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
-  gpu.bind_sorted(sorted);
-  draw_runs(program, mesh, gpu, sorted.runs, false);
+// What solid parts may be off by, where the body is nearest. 0 around the eye.
+double allowed_error_m(const ViewFromBody& view_from_body, const Mesh& mesh, const VirtualView& view) {
+  const double nearest_m = view_from_body.translation_m.x - mesh.radius_m;
+  return std::max(0.0, kDetail_px * nearest_m / view.focal_px);
 }
 
 void set_fixed_state() {
@@ -137,7 +93,7 @@ std::vector<cv::Rect> pieces_of(const cv::Size& size) {
   return pieces;
 }
 
-const GpuMesh& uploaded(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
+GpuMesh& uploaded(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
   const auto known = meshes.find(&mesh);
   if (known != meshes.end() && known->second.is_copy_of(mesh)) return known->second;
   if (known != meshes.end()) {
@@ -149,6 +105,11 @@ const GpuMesh& uploaded(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh
 
 Layer blank(const cv::Size& size) {
   return {cv::Rect({0, 0}, size), cv::Mat::zeros(size, CV_32FC4), cv::Mat::zeros(size, CV_32FC1)};
+}
+
+void count(const PassWork& pass, RenderWork& work) {
+  work.triangles_drawn += pass.triangles;
+  work.draw_calls += pass.draw_calls;
 }
 
 void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const VirtualView& view) {
@@ -165,10 +126,10 @@ Result<Renderer> Renderer::create(int samples_per_pixel) {
   ENSURE(samples_per_pixel >= 1 && samples_per_pixel <= 8);
   Result<EglContext> context = EglContext::create();
   if (!context) return fail(context.error());
-  Result<Program> program = Program::create();
-  if (!program) return fail(program.error());
+  Result<Programs> programs = Programs::create();
+  if (!programs) return fail(programs.error());
   return Renderer(
-      std::unique_ptr<State>(new State{std::move(*context), std::move(*program), Target(samples_per_pixel), {}}));
+      std::unique_ptr<State>(new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}}));
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -178,6 +139,10 @@ Renderer::~Renderer() = default;
 
 const std::string& Renderer::description() const {
   return state_->context.description();
+}
+
+const RenderWork& Renderer::work() const {
+  return state_->work;
 }
 
 int Renderer::max_size_px() const {
@@ -197,21 +162,26 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
 
   Layer layer = blank(view.size_px);
   if (mesh.indices.empty()) return layer;
-  const GpuMesh& gpu = uploaded(state_->meshes, mesh);
-  const DrawList sorted = sorted_list(gpu.see_through(), inverse(view_from_body).translation_m);
-  const Program& program = state_->program;
-  program.use();
+  GpuMesh& gpu = uploaded(state_->meshes, mesh);
+  const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
+  const double error_m = allowed_error_m(view_from_body, mesh, view);
+  const bool from_outside = sees_from_outside(view_from_body, mesh);
   set_fixed_state();
-  set_light(program, light, view_from_body, view.view_from_camera);
+  for (const Program& program : state_->programs.all) set_light(program, light, view_from_body, view.view_from_camera);
   for (const cv::Rect& piece : pieces_of(view.size_px)) {
     const std::optional<glm::dmat4> clip = clip_from_body(view_from_body, mesh.radius_m, view, piece);
     if (!clip) return layer;
     if (const auto begun = state_->target.begin(piece.size()); !begun) return fail(begun.error());
-    program.set("clip_from_body", glm::mat4(*clip));
-    draw_solid(program, mesh, gpu, sees_from_outside(view_from_body, mesh));
-    draw_see_through(program, mesh, gpu, sorted);
+    for (const Program& program : state_->programs.all) {
+      program.use();
+      program.set("clip_from_body", glm::mat4(*clip));
+    }
+    count(draw_solid(state_->programs, gpu, error_m, from_outside), state_->work);
+    count(draw_see_through(state_->programs, gpu, sorted), state_->work);
     state_->target.read(layer.color(piece), layer.coverage(piece));
+    state_->work.pixels_drawn += piece.area();
   }
+  state_->work.bytes_uploaded += gpu.take_bytes_uploaded();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR)
     return fail("OpenGL", "drawing failed with error " + std::to_string(code), ErrorKind::unavailable);
   return layer;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -21,6 +22,14 @@ struct Light {
   double ambient = 0.35;            // 0..1: share of the light that comes from everywhere
 };
 
+// What a renderer has done since it was made.
+struct RenderWork {
+  std::int64_t pixels_drawn = 0;     // of the views
+  std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view
+  std::int64_t bytes_uploaded = 0;   // vertices, triangles and pictures; what a view says about itself is left out
+  std::int64_t draw_calls = 0;
+};
+
 // Draws meshes off screen with OpenGL through EGL. One renderer lives on one thread: the one that made it.
 class Renderer {
  public:
@@ -38,6 +47,8 @@ class Renderer {
 
   // Largest side of a view that draw() can make, px.
   [[nodiscard]] int max_size_px() const;
+
+  [[nodiscard]] const RenderWork& work() const;
 
   // The mesh as the view sees it, covering the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
   // several samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and

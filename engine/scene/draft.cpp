@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "base/ensure.h"
+#include "scene/path_stiffness.h"
 #include "scene/scene_parts.h"
 #include "scene/stand_ins.h"
 
@@ -76,7 +78,11 @@ Trajectory hovering(const Project& sound, std::size_t intruder) {
 
 Trajectory drafted_trajectory(const Project& written, const Project& sound, std::size_t intruder, DraftScene& draft) {
   if (!can_be_flown(written, intruder)) return hovering(sound, intruder);
-  return made_or(made_trajectory(sound, intruder, draft.scene), hovering(sound, intruder), draft.problems);
+  Made<Trajectory> made = made_trajectory(sound, intruder, draft.scene);
+  if (made)
+    if (std::optional<Warning> swing = swing_warning(sound, intruder, draft.scene))
+      draft.scene.warnings.push_back(*std::move(swing));
+  return made_or(std::move(made), hovering(sound, intruder), draft.problems);
 }
 
 std::shared_ptr<const Model> drafted_model(const Project& sound, std::size_t intruder, DraftScene& draft,

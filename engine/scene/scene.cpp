@@ -2,8 +2,11 @@
 #include "scene/scene.h"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "project/validate.h"
+#include "scene/path_stiffness.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 
@@ -29,6 +32,7 @@ Result<Scene> opened(const Project& project, const FootageShape& footage, SceneF
     if (!model) return stop(model.error());
     const Made<Trajectory> trajectory = made_trajectory(project, i, scene);
     if (!trajectory) return stop(trajectory.error());
+    if (std::optional<Warning> swing = swing_warning(project, i, scene)) scene.warnings.push_back(*std::move(swing));
     add_intruder(scene, project.intruders[i].name, *model, *trajectory);
   }
   return scene;

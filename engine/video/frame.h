@@ -47,6 +47,9 @@ struct Frame {
 // cv::Mat shares its samples; this shares nothing.
 [[nodiscard]] Frame cloned(const Frame& frame);
 
+// A frame whose samples are all 0.
+[[nodiscard]] Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color);
+
 // How many luma samples one chroma sample spans, in x and y: {2, 2} for yuv420, {1, 1} for layouts without subsampling.
 [[nodiscard]] cv::Size chroma_step(PixelLayout layout);
 

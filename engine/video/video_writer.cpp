@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 
 struct VideoWriter::State {
   fs::path path;
+  VideoFormat format;
   std::optional<libav::VideoFile> file;  // empty: a folder of pictures
   bool finished = false;
 };
@@ -21,6 +22,7 @@ struct VideoWriter::State {
 Result<VideoWriter> VideoWriter::open(const fs::path& path, const VideoFormat& format) {
   auto state = std::make_unique<State>();
   state->path = path;
+  state->format = format;
   if (format.codec == VideoCodec::png) {
     std::error_code code;
     if (!fs::is_directory(path, code))
@@ -41,6 +43,13 @@ VideoWriter::~VideoWriter() = default;
 Result<void> VideoWriter::write(const Frame& frame, int number) {
   ENSURE(!state_->finished);
   return state_->file ? state_->file->write(frame) : write_png(state_->path, frame, number);
+}
+
+Result<void> VideoWriter::write_blank(double time_s, int number) {
+  ENSURE(!state_->finished);
+  if (state_->file) return state_->file->write_blank(time_s);
+  const VideoFormat& format = state_->format;
+  return write_png(state_->path, blank_frame(format.layout, format.size_px, format.color), number);
 }
 
 Result<void> VideoWriter::finish() {

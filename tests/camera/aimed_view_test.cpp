@@ -117,3 +117,57 @@ TEST_CASE("a body beyond the lens' field needs no view") {
                       {1280, 960}};
   CHECK(aimed_views(narrow, box_at({-300, 10, 0}, 5), std::nullopt, 1, 2048).empty());
 }
+
+TEST_CASE("a body behind a fisheye, whose image goes round the picture, needs no view") {
+  const Camera wide{*Lens::make({.model = LensModel::kannala_brandt,
+                                 .fx = 560,
+                                 .fy = 560,
+                                 .cx = 639.5,
+                                 .cy = 479.5,
+                                 .coefficients = {0, 0, 0, 0}}),
+                    {1280, 960}};
+  const cv::Rect picture({0, 0}, wide.size_px);
+  REQUIRE(wide.lens.pixel({-5000, 3, 0}));  // it has one, at 180 degrees
+  CHECK(aimed_views(wide, box_at({-5000, 0, 0}, 15), picture, 2, 4096).empty());
+  CHECK(aimed_views(wide, box_at({5000, 0, 0}, 15), picture, 2, 4096).size() == 1);
+}
+
+TEST_CASE("a body on the picture's edge keeps its view however small it is") {
+  for (const double half_m : {1e-3, 0.1, 15.0})
+    for (const glm::dvec2 pixel : {glm::dvec2(0, 0), glm::dvec2(1279, 500), glm::dvec2(701.3, 959.4)}) {
+      const Camera camera = fisheye();
+      const glm::dvec3 middle = *camera.lens.ray(pixel) * 300.0;
+      const std::vector<VirtualView> views = aimed_views(camera, box_at(middle, half_m), {{0, 0, 1280, 960}}, 2, 4096);
+      REQUIRE(views.size() == 1);
+      CHECK(inside(views[0], middle));
+    }
+}
+
+TEST_CASE("before a pinhole a view's pixels are whole parts of the picture's, edges on edges") {
+  const Lens lens = *Lens::make({.fx = 431.7, .fy = 431.7, .cx = 317.31, .cy = 243.77});
+  const Camera camera{lens, {640, 480}};
+  for (const double supersampling : {1.0, 2.0, 3.0})
+    for (const glm::dvec3 middle : {glm::dvec3(100, 0, 0), glm::dvec3(100, 70, -40), glm::dvec3(700, -300, 200)}) {
+      const VirtualView view = aimed_views(camera, box_at(middle, 8), {{0, 0, 640, 480}}, supersampling, 4096).at(0);
+      const double factor = view.focal_px / 431.7;
+      CHECK(factor >= supersampling);
+      CHECK(factor == doctest::Approx(std::round(factor)).epsilon(1e-12));
+      for (const double corner : {-0.5, 100.5, 479.5}) {
+        const glm::dvec2 there = *view.pixel(*lens.ray({corner, corner})) + 0.5;
+        CHECK(std::abs(there.x - std::round(there.x)) < 1e-6);
+        CHECK(std::abs(there.y - std::round(there.y)) < 1e-6);
+      }
+      if (middle.y < 100) CHECK(inside(view, middle));
+    }
+}
+
+TEST_CASE("cube faces before a wide pinhole are no finer than its picture") {
+  const Camera camera{*Lens::make({.fx = 300, .fy = 300, .cx = 426.5, .cy = 239.5}), {854, 480}};  // 110 degrees wide
+  const cv::Rect picture({0, 0}, camera.size_px);
+  double drawn_px = 0;
+  for (const VirtualView& view : aimed_views(camera, box_at({0, 0, 0}, 15), picture, 2, 4096))
+    drawn_px += view.size_px.area();
+  // Twice as fine each way: four times the picture. The sides' faces look at its edges, which are stretched up to
+  // 1 / 0.7^2 times each way, and all have margins.
+  CHECK(drawn_px < 4 * 4 * picture.area());
+}

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
@@ -89,6 +90,43 @@ TEST_CASE("any sigma is blurred, to nothing in the end") {
     const Layer out = blurred_from_cells(layer, 1, sigma_px, {0, 0, 320, 240});
     CHECK(is_sound(out));
     CHECK(cv::norm(out.color, cv::NORM_INF) <= most * 1.000001);
+  }
+}
+
+TEST_CASE("from cells a point spreads as Gauss says, up to a million pixels") {
+  const Layer point = even_layer({0, 0, 1, 1}, {0.25F, 0.5F, 0.75F, 1});
+  for (const double sigma_px : {16.0, 40.0, 500.0, 1e4, 1e6}) {
+    CAPTURE(sigma_px);
+    // Of a Gaussian cut at three sigmas each way, which is higher by what the cut leaves out.
+    const double peak =
+        1 / (2 * std::numbers::pi * sigma_px * sigma_px * std::pow(std::erf(3 / std::numbers::sqrt2), 2));
+    for (const double away : {0.0, 0.7, 1.5, 2.2, 2.7}) {
+      const int x = static_cast<int>(away * sigma_px);
+      const Layer out = blurred_from_cells(point, 1, sigma_px, {x, 0, 3, 2});
+      const double wanted = peak * std::exp(-0.5 * std::pow(x / sigma_px, 2));
+      // The spline between places a quarter of sigma apart: to half a percent of the peak.
+      CHECK(std::abs(out.color.at<cv::Vec4f>(0, 0)[3] - wanted) < 0.005 * peak);
+    }
+    for (const int x : {static_cast<int>(3.6 * sigma_px), static_cast<int>(-4 * sigma_px)})
+      CHECK(cv::norm(blurred_from_cells(point, 1, sigma_px, {x, 0, 3, 2}).color, cv::NORM_INF) == 0);
+  }
+}
+
+TEST_CASE("energy stays within a thousandth on both sides of sigma 16, and nothing jumps there") {
+  const Layer layer = cloudy_layer({10, -20, 50, 40}, 4);
+  const Layer below = blurred(layer, kSigmaOfCells_px);
+  for (const double sigma_px : {16.0, 16.0001, 17.0, 60.0, 200.0}) {
+    CAPTURE(sigma_px);
+    const int reach = static_cast<int>(4 * sigma_px);
+    const cv::Rect all(10 - reach, -20 - reach, 50 + 2 * reach, 40 + 2 * reach);
+    const Layer out = blurred_from_cells(layer, 1, sigma_px, all);
+    for (int c = 0; c < 4; ++c) CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
+    if (sigma_px > 16.5) continue;
+    const cv::Mat inside = out.color(cv::Rect(below.rect.tl() - all.tl(), below.rect.size()));
+    double highest = 0;
+    cv::minMaxIdx(below.color.reshape(1), nullptr, &highest);
+    CHECK(cv::norm(inside, below.color, cv::NORM_INF) < 0.012 * highest);  // the cut at three sigmas, made soft
+    CHECK(cv::norm(inside, below.color, cv::NORM_L2) < 0.005 * cv::norm(below.color, cv::NORM_L2));
   }
 }
 

@@ -28,7 +28,7 @@ struct Setup {
 };
 
 struct Settings {
-  int samples_per_side = 16;  // of a pixel: 16 -> 256 rays
+  int samples_per_side = 16;  // of a pixel: 16 -> 256 rays; more where the image is less than 256 rays across
 };
 
 // The truth over rect, the part of the picture that light from the intruder can reach.

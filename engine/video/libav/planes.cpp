@@ -231,7 +231,10 @@ void fill(AVFrame& picture, const Frame& frame) {
     for (int y = 0; y < plane.rows; ++y) {
       const uchar* in = plane.ptr<uchar>(y);
       uchar* out = const_cast<uchar*>(sample_row(picture, component, y));
-      for (int x = 0; x < plane.cols; ++x) out[x * component.step] = in[x];
+      if (component.step == 1)
+        std::memcpy(out, in, static_cast<size_t>(plane.cols));
+      else
+        for (int x = 0; x < plane.cols; ++x) out[x * component.step] = in[x];
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include "base/ensure.h"
 #include "video/libav/encoder.h"
+#include "video/libav/lending.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {
@@ -36,6 +37,11 @@ AVRational tick_of(const VideoFormat& format) {
   if (format.container == Container::avi) return {format.frame_rate_den, format.frame_rate_num};
   const int64_t num = format.frame_rate_num;
   return {1, static_cast<int>(num * std::max<int64_t>(1, (kFinestTicksPerSecond + num - 1) / num))};
+}
+
+// The encoder has read a picture's samples when it returns; others may hold on to them.
+bool is_done_at_once(VideoCodec codec) {
+  return codec == VideoCodec::ffv1 || codec == VideoCodec::h264;
 }
 
 Error named(Error error, const fs::path& path) {
@@ -83,31 +89,53 @@ Result<void> VideoFile::begin() {
   return check(avformat_write_header(context, nullptr));
 }
 
-Result<int64_t> VideoFile::next_stamp(const Frame& frame) {
-  if (format_.container == Container::avi) return last_stamp_ + 1;
-  if (!std::isfinite(frame.time_s) || (first_time_s_ && !(frame.time_s > last_time_s_)))
-    return fail(path_.string(), "a frame's time does not lie after the one before: " + std::to_string(frame.time_s));
-  if (!first_time_s_) first_time_s_ = frame.time_s;
-  last_time_s_ = frame.time_s;
-  const int64_t stamp = std::llround((frame.time_s - *first_time_s_) / av_q2d(tick_));
-  return std::max(stamp, last_stamp_ + 1);
+Result<int64_t> VideoFile::next_stamp(double time_s) {
+  if (format_.container == Container::avi) return ++last_stamp_;
+  if (!std::isfinite(time_s) || (first_time_s_ && !(time_s > last_time_s_)))
+    return fail(path_.string(), "a frame's time does not lie after the one before: " + std::to_string(time_s));
+  if (!first_time_s_) first_time_s_ = time_s;
+  last_time_s_ = time_s;
+  const int64_t stamp = std::llround((time_s - *first_time_s_) / av_q2d(tick_));
+  return last_stamp_ = std::max(stamp, last_stamp_ + 1);
+}
+
+FramePtr VideoFile::picture_of(const Frame& frame) const {
+  FramePtr picture = new_frame();
+  picture->format = encoder_->pix_fmt;
+  picture->width = encoder_->width;
+  picture->height = encoder_->height;
+  picture->color_range = encoder_->color_range;
+  picture->colorspace = encoder_->colorspace;
+  const Frame as_stored = stored(frame, encoding_);
+  if (is_done_at_once(format_.codec) && can_lend(encoder_->pix_fmt)) {
+    lend(*picture, as_stored);
+  } else {
+    ENSURE(av_frame_get_buffer(picture.get(), 0) >= 0);
+    fill(*picture, as_stored);
+  }
+  return picture;
 }
 
 Result<void> VideoFile::write(const Frame& frame) {
   ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
-  const Result<int64_t> stamp = next_stamp(frame);
+  const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
-  last_stamp_ = *stamp;
-  const FramePtr picture = new_frame();
-  picture->format = encoder_->pix_fmt;
-  picture->width = encoder_->width;
-  picture->height = encoder_->height;
-  ENSURE(av_frame_get_buffer(picture.get(), 0) >= 0);
-  fill(*picture, stored(frame, encoding_));
+  const FramePtr picture = picture_of(frame);
   picture->pts = *stamp;
-  picture->color_range = encoder_->color_range;
-  picture->colorspace = encoder_->colorspace;
   return encode(picture.get());
+}
+
+// Every picture of FFV1 here is a key picture and comes out at once, so the same picture makes the same packet.
+Result<void> VideoFile::write_blank(double time_s) {
+  if (blank_ == nullptr) {
+    keeps_packet_ = format_.codec == VideoCodec::ffv1;
+    Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+    frame.time_s = time_s;
+    return write(frame);
+  }
+  const Result<int64_t> stamp = next_stamp(time_s);
+  if (!stamp) return fail(stamp.error());
+  return put_again(*blank_, *stamp);
 }
 
 Result<void> VideoFile::encode(const AVFrame* picture) {
@@ -118,13 +146,24 @@ Result<void> VideoFile::encode(const AVFrame* picture) {
     if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return {};
     if (received < 0)
       return fail(path_.string(), "could not be encoded: " + text_of(received), ErrorKind::write_failed);
-    const AVRational period{format_.frame_rate_den, format_.frame_rate_num};
-    if (packet_->duration == 0) packet_->duration = av_rescale_q(1, period, tick_);
-    av_packet_rescale_ts(packet_.get(), tick_, output_->streams[0]->time_base);
-    packet_->stream_index = 0;
-    if (const Result<void> written = check(av_interleaved_write_frame(output_.get(), packet_.get())); !written)
-      return written;
+    if (std::exchange(keeps_packet_, false)) blank_.reset(av_packet_clone(packet_.get()));
+    if (const Result<void> written = put(*packet_); !written) return written;
   }
+}
+
+Result<void> VideoFile::put_again(const AVPacket& packet, int64_t stamp) {
+  ENSURE(av_packet_ref(packet_.get(), &packet) >= 0);
+  packet_->pts = packet_->dts = stamp;
+  return put(*packet_);
+}
+
+// Takes the packet's contents.
+Result<void> VideoFile::put(AVPacket& packet) {
+  const AVRational period{format_.frame_rate_den, format_.frame_rate_num};
+  if (packet.duration == 0) packet.duration = av_rescale_q(1, period, tick_);
+  av_packet_rescale_ts(&packet, tick_, output_->streams[0]->time_base);
+  packet.stream_index = 0;
+  return check(av_interleaved_write_frame(output_.get(), &packet));
 }
 
 Result<void> VideoFile::finish() {

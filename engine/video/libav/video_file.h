@@ -22,14 +22,18 @@ class VideoFile {
   [[nodiscard]] static Result<VideoFile> create(const std::filesystem::path& path, const VideoFormat& format);
 
   [[nodiscard]] Result<void> write(const Frame& frame);
+  [[nodiscard]] Result<void> write_blank(double time_s);
   [[nodiscard]] Result<void> finish();
 
  private:
   VideoFile(std::filesystem::path path, VideoFormat format, Encoding encoding);
 
   [[nodiscard]] Result<void> begin();
-  [[nodiscard]] Result<int64_t> next_stamp(const Frame& frame);
+  [[nodiscard]] Result<int64_t> next_stamp(double time_s);
+  [[nodiscard]] FramePtr picture_of(const Frame& frame) const;
   [[nodiscard]] Result<void> encode(const AVFrame* picture);
+  [[nodiscard]] Result<void> put(AVPacket& packet);
+  [[nodiscard]] Result<void> put_again(const AVPacket& packet, int64_t stamp);
   [[nodiscard]] Result<void> check(int result) const;
 
   std::filesystem::path path_;
@@ -39,6 +43,8 @@ class VideoFile {
   OutputPtr output_;
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();
+  PacketPtr blank_;            // what the encoder made of a blank picture, where that is always the same
+  bool keeps_packet_ = false;  // the next packet is to become blank_
   std::optional<double> first_time_s_;
   double last_time_s_ = 0;
   int64_t last_stamp_ = -1;

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Error against run time: measures everything, draws the plots and makes the tables of docs/accuracy.md anew.
+#   bench/accuracy.sh [BUILD] [quick|draw]    default: build/release
+#   quick   one repetition, coarse truth; page and plots go into the build folder, docs/ stays as it is
+#   draw    measures nothing: plots and tables of the last whole run
+# The tables lie in BUILD/accuracy as CSV files.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${1:-build/release}
+mode=${2:-whole}
+folder=$build/accuracy
+page=docs/accuracy.md
+pictures=docs/pictures
+if [ "$mode" = quick ]; then
+  folder=$build/accuracy-quick
+  page=$folder/accuracy.md
+  pictures=$folder
+fi
+mkdir -p "$folder"
+source bench/accuracy/tables.sh
+
+if [ "$mode" != draw ]; then
+  effort=()
+  [ "$mode" = quick ] && effort=(quick)
+  for what in spline lens frames; do
+    echo "measuring: $what"
+    "$build/bench_accuracy_$what" "$folder" "${effort[@]}"
+  done
+fi
+
+for plot in frames sizes lens lens_table spline; do
+  gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; picture='$pictures/accuracy-${plot//_/-}.png'" \
+    "bench/accuracy/$plot.gp"
+done
+
+with_tables docs/accuracy.md >"$folder/page.md"
+mv "$folder/page.md" "$page"
+if ! awk -F, -f bench/accuracy/claims.awk "$folder"/{machine,frames,sizes,tolerance,lens,lens_table,spline,condition}.csv &&
+  [ "$mode" != quick ]; then
+  echo "error: $page says what the figures do not" >&2
+  exit 1
+fi
+echo "$page, $pictures/accuracy-*.png"

@@ -1,0 +1,32 @@
+# What docs/accuracy.md says in words, held against the tables: prints each sentence that the figures no longer carry.
+#   awk -F, -f claims.awk machine.csv frames.csv sizes.csv tolerance.csv lens.csv lens_table.csv spline.csv condition.csv
+function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
+FNR == 1 { next }
+FILENAME ~ /machine/ { ss = $1; m = $2; tolerance = $3 }
+FILENAME ~ /frames/ && ($2 == "plain" || $2 == "classic" || $2 == "direct") {
+  scenes[$1] = 1
+  rmse[$1, $2, $3, $4] = $5; p999[$1, $2, $3, $4] = $6; max[$1, $2, $3, $4] = $7; ms[$1, $2, $3, $4] = $13
+}
+FILENAME ~ /tolerance/ && $2 == 0 { exact[$1] = $3 }
+FILENAME ~ /tolerance/ { claim($3 < 1.01 * exact[$1], $1 ": tabulated rays leave the error as it is") }
+FILENAME ~ /tolerance/ && $2 == tolerance { claim($4 <= 1, $1 ": tabulated rays move no sample by more than one code") }
+FILENAME ~ /lens.csv/ && $2 == "Lens::ray" { claim($6 < 1e-9, $1 ": Lens::ray is exact") }
+FILENAME ~ /lens_table/ && $2 == tolerance { claim($9 < 4 * tolerance, $1 ": at most some times the tolerance") }
+FILENAME ~ /spline/ { claim($6 < 1e-9 && $7 < 1e-14 && $8 < 1e-12, $1 " waypoints: flights are exact") }
+FILENAME ~ /condition/ { claim($2 < 3.001 && $5 < 1e-11, "ratio " $1 ": the condition stays 3") }
+END {
+  for (s in scenes) {
+    for (samples = 1; samples <= 4; samples += 3)
+      for (k = 1; k <= 4; k++) {
+        claim(rmse[s, "direct", k, samples] < rmse[s, "classic", k, samples],
+          s ", supersampling " k ", samples " samples ": direct has less error than classic")
+        claim(ms[s, "direct", k, samples] < ms[s, "classic", k, samples],
+          s ", supersampling " k ", samples " samples ": direct takes less time than classic")
+      }
+    claim(p999[s, "direct", ss, m] < p999[s, "classic", ss, m] && max[s, "direct", ss, m] < max[s, "classic", ss, m],
+      s ": direct is better than classic in 99.9 % and largest error")
+    claim(rmse[s, "direct", ss, m] < rmse[s, "plain", ss, m], s ": direct is better than plain")
+    claim(rmse[s, "direct", 2, m] < 1.01 * rmse[s, "direct", 1, m], s ": supersampling 2 is no worse than 1")
+  }
+  exit broken
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace sigs::accuracy {
+
+// A table in a file, row by row. Stops the program where the file cannot be made.
+class Csv {
+ public:
+  Csv(const std::filesystem::path& path, std::string_view header);
+
+  template <class First, class... Others>
+  void row(const First& first, const Others&... others) {
+    out_ << first;
+    ((out_ << ',' << others), ...);
+    out_ << std::endl;  // a run that is stopped leaves whole rows
+  }
+
+ private:
+  std::ofstream out_;
+};
+
+// What every bench here is called with: FOLDER [quick].
+struct Call {
+  std::filesystem::path folder;  // where the tables go; made where it is not there
+  bool quick = false;            // few repetitions and a coarse truth: shows that it runs, proves nothing
+};
+[[nodiscard]] Call call_of(int argc, char** argv);
+
+// Says why on standard error and ends the program.
+[[noreturn]] void stop(const std::string& why);
+
+}  // namespace sigs::accuracy

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "accuracy/angle.h"
+#include "camera/lens.h"
+
+namespace sigs::accuracy {
+
+struct NamedLens {
+  std::string name;
+  Lens lens;
+  cv::Size size_px;
+};
+
+// From harmless to wild, each over its whole picture.
+[[nodiscard]] std::vector<NamedLens> lenses();
+
+// A pixel whose ray is known to more than double's digits.
+struct Known {
+  glm::dvec2 pixel;
+  Real3 ray{1, 0, 0};     // unit, camera frame
+  double px_per_rad = 0;  // the lens' magnification there
+};
+
+// Rays over the part of the valid field that lies in the picture, some `across` squared of them.
+[[nodiscard]] std::vector<Known> known_rays(const NamedLens& lens, int across);
+
+}  // namespace sigs::accuracy

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "accuracy/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "accuracy/csv.h"
+#include "annotation/measure.h"
+#include "camera/camera.h"
+#include "project/project.h"
+#include "scene/scene_at.h"
+#include "scene/scene_files.h"
+
+namespace sigs::accuracy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kAssets = SIGS_ASSETS_DIR;
+constexpr int kSteps = 12;  // to the wanted size; each leaves the square of the last one's relative error, far away
+
+Recipe sample_view(const std::string& name, const std::string& title, double size_px) {
+  return {.name = name, .title = title, .size_px = size_px, .lens = sample_lens()};
+}
+
+void write_calibration(const fs::path& path, const LensParameters& lens) {
+  cv::FileStorage file(path.string(), cv::FileStorage::WRITE);
+  file << "image_width" << kPictureSize_px.width << "image_height" << kPictureSize_px.height;
+  if (lens.model == LensModel::kannala_brandt) file << "fisheye_model" << 1;
+  file << "camera_matrix" << cv::Mat(cv::Matx33d(lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1));
+  file << "distortion_coefficients" << cv::Mat(lens.coefficients, true);
+}
+
+// Everything but where the intruder is.
+Project bare_project(const Recipe& recipe, const fs::path& folder) {
+  Project project{.file = folder / (recipe.name + ".json"), .name = recipe.name};
+  std::ofstream(folder / "footage.mkv") << "stands in for footage";
+  write_calibration(folder / (recipe.name + ".xml"), recipe.lens);
+  project.footage.video = "footage.mkv";
+  project.footage.calibration = recipe.name + ".xml";
+  if (recipe.has_own_body) project.footage.own_body_mask = (kAssets / "footage/sample_own_body.png").string();
+  IntruderSettings intruder{.name = recipe.aircraft};
+  intruder.model.file = (kAssets / "models" / recipe.aircraft / (recipe.aircraft + ".obj")).string();
+  project.intruders.push_back(intruder);
+  return project;
+}
+
+void place(Project& project, const Recipe& recipe, const glm::dvec3& ray, double distance_m) {
+  const glm::dvec3 middle_m = project.camera.position_m + ray * distance_m;  // the camera's attitude is zero
+  const glm::dvec3 step_m = 2.0 * glm::normalize(recipe.flies_along);
+  project.intruders[0].trajectory.waypoints = {{.frame = kFrame - 1, .position_m = middle_m - step_m},
+                                               {.frame = kFrame + 1, .position_m = middle_m + step_m}};
+  if (recipe.sigma_px) project.compositing.blur_px_per_m = *recipe.sigma_px / distance_m;
+}
+
+Scene opened(const Project& project, SceneFiles& files) {
+  const FootageShape footage{.size_px = kPictureSize_px, .times_s = {0, 0.04, 0.08}};
+  Result<Scene> scene = open_scene(project, footage, files);
+  if (!scene) stop(scene.error().text());
+  return std::move(*scene);
+}
+
+// Longer side of the silhouette's box.
+double size_in(const Scene& scene) {
+  const SceneMoment moment = scene_at(scene, kFrame);
+  const auto silhouette =
+      silhouette_of(scene.models[0]->points_m, moment.intruders[0].camera_from_body, scene.camera.lens);
+  if (!silhouette) stop("an intruder without image");
+  return std::max(silhouette->box.width, silhouette->box.height);
+}
+
+}  // namespace
+
+LensParameters sample_lens() {
+  const Result<Camera> camera = read_calibration(kAssets / "calibrations/sample.xml");
+  if (!camera) stop(camera.error().text());
+  return camera->lens.parameters();
+}
+
+LensParameters fisheye_170_lens() {
+  // Half the width is 85 degrees from the axis.
+  const double theta = 85 * std::numbers::pi / 180;
+  const std::vector<double> k{-0.015, 0.003, -0.0012, 0.0001};
+  const double square = theta * theta;
+  const double bent = theta * (1 + square * (k[0] + square * (k[1] + square * (k[2] + square * k[3]))));
+  const double focal_px = 640 / bent;
+  return {LensModel::kannala_brandt, focal_px, focal_px, 639.5, 479.5, k};
+}
+
+LensParameters tangential_lens() {
+  return {LensModel::brown_conrady, 900, 900, 639.5, 479.5, {-0.1, 0.02, 0.05, -0.08, 0}};
+}
+
+LensParameters pincushion_lens() {
+  return {LensModel::brown_conrady, 900, 900, 639.5, 479.5, {0.15, 0.02, 0, 0, 0}};
+}
+
+std::vector<Recipe> recipes() {
+  std::vector<Recipe> all;
+  for (const bool is_airliner : {false, true})
+    for (const auto& [name, size_px] : {std::pair{"near", 400.0}, {"mid", 60.0}, {"far", 8.0}}) {
+      const std::string px = ": " + std::to_string(static_cast<int>(size_px)) + " px";
+      all.push_back(sample_view(name + std::string(is_airliner ? "-airliner" : ""),
+                                name + px + (is_airliner ? "; airliner" : ""), size_px));
+      if (is_airliner) all.back().aircraft = "airliner";
+    }
+  all.push_back(sample_view("mid-soft", "mid: 60 px; sigma 2 px", 60));
+  all.back().sigma_px = 2;
+  all.push_back(sample_view("speck", "speck: 0.7 px; no blur", 0.7));
+  all.back().sigma_px = 0;
+  all.push_back({.name = "fisheye-edge",
+                 .title = "edge of a 170 degree fisheye: 60 px",
+                 .lens = fisheye_170_lens(),
+                 .pixel = {1190, 330}});
+  all.push_back(
+      {.name = "tangential", .title = "strong tangential lens: 60 px", .lens = tangential_lens(), .pixel = {930, 660}});
+  // A barrel's borders lie outside the undistorted picture, where classic draws nothing.
+  all.push_back(sample_view("border", "across the border: 150 px", 150));
+  all.back().lens = pincushion_lens();
+  all.back().pixel = {24, 350};
+  all.back().flies_along = {-1, 0.1, 0};
+  all.push_back(sample_view("own-body", "half behind the own body: 100 px", 100));
+  all.back().pixel = {645, 826};
+  all.back().has_own_body = true;
+  return all;
+}
+
+Scene made_scene(const Recipe& recipe, const fs::path& folder) {
+  const Result<Lens> lens = Lens::make(recipe.lens);
+  if (!lens) stop(lens.error().text());
+  const auto ray = lens->ray(recipe.pixel);
+  if (!ray) stop(recipe.name + ": no ray");
+  Project project = bare_project(recipe, folder);
+  SceneFiles files;
+  double distance_m = 10 * lens->pixels_per_radian(*ray) / recipe.size_px;
+  for (int step = 0;; ++step) {
+    place(project, recipe, *ray, distance_m);
+    Scene scene = opened(project, files);
+    const double size_px = size_in(scene);
+    if (step == kSteps || std::abs(size_px / recipe.size_px - 1) < 1e-6) return scene;
+    distance_m *= size_px / recipe.size_px;
+  }
+}
+
+}  // namespace sigs::accuracy

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/lens.h"
+#include "scene/scene.h"
+
+namespace sigs::accuracy {
+
+inline const cv::Size kPictureSize_px{1280, 960};
+inline constexpr int kFrame = 1;  // of the scenes below: the intruder is on its way through `pixel`
+
+// What is to be seen.
+struct Recipe {
+  std::string name;     // in tables: "near"
+  std::string title;    // in plots: "near: 400 px"
+  double size_px = 60;  // longer side of the silhouette's box
+  std::string aircraft = "light-aircraft";
+  LensParameters lens;
+  glm::dvec2 pixel{520, 390};               // where the reference point is seen
+  glm::dvec3 flies_along{-0.8, 0.55, 0.1};  // in the world: towards the camera, to the right, a little down
+  std::optional<double> sigma_px;           // of the blur; none: what a project has that does not say
+  bool has_own_body = false;
+};
+
+// The lens of the sample clip, and three that bend otherwise.
+[[nodiscard]] LensParameters sample_lens();
+[[nodiscard]] LensParameters fisheye_170_lens();  // 170 degrees across the picture's width
+[[nodiscard]] LensParameters tangential_lens();
+[[nodiscard]] LensParameters pincushion_lens();
+
+// The scenes of docs/accuracy.md.
+[[nodiscard]] std::vector<Recipe> recipes();
+
+// The recipe as a project in the folder, from the sample assets, opened; placed so that it is as large as wanted.
+[[nodiscard]] Scene made_scene(const Recipe& recipe, const std::filesystem::path& folder);
+
+}  // namespace sigs::accuracy

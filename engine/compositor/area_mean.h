@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "compositor/layer_pyramid.h"
+
+namespace sigs {
+
+// A convex quadrilateral, its corners in order round it; pixels of a layer, measured from its upper left corner.
+using Quadrilateral = std::array<glm::dvec2, 4>;
+
+struct AreaMean {
+  cv::Vec4f color{0, 0, 0, 0};
+  float coverage = 0;
+};
+
+// Means of a layer over quadrilaterals: each texel counts with the area that it has in common with the quadrilateral,
+// exactly. So quadrilaterals that tile a part of the layer share out all of its energy, whatever their sizes are.
+//
+// Where the shorter side spans more than 16 texels, or the longer one more than 64, the texels are those of a coarser
+// level of the layer's pyramid. One that spans less than a texel is widened to one about its middle, which reads the
+// layer bilinearly, so that the texels of a coarse layer do not show as squares.
+class AreaReader {
+ public:
+  explicit AreaReader(const Layer& layer) : pyramid_(layer) {}
+
+  // Empty where the quadrilateral has no area, misses the layer or has a corner that is not finite.
+  [[nodiscard]] AreaMean mean_over(const Quadrilateral& corners);
+
+ private:
+  struct Edge {
+    glm::dvec2 from, to;
+    double slope = 0;  // dx / dy
+  };
+  void find_row_areas(const std::array<Edge, 4>& edges, double top, int first, int end);
+  [[nodiscard]] AreaMean mean_over_texels(const LayerPyramid::Level& level, const Quadrilateral& corners);
+
+  LayerPyramid pyramid_;
+  std::vector<double> lefts_;  // area left of each grid line of one row of texels
+};
+
+}  // namespace sigs

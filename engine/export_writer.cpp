@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "export_writer.h"
+
+#include <chrono>
+#include <utility>
+
+#include "base/ensure.h"
+
+namespace sigs {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+WriterThread::WriterThread(VideoWriter writer) : writer_(std::move(writer)), thread_([this] { write_all(); }) {}
+
+WriterThread::~WriterThread() {
+  dropped_ = true;
+  static_cast<void>(settle());
+}
+
+bool WriterThread::put(Frame frame, int number) {
+  return queue_.put({.frame = std::move(frame), .number = number});
+}
+
+bool WriterThread::put_blank(double time_s, int number) {
+  return queue_.put({.frame = {.time_s = time_s}, .number = number, .is_blank = true});
+}
+
+std::optional<FrameFailure> WriterThread::settle() {
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+  return failure_;
+}
+
+Result<void> WriterThread::finish() {
+  ENSURE(!thread_.joinable() && !failure_);
+  const Clock::time_point start = Clock::now();
+  Result<void> finished = writer_.finish();
+  spent_s_ += seconds_since(start);
+  return finished;
+}
+
+void WriterThread::write_all() {
+  while (const std::optional<Item> item = queue_.take()) {
+    if (dropped_) return;
+    const Clock::time_point start = Clock::now();
+    const Result<void> written = item->is_blank ? writer_.write_blank(item->frame.time_s, item->number)
+                                                : writer_.write(item->frame, item->number);
+    spent_s_ += seconds_since(start);
+    if (written) continue;
+    failure_ = {item->number, written.error()};
+    queue_.close();
+    return;
+  }
+}
+
+}  // namespace sigs

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "base/result.h"
+#include "pipeline.h"
+#include "video/video_writer.h"
+
+namespace sigs {
+
+// What went wrong with one frame of an output.
+struct FrameFailure {
+  int frame = 0;
+  Error error;
+};
+
+// A video that is encoded and written on a thread of its own, beside the caller and the other outputs of an export.
+class WriterThread {
+ public:
+  explicit WriterThread(VideoWriter writer);
+  ~WriterThread();  // drops what is queued and not finished
+
+  WriterThread(const WriterThread&) = delete;
+  WriterThread& operator=(const WriterThread&) = delete;
+
+  // Hands a frame over; waits while some are queued already. The caller does not change its samples any more.
+  // False: an earlier frame could not be written, settle() says which.
+  [[nodiscard]] bool put(Frame frame, int number);
+
+  // A frame whose samples are all 0.
+  [[nodiscard]] bool put_blank(double time_s, int number);
+
+  // Waits until all that was handed over is written; nothing can be handed over after it. The frame that failed, if
+  // any.
+  [[nodiscard]] std::optional<FrameFailure> settle();
+
+  // Completes the file. Call it after settle(), where that gave nothing.
+  [[nodiscard]] Result<void> finish();
+
+  // Seconds spent writing so far. Call it after settle().
+  [[nodiscard]] double spent_s() const { return spent_s_; }
+
+ private:
+  struct Item {
+    Frame frame;
+    int number = 0;
+    bool is_blank = false;
+  };
+  void write_all();
+
+  VideoWriter writer_;
+  BoundedQueue<Item> queue_{2};
+  std::atomic<bool> dropped_{false};
+  std::optional<FrameFailure> failure_;  // of the thread, until it is joined
+  double spent_s_ = 0;                   // likewise
+  std::thread thread_;
+};
+
+}  // namespace sigs

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include "work.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/made_scenes.h"
+
+namespace sigs::test {
+namespace {
+
+constexpr double kRadius_m = 5;
+const cv::Size kSize(640, 480);
+
+std::string text(const Work& work) {
+  return "lens " + std::to_string(work.lens_evaluations) + ", drawn " + std::to_string(work.pixels_drawn) +
+         ", triangles " + std::to_string(work.triangles_drawn) + ", bytes " + std::to_string(work.bytes_uploaded) +
+         ", bent " + std::to_string(work.pixels_bent) + ", blurred " + std::to_string(work.pixels_blurred) +
+         ", blended " + std::to_string(work.pixels_blended) + ", converted " + std::to_string(work.pixels_converted);
+}
+
+enum class Glass { pinhole, bending };
+
+// The same lens before pictures of any size: its centre stays where it is from the upper left corner.
+void put_lens(Lot& lot, Glass glass) {
+  const std::vector<double> coefficients =
+      glass == Glass::bending ? std::vector<double>{-0.2, 0.05, 0.001, -0.001, 0} : std::vector<double>(5, 0.0);
+  write_calibration(lot.path("lens.xml"), {Lot::kFocal_px, 0, 319.5, 0, Lot::kFocal_px, 239.5, 0, 0, 1}, coefficients,
+                    lot.size_px());
+  lot.project.footage.calibration = "lens.xml";
+}
+
+double distance_for(double diameter_px) {
+  return Lot::kFocal_px * 2 * kRadius_m / diameter_px;
+}
+
+// A ball of so many pixels across, somewhat right of the axis.
+struct Ball {
+  double diameter_px = 60;
+  double sigma_px = 0;
+  Glass glass = Glass::bending;
+  MethodChoice method = MethodChoice::direct;
+};
+
+IntruderSettings& add_ball(Lot& lot, const glm::dvec3& position_m) {
+  write_sphere_obj(lot.path("ball.obj"), kRadius_m);
+  return lot.add("ball.obj", position_m);
+}
+
+Scene scene_of(Lot& lot, const Ball& ball) {
+  put_lens(lot, ball.glass);
+  const glm::dvec3 from_camera = glm::normalize(glm::dvec3(1, 0.15, 0.05)) * distance_for(ball.diameter_px);
+  add_ball(lot, glm::dvec3(0, 0, -150) + from_camera);
+  lot.project.compositing.method = ball.method;
+  lot.project.compositing.blur_px_per_m = ball.sigma_px / distance_for(ball.diameter_px);
+  return lot.opened();
+}
+
+ComposedFrame made(const Scene& scene, int frame, Bench& bench) {
+  Result<ComposedFrame> composed = compose_frame(scene, frame, even_frame(scene.footage.size_px, 100), bench);
+  REQUIRE_MESSAGE(composed.has_value(), composed.error().text());
+  return std::move(*composed);
+}
+
+ComposedFrame made(const Ball& ball, cv::Size size_px = kSize) {
+  Lot lot(size_px);
+  Bench bench;
+  return made(scene_of(lot, ball), 0, bench);
+}
+
+}  // namespace
+
+TEST_CASE("work adds up field by field") {
+  const Work one{1, 2, 3, 4, 5, 6, 7, 8};
+  Work sum{10, 20, 30, 40, 50, 60, 70, 80};
+  sum += one;
+  CHECK(sum == Work{11, 22, 33, 44, 55, 66, 77, 88});
+}
+
+TEST_CASE("for an intruder out of view nothing is done but asking where it is") {
+  const std::pair<const char*, glm::dvec3> places[] = {{"behind", {-300, 20, -140}},
+                                                       {"beside", {100, 900, -150}},
+                                                       {"above", {100, 0, -900}},
+                                                       {"far behind", {-1e5, 0, -150}},
+                                                       {"at 85 degrees", {50, 600, -150}}};
+  for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic, MethodChoice::plain})
+    for (const Glass glass : {Glass::pinhole, Glass::bending})
+      for (const auto& [name, place] : places) {
+        CAPTURE(static_cast<int>(method));
+        CAPTURE(name);
+        Lot lot(kSize);
+        put_lens(lot, glass);
+        add_ball(lot, place);
+        lot.project.compositing.method = method;
+        const Scene scene = lot.opened();
+        Bench bench;
+        const ComposedFrame frame = made(scene, 0, bench);
+        CAPTURE(text(frame.work));
+        // The annotation tells where an intruder is outside the picture too: one question for each of its points.
+        const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
+        CHECK(frame.work.lens_evaluations <= (glass == Glass::bending ? points : 0));
+        Work rest = frame.work;
+        rest.lens_evaluations = 0;
+        CHECK(rest == Work{});
+        CHECK(bench.renderer_description() == "");
+        CHECK(frame.mask.empty());
+      }
+}
+
+TEST_CASE("a pinhole lens is never asked") {
+  for (const double sigma_px : {0.0, 2.0}) {
+    const Work straight = made({.sigma_px = sigma_px, .glass = Glass::pinhole}).work;
+    CHECK(straight.lens_evaluations == 0);
+    CHECK(straight.pixels_blended > 1000);
+    CHECK(made({.sigma_px = sigma_px, .glass = Glass::bending}).work.lens_evaluations > 0);
+    // `plain` knows no lens.
+    CHECK(made({.glass = Glass::bending, .method = MethodChoice::plain}).work.lens_evaluations == 0);
+  }
+}
+
+TEST_CASE("where there is no blur no pixel is blurred") {
+  for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic}) {
+    CHECK(made({.sigma_px = 0, .method = method}).work.pixels_blurred == 0);
+    CHECK(made({.sigma_px = 0.3, .method = method}).work.pixels_blurred > 1000);
+  }
+  CHECK(made({.sigma_px = 2, .method = MethodChoice::plain}).work.pixels_blurred == 0);
+}
+
+TEST_CASE("the direct method converts no whole picture and the others one for each intruder") {
+  for (const double sigma_px : {0.0, 2.0, 20.0}) CHECK(made({.sigma_px = sigma_px}).work.pixels_converted == 0);
+  CHECK(made({.method = MethodChoice::classic}).work.pixels_converted == kSize.area());
+  CHECK(made({.method = MethodChoice::plain}).work.pixels_converted == kSize.area());
+}
+
+TEST_CASE("the pixels that are rewritten are those of the mask") {
+  for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic, MethodChoice::plain})
+    for (const double sigma_px : {0.0, 2.0}) {
+      CAPTURE(static_cast<int>(method));
+      const ComposedFrame frame = made({.sigma_px = sigma_px, .method = method});
+      CHECK(frame.work.pixels_blended == cv::countNonZero(frame.mask));
+    }
+}
+
+TEST_CASE("work is proportional to the intruder's pixels") {
+  for (const Glass glass : {Glass::pinhole, Glass::bending})
+    for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
+      CAPTURE(diameter_px);
+      const ComposedFrame sharp = made({.diameter_px = diameter_px, .glass = glass});
+      CAPTURE(text(sharp.work));
+      const double pixels = cv::countNonZero(sharp.mask);
+      REQUIRE(pixels > 0.7 * diameter_px * diameter_px);
+      // The box around a disk, 4 / pi, and a pixel on each side of it.
+      const double box = 4 / 3.14159265 * pixels;
+      const auto bent = static_cast<double>(sharp.work.pixels_bent);
+      CHECK(bent >= box);
+      CHECK(bent <= 1.1 * std::pow(std::sqrt(box) + 2, 2));
+      const ComposedFrame soft = made({.diameter_px = diameter_px, .sigma_px = 2, .glass = glass});
+      CAPTURE(text(soft.work));
+      const auto blurred = static_cast<double>(soft.work.pixels_blurred);
+      CHECK(blurred > bent);
+      CHECK(blurred <= 1.1 * std::pow(std::sqrt(box) + 2 + 2 * 6, 2));  // three sigmas more on each side
+      CHECK(soft.work.pixels_bent == sharp.work.pixels_bent);
+    }
+}
+
+TEST_CASE("the lens is asked for the intruder's points and where it is, not for its pixels") {
+  for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
+    CAPTURE(diameter_px);
+    Lot lot(kSize);
+    const Scene scene = scene_of(lot, {.diameter_px = diameter_px});
+    Bench bench;
+    const ComposedFrame frame = made(scene, 0, bench);
+    CAPTURE(text(frame.work));
+    const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
+    const auto asked = static_cast<double>(frame.work.lens_evaluations - points);
+    CHECK(asked > 0);
+    // A few hundred to choose the view; of a pixel's four corners each would ask once, tables ask some 1 in 30.
+    CHECK(asked <= 600 + 0.15 * static_cast<double>(frame.work.pixels_bent));
+  }
+}
+
+TEST_CASE("work does not depend on the size of the picture") {
+  for (const Glass glass : {Glass::pinhole, Glass::bending})
+    for (const auto& [diameter_px, sigma_px] : {std::pair(20.0, 2.0), std::pair(160.0, 0.0)}) {
+      const Ball ball{.diameter_px = diameter_px, .sigma_px = sigma_px, .glass = glass};
+      const Work small = made(ball, {640, 480}).work;
+      const Work large = made(ball, {2560, 1920}).work;
+      CAPTURE(text(small));
+      CAPTURE(text(large));
+      CHECK(small == large);
+      CHECK(small.pixels_blended > 0);
+    }
+}
+
+TEST_CASE("the lens is asked again only where the intruder has moved to") {
+  Lot lot(kSize);
+  put_lens(lot, Glass::bending);
+  // 200 px to the right in two frames.
+  add_ball(lot, {}).trajectory.waypoints = {{.frame = 0, .position_m = {50, -16, -150}},
+                                            {.frame = 2, .position_m = {50, 17, -150}}};
+  lot.project.compositing.blur_px_per_m = 0;
+  const Scene scene = lot.opened();
+  Bench bench;
+  std::vector<Work> first;
+  for (const int n : {0, 1, 2}) first.push_back(made(scene, n, bench).work);
+  for (const int n : {0, 1, 2}) {
+    CAPTURE(n);
+    const Work again = made(scene, n, bench).work;
+    CAPTURE(text(first[static_cast<std::size_t>(n)]));
+    CAPTURE(text(again));
+    CHECK(again.lens_evaluations < first[static_cast<std::size_t>(n)].lens_evaluations);
+    CHECK(again.pixels_bent == first[static_cast<std::size_t>(n)].pixels_bent);
+    CHECK(made(scene, n, bench).work == again);
+    Bench fresh;
+    CHECK(made(scene, n, fresh).work.lens_evaluations >= first[static_cast<std::size_t>(n)].lens_evaluations);
+  }
+}
+
+TEST_CASE("what is drawn is the box around the intruder and grows with it") {
+  for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
+    CAPTURE(diameter_px);
+    const Work work = made({.diameter_px = diameter_px}).work;
+    CAPTURE(text(work));
+    // Supersampling 2, and the box's near side as perspective shows it. Small ones are drawn some 130 px large.
+    const double near_px = Lot::kFocal_px * 2 * kRadius_m / (distance_for(diameter_px) - kRadius_m);
+    const double side_px = std::max(2 * near_px, 130.0);
+    CHECK(work.pixels_drawn >= 4 * 3.14159265 / 4 * diameter_px * diameter_px);
+    CHECK(work.pixels_drawn <= 1.3 * side_px * side_px);
+    CHECK(work.triangles_drawn > 100);
+    CHECK(work.triangles_drawn <= 2 * 24 * 48);
+  }
+}
+
+TEST_CASE("a mesh is uploaded once") {
+  Lot lot(kSize);
+  const Scene scene = scene_of(lot, {});
+  Bench bench;
+  CHECK(made(scene, 0, bench).work.bytes_uploaded > 24 * 48 * 12);  // at the least its vertices
+  for (const int n : {1, 2, 0}) CHECK(made(scene, n, bench).work.bytes_uploaded == 0);
+}
+
+}  // namespace sigs::test

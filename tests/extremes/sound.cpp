@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "extremes/sound.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <pugixml.hpp>
+
+#include "annotation/sigs_xml.h"
+
+namespace sigs::test {
+
+namespace {
+
+constexpr double kRounding = 1e-3;  // of sums of floats; far blur may swing by a thousandth below nothing
+
+bool is_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_share(double value) {
+  return value >= 0 && value <= 1;  // false for NaN
+}
+
+// Lowest and highest of all channels, and false for any that is NaN or infinite.
+bool all_finite(const cv::Mat& mat) {
+  return cv::checkRange(mat, true, nullptr, -1e30, 1e30);
+}
+
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+
+Range range_of(const cv::Mat& mat) {
+  Range range;
+  cv::minMaxIdx(mat.reshape(1), &range.low, &range.high);
+  return range;
+}
+
+bool is_sound(const Attitude& attitude) {
+  constexpr double kTurn = std::numbers::pi * (1 + 1e-12);
+  return std::abs(attitude.roll_rad) <= kTurn && std::abs(attitude.pitch_rad) <= kTurn / 2 &&
+         std::abs(attitude.yaw_rad) <= kTurn;
+}
+
+// The attributes that hold no number.
+bool is_text(const std::string& name) {
+  constexpr std::array<const char*, 3> kTexts{"name", "in_picture", "video"};
+  return std::find(kTexts.begin(), kTexts.end(), name) != kTexts.end();
+}
+
+// How many attributes of the node and all below it hold numbers; each is read back.
+int checked_numbers(const pugi::xml_node& node) {
+  int count = 0;
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    if (is_text(attribute.name())) continue;
+    char* end = nullptr;
+    const double value = std::strtod(attribute.value(), &end);
+    INFO(node.name() << " " << attribute.name() << "=\"" << attribute.value() << "\"");
+    CHECK(end != attribute.value());
+    CHECK(*end == '\0');
+    CHECK(std::isfinite(value));
+    ++count;
+  }
+  for (const pugi::xml_node& child : node.children()) count += checked_numbers(child);
+  return count;
+}
+
+void check_picture(const ComposedFrame& composed, const Frame& background) {
+  const Frame& picture = composed.picture;
+  REQUIRE(picture.layout == background.layout);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(picture.plane_count()); ++i) {
+    CHECK(picture.planes[i].type() == CV_8UC1);
+    CHECK(picture.planes[i].size() == background.planes[i].size());
+  }
+  if (composed.mask.empty()) {
+    CHECK(same_planes(picture, background));
+    return;
+  }
+  CHECK(composed.mask.type() == CV_8UC1);
+  REQUIRE(composed.mask.size() == picture.size_px());
+  cv::Mat changed;
+  cv::compare(picture.planes[0], background.planes[0], changed, cv::CMP_NE);
+  CHECK(cv::countNonZero(changed & (composed.mask == 0)) == 0);
+}
+
+// OpenGL is made once for all frames of the program: what a frame is does not depend on the frames before it.
+Bench& shared_bench() {
+  static Bench bench;
+  return bench;
+}
+
+// No surface of the scene sends out more: the light's strongest channel, and gloss of a quarter of it.
+double brightest_of(const Scene& scene) {
+  const glm::dvec3& color = scene.light.color;
+  return 1.25 * std::max({color.r, color.g, color.b});
+}
+
+}  // namespace
+
+void check_sound(const Layer& layer, double brightest) {
+  if (layer.empty()) return;
+  CHECK(layer.color.type() == CV_32FC4);
+  CHECK(layer.coverage.type() == CV_32FC1);
+  REQUIRE(layer.color.size() == layer.rect.size());
+  REQUIRE(layer.coverage.size() == layer.rect.size());
+  CHECK(all_finite(layer.color));
+  CHECK(all_finite(layer.coverage));
+  cv::Mat opacity;
+  cv::extractChannel(layer.color, opacity, 3);
+  const Range covered = range_of(layer.coverage);
+  const Range opaque = range_of(opacity);
+  const Range light = range_of(layer.color);
+  CHECK(covered.low >= 0);
+  CHECK(covered.high <= 1 + kRounding);
+  CHECK(opaque.low >= -kRounding);
+  CHECK(opaque.high <= 1 + kRounding);
+  CHECK(light.low >= -kRounding);
+  CHECK(light.high <= std::max(1.0, brightest) * (1 + kRounding));
+}
+
+void check_sound(const IntruderTruth& truth, cv::Size picture_size_px) {
+  CHECK(is_finite(truth.position_m));
+  CHECK(is_sound(truth.attitude));
+  CHECK(is_share(truth.visible_fraction));
+  if (!truth.in_picture) CHECK(truth.visible_fraction == 0);
+  if (truth.box) {
+    CHECK(truth.in_picture);
+    CHECK(!truth.box->empty());
+    CHECK((*truth.box & cv::Rect({0, 0}, picture_size_px)) == *truth.box);
+  }
+  if (truth.silhouette) {
+    const Box& box = *truth.silhouette;
+    for (const double number : {box.x, box.y, box.width, box.height}) CHECK(std::isfinite(number));
+    CHECK(box.width >= 0);
+    CHECK(box.height >= 0);
+  }
+}
+
+void check_sound(const FrameTruth& truth, cv::Size picture_size_px) {
+  CHECK(std::isfinite(truth.time_s));
+  CHECK(is_finite(truth.camera_position_m));
+  CHECK(is_sound(truth.camera_attitude));
+  for (const IntruderTruth& intruder : truth.intruders) check_sound(intruder, picture_size_px);
+  pugi::xml_document document;
+  REQUIRE(document.load_string(xml_of(truth).c_str()));
+  // Frame number and time, and of each intruder at least number, share, place, distance and attitude.
+  CHECK(checked_numbers(document) >= 2 + 9 * static_cast<int>(truth.intruders.size()));
+}
+
+SoundFrame sound_frame(const Scene& scene, int frame, const Frame& background) {
+  Bench& bench = shared_bench();
+  Result<ComposedFrame> composed = compose_frame(scene, frame, background, bench);
+  REQUIRE_MESSAGE(composed.has_value(), composed.error().text());
+  SoundFrame sound{.composed = std::move(*composed)};
+  check_picture(sound.composed, background);
+  check_sound(sound.composed.truth, background.size_px());
+  const SceneMoment moment = scene_at(scene, frame);
+  for (const PlacedIntruder& placed : moment.intruders) {
+    Result<SeenIntruder> seen = see_intruder(scene, moment, placed, bench);
+    REQUIRE_MESSAGE(seen.has_value(), seen.error().text());
+    for (const DrawnView& drawn : seen->views) check_sound(drawn.layer, brightest_of(scene));
+    for (const Layer* layer : {&seen->sharp, &seen->blurred, &seen->soft}) check_sound(*layer, brightest_of(scene));
+    CHECK(std::isfinite(seen->sigma_px));
+    CHECK(std::isfinite(seen->whole_area_px));
+    CHECK(seen->whole_area_px >= 0);
+    sound.seen.push_back(std::move(*seen));
+  }
+  for (const std::shared_ptr<const Model>& model : scene.models) bench.forget(model->mesh);
+  return sound;
+}
+
+void set_lens(Lot& lot, const cv::Matx33d& matrix, const std::vector<double>& coefficients, bool is_fisheye) {
+  write_calibration(lot.path("lens.xml"), matrix, coefficients, lot.size_px(), is_fisheye);
+  lot.project.footage.calibration = "lens.xml";
+}
+
+void add_plate(Lot& lot, double side_m, const glm::dvec3& p_in_world) {
+  const double half_m = side_m / 2;
+  // A hundred times thinner than wide: its far side is hidden behind the near one, and smaller.
+  write_obj(lot.path("plate.obj"), {{{0, -half_m, -half_m}, {side_m / 100, half_m, half_m}, {1, 1, 1}}}, 1);
+  lot.add("plate.obj", p_in_world);
+}
+
+void add_aircraft(Lot& lot, const glm::dvec3& p_in_world) {
+  write_obj(lot.path("aircraft.obj"), aircraft(), 2);
+  lot.add("aircraft.obj", p_in_world);
+}
+
+void add_cube(Lot& lot, double side_m, const glm::dvec3& p_in_world) {
+  write_obj(lot.path("cube.obj"), {{glm::dvec3(-side_m / 2), glm::dvec3(side_m / 2), {1, 1, 1}}}, 2);
+  lot.add("cube.obj", p_in_world);
+}
+
+double opacity_px(const Layer& layer) {
+  return layer.empty() ? 0.0 : cv::sum(layer.color)[3];
+}
+
+}  // namespace sigs::test

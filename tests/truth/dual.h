@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace sigs::truth {
+
+// A number with its slopes by two variables (forward automatic differentiation, Wengert 1964).
+template <class Real>
+struct Dual {
+  Real value = 0;
+  Real by_x = 0;
+  Real by_y = 0;
+
+  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.by_x + b.by_x, a.by_y + b.by_y}; }
+  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.by_x - b.by_x, a.by_y - b.by_y}; }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.by_x * b.value + a.value * b.by_x, a.by_y * b.value + a.value * b.by_y};
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const Real q = a.value / b.value;
+    return {q, (a.by_x - q * b.by_x) / b.value, (a.by_y - q * b.by_y) / b.value};
+  }
+  friend Dual operator*(Real a, const Dual& b) { return {a * b.value, a * b.by_x, a * b.by_y}; }
+  friend Dual operator+(Real a, const Dual& b) { return {a + b.value, b.by_x, b.by_y}; }
+};
+
+}  // namespace sigs::truth
