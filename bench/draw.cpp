@@ -93,9 +93,10 @@ int measure(const std::vector<Named>& models, bool as_csv) {
     for (const double size_px : kSizes_px) {
       const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px);
       if (!cost) return 69;
-      std::printf(as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n" : "%-24s %8zu %8g %10.2f %10.2f %13.2f %10.0f %6.0f\n",
-                  model.name.c_str(), model.mesh.indices.size() / 3, size_px, cost->median_ms, cost->least_ms,
-                  cost->processor_ms, cost->triangles, cost->draw_calls);
+      std::printf(
+          as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n" : "%-24s %8zu %8g %10.2f %10.2f %13.2f %10.0f %6.0f\n",
+          model.name.c_str(), model.mesh.indices.size() / 3, size_px, cost->median_ms, cost->least_ms,
+          cost->processor_ms, cost->triangles, cost->draw_calls);
       std::fflush(stdout);
     }
   return 0;

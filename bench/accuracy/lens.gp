@@ -6,7 +6,7 @@ lenses = system(sprintf("awk -F, 'NR > 1 && !seen[$1]++ { gsub(/ /, \"~\", $1); 
 spaced(name) = system(sprintf("echo '%s' | tr '~' ' '", name))
 rows_of(lens, which) = sprintf("< awk -F, '$1 == \"%s\" && $2 ~ /%s/' %s/lens.csv", lens, which, folder)
 set logscale xy
-set xrange [25:4000]
+set xrange [25:6000]
 set xtics ("30" 30, "100" 100, "300" 300, "1000" 1000, "3000" 3000)
 set yrange [1e-15:1e5]
 set ytics 1e-15, 1e3, 1e6

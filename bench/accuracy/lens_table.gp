@@ -22,7 +22,7 @@ plot for [i = 1:6] rows_of(spaced(word(lenses, i)), "1") using 6:9 with linespoi
 unset label  # else each panel would draw the legend again
 unset ylabel
 set xlabel "ns a ray, first time" textcolor rgb ink
-set xrange [3:3000]
+set xrange [3:6000]
 plot for [i = 1:6] rows_of(spaced(word(lenses, i)), "1") using 3:9 with linespoints pt 6 ps 1 lc rgb hues[i], \
   for [i = 1:6] rows_of(spaced(word(lenses, i)), "$2 == 0.001") using 3:9 with points pt 7 ps 1.5 lc rgb hues[i], \
   1e-3 with lines dt 3 lc rgb grey

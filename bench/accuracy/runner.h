@@ -13,7 +13,7 @@ namespace sigs::accuracy {
 
 struct Effort {
   int rounds = 9;             // of timing
-  int samples_per_side = 16;  // of the truth, a pixel
+  int samples_per_side = 24;  // of the truth, a pixel
 };
 [[nodiscard]] Effort effort_of(const Call& call);
 

@@ -91,6 +91,7 @@ AreaMean AreaReader::mean_over_texels(const LayerPyramid::Level& level, const Qu
   }
   const double per_area = 1 / signed_area(corners);
   AreaMean mean;
+  float total = 0;
   for (int row = rows.start; row < rows.end; ++row) {
     const cv::Range span = level.spans[static_cast<std::size_t>(row)] & columns;
     if (span.start >= span.end) continue;
@@ -102,7 +103,12 @@ AreaMean AreaReader::mean_over_texels(const LayerPyramid::Level& level, const Qu
       const auto share = static_cast<float>(std::max(0.0, (lefts_[n + 1] - lefts_[n]) * per_area));
       for (int c = 0; c < 4; ++c) mean.color[c] += share * color[i][c];
       mean.coverage += share * coverage[i];
+      total += share;
     }
+  }
+  if (total > 1) {  // rounding; or a pixel at a fold of the lens, whose four rays make no convex figure
+    mean.color *= 1 / total;
+    mean.coverage /= total;
   }
   return mean;
 }

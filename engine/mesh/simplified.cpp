@@ -30,8 +30,8 @@ std::vector<std::uint32_t> simplified(std::span<const Vertex> vertices, std::spa
   const float scale_m = meshopt_simplifyScale(&used_m[0].x, used_m.size(), sizeof(glm::vec3));
   if (!(scale_m > 0)) return result;
   result.resize(meshopt_simplify(result.data(), compact.data(), compact.size(), &used_m[0].x, used_m.size(),
-                                 sizeof(glm::vec3), 0, static_cast<float>(error_m) / scale_m, meshopt_SimplifyLockBorder,
-                                 nullptr));
+                                 sizeof(glm::vec3), 0, static_cast<float>(error_m) / scale_m,
+                                 meshopt_SimplifyLockBorder, nullptr));
   for (std::uint32_t& index : result) index = original[index];
   return result;
 }

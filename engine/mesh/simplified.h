@@ -16,8 +16,8 @@ namespace sigs {
 [[nodiscard]] std::vector<std::uint32_t> simplified(std::span<const Vertex> vertices,
                                                     std::span<const std::uint32_t> indices, double error_m);
 
-// How far a simplified surface is off: the largest distance of any vertex of the whole one from it, and, if pictured, of
-// where the picture shows what lies at that vertex. Infinity where something lies further off than at_most_m.
+// How far a simplified surface is off: the largest distance of any vertex of the whole one from it, and, if pictured,
+// of where the picture shows what lies at that vertex. Infinity where something lies further off than at_most_m.
 [[nodiscard]] double deviation_m(std::span<const Vertex> vertices, std::span<const std::uint32_t> whole,
                                  std::span<const std::uint32_t> simple, bool is_pictured, double at_most_m);
 

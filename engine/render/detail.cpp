@@ -98,7 +98,8 @@ Detail detail_of(const std::vector<Vertex>& vertices, const DrawList& whole, int
     const std::span<const std::uint32_t> of_run(whole.indices.data() + run.first, run.count);
     Run shorter = run;
     shorter.first = static_cast<std::uint32_t>(indices.size());
-    if (run.surface != Surface::solid) indices.insert(indices.end(), of_run.begin(), of_run.end());
+    if (run.surface != Surface::solid)
+      indices.insert(indices.end(), of_run.begin(), of_run.end());
     else
       for (const Piece& piece : pieces_of(vertices, of_run)) {
         const Fewer fewer = fewer_of(piece, run.picture != kNoPicture, error_m);

@@ -98,7 +98,8 @@ DrawList sorted_list(const std::vector<SeeThrough>& triangles, const std::vector
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return distances_m[a] > distances_m[b]; });
   DrawList list;
-  for (const std::size_t i : order) append(list, pictures[triangles[i].material], triangles[i].surface, triangles[i].indices);
+  for (const std::size_t i : order)
+    append(list, pictures[triangles[i].material], triangles[i].surface, triangles[i].indices);
   return list;
 }
 

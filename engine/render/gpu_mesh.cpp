@@ -124,7 +124,8 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
 
 }  // namespace
 
-GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)), picture_of_material_(pictures_of(mesh)), radius_m_(mesh.radius_m) {
+GpuMesh::GpuMesh(const Mesh& mesh)
+    : fingerprint_(fingerprint_of(mesh)), picture_of_material_(pictures_of(mesh)), radius_m_(mesh.radius_m) {
   Mesh split = split_by_material(mesh);
   const std::vector<Surface> surfaces = surfaces_of(split);
   whole_ = solid_list(split, surfaces, picture_of_material_);

@@ -18,8 +18,7 @@ glm::vec3 linear_color(const glm::vec3& display) {
 
 Paint paint_of(const Material& material) {
   const float opacity = material.opacity >= kSolidOpacity ? 1.0F : std::max(material.opacity, 0.0F);
-  return {{linear_color(material.diffuse), opacity},
-          {material.specular, std::clamp(material.shininess, 1.0F, 200.0F)}};
+  return {{linear_color(material.diffuse), opacity}, {material.specular, std::clamp(material.shininess, 1.0F, 200.0F)}};
 }
 
 }  // namespace

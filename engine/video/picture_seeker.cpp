@@ -26,11 +26,13 @@ PictureSeeker::PictureSeeker(libav::PictureStream stream, libav::PictureOrder or
                              size_t bytes_to_keep)
     : stream_(std::move(stream)),
       order_(std::move(order)),
+      first_place_(static_cast<size_t>(table.size()), -1),
       bytes_to_keep_(bytes_to_keep),
       threads_(table.any_corrupt() ? 1 : 2) {
   for (int n = 0; n < static_cast<int>(order_.ordinals.size()); ++n) {
     const int ordinal = order_.ordinals[static_cast<size_t>(n)];
-    first_place_.emplace(ordinal, n);
+    int& first = first_place_.at(static_cast<size_t>(ordinal));
+    if (first < 0) first = n;
     if (order_.can_start[static_cast<size_t>(n)] && ordinal > 0) starts_.push_back({n, ordinal});
   }
 }
@@ -72,9 +74,8 @@ Result<void> PictureSeeker::restart(int n) {
 
 // One packet may make several pictures; they come out one after the other.
 std::optional<int> PictureSeeker::place_of(int ordinal) {
-  const auto it = first_place_.find(ordinal);
-  if (it == first_place_.end()) return {};
-  int n = it->second;
+  int n = first_place_.at(static_cast<size_t>(ordinal));
+  if (n < 0) return {};
   const int newest = ahead_ ? ahead_->n : kept_.empty() ? -1 : kept_.back().n;
   if (ordinal == last_ordinal_ && newest + 1 < static_cast<int>(order_.ordinals.size()) &&
       order_.ordinals[static_cast<size_t>(newest) + 1] == ordinal)

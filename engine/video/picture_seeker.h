@@ -4,7 +4,6 @@
 #include <deque>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <vector>
 
 #include "base/result.h"
@@ -52,9 +51,9 @@ class PictureSeeker {
 
   libav::PictureStream stream_;
   libav::PictureOrder order_;
-  std::unordered_map<int, int> first_place_;  // ordinal -> n
-  std::vector<Start> starts_;                 // by n
-  std::set<int> wrong_starts_;                // ordinals
+  std::vector<int> first_place_;  // n by ordinal; -1: makes no picture
+  std::vector<Start> starts_;     // by n
+  std::set<int> wrong_starts_;    // ordinals
   size_t bytes_to_keep_ = 0;
   int threads_ = 2;
 

@@ -19,10 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr std::array kLayouts{PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444,
                               PixelLayout::rgb};
-constexpr std::array kKinds{
-    std::pair{VideoCodec::ffv1, Container::mkv},  std::pair{VideoCodec::ffv1, Container::avi},
-    std::pair{VideoCodec::h264, Container::mp4},  std::pair{VideoCodec::h264, Container::mkv},
-    std::pair{VideoCodec::mjpeg, Container::avi}, std::pair{VideoCodec::png, Container::mkv}};
+constexpr std::array kKinds{std::pair{VideoCodec::ffv1, Container::mkv},  std::pair{VideoCodec::ffv1, Container::avi},
+                            std::pair{VideoCodec::h264, Container::mp4},  std::pair{VideoCodec::h264, Container::mkv},
+                            std::pair{VideoCodec::mjpeg, Container::avi}, std::pair{VideoCodec::png, Container::mkv}};
 
 VideoFormat format_of(VideoCodec codec, Container container, PixelLayout layout, cv::Size size_px) {
   return {.codec = codec, .container = container, .threads = 2, .size_px = size_px, .layout = layout};
@@ -107,8 +106,7 @@ TEST_CASE("a written frame keeps its samples and the caller may use them again a
       Frame again = test_frame(layout, format.size_px, 0, format.color);
       for (int n = 0; n < 12; ++n) {
         const Frame frame = test_frame(layout, format.size_px, n, format.color);
-        for (size_t i = 0; i < static_cast<size_t>(frame.plane_count()); ++i)
-          frame.planes[i].copyTo(again.planes[i]);
+        for (size_t i = 0; i < static_cast<size_t>(frame.plane_count()); ++i) frame.planes[i].copyTo(again.planes[i]);
         again.time_s = frame.time_s;
         REQUIRE(own.write(frame, n).has_value());
         REQUIRE(reused.write(again, n).has_value());
