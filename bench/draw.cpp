@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What drawing an intruder takes, by its size in the picture: the renderer alone, no lens and no background.
-//   bench_draw [--csv] [OBJ FORWARD UP]...        the two sample models where none is named
+//   bench_draw [--csv] [--supersampling N] [--samples N] [OBJ FORWARD UP]...
+// The two sample models where none is named.
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,11 +22,16 @@ using namespace sigs;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSizes_px[] = {8, 30, 60, 100, 200, 400};
-constexpr double kSupersampling = 2;
 constexpr int kTurns = 12;     // attitudes that are drawn in turn
 constexpr int kRounds = 12;    // over all attitudes
 constexpr double kAway = 20;   // times the model's radius
 constexpr int kMargin_px = 3;  // around the model in its view
+
+struct Options {
+  bool as_csv = false;
+  double supersampling = 2;
+  int samples_per_pixel = 4;
+};
 
 struct Named {
   std::string name;
@@ -43,8 +50,8 @@ Pose<frame::Camera, frame::Body> pose_of(const Mesh& mesh, int turn) {
   return {rotation_of({0.6 * share - 0.3, 1.1 * share - 0.5, 6.2 * share}), {kAway * mesh.radius_m, 0, 0}};
 }
 
-VirtualView view_of(double size_px) {
-  const double side_px = size_px * kSupersampling;
+VirtualView view_of(double size_px, double supersampling) {
+  const double side_px = size_px * supersampling;
   const int side = static_cast<int>(side_px) + 2 * kMargin_px;
   return {.focal_px = side_px * kAway / 2, .center_px = glm::dvec2((side - 1) / 2.0), .size_px = {side, side}};
 }
@@ -58,8 +65,8 @@ struct Cost {
 };
 
 // Nothing where the driver fails.
-std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px) {
-  const VirtualView view = view_of(size_px);
+std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px, double supersampling) {
+  const VirtualView view = view_of(size_px, supersampling);
   const Light light{.p_in_camera = {-2000, 1000, -3000}};
   const auto draw = [&](int i) { return renderer.draw(mesh, pose_of(mesh, i % kTurns), light, view).has_value(); };
   for (int i = 0; i < kTurns; ++i)
@@ -80,23 +87,23 @@ std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px
               double(after.draw_calls - before.draw_calls) / count};
 }
 
-int measure(const std::vector<Named>& models, bool as_csv) {
-  Result<Renderer> renderer = Renderer::create();
+int measure(const std::vector<Named>& models, const Options& options) {
+  Result<Renderer> renderer = Renderer::create(options.samples_per_pixel);
   if (!renderer) {
     std::fprintf(stderr, "error: %s\n", renderer.error().text().c_str());
     return 69;
   }
-  std::printf(as_csv ? "model,faces,size_px,median_ms,least_ms,processor_ms,triangles,draw_calls\n"
-                     : "%-24s %8s %8s %10s %10s %13s %10s %6s\n",
+  std::printf(options.as_csv ? "model,faces,size_px,median_ms,least_ms,processor_ms,triangles,draw_calls\n"
+                             : "%-24s %8s %8s %10s %10s %13s %10s %6s\n",
               "model", "faces", "size_px", "median_ms", "least_ms", "processor_ms", "triangles", "calls");
   for (const Named& model : models)
     for (const double size_px : kSizes_px) {
-      const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px);
+      const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px, options.supersampling);
       if (!cost) return 69;
-      std::printf(
-          as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n" : "%-24s %8zu %8g %10.2f %10.2f %13.2f %10.0f %6.0f\n",
-          model.name.c_str(), model.mesh.indices.size() / 3, size_px, cost->median_ms, cost->least_ms,
-          cost->processor_ms, cost->triangles, cost->draw_calls);
+      std::printf(options.as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n"
+                                 : "%-24s %8zu %8g %10.2f %10.2f %13.2f %10.0f %6.0f\n",
+                  model.name.c_str(), model.mesh.indices.size() / 3, size_px, cost->median_ms, cost->least_ms,
+                  cost->processor_ms, cost->triangles, cost->draw_calls);
       std::fflush(stdout);
     }
   return 0;
@@ -106,8 +113,25 @@ int measure(const std::vector<Named>& models, bool as_csv) {
 
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
-  const bool as_csv = !words.empty() && words.front() == "--csv";
-  if (as_csv) words.erase(words.begin());
+  Options options;
+  while (!words.empty() && words.front().starts_with("--")) {
+    const std::string option = words.front();
+    words.erase(words.begin());
+    if (option == "--csv") {
+      options.as_csv = true;
+      continue;
+    }
+    const int number = words.empty() ? 0 : std::atoi(words.front().c_str());
+    if (number < 1 || number > 8 || (option != "--supersampling" && option != "--samples")) {
+      std::fprintf(stderr, "error: %s wants a number from 1 to 8\n", option.c_str());
+      return 64;
+    }
+    if (option == "--samples")
+      options.samples_per_pixel = number;
+    else
+      options.supersampling = number;
+    words.erase(words.begin());
+  }
   if (words.empty())
     for (const std::string name : {"airliner", "light-aircraft"}) {
       words.push_back(std::string(SIGS_MODELS_DIR) + "/" + name + "/" + name + ".obj");
@@ -122,5 +146,5 @@ int main(int argc, char** argv) {
     }
     models.push_back({std::filesystem::path(words[i]).stem().string(), std::move(*mesh)});
   }
-  return measure(models, as_csv);
+  return measure(models, options);
 }
