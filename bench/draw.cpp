@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What drawing an intruder takes, by its size in the picture: the renderer alone, no lens and no background.
-//   bench_draw [--csv] [--supersampling N] [--samples N] [OBJ FORWARD UP]...
+//   bench_draw [--csv] [--supersampling N] [--samples N] [--size PX] [OBJ FORWARD UP]...
 // The two sample models where none is named.
 
 #include <sys/resource.h>
@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +30,9 @@ constexpr int kMargin_px = 3;  // around the model in its view
 
 struct Options {
   bool as_csv = false;
-  double supersampling = 2;
-  int samples_per_pixel = 4;
+  double supersampling = 3;
+  int samples_per_pixel = 1;
+  std::vector<double> sizes_px{std::begin(kSizes_px), std::end(kSizes_px)};
 };
 
 struct Named {
@@ -97,7 +99,7 @@ int measure(const std::vector<Named>& models, const Options& options) {
                              : "%-24s %8s %8s %10s %10s %13s %10s %6s\n",
               "model", "faces", "size_px", "median_ms", "least_ms", "processor_ms", "triangles", "calls");
   for (const Named& model : models)
-    for (const double size_px : kSizes_px) {
+    for (const double size_px : options.sizes_px) {
       const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px, options.supersampling);
       if (!cost) return 69;
       std::printf(options.as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n"
@@ -122,6 +124,11 @@ int main(int argc, char** argv) {
       continue;
     }
     const int number = words.empty() ? 0 : std::atoi(words.front().c_str());
+    if (option == "--size" && number > 0) {
+      options.sizes_px = {double(number)};
+      words.erase(words.begin());
+      continue;
+    }
     if (number < 1 || number > 8 || (option != "--supersampling" && option != "--samples")) {
       std::fprintf(stderr, "error: %s wants a number from 1 to 8\n", option.c_str());
       return 64;

@@ -24,7 +24,7 @@ struct Stage {
 };
 
 struct BenchSettings {
-  int samples_per_pixel = 4;  // that OpenGL takes of a view's pixel: 1, 2, 4 or 8, as far as the driver can
+  int samples_per_pixel = 1;  // that OpenGL takes of a view's pixel: 1, 2, 4 or 8, as far as the driver can
   double lens_tolerance_px = LensTable::kTolerance_px;  // of tabulated rays, in the picture; 0: all rays exact
 };
 

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <utility>
 
+#include "annotation/quick_silhouette.h"
 #include "camera/aimed_view.h"
 #include "camera/lens_table.h"
 #include "coarse.h"
@@ -135,6 +135,17 @@ void count_drawing(Work& work, const RenderWork& before, const RenderWork& after
   work.bytes_uploaded += after.bytes_uploaded - before.bytes_uploaded;
 }
 
+// Pixels that the silhouette reaches. Drawn pixels lie across their edges and spill a little into the next ones.
+cv::Rect outline_of(const SeenIntruder& seen) {
+  if (!seen.silhouette || !seen.silhouette->all_have_image) return kEverywhere;
+  return pixels_touched(seen.silhouette->box, 0, kEverywhere);
+}
+
+std::optional<cv::Rect> common(const std::optional<cv::Rect>& box, const cv::Rect& outline) {
+  const cv::Rect both = box ? *box & outline : cv::Rect();
+  return both.empty() ? std::nullopt : std::optional<cv::Rect>(both);
+}
+
 }  // namespace
 
 Camera seeing_camera(const Scene& scene) {
@@ -149,8 +160,10 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   const std::int64_t evaluations_before = lens.evaluations();
   const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
   SeenIntruder seen{.placed = placed};
-  seen.silhouette = silhouette_of(model.points_m, placed.camera_from_body, lens.camera().lens);
-  if (!lens.camera().lens.is_pinhole()) seen.work.lens_evaluations = std::ssize(model.points_m);
+  const QuickSilhouette silhouette =
+      silhouette_of(model.points_m, model.tree, placed.camera_from_body, lens.camera().lens);
+  seen.silhouette = silhouette.silhouette;
+  if (!lens.camera().lens.is_pinhole()) seen.work.lens_evaluations = silhouette.lens_evaluations;
   if (scene.compositing.method != MethodChoice::plain)
     seen.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
 
@@ -189,18 +202,19 @@ std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIn
                         .position_m = seen.placed.camera_from_body.translation_m,
                         .attitude = seen.placed.attitude};
     if (seen.silhouette) truth.silhouette = seen.silhouette->box;
+    const cv::Rect outline = outline_of(seen);
     const Layer inside = clipped(seen.sharp, picture_of(scene));
     const double inside_px = area_px(inside.coverage);
     const double whole_px = std::max(seen.whole_area_px, inside_px);
     // By its own measure: a distant one may cover no pixel by more than a hundredth.
     const float least = kLeastShare * strongest(seen.sharp.coverage);
-    truth.in_picture = covered_box(inside.coverage, inside.rect, least).has_value();
+    truth.in_picture = common(covered_box(inside.coverage, inside.rect, least), outline).has_value();
     if (truth.in_picture && !seen.soft.empty() && !mask.empty()) {
       cv::Mat visible = seen.soft.coverage.clone();
       visible.setTo(0, mask(seen.soft.rect) == 0);
       for (std::size_t j = i + 1; j < far_to_near.size(); ++j)
         hide_coverage(visible, seen.soft.rect, far_to_near[j].soft);
-      truth.box = covered_box(visible, seen.soft.rect, std::max(least, kLeastVisible));
+      truth.box = common(covered_box(visible, seen.soft.rect, std::max(least, kLeastVisible)), outline);
       const double visible_px = area_px(visible);
       truth.visible_fraction = visible_px < kRounding * inside_px ? 0.0 : std::min(visible_px / whole_px, 1.0);
     }

@@ -25,10 +25,9 @@ struct Silhouette {
                                                       const Pose<frame::Camera, frame::Body>& camera_from_body,
                                                       const Lens& lens);
 
-// A pixel is the intruder's where its coverage is at least this share of what its most covered pixel has: one
-// sixteenth, what drawing at twice the picture's resolution may spill into a pixel that the silhouette just does not
-// reach.
-inline constexpr float kLeastShare = 1.0F / 16.0F;
+// A pixel is the intruder's where its coverage is at least this share of what its most covered pixel has: small enough
+// for the tips of thin wings. What drawing spills beyond the silhouette's own pixels is larger and cut off apart.
+inline constexpr float kLeastShare = 1.0F / 64.0F;
 
 // Nobody sees less than half a code value.
 inline constexpr float kLeastVisible = 0.5F / 255.0F;

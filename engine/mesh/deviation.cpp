@@ -5,38 +5,13 @@
 #include <cstddef>
 #include <limits>
 
+#include "mesh/nearness.h"
 #include "mesh/simplified.h"
 
 namespace sigs {
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-
-// Shares of the corners in the point of a triangle nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-glm::dvec3 nearest_shares(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a;
-  const glm::dvec3 ac = c - a;
-  const double d1 = glm::dot(ab, p - a);
-  const double d2 = glm::dot(ac, p - a);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = glm::dot(ab, p - b);
-  const double d4 = glm::dot(ac, p - b);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = glm::dot(ab, p - c);
-  const double d6 = glm::dot(ac, p - c);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double share = (d4 - d3) / (d4 - d3 + d5 - d6);
-    return {0, 1 - share, share};
-  }
-  const double sum = va + vb + vc;
-  return {1 - (vb + vc) / sum, vb / sum, vc / sum};
-}
 
 // Triangles by the cells of a grid that they come near to.
 class Grid {
@@ -87,34 +62,6 @@ class Grid {
   std::vector<std::vector<std::uint32_t>> cells_;
 };
 
-using Corners = std::array<const Vertex*, 3>;
-
-// Metres on the surface that a step in the picture stands for.
-double meters_of_uv(const Corners& t, const glm::dvec2& step) {
-  const glm::dvec2 u1(t[1]->uv - t[0]->uv);
-  const glm::dvec2 u2(t[2]->uv - t[0]->uv);
-  const double area = u1.x * u2.y - u1.y * u2.x;
-  if (step == glm::dvec2(0)) return 0;
-  if (area == 0) return kNowhere;
-  const double along_1 = (step.x * u2.y - step.y * u2.x) / area;
-  const double along_2 = (u1.x * step.y - u1.y * step.x) / area;
-  return glm::length(along_1 * glm::dvec3(t[1]->position_m - t[0]->position_m) +
-                     along_2 * glm::dvec3(t[2]->position_m - t[0]->position_m));
-}
-
-double distance_m(const Vertex& vertex, const Corners& t, bool is_pictured) {
-  const glm::dvec3 p(vertex.position_m);
-  const glm::dvec3 a(t[0]->position_m);
-  const glm::dvec3 b(t[1]->position_m);
-  const glm::dvec3 c(t[2]->position_m);
-  const glm::dvec3 share = nearest_shares(p, a, b, c);
-  const double off_m = glm::distance(p, share.x * a + share.y * b + share.z * c);
-  if (!is_pictured) return off_m;
-  const glm::dvec2 uv =
-      share.x * glm::dvec2(t[0]->uv) + share.y * glm::dvec2(t[1]->uv) + share.z * glm::dvec2(t[2]->uv);
-  return std::max(off_m, meters_of_uv(t, glm::dvec2(vertex.uv) - uv));
-}
-
 }  // namespace
 
 double deviation_m(std::span<const Vertex> vertices, std::span<const std::uint32_t> whole,
@@ -131,7 +78,7 @@ double deviation_m(std::span<const Vertex> vertices, std::span<const std::uint32
     double least_m = kNowhere;
     for (const std::uint32_t first : grid.near(vertices[v].position_m)) {
       const Corners t{&vertices[simple[first]], &vertices[simple[first + 1]], &vertices[simple[first + 2]]};
-      least_m = std::min(least_m, distance_m(vertices[v], t, is_pictured));
+      least_m = std::min(least_m, offset_m(vertices[v], t, is_pictured, at_most_m));
     }
     worst_m = std::max(worst_m, least_m);
     if (worst_m > at_most_m) return kNowhere;

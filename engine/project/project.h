@@ -89,7 +89,7 @@ struct CompositingSettings {
   MethodChoice method = MethodChoice::direct;
   BlendChoice blend = BlendChoice::linear;
   double blur_px_per_m = 0.002;
-  int supersampling = 2;
+  int supersampling = 3;
 
   [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
 };

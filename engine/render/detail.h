@@ -9,15 +9,9 @@
 
 namespace sigs {
 
-// Solid runs with fewer triangles, and how far they are off the whole ones: position and picture, metres.
-struct Detail {
-  DrawList list;
-  double error_m = 0;
-};
-
-// Off by 2^step metres at most. Connected pieces of each run are simplified one by one with their borders kept, so that
-// neighbours still meet; cutouts stay whole, and so do pieces that would come out further off.
-[[nodiscard]] Detail detail_of(const std::vector<Vertex>& vertices, const DrawList& whole, int step);
+// The runs with fewer triangles, off by 2^step metres at most, in place and picture (mesh/fewer.h). All runs together,
+// so that they still meet; cutouts stay whole.
+[[nodiscard]] DrawList detail_of(const std::vector<Vertex>& vertices, const DrawList& whole, int step);
 
 // The coarsest step whose error a view may show.
 //   error_m  what it may be off; 0 or less, and not finite: none

@@ -192,7 +192,7 @@ const std::vector<Run>& GpuMesh::bind_solid(double error_m) {
   glBindVertexArray(vertex_array_);
   const std::optional<int> step = worthwhile_step(error_m);
   if (step && !levels_.contains(*step))
-    levels_.emplace(*step, uploaded_level(detail_of(vertices_, whole_, *step).list));
+    levels_.emplace(*step, uploaded_level(detail_of(vertices_, whole_, *step)));
   const Level& level = step ? levels_.at(*step) : whole_level_;
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, level.indices);
   return level.runs;

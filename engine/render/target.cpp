@@ -67,7 +67,7 @@ Result<void> Target::grow(const cv::Size& size) {
   const GLenum formats[] = {GL_RGBA32F, GL_RGBA16F};  // the second: half floats are all that some drivers multisample
   for (const GLenum format : formats) {
     const Result<Buffers> drawn = make(size, samples_, true, format);
-    const Result<Buffers> resolved = make(size, 0, false, format);
+    const Result<Buffers> resolved = samples_ > 0 ? make(size, 0, false, format) : Buffers{};
     if (drawn && resolved) {
       drawn_ = *drawn;
       resolved_ = *resolved;
@@ -93,25 +93,27 @@ Result<void> Target::begin(const cv::Size& size) {
   glEnable(GL_SCISSOR_TEST);
   glScissor(0, 0, size.width, size.height);
   glDepthMask(GL_TRUE);
-  const std::array<GLfloat, 4> nothing{0, 0, 0, 0};
-  const GLfloat farthest = 1;
-  glClearBufferfv(GL_COLOR, 0, nothing.data());
-  glClearBufferfv(GL_COLOR, 1, nothing.data());
-  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  glClearColor(0, 0, 0, 0);
+  glClearDepth(1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // all at once: what is smaller than the buffers is drawn over
   return {};
 }
 
-void Target::read(cv::Mat color, cv::Mat coverage) const {
-  ENSURE(color.type() == CV_32FC4 && coverage.type() == CV_32FC1 && color.size() == coverage.size());
+void Target::resolve(const cv::Size& size) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.framebuffer);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
   for (const GLenum attachment : {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1}) {
     glReadBuffer(attachment);
     if (attachment == GL_COLOR_ATTACHMENT0) draw_to({GL_COLOR_ATTACHMENT0});
     if (attachment == GL_COLOR_ATTACHMENT1) draw_to({GL_NONE, GL_COLOR_ATTACHMENT1});
-    glBlitFramebuffer(0, 0, color.cols, color.rows, 0, 0, color.cols, color.rows, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer);
+}
+
+void Target::read(cv::Mat color, cv::Mat coverage) const {
+  ENSURE(color.type() == CV_32FC4 && coverage.type() == CV_32FC1 && color.size() == coverage.size());
+  if (samples_ > 0) resolve(color.size());
+  glBindFramebuffer(GL_FRAMEBUFFER, samples_ > 0 ? resolved_.framebuffer : drawn_.framebuffer);
   read_plane(GL_COLOR_ATTACHMENT0, GL_RGBA, color);
   read_plane(GL_COLOR_ATTACHMENT1, GL_RED, coverage);
 }

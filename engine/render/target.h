@@ -34,10 +34,11 @@ class Target {
                                             unsigned int color_format);
   [[nodiscard]] Result<void> grow(const cv::Size& size);
   static void release(const Buffers& buffers);
+  void resolve(const cv::Size& size) const;
 
   int samples_;       // 0: no multisampling
   Buffers drawn_;     // so many samples
-  Buffers resolved_;  // 1 sample, no depth
+  Buffers resolved_;  // 1 sample, no depth; nothing where what is drawn has no more
   cv::Size size_{0, 0};
 };
 

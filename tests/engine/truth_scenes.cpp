@@ -91,7 +91,10 @@ Compared compared(const Sight& sight, const truth::Settings& settings) {
   Lot lot(sight.size_px);
   const Scene scene = scene_of(sight, lot);
   const Frame background = sky(sight.size_px);
-  ComposedFrame frame = composed(scene, 1, background);
+  Bench bench(BenchSettings{.samples_per_pixel = sight.samples_per_pixel});
+  const Result<ComposedFrame> composed = compose_frame(scene, 1, background, bench);
+  REQUIRE(composed.has_value());
+  const ComposedFrame& frame = *composed;
   Compared result{.reference = truth::true_picture(setup_of(scene, sight), settings),
                   .annotation = frame.truth.intruders.front()};
   REQUIRE_FALSE(result.reference.rect.empty());

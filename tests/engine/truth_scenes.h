@@ -8,6 +8,7 @@
 
 #include "annotation/annotation.h"
 #include "camera/lens.h"
+#include "frame.h"
 #include "scene/scene.h"
 #include "truth/reference.h"
 
@@ -21,7 +22,8 @@ struct Sight {
   glm::dvec3 direction{1, 0, 0};  // of the intruder, camera frame
   double extent_px = 60;          // of the body's sphere, were it on the axis
   double sigma_px = 0;
-  int supersampling = 2;
+  int supersampling = 3;
+  int samples_per_pixel = BenchSettings{}.samples_per_pixel;
   glm::dvec3 heading{0.35, 0.9, -0.1};  // world; the camera's axes are the world's
   glm::dvec3 light_m{-2000, 1000, -3000};
   double ambient = 0.35;

@@ -14,6 +14,7 @@ namespace sigs::test {
 namespace {
 
 constexpr double kRadius_m = 5;
+constexpr int kMostForSilhouette = 200;  // questions, of a ball with more than four times as many points
 const cv::Size kSize(640, 480);
 
 std::string text(const Work& work) {
@@ -100,9 +101,9 @@ TEST_CASE("for an intruder out of view nothing is done but asking where it is") 
         Bench bench;
         const ComposedFrame frame = made(scene, 0, bench);
         CAPTURE(text(frame.work));
-        // The annotation tells where an intruder is outside the picture too: one question for each of its points.
-        const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
-        CHECK(frame.work.lens_evaluations <= (glass == Glass::bending ? points : 0));
+        // The annotation tells where an intruder is outside the picture too: a question for some of its points.
+        CHECK(scene.intruders[0].model->points_m.size() > 4 * kMostForSilhouette);
+        CHECK(frame.work.lens_evaluations <= (glass == Glass::bending ? kMostForSilhouette : 0));
         Work rest = frame.work;
         rest.lens_evaluations = 0;
         CHECK(rest == Work{});
@@ -167,7 +168,7 @@ TEST_CASE("work is proportional to the intruder's pixels") {
     }
 }
 
-TEST_CASE("the lens is asked for the intruder's points and where it is, not for its pixels") {
+TEST_CASE("the lens is asked for a few of the intruder's points and where it is, not for its pixels") {
   for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
     CAPTURE(diameter_px);
     Lot lot(kSize);
@@ -175,9 +176,8 @@ TEST_CASE("the lens is asked for the intruder's points and where it is, not for 
     Bench bench;
     const ComposedFrame frame = made(scene, 0, bench);
     CAPTURE(text(frame.work));
-    const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
-    const auto asked = static_cast<double>(frame.work.lens_evaluations - points);
-    CHECK(asked > 0);
+    CHECK(scene.intruders[0].model->points_m.size() > 4 * kMostForSilhouette);
+    const auto asked = static_cast<double>(frame.work.lens_evaluations - kMostForSilhouette);
     // A few hundred to choose the view; of a pixel's four corners each would ask once, tables ask some 1 in 30.
     CHECK(asked <= 600 + 0.15 * static_cast<double>(frame.work.pixels_bent));
   }
@@ -225,9 +225,9 @@ TEST_CASE("what is drawn is the box around the intruder and grows with it") {
     CAPTURE(diameter_px);
     const Work work = made({.diameter_px = diameter_px}).work;
     CAPTURE(text(work));
-    // Supersampling 2, and the box's near side as perspective shows it. Small ones are drawn some 130 px large.
+    // Supersampling 3, and the box's near side as perspective shows it. Small ones are drawn up to some 195 px large.
     const double near_px = Lot::kFocal_px * 2 * kRadius_m / (distance_for(diameter_px) - kRadius_m);
-    const double side_px = std::max(2 * near_px, 130.0);
+    const double side_px = std::max(3 * near_px, 195.0);
     CHECK(work.pixels_drawn >= 4 * 3.14159265 / 4 * diameter_px * diameter_px);
     CHECK(work.pixels_drawn <= 1.3 * side_px * side_px);
     CHECK(work.triangles_drawn > 100);

@@ -102,7 +102,7 @@ TEST_CASE("what a file leaves out has its default and null stands for none") {
   const Project p = parse_project(R"({"sigs": 1, "footage": {"last_frame": null}})", "x.json").value().project;
   CHECK(p.camera.position_m == glm::dvec3(0, 0, -150));
   CHECK_FALSE(p.footage.last_frame.has_value());
-  CHECK(p.compositing.supersampling == 2);
+  CHECK(p.compositing.supersampling == 3);
   CHECK(p.output.labels == std::vector<std::string>{"xml"});
 }
 

@@ -5,6 +5,8 @@ extern "C" {
 #include <libavutil/crc.h>
 }
 
+#include <algorithm>
+
 namespace sigs::libav {
 namespace {
 
@@ -14,18 +16,24 @@ constexpr size_t kFooterBytes = 8;
 }  // namespace
 
 bool ffv1_checksums_match(std::span<const uint8_t> packet) {
-  if (packet.empty()) return false;
+  return !ffv1_slices(packet).empty();
+}
+
+std::vector<std::span<const uint8_t>> ffv1_slices(std::span<const uint8_t> packet) {
+  std::vector<std::span<const uint8_t>> slices;  // from the last: each footer says where its slice begins
   const AVCRC* table = av_crc_get_table(AV_CRC_32_IEEE);
   while (!packet.empty()) {
-    if (packet.size() < kFooterBytes) return false;
+    if (packet.size() < kFooterBytes) return {};
     const auto footer = packet.last(kFooterBytes);
     const size_t slice_bytes = (size_t{footer[0]} << 16 | size_t{footer[1]} << 8 | footer[2]) + kFooterBytes;
-    if (slice_bytes > packet.size()) return false;
+    if (slice_bytes > packet.size()) return {};
     // The checksum is chosen so that the whole slice with it has the remainder 0.
-    if (av_crc(table, 0, packet.last(slice_bytes).data(), slice_bytes) != 0) return false;
+    if (av_crc(table, 0, packet.last(slice_bytes).data(), slice_bytes) != 0) return {};
+    slices.push_back(packet.last(slice_bytes).first(slice_bytes - kFooterBytes));
     packet = packet.first(packet.size() - slice_bytes);
   }
-  return true;
+  std::reverse(slices.begin(), slices.end());
+  return slices;
 }
 
 }  // namespace sigs::libav

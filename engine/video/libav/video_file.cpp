@@ -118,6 +118,11 @@ FramePtr VideoFile::picture_of(const Frame& frame) const {
 
 Result<void> VideoFile::write(const Frame& frame) {
   ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
+  if (format_.layout == PixelLayout::gray) {
+    prepare_blanks();
+    if (const auto packet = sparse_ ? sparse_->packet_of(frame.planes[0]) : std::nullopt)
+      return put_known(*packet, frame.time_s);
+  }
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
   const FramePtr picture = picture_of(frame);
@@ -125,17 +130,36 @@ Result<void> VideoFile::write(const Frame& frame) {
   return encode(picture.get());
 }
 
-// Every picture of FFV1 here is a key picture and comes out at once, so the same picture makes the same packet.
 Result<void> VideoFile::write_blank(double time_s) {
-  if (blank_ == nullptr) {
-    keeps_packet_ = format_.codec == VideoCodec::ffv1;
-    Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
-    frame.time_s = time_s;
-    return write(frame);
-  }
-  const Result<int64_t> stamp = next_stamp(time_s);
-  if (!stamp) return fail(stamp.error());
-  return put_again(*blank_, *stamp);
+  prepare_blanks();
+  if (!blank_.empty()) return put_known(blank_, time_s);
+  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+  frame.time_s = time_s;
+  return write(frame);
+}
+
+// Every picture of FFV1 here is a key picture, so the same picture makes the same packet.
+void VideoFile::prepare_blanks() {
+  if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
+  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+  blank_ = packet_alone(frame);
+  if (format_.layout != PixelLayout::gray) return;
+  const auto encoded = [&](const cv::Mat& samples) {
+    frame.planes[0] = samples;
+    return packet_alone(frame);
+  };
+  sparse_ = SparseFfv1::like(encoded, format_.size_px);
+}
+
+// What the encoder makes of a picture that is not written. Empty where it does not come out at once.
+std::vector<uint8_t> VideoFile::packet_alone(const Frame& frame) {
+  const FramePtr picture = picture_of(frame);
+  picture->pts = std::max<int64_t>(last_stamp_, 0);
+  if (avcodec_send_frame(encoder_.get(), picture.get()) < 0) return {};
+  if (avcodec_receive_packet(encoder_.get(), packet_.get()) < 0) return {};
+  std::vector<uint8_t> bytes(packet_->data, packet_->data + packet_->size);
+  av_packet_unref(packet_.get());
+  return bytes;
 }
 
 Result<void> VideoFile::encode(const AVFrame* picture) {
@@ -146,14 +170,17 @@ Result<void> VideoFile::encode(const AVFrame* picture) {
     if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return {};
     if (received < 0)
       return fail(path_.string(), "could not be encoded: " + text_of(received), ErrorKind::write_failed);
-    if (std::exchange(keeps_packet_, false)) blank_.reset(av_packet_clone(packet_.get()));
     if (const Result<void> written = put(*packet_); !written) return written;
   }
 }
 
-Result<void> VideoFile::put_again(const AVPacket& packet, int64_t stamp) {
-  ENSURE(av_packet_ref(packet_.get(), &packet) >= 0);
-  packet_->pts = packet_->dts = stamp;
+Result<void> VideoFile::put_known(const std::vector<uint8_t>& packet, double time_s) {
+  const Result<int64_t> stamp = next_stamp(time_s);
+  if (!stamp) return fail(stamp.error());
+  ENSURE(av_new_packet(packet_.get(), static_cast<int>(packet.size())) >= 0);
+  std::copy(packet.begin(), packet.end(), packet_->data);
+  packet_->pts = packet_->dts = *stamp;
+  packet_->flags |= AV_PKT_FLAG_KEY;
   return put(*packet_);
 }
 

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/result.h"
 #include "video/libav/encoding.h"
 #include "video/libav/handles.h"
+#include "video/libav/sparse_ffv1.h"
 
 namespace sigs::libav {
 
@@ -32,8 +34,10 @@ class VideoFile {
   [[nodiscard]] Result<int64_t> next_stamp(double time_s);
   [[nodiscard]] FramePtr picture_of(const Frame& frame) const;
   [[nodiscard]] Result<void> encode(const AVFrame* picture);
+  [[nodiscard]] std::vector<uint8_t> packet_alone(const Frame& frame);
+  void prepare_blanks();
   [[nodiscard]] Result<void> put(AVPacket& packet);
-  [[nodiscard]] Result<void> put_again(const AVPacket& packet, int64_t stamp);
+  [[nodiscard]] Result<void> put_known(const std::vector<uint8_t>& packet, double time_s);
   [[nodiscard]] Result<void> check(int result) const;
 
   std::filesystem::path path_;
@@ -43,8 +47,9 @@ class VideoFile {
   OutputPtr output_;
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();
-  PacketPtr blank_;            // what the encoder made of a blank picture, where that is always the same
-  bool keeps_packet_ = false;  // the next packet is to become blank_
+  bool blanks_are_prepared_ = false;
+  std::vector<uint8_t> blank_;        // what the encoder makes of a blank picture, where that is always the same
+  std::optional<SparseFfv1> sparse_;  // for nearly blank ones
   std::optional<double> first_time_s_;
   double last_time_s_ = 0;
   int64_t last_stamp_ = -1;
