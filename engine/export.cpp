@@ -69,9 +69,11 @@ class Pipeline {
 
   void compose() {
     Bench bench;
+    // OpenGL is made while the first frame is decoded. Where that fails, the frame that needs it tells why.
+    if (!scene_.intruders.empty()) static_cast<void>(bench.renderer());
     while (std::optional<DecodedFrame> decoded = decoded_.take()) {
       Result<ComposedFrame> composed = compose_frame(scene_, decoded->number, std::move(decoded->picture), bench);
-      remember(bench.renderer_description());
+      if (composed && composed->work.pixels_drawn > 0) remember(bench.renderer_description());
       if (!finished_.put(decoded->number, std::move(composed))) break;
     }
   }

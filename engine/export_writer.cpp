@@ -48,6 +48,7 @@ Result<void> WriterThread::finish() {
 }
 
 void WriterThread::write_all() {
+  writer_.warm_up();  // while the first frame is being made
   while (const std::optional<Item> item = queue_.take()) {
     if (dropped_) return;
     const Clock::time_point start = Clock::now();

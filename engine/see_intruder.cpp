@@ -33,6 +33,13 @@ std::optional<Box> bounds_of(const SeenIntruder& seen, double radius_m) {
   return seen.silhouette->box;
 }
 
+// Whether the box around a body may look so wide that it takes more than one view: what no pixel looks at is then worth
+// being cut off. The box lies within sqrt(3) radii of its middle, and a view holds 50 degrees either way.
+bool may_be_wide(const Sitter& sitter) {
+  constexpr double kRadii = 2.3;  // sqrt(3) / sin(50 degrees)
+  return sitter.placed.distance_m() < kRadii * sitter.mesh.radius_m;
+}
+
 // Pixels that the intruder can reach, blur counted in.
 cv::Rect reach_of(const std::optional<Box>& bounds, int blur_px, const cv::Rect& picture) {
   const cv::Rect grown(picture.x - blur_px, picture.y - blur_px, picture.width + 2 * blur_px,
@@ -92,7 +99,8 @@ Sitting sitting_for(const SeenIntruder& seen, LensTable& lens, const Sitter& sit
   if (is_far_blurred) sitting.cells = cell_grid(bounds, lens.camera(), picture, seen.sigma_px);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kEverywhere) == sitting.reach;
   // Of a body that lies within there is nothing to cut off.
-  const std::optional<cv::Rect> target = is_within ? std::nullopt : std::optional(sitting.reach);
+  const std::optional<cv::Rect> target =
+      is_within && !may_be_wide(sitter) ? std::nullopt : std::optional(sitting.reach);
   if (!sitting.reach.empty()) sitting.views = aimed_views(lens, sitter.corners, target, supersampling, kLargestView_px);
   if (!sitting.cells) return sitting;
   sitting.lens_of_cells.emplace(coarse_lens(lens, sitting.cells->cell_px));
@@ -102,13 +110,19 @@ Sitting sitting_for(const SeenIntruder& seen, LensTable& lens, const Sitter& sit
   return sitting;
 }
 
-void count_bending(Work& work, const SeenIntruder& seen, const Sitting& sitting) {
+// The classic method blurs whole pictures of its own. Of a lone intruder's layer it needs the coverage, which blur
+// leaves alone; only what a nearer intruder hides of a farther one is told by its blurred opacity.
+bool needs_blur(const Scene& scene) {
+  return scene.compositing.method != MethodChoice::classic || scene.intruders.size() > 1;
+}
+
+void count_bending(Work& work, const SeenIntruder& seen, const Sitting& sitting, const Scene& scene) {
   work.pixels_bent += seen.sharp.rect.area();
   if (sitting.cells) {
     work.lens_evaluations += sitting.lens_of_cells->evaluations();
     if (!sitting.views_of_cells.empty()) work.pixels_bent += sitting.cells->cells.area();
   }
-  if (seen.sigma_px > 0) work.pixels_blurred += seen.blurred.rect.area();
+  if (seen.sigma_px > 0 && (sitting.cells || needs_blur(scene))) work.pixels_blurred += seen.blurred.rect.area();
 }
 
 // Draws the views and makes the layers of them.
@@ -122,10 +136,10 @@ Result<void> sit(SeenIntruder& seen, Sitting& sitting, LensTable& lens, const Si
   if (sitting.cells)
     seen.blurred = far_blurred(*sitting.cells, seen.sharp, *drawn_for_cells, *sitting.lens_of_cells, seen.sigma_px);
   else
-    seen.blurred = clipped(blurred(seen.sharp, seen.sigma_px), picture_of(scene));
+    seen.blurred = clipped(blurred(seen.sharp, needs_blur(scene) ? seen.sigma_px : 0), picture_of(scene));
   seen.soft = hidden_by_body(seen.blurred, scene.own_body);
   seen.views = std::move(drawn->empty() ? *drawn_for_cells : *drawn);
-  count_bending(seen.work, seen, sitting);
+  count_bending(seen.work, seen, sitting, scene);
   return {};
 }
 

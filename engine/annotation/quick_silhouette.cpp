@@ -13,7 +13,7 @@ namespace {
 
 using Node = PointTree::Node;
 
-constexpr std::size_t kWorthAsking = 64;  // points: the image of a ball costs as much as that of some of them
+constexpr std::size_t kWorthAsking = 16;  // points: the image of a ball costs as much as that of some of them
 
 // A BallImage in body axes: dot(v, pose * p) is dot(v_in_body, p) + v_at_origin.
 struct Plane {

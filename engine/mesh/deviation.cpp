@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "mesh/deviation.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <limits>
 
 #include "mesh/nearness.h"
-#include "mesh/simplified.h"
 
 namespace sigs {
 namespace {

@@ -22,13 +22,12 @@ double meters_of_uv(const Corners& t, const glm::dvec2& step) {
 }
 
 bool is_turned(const Vertex& vertex, const Corners& t, const glm::dvec3& share, double most_sine) {
-  const glm::dvec3 there = share.x * glm::dvec3(t[0]->normal) + share.y * glm::dvec3(t[1]->normal) +
-                           share.z * glm::dvec3(t[2]->normal);
+  const glm::dvec3 there =
+      share.x * glm::dvec3(t[0]->normal) + share.y * glm::dvec3(t[1]->normal) + share.z * glm::dvec3(t[2]->normal);
   const glm::dvec3 here(vertex.normal);
   const glm::dvec3 across = glm::cross(here, there);
   const double cosine = glm::dot(here, there);
-  return cosine < 0 ||
-         glm::dot(across, across) > most_sine * most_sine * (cosine * cosine + glm::dot(across, across));
+  return cosine < 0 || glm::dot(across, across) > most_sine * most_sine * (cosine * cosine + glm::dot(across, across));
 }
 
 }  // namespace

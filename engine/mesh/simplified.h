@@ -9,16 +9,25 @@
 
 namespace sigs {
 
-// The same surface with fewer triangles, of the same vertices (Garland and Heckbert 1997, by meshoptimizer): none is
-// moved, those at open borders and where more than two surfaces meet stay, so nothing opens that was shut. error_m is
-// what each step aims at; how far the result is off, deviation_m() measures. The same input gives the same output.
-//   indices  three a triangle; of one surface, or several side by side
-[[nodiscard]] std::vector<std::uint32_t> simplified(std::span<const Vertex> vertices,
-                                                    std::span<const std::uint32_t> indices, double error_m);
+// What of a triangle may be off by so much only.
+enum class Keep : char {
+  place,    // where it lies
+  picture,  // and what its picture shows where
+  all,      // it stays as it is
+};
 
-// How far a simplified surface is off: the largest distance of any vertex of the whole one from it, and, if pictured,
-// of where the picture shows what lies at that vertex. Infinity where something lies further off than at_most_m.
-[[nodiscard]] double deviation_m(std::span<const Vertex> vertices, std::span<const std::uint32_t> whole,
-                                 std::span<const std::uint32_t> simple, bool is_pictured, double at_most_m);
+struct Simplified {
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> originals;  // for each triangle left, the number of that which it was
+};
+
+// The same surface with fewer triangles of the same vertices: edges are drawn together to one of their ends (Hoppe
+// 1996) as long as every vertex that went, and the middle of every edge there was, lies within error_m of the surface,
+// in place and picture, and its normal within some degrees of that there. What lies at one place moves as one, so seams
+// stay shut and where they were; open borders and edges of more than two triangles stay. The same input gives the same
+// output.
+//   keep  one for each triangle
+[[nodiscard]] Simplified simplified(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices,
+                                    std::span<const Keep> keep, double error_m);
 
 }  // namespace sigs

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "render/sets.h"
+#include "mesh/sets.h"
 
 namespace sigs {
 namespace {

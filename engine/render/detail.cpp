@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "mesh/fewer.h"
+#include "mesh/simplified.h"
 
 namespace sigs {
 
@@ -19,13 +19,13 @@ Keep keep_of(const Run& run) {
 DrawList detail_of(const std::vector<Vertex>& vertices, const DrawList& whole, int step) {
   std::vector<Keep> keep;
   for (const Run& run : whole.runs) keep.insert(keep.end(), run.count / 3, keep_of(run));
-  Fewer fewer = fewer_triangles(vertices, whole.indices, keep, std::ldexp(1.0, step));
-  DrawList list{.indices = std::move(fewer.indices), .runs = {}};
+  Simplified simple = simplified(vertices, whole.indices, keep, std::ldexp(1.0, step));
+  DrawList list{.indices = std::move(simple.indices), .runs = {}};
   std::size_t next = 0;  // of the triangles left, the first that belongs to no run yet
   for (const Run& run : whole.runs) {
     Run shorter = run;
     shorter.first = static_cast<std::uint32_t>(3 * next);
-    while (next < fewer.originals.size() && 3 * fewer.originals[next] < run.first + run.count) ++next;
+    while (next < simple.originals.size() && 3 * simple.originals[next] < run.first + run.count) ++next;
     shorter.count = static_cast<std::uint32_t>(3 * next) - shorter.first;
     if (shorter.count > 0) list.runs.push_back(shorter);
   }

@@ -9,8 +9,8 @@
 
 namespace sigs {
 
-// The runs with fewer triangles, off by 2^step metres at most, in place and picture (mesh/fewer.h). All runs together,
-// so that they still meet; cutouts stay whole.
+// The runs with fewer triangles, off by 2^step metres at most, in place and picture (mesh/simplified.h). All runs
+// together, so that they still meet; cutouts stay whole.
 [[nodiscard]] DrawList detail_of(const std::vector<Vertex>& vertices, const DrawList& whole, int step);
 
 // The coarsest step whose error a view may show.

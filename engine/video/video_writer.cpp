@@ -40,6 +40,10 @@ VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 VideoWriter::~VideoWriter() = default;
 
+void VideoWriter::warm_up() {
+  if (state_->file) state_->file->warm_up();
+}
+
 Result<void> VideoWriter::write(const Frame& frame, int number) {
   ENSURE(!state_->finished);
   return state_->file ? state_->file->write(frame) : write_png(state_->path, frame, number);

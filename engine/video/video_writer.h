@@ -40,12 +40,14 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) noexcept;
   ~VideoWriter();
 
+  // Does what the first pictures would have to wait for, so that they need not. The bytes are the same without it.
+  void warm_up();
+
   // Frames in order, each with a time after the one before. number names the picture of a png sequence:
   // frame_000123.png. Error write_failed (disk full).
   [[nodiscard]] Result<void> write(const Frame& frame, int number);
 
-  // The same for a picture whose samples are all 0. FFV1 encodes the first of them alone; the bytes are those of
-  // write().
+  // The same for a picture whose samples are all 0. FFV1 encodes one of them alone; the bytes are those of write().
   [[nodiscard]] Result<void> write_blank(double time_s, int number);
 
   // Writes what the encoder still holds and the container's end. Without it the file is not complete.

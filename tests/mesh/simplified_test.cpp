@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
+
+#include "mesh/deviation.h"
 
 namespace sigs {
 namespace {
@@ -19,7 +22,7 @@ struct Surface {
   std::vector<std::uint32_t> indices;
 };
 
-// A square of 1 m, cut steps by steps, of a height that bulges by so much, with u along x bent by bend.
+// A square of 1 m, cut steps by steps, of a height that bulges by so much, with u bent by bend in the middle.
 Surface sheet(int steps, double bulge_m, double bend = 0) {
   Surface result;
   for (int j = 0; j <= steps; ++j)
@@ -27,7 +30,7 @@ Surface sheet(int steps, double bulge_m, double bend = 0) {
       const double x = double(i) / steps;
       const double y = double(j) / steps;
       const double z = bulge_m * std::sin(M_PI * x) * std::sin(M_PI * y);
-      result.vertices.push_back({{x, y, z}, {0, 0, 1}, {x + bend * std::sin(M_PI * x), y}});
+      result.vertices.push_back({{x, y, z}, {0, 0, 1}, {x + bend * std::sin(M_PI * x) * std::sin(M_PI * y), y}});
     }
   const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (steps + 1) + i); };
   for (int j = 0; j < steps; ++j)
@@ -36,6 +39,11 @@ Surface sheet(int steps, double bulge_m, double bend = 0) {
            {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
         result.indices.push_back(index);
   return result;
+}
+
+std::vector<std::uint32_t> simple(const Surface& surface, double error_m, Keep keep = Keep::place) {
+  return simplified(surface.vertices, surface.indices, std::vector<Keep>(surface.indices.size() / 3, keep), error_m)
+      .indices;
 }
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -73,7 +81,7 @@ double height_over(const Surface& surface, const std::vector<std::uint32_t>& ind
 
 TEST_CASE("a flat sheet keeps its rim and loses what lies within") {
   const Surface flat = sheet(20, 0);
-  const std::vector<std::uint32_t> fewer = simplified(flat.vertices, flat.indices, 1e-3);
+  const std::vector<std::uint32_t> fewer = simple(flat, 1e-3);
   CHECK(fewer.size() < flat.indices.size() / 4);
   CHECK(rim_of(fewer) == rim_of(flat.indices));
   CHECK(deviation_m(flat.vertices, flat.indices, fewer, true, 1) < 1e-6);  // floats of 1 m
@@ -83,8 +91,10 @@ TEST_CASE("a bulging sheet lies as far off as a look straight down at every vert
   const Surface bulging = sheet(32, 0.1);
   for (const double aim_m : {1e-4, 1e-3, 1e-2}) {
     CAPTURE(aim_m);
-    const std::vector<std::uint32_t> fewer = simplified(bulging.vertices, bulging.indices, aim_m);
+    const std::vector<std::uint32_t> fewer = simple(bulging, aim_m);
     CHECK(fewer.size() < bulging.indices.size());
+    CHECK(fewer.size() < (aim_m > 1e-3 ? 0.2 : 0.95) * double(bulging.indices.size()));
+    CHECK(deviation_m(bulging.vertices, bulging.indices, fewer, false, 1) <= aim_m);
     double worst_m = 0;
     for (const Vertex& vertex : bulging.vertices)
       worst_m = std::max(worst_m, std::abs(height_over(bulging, fewer, vertex.position_m.x, vertex.position_m.y) -
@@ -98,9 +108,76 @@ TEST_CASE("a bulging sheet lies as far off as a look straight down at every vert
 
 TEST_CASE("a picture that is stretched unevenly counts as being off") {
   const Surface flat = sheet(16, 0, 0.05);
-  const std::vector<std::uint32_t> fewer = simplified(flat.vertices, flat.indices, 1e-3);
+  const std::vector<std::uint32_t> fewer = simple(flat, 1e-3);
   CHECK(deviation_m(flat.vertices, flat.indices, fewer, false, 1) < 1e-6);
   CHECK(deviation_m(flat.vertices, flat.indices, fewer, true, 1) > 1e-3);
+  for (const double aim_m : {1e-2, 1e-3, 1e-4}) {
+    CAPTURE(aim_m);
+    const std::vector<std::uint32_t> pictured = simple(flat, aim_m, Keep::picture);
+    CHECK(deviation_m(flat.vertices, flat.indices, pictured, true, 1) <= aim_m);
+    CHECK(pictured.size() > fewer.size());
+    if (aim_m > 1e-3) CHECK(pictured.size() < flat.indices.size() / 2);
+  }
+}
+
+TEST_CASE("a flat sheet whose shading bends keeps what the shading needs") {
+  Surface flat = sheet(32, 0);
+  for (Vertex& vertex : flat.vertices) {
+    const float turn = 0.5F * std::sin(2 * float(M_PI) * vertex.position_m.x);
+    vertex.normal = {std::sin(turn), 0, std::cos(turn)};
+  }
+  const std::vector<std::uint32_t> fewer = simple(flat, 0.01);
+  CHECK(fewer.size() < flat.indices.size() / 4);
+  const auto share_of = [](const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+    return (p.x - a.x) * (b.y - a.y) - (p.y - a.y) * (b.x - a.x);
+  };
+  for (const Vertex& vertex : flat.vertices) {
+    const glm::dvec3 p(vertex.position_m);
+    double least_sine = kInfinity;
+    for (std::size_t i = 0; i + 2 < fewer.size(); i += 3) {
+      glm::dvec3 corners[3];
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = flat.vertices[fewer[i + k]].position_m;
+      const double area = share_of(corners[2], corners[0], corners[1]);
+      glm::dvec3 normal(0);
+      bool is_inside = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double share = share_of(p, corners[(k + 1) % 3], corners[(k + 2) % 3]) / area;
+        is_inside = is_inside && share >= -1e-9;
+        normal += share * glm::dvec3(flat.vertices[fewer[i + k]].normal);
+      }
+      if (is_inside)
+        least_sine = std::min(least_sine, glm::length(glm::cross(glm::normalize(normal), glm::dvec3(vertex.normal))));
+    }
+    REQUIRE(least_sine <= 0.1001);
+  }
+}
+
+TEST_CASE("two sheets that meet at a seam still meet there and keep their own vertices") {
+  // The same square twice, the second turned over the seam x = 1: equal places, vertices of its own, another picture.
+  Surface both = sheet(16, 0);
+  const std::size_t count = both.vertices.size();
+  const std::size_t index_count = both.indices.size();
+  for (std::size_t v = 0; v < count; ++v) {
+    Vertex other = both.vertices[v];
+    other.position_m.x += 1;
+    other.uv.x += 5;
+    both.vertices.push_back(other);
+  }
+  for (std::size_t i = 0; i < index_count; ++i)
+    both.indices.push_back(both.indices[i] + static_cast<std::uint32_t>(count));
+  const Simplified fewer =
+      simplified(both.vertices, both.indices, std::vector<Keep>(both.indices.size() / 3, Keep::picture), 1e-3);
+  CHECK(fewer.indices.size() < both.indices.size() / 4);
+  CHECK(deviation_m(both.vertices, both.indices, fewer.indices, true, 1) < 1e-5);
+  std::set<float> seams[2];
+  for (std::size_t i = 0; i < fewer.indices.size(); ++i) {
+    const Vertex& vertex = both.vertices[fewer.indices[i]];
+    const bool is_second = fewer.originals[i / 3] >= index_count / 3;
+    REQUIRE((fewer.indices[i] >= count) == is_second);
+    if (vertex.position_m.x == 1) seams[is_second ? 1 : 0].insert(vertex.position_m.y);
+  }
+  CHECK(seams[0] == seams[1]);
+  CHECK(seams[0].size() < 9);  // of 17: the seam itself is straight and was thinned, on both sides alike
 }
 
 TEST_CASE("what is missing or further off than asked for is infinitely far off") {
@@ -114,11 +191,11 @@ TEST_CASE("what is missing or further off than asked for is infinitely far off")
 
 TEST_CASE("no error allowed leaves every triangle") {
   const Surface flat = sheet(4, 0);
-  for (const double none : {0.0, -1.0, std::nan("")})
-    CHECK(simplified(flat.vertices, flat.indices, none) == flat.indices);
-  CHECK(simplified(flat.vertices, {}, 1).empty());
+  for (const double none : {0.0, -1.0, std::nan("")}) CHECK(simple(flat, none) == flat.indices);
+  CHECK(simple(flat, 1, Keep::all) == flat.indices);
+  CHECK(simplified(flat.vertices, {}, {}, 1).indices.empty());
   const std::vector<Vertex> point(3, flat.vertices.front());  // no extent at all
-  CHECK(simplified(point, std::vector<std::uint32_t>{0, 1, 2}, 1).size() == 3);
+  CHECK(simple({point, {0, 1, 2}}, 1).size() == 3);
 }
 
 }  // namespace sigs

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/simplified.h"
+#include "mesh/deviation.h"
 #include "render/paint.h"
 #include "render/scenes.h"
 
@@ -69,14 +69,13 @@ TEST_CASE("a ball of fewer triangles lies within what was allowed and has no hol
   for (const int step : {-4, -6, -8}) {
     CAPTURE(step);
     const double allowed_m = std::ldexp(1.0, step);
-    const Detail detail = detail_of(mesh.vertices, whole, step);
-    CHECK(detail.list.indices.size() < 0.8 * double(whole.indices.size()));
-    CHECK(detail.error_m <= allowed_m);
-    CHECK(detail.error_m > 0);
+    const DrawList detail = detail_of(mesh.vertices, whole, step);
+    CHECK(detail.indices.size() < 0.8 * double(whole.indices.size()));
+    CHECK(deviation_m(mesh.vertices, whole.indices, detail.indices, false, 1) <= allowed_m);
     // The whole ball's own triangles lie within the sphere, too.
-    CHECK(deepest_m(mesh, detail.list.indices) <= allowed_m + flat_m);
+    CHECK(deepest_m(mesh, detail.indices) <= allowed_m + flat_m);
     Mesh fewer = mesh;
-    fewer.indices = detail.list.indices;
+    fewer.indices = detail.indices;
     fewer.parts = {{0, 0, static_cast<std::uint32_t>(fewer.indices.size())}};
     for (const HiddenSide side : hidden_sides_of(fewer, surfaces_of(fewer))) REQUIRE(side == HiddenSide::back);
   }
@@ -85,8 +84,8 @@ TEST_CASE("a ball of fewer triangles lies within what was allowed and has no hol
 TEST_CASE("the same mesh has the same detail twice and no error allowed is the whole of it") {
   const Mesh mesh = split_by_material(ball(24));
   const DrawList whole = whole_list(mesh);
-  CHECK(detail_of(mesh.vertices, whole, -6).list.indices == detail_of(mesh.vertices, whole, -6).list.indices);
-  CHECK(detail_of(mesh.vertices, whole, -40).list.indices.size() == whole.indices.size());
+  CHECK(detail_of(mesh.vertices, whole, -6).indices == detail_of(mesh.vertices, whole, -6).indices);
+  CHECK(detail_of(mesh.vertices, whole, -40).indices.size() == whole.indices.size());
   CHECK_FALSE(step_for(0));
   CHECK_FALSE(step_for(-1));
   CHECK_FALSE(step_for(std::nan("")));
@@ -104,7 +103,7 @@ TEST_CASE("a far ball is drawn with fewer triangles and its outline stays within
     const Layer layer =
         by.draw(mesh, at({distance_m, 0, 0}), ambient_only(), view_of({64, 64}, 20 * distance_m)).value();
     CHECK(is_sound(layer));
-    CHECK(cv::sum(layer.coverage)[0] == doctest::Approx(M_PI * 400).epsilon(0.015));  // 1/8 px of 20 px, both sides
+    CHECK(cv::sum(layer.coverage)[0] == doctest::Approx(M_PI * 400).epsilon(0.015));  // a sagitta of 1/4 px at most
     return by.work().triangles_drawn - before.triangles_drawn;
   };
   CHECK(drawn_at(1000) < 0.6 * double(mesh.indices.size() / 3));

@@ -23,6 +23,8 @@ class VideoFile {
  public:
   [[nodiscard]] static Result<VideoFile> create(const std::filesystem::path& path, const VideoFormat& format);
 
+  // Does now what the first pictures would wait for. No need to call it; the bytes are the same.
+  void warm_up() { prepare_blanks(); }
   [[nodiscard]] Result<void> write(const Frame& frame);
   [[nodiscard]] Result<void> write_blank(double time_s);
   [[nodiscard]] Result<void> finish();

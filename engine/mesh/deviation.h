@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mesh/mesh.h"
+
+namespace sigs {
+
+// How far a simplified surface is off: the largest distance of any vertex of the whole one from it, and, if pictured,
+// of where the picture shows what lies at that vertex. Infinity where something lies further off than at_most_m.
+[[nodiscard]] double deviation_m(std::span<const Vertex> vertices, std::span<const std::uint32_t> whole,
+                                 std::span<const std::uint32_t> simple, bool is_pictured, double at_most_m);
+
+}  // namespace sigs
