@@ -5,8 +5,6 @@ extern "C" {
 #include <libavutil/crc.h>
 }
 
-#include <algorithm>
-
 namespace sigs::libav {
 namespace {
 
@@ -16,24 +14,18 @@ constexpr size_t kFooterBytes = 8;
 }  // namespace
 
 bool ffv1_checksums_match(std::span<const uint8_t> packet) {
-  return !ffv1_slices(packet).empty();
-}
-
-std::vector<std::span<const uint8_t>> ffv1_slices(std::span<const uint8_t> packet) {
-  std::vector<std::span<const uint8_t>> slices;  // from the last: each footer says where its slice begins
+  if (packet.empty()) return false;
   const AVCRC* table = av_crc_get_table(AV_CRC_32_IEEE);
   while (!packet.empty()) {
-    if (packet.size() < kFooterBytes) return {};
+    if (packet.size() < kFooterBytes) return false;
     const auto footer = packet.last(kFooterBytes);
     const size_t slice_bytes = (size_t{footer[0]} << 16 | size_t{footer[1]} << 8 | footer[2]) + kFooterBytes;
-    if (slice_bytes > packet.size()) return {};
+    if (slice_bytes > packet.size()) return false;
     // The checksum is chosen so that the whole slice with it has the remainder 0.
-    if (av_crc(table, 0, packet.last(slice_bytes).data(), slice_bytes) != 0) return {};
-    slices.push_back(packet.last(slice_bytes).first(slice_bytes - kFooterBytes));
+    if (av_crc(table, 0, packet.last(slice_bytes).data(), slice_bytes) != 0) return false;
     packet = packet.first(packet.size() - slice_bytes);
   }
-  std::reverse(slices.begin(), slices.end());
-  return slices;
+  return true;
 }
 
 }  // namespace sigs::libav

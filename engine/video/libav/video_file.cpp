@@ -118,11 +118,6 @@ FramePtr VideoFile::picture_of(const Frame& frame) const {
 
 Result<void> VideoFile::write(const Frame& frame) {
   ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
-  if (format_.layout == PixelLayout::gray) {
-    prepare_blanks();
-    if (const auto packet = sparse_ ? sparse_->packet_of(frame.planes[0]) : std::nullopt)
-      return put_known(*packet, frame.time_s);
-  }
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
   const FramePtr picture = picture_of(frame);
@@ -143,12 +138,6 @@ void VideoFile::prepare_blanks() {
   if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
   Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
   blank_ = packet_alone(frame);
-  if (format_.layout != PixelLayout::gray) return;
-  const auto encoded = [&](const cv::Mat& samples) {
-    frame.planes[0] = samples;
-    return packet_alone(frame);
-  };
-  sparse_ = SparseFfv1::like(encoded, format_.size_px);
 }
 
 // What the encoder makes of a picture that is not written. Empty where it does not come out at once.

@@ -9,7 +9,6 @@
 #include "base/result.h"
 #include "video/libav/encoding.h"
 #include "video/libav/handles.h"
-#include "video/libav/sparse_ffv1.h"
 
 namespace sigs::libav {
 
@@ -50,8 +49,7 @@ class VideoFile {
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();
   bool blanks_are_prepared_ = false;
-  std::vector<uint8_t> blank_;        // what the encoder makes of a blank picture, where that is always the same
-  std::optional<SparseFfv1> sparse_;  // for nearly blank ones
+  std::vector<uint8_t> blank_;  // what the encoder makes of a blank picture, where that is always the same
   std::optional<double> first_time_s_;
   double last_time_s_ = 0;
   int64_t last_stamp_ = -1;
