@@ -26,9 +26,11 @@ END {
     claim(p999[s, "direct", ss, m] < p999[s, "classic", ss, m] && max[s, "direct", ss, m] < max[s, "classic", ss, m],
       s ": direct is better than classic in 99.9 % and largest error")
     claim(rmse[s, "direct", ss, m] < rmse[s, "plain", ss, m], s ": direct is better than plain")
-    claim(rmse[s, "direct", 3, m] < 1.05 * rmse[s, "direct", 1, m], s ": supersampling 3 is no worse than 1")
-    claim(rmse[s, "direct", 3, 1] < 1.6 * rmse[s, "direct", 2, 4] && cpu[s, "direct", 3, 1] < cpu[s, "direct", 2, 4],
-      s ": one sample at supersampling 3 does about as well as four at 2, for less")
+    small = s ~ /^(mid|far|speck)/  # drawn finer than asked for
+    claim(small || rmse[s, "direct", 3, m] < 0.7 * rmse[s, "direct", 1, m], s ": from 1 to 3 the error falls by a third or more")
+    claim(rmse[s, "direct", 3, 1] < (small ? 1.9 : 1.15) * rmse[s, "direct", 2, 4] &&
+      cpu[s, "direct", 3, 1] < 0.8 * cpu[s, "direct", 2, 4],
+      s ": one sample at supersampling 3 is as near as four at 2, small ones within a factor of two, for less")
   }
   exit broken
 }

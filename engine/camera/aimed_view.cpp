@@ -15,10 +15,10 @@ namespace sigs {
 namespace {
 
 constexpr double kWidestHalfAngle_rad = 50.0 * std::numbers::pi / 180.0;
-constexpr double kSmallestExtent_px = 96;  // of a body in its view: its area is then right to about half a percent
-constexpr double kFineExtent_px = 192;     // up to here a body is drawn finer than asked for, which costs little:
-constexpr double kFineSupersampling = 8;   // thin tips, which 16 samples a pixel can miss, then keep their places
-constexpr int kMargin_px = 2;              // empty pixels around the body, for the bilinear taps at its edge
+constexpr double kSmallestExtent_px = 128;  // of a body in its view: its area is then right to about half a percent
+constexpr double kFineExtent_px = 192;      // up to here a body is drawn finer than asked for, which costs little:
+constexpr double kFineSupersampling = 8;    // thin tips, which 16 samples a pixel can miss, then keep their places
+constexpr int kMargin_px = 2;               // empty pixels around the body, for the bilinear taps at its edge
 
 using Corners = std::array<glm::dvec3, 8>;
 

@@ -32,7 +32,7 @@ struct Renderer::State {
 namespace {
 
 constexpr int kLargestView_px = 16384;
-constexpr double kDetail_px = 1.0 / 8;  // of a view: solid parts may be drawn so far off, below the step of its samples
+constexpr double kDetail_px = 1.0 / 16;  // of a view: solid parts may be drawn so far off, below the step of its samples
 using ViewFromBody = Pose<frame::View, frame::Body>;
 
 bool is_finite(const glm::dvec3& v) {

@@ -59,8 +59,8 @@ TEST_CASE("a view is at least as fine as the picture times the supersampling") {
 
 TEST_CASE("a speck is drawn large enough to measure its coverage") {
   const VirtualView view = aimed_views(fisheye(), box_at({1e6, 0, 0}, 5), std::nullopt, 1, 2048).at(0);
-  CHECK(std::max(view.size_px.width, view.size_px.height) >= 96);
-  CHECK(view.size_px.width < 105);  // a margin of 2 pixels each way, and rounding
+  CHECK(std::max(view.size_px.width, view.size_px.height) >= 128);
+  CHECK(view.size_px.width < 140);  // a margin of 2 pixels each way, and rounding
 }
 
 TEST_CASE("a body that is too large for a view is drawn coarser and still held whole") {
