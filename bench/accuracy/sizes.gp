@@ -12,7 +12,7 @@ set title "time of a frame of 1280 x 960" textcolor rgb ink
 set ylabel "ms a frame" textcolor rgb ink offset 1, 0
 set yrange [0.1:1000]
 set ytics ("0.1" 0.1, "1" 1, "10" 10, "100" 100, "1000" 1000)
-set key left bottom at graph 0.03, 0.02
+set key top left at graph 0.03, 0.98
 plot sizes using 1:6 with linespoints pt 9 ps 1.3 lc rgb classic title "classic", \
   sizes using 1:5 with linespoints pt 7 ps 1.2 lc rgb direct4 title "direct", \
   sizes using 1:3 with lines dt 2 lc rgb direct4 title "   of it drawing (OpenGL)", \
