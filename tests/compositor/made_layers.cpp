@@ -48,7 +48,7 @@ DrawnView view_ahead(Layer layer, double focal_px, const glm::dvec2& center_px) 
 
 Lens lens_of(LensModel model, double focal_px, const glm::dvec2& center_px, const std::vector<double>& coefficients) {
   Result<Lens> lens = Lens::make({model, focal_px, focal_px * 1.01, center_px.x, center_px.y, coefficients});
-  REQUIRE_MESSAGE(lens.has_value(), lens.error().text());
+  if (!lens) FAIL(lens.error().text());
   return *lens;
 }
 

@@ -131,7 +131,7 @@ std::set<std::string> keys_in(const nlohmann::ordered_json& json, const std::str
 
 void check_project(const std::string& text) {
   const Result<ReadProject> read = parse_project(text, "example.json");
-  REQUIRE_MESSAGE(read.has_value(), read.error().text());
+  if (!read) FAIL(read.error().text());
   for (const Warning& warning : read->warnings) FAIL_CHECK(warning.text());
   for (const Problem& problem : validate(read->project))  // its files are nowhere
     CHECK_MESSAGE(problem.kind == ErrorKind::cannot_read, problem.field << " " << problem.what);

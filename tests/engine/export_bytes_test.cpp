@@ -56,7 +56,7 @@ void prepare(Lot& lot, PixelLayout layout = PixelLayout::yuv420) {
 ExportReport exported(const Lot& lot, const std::string& folder, int jobs, std::optional<FrameRange> frames = {}) {
   const Result<ExportReport> report =
       export_project({.project = lot.project, .folder = lot.path(folder), .frames = frames, .jobs = jobs}, {});
-  REQUIRE_MESSAGE(report.has_value(), report.error().text());
+  if (!report) FAIL(report.error().text());
   return *report;
 }
 

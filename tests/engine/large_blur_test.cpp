@@ -80,7 +80,7 @@ Layer sharp_in_full(const Looked& look, const PlacedIntruder& placed, double sig
 
 Project sample_project(const std::string& name) {
   Result<ReadProject> read = read_project(source_dir() / "projects" / name / (name + ".json"));
-  REQUIRE_MESSAGE(read.has_value(), read.error().text());
+  if (!read) FAIL(read.error().text());
   return std::move(read->project);
 }
 
@@ -88,7 +88,7 @@ Scene sample_scene(const std::string& name) {
   FootageShape shape{.size_px = {1280, 960}};
   for (int n = 0; n < 200; ++n) shape.times_s.push_back(n / 25.0);
   Result<Scene> scene = open_scene(sample_project(name), shape);
-  REQUIRE_MESSAGE(scene.has_value(), scene.error().text());
+  if (!scene) FAIL(scene.error().text());
   scene->own_body = cv::Mat();
   return std::move(*scene);
 }
@@ -126,7 +126,7 @@ double seconds_for(const Lot& lot, ComposedFrame& frame) {
   const auto start = std::chrono::steady_clock::now();
   Result<ComposedFrame> made = compose_frame(scene, 1, background, bench);
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  REQUIRE_MESSAGE(made.has_value(), made.error().text());
+  if (!made) FAIL(made.error().text());
   frame = std::move(*made);
   return s;
 }

@@ -155,10 +155,10 @@ void write_footage(const std::filesystem::path& path, cv::Size size_px, int fram
                    const ColorInfo& color) {
   Result<VideoWriter> writer =
       VideoWriter::open(path, {.codec = VideoCodec::ffv1, .size_px = size_px, .layout = layout, .color = color});
-  REQUIRE_MESSAGE(writer.has_value(), writer.error().text());
+  if (!writer) FAIL(writer.error().text());
   for (int n = 0; n < frames; ++n) {
     const Result<void> written = writer->write(grainy_frame(size_px, n, layout, color), n);
-    REQUIRE_MESSAGE(written.has_value(), written.error().text());
+    if (!written) FAIL(written.error().text());
   }
   REQUIRE(writer->finish().has_value());
 }
@@ -187,14 +187,14 @@ IntruderSettings& Lot::add(const std::string& model_file, const glm::dvec3& p_in
 
 Scene Lot::opened() const {
   Result<Scene> scene = open_scene(project, footage_);
-  REQUIRE_MESSAGE(scene.has_value(), scene.error().text());
+  if (!scene) FAIL(scene.error().text());
   return std::move(*scene);
 }
 
 ComposedFrame composed(const Scene& scene, int frame, const Frame& background) {
   Bench bench;
   Result<ComposedFrame> result = compose_frame(scene, frame, background, bench);
-  REQUIRE_MESSAGE(result.has_value(), result.error().text());
+  if (!result) FAIL(result.error().text());
   return std::move(*result);
 }
 

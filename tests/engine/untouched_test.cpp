@@ -31,7 +31,7 @@ Exported exported(Lot& lot, const std::filesystem::path& clip, MethodChoice meth
                               .jobs = 2,
                               .overwrite = true};
   const Result<ExportReport> report = export_project(request, {});
-  REQUIRE_MESSAGE(report.has_value(), report.error().text());
+  if (!report) FAIL(report.error().text());
   return {*report, raw_video(clip, kFrames), raw_video(lot.path("out/lot.mkv"), kFrames),
           raw_video(lot.path("out/lot.masks.mkv"), kFrames)};
 }

@@ -157,14 +157,14 @@ void check_sound(const FrameTruth& truth, cv::Size picture_size_px) {
 SoundFrame sound_frame(const Scene& scene, int frame, const Frame& background) {
   Bench& bench = shared_bench();
   Result<ComposedFrame> composed = compose_frame(scene, frame, background, bench);
-  REQUIRE_MESSAGE(composed.has_value(), composed.error().text());
+  if (!composed) FAIL(composed.error().text());
   SoundFrame sound{.composed = std::move(*composed)};
   check_picture(sound.composed, background);
   check_sound(sound.composed.truth, background.size_px());
   const SceneMoment moment = scene_at(scene, frame);
   for (const PlacedIntruder& placed : moment.intruders) {
     Result<SeenIntruder> seen = see_intruder(scene, moment, placed, bench);
-    REQUIRE_MESSAGE(seen.has_value(), seen.error().text());
+    if (!seen) FAIL(seen.error().text());
     for (const DrawnView& drawn : seen->views) check_sound(drawn.layer, brightest_of(scene));
     for (const Layer* layer : {&seen->sharp, &seen->blurred, &seen->soft}) check_sound(*layer, brightest_of(scene));
     CHECK(std::isfinite(seen->sigma_px));

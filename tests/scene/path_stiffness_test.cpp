@@ -34,7 +34,7 @@ Project stiff_project() {
 
 Scene opened(const Project& project) {
   Result<Scene> scene = open_scene(project, long_footage());
-  REQUIRE_MESSAGE(scene.has_value(), scene.error().text());
+  if (!scene) FAIL(scene.error().text());
   return std::move(*scene);
 }
 

@@ -126,20 +126,20 @@ Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorIn
 
 void write_clip(const std::filesystem::path& path, const VideoFormat& format, int count) {
   Result<VideoWriter> writer = VideoWriter::open(path, format);
-  REQUIRE_MESSAGE(writer.has_value(), writer.error().text());
+  if (!writer) FAIL(writer.error().text());
   for (int n = 0; n < count; ++n) {
     Frame frame = test_frame(format.layout, format.size_px, n, format.color);
     frame.time_s = static_cast<double>(n) * format.frame_rate_den / format.frame_rate_num;
     const Result<void> written = writer->write(frame, n);
-    REQUIRE_MESSAGE(written.has_value(), written.error().text());
+    if (!written) FAIL(written.error().text());
   }
   const Result<void> finished = writer->finish();
-  REQUIRE_MESSAGE(finished.has_value(), finished.error().text());
+  if (!finished) FAIL(finished.error().text());
 }
 
 FrameSource opened(const std::filesystem::path& path) {
   Result<FrameSource> source = FrameSource::open(path);
-  REQUIRE_MESSAGE(source.has_value(), source.error().text());
+  if (!source) FAIL(source.error().text());
   return std::move(*source);
 }
 
@@ -147,7 +147,7 @@ namespace {
 
 void check_frame(FrameSource& source, const WholeDecode& truth, int n) {
   const Result<Frame> frame = source.read(n);
-  REQUIRE_MESSAGE(frame.has_value(), frame.error().text());
+  if (!frame) FAIL(frame.error().text());
   CAPTURE(n);
   CHECK(!frame->damaged);
   const bool same = samples_of(*frame) == truth.pictures[static_cast<size_t>(n)];
