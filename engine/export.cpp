@@ -8,6 +8,7 @@
 
 #include "export_files.h"
 #include "frame.h"
+#include "outlook.h"
 #include "pipeline.h"
 #include "project/validate.h"
 #include "scene/scene.h"
@@ -26,6 +27,13 @@ struct DecodedFrame {
   int number = 0;
   Frame picture;
 };
+
+bool any_in_view(const Scene& scene, int frame) {
+  const OutlookPoints points(scene);
+  for (int i = 0; i < static_cast<int>(scene.intruders.size()); ++i)
+    if (points.at(i, frame).sighting != Sighting::out_of_view) return true;
+  return false;
+}
 
 // Decoding, composing and writing side by side. Frames come out in order; the first error in order of frames wins.
 class Pipeline {
@@ -69,8 +77,8 @@ class Pipeline {
 
   void compose() {
     Bench bench;
-    // OpenGL is made while the first frame is decoded. Where that fails, the frame that needs it tells why.
-    if (!scene_.intruders.empty()) static_cast<void>(bench.renderer());
+    // Where the first frame needs OpenGL it is made while that is decoded. If it fails, the frame tells why.
+    if (any_in_view(scene_, range_.first)) static_cast<void>(bench.renderer());
     while (std::optional<DecodedFrame> decoded = decoded_.take()) {
       Result<ComposedFrame> composed = compose_frame(scene_, decoded->number, std::move(decoded->picture), bench);
       if (composed && composed->work.pixels_drawn > 0) remember(bench.renderer_description());
