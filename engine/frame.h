@@ -43,8 +43,6 @@ class Bench {
   // The camera's rays, kept from one call to the next with the same camera. Valid until a call with another.
   [[nodiscard]] LensTable& lens_of(const Camera& camera);
 
-  [[nodiscard]] const BenchSettings& settings() const { return settings_; }
-
   // Pictures of the classic method that nobody looks at any more, for the next frame to write over.
   [[nodiscard]] ClassicStages& classic_buffers() { return classic_buffers_; }
 

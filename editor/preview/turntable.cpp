@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "base/angles.h"
 #include "base/transfer.h"
@@ -13,8 +14,9 @@ namespace {
 
 constexpr double kFrom_deg = 145;  // 180: straight at the viewer
 constexpr double kAbove_deg = 18;
-constexpr double kDistance = 4;   // radii of the model: a mild perspective
-constexpr double kFilled = 0.96;  // of the picture's half side, by the sphere around the model
+constexpr double kDistance = 4;    // radii of the model: a mild perspective
+constexpr int kSupersampling = 3;  // each way: the renderer takes one sample a pixel
+constexpr double kFilled = 0.96;   // of the picture's half side, by the sphere around the model
 
 struct Ball {
   glm::dvec3 center_m{0, 0, 0};
@@ -64,9 +66,12 @@ cv::Mat straight_display(const cv::Mat& premultiplied) {
 Result<cv::Mat> turntable_picture(const Mesh& mesh, double turn_rad, cv::Size size_px, Renderer& renderer) {
   const Ball ball = ball_around(mesh);
   const Light light{.p_in_camera = glm::dvec3(-1, -3, -4) * (kDistance * ball.radius_m)};
-  const Result<Layer> layer = renderer.draw(mesh, placed(ball, turn_rad), light, view_of(size_px));
+  const Result<Layer> layer = renderer.draw(mesh, placed(ball, turn_rad), light, view_of(size_px * kSupersampling));
   if (!layer) return fail(layer.error());
-  return straight_display(layer->color);
+  if (layer->empty()) return cv::Mat();
+  cv::Mat color;
+  cv::resize(layer->color, color, size_px, 0, 0, cv::INTER_AREA);
+  return straight_display(color);
 }
 
 }  // namespace sigs::editor

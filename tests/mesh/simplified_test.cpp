@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "mesh/deviation.h"
+#include "deviation.h"
 
 namespace sigs {
 namespace {

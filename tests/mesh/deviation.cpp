@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/deviation.h"
+#include "deviation.h"
 
 #include <algorithm>
 #include <array>
