@@ -2,10 +2,10 @@
 #include "export.h"
 
 #include <algorithm>
-#include <chrono>
 #include <thread>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "export_files.h"
 #include "frame.h"
 #include "outlook.h"
@@ -16,12 +16,6 @@
 namespace sigs {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct DecodedFrame {
   int number = 0;
@@ -63,9 +57,9 @@ class Pipeline {
  private:
   void decode() {
     for (int number = range_.first; number <= range_.last; ++number) {
-      const Clock::time_point start = Clock::now();
+      const Stopwatch watch;
       Result<Frame> frame = source_.read(number);
-      decode_s_ = decode_s_ + seconds_since(start);
+      decode_s_ = decode_s_ + watch.elapsed_s();
       if (!frame) {
         finished_.put(number, fail(frame.error()));
         break;
@@ -161,7 +155,7 @@ FootageShape shape_of(const VideoInfo& video) {
 }
 
 Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const Project& project = request.project;
   if (const std::vector<Problem> problems = validate(project); !problems.empty())
     return fail(error_of(project, problems.front()));
@@ -188,7 +182,7 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   if (!written) return fail(written.error());
   report.times.encode_s = files->spent_s();
   report.written = std::move(*written);
-  report.times.wall_s = seconds_since(start);
+  report.times.wall_s = watch.elapsed_s();
   if (report.damaged_frames > 0)
     say(control, report,
         {video.path.string(), std::to_string(report.damaged_frames) + " of " + std::to_string(report.frames) +

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "export_writer.h"
 
-#include <chrono>
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/stopwatch.h"
 
 namespace sigs {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 WriterThread::WriterThread(VideoWriter writer) : writer_(std::move(writer)), thread_([this] { write_all(); }) {}
 
@@ -41,9 +31,9 @@ std::optional<FrameFailure> WriterThread::settle() {
 
 Result<void> WriterThread::finish() {
   ENSURE(!thread_.joinable() && !failure_);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   Result<void> finished = writer_.finish();
-  spent_s_ += seconds_since(start);
+  spent_s_ += watch.elapsed_s();
   return finished;
 }
 
@@ -51,10 +41,10 @@ void WriterThread::write_all() {
   writer_.warm_up();  // while the first frame is being made
   while (const std::optional<Item> item = queue_.take()) {
     if (dropped_) return;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     const Result<void> written = item->is_blank ? writer_.write_blank(item->frame.time_s, item->number)
                                                 : writer_.write(item->frame, item->number);
-    spent_s_ += seconds_since(start);
+    spent_s_ += watch.elapsed_s();
     if (written) continue;
     failure_ = {item->number, written.error()};
     queue_.close();

@@ -2,22 +2,16 @@
 #include "frame.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/stopwatch.h"
 #include "lay_on.h"
 #include "see_intruder.h"
 
 namespace sigs {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool is_same(const Camera& a, const Camera& b) {
   return a.size_px == b.size_px && a.lens.parameters() == b.lens.parameters();
@@ -69,7 +63,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   ENSURE(background.size_px() == scene.footage.size_px);
   const SceneMoment moment = scene_at(scene, frame);
 
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   std::vector<SeenIntruder> seen;
   double draw_s = 0;
   for (const PlacedIntruder& placed : moment.intruders) {
@@ -81,7 +75,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   ComposedFrame composed = laid_on(std::move(background), scene, seen, bench, stages);
   for (const SeenIntruder& intruder : seen) composed.work += intruder.work;
   composed.truth = truth_of(moment, frame, measured(scene, seen, composed.mask));
-  composed.times = {draw_s, seconds_since(start) - draw_s};
+  composed.times = {draw_s, watch.elapsed_s() - draw_s};
   return composed;
 }
 
