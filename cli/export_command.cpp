@@ -24,18 +24,13 @@ struct ExportOptions {
   ProjectOptions project;
   std::filesystem::path folder = ".";
   std::string frames;
-  std::map<std::string, std::string> settings;  // options that stand for one setting of the project
+  GivenSettings settings;
   std::string labels;
   int jobs = 0;
   bool force = false;
   bool times = false;
   std::string progress = "auto";
 };
-
-const std::map<std::string, ProgressStyle> kProgressStyles{{"auto", ProgressStyle::automatic},
-                                                           {"plain", ProgressStyle::plain},
-                                                           {"json", ProgressStyle::json},
-                                                           {"none", ProgressStyle::none}};
 
 std::string json_list(const std::string& comma_separated) {
   std::string list = "[\"";
@@ -55,10 +50,7 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   const bool codec_alone =
       !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
   if (codec_alone) project->output.container = ContainerChoice::automatic;
-  for (const auto& [key, value] : options.settings)
-    if (!value.empty())
-      if (const Result<void> set = set_field(*project, key + "=" + value); !set)
-        return fail(key + ": " + value, set.error().what, ErrorKind::usage);
+  if (const Result<void> set = set_given(*project, options.settings); !set) return fail(set.error());
   if (!options.labels.empty()) {
     const std::string list = options.labels == "none" ? "[]" : json_list(options.labels);
     if (const Result<void> set = set_field(*project, "export.labels=" + list); !set) return fail(set.error());
@@ -100,7 +92,7 @@ Result<void> run(const ExportOptions& options) {
   const Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
   keep_freed_memory();
-  Progress progress(kProgressStyles.at(options.progress));
+  Progress progress(progress_style(options.progress));
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                               .warn =
                                   [&](const Warning& warning) {
@@ -145,9 +137,7 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--force", options->force, "overwrite what is there");
   command->add_flag("--times", options->times, "say at the end how long each stop took");
-  command->add_option("--progress", options->progress, "auto, plain, json or none")
-      ->option_text("STYLE")
-      ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+  add_progress_option(*command, options->progress);
   return [options] { return run(*options); };
 }
 

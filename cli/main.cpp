@@ -10,6 +10,7 @@
 #include "cli/frame_command.h"
 #include "cli/info_command.h"
 #include "cli/interrupt.h"
+#include "cli/mask_command.h"
 #include "cli/options.h"
 
 namespace {
@@ -19,6 +20,7 @@ constexpr const char* kFooter =
     "  sigs export projects/crossing/crossing.json --out out\n"
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
     "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
+    "  sigs mask assets/footage/sample.mp4 --out out/own_body.png\n"
     "  sigs check projects/crossing/crossing.json\n"
     "  sigs info assets/footage/sample.mp4\n"
     "\n"
@@ -39,13 +41,14 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   std::vector<Command> commands;
-  for (const auto add : {add_export_command, add_frame_command, add_check_command, add_info_command}) {
+  for (const auto add :
+       {add_export_command, add_frame_command, add_mask_command, add_check_command, add_info_command}) {
     std::function<sigs::Result<void>()> run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
   }
   const auto is_asked_for = [&](const Command& command) { return command.app->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
-    print_error({argv[1], "no such command; there are export, frame, check and info", sigs::ErrorKind::usage});
+    print_error({argv[1], "no such command; there are export, frame, mask, check and info", sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
   }
   try {

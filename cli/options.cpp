@@ -23,6 +23,10 @@ std::optional<int> whole_number(std::string_view text) {
 
 void add_project_options(CLI::App& command, ProjectOptions& options) {
   command.add_option("PROJECT", options.file, "the project file")->required();
+  add_set_option(command, options);
+}
+
+void add_set_option(CLI::App& command, ProjectOptions& options) {
   command
       .add_option("--set", options.settings,
                   "change a setting of the project for this once: --set camera.speed_mps=30; may be repeated")
@@ -34,9 +38,28 @@ Result<Project> project_of(const ProjectOptions& options) {
   Result<ReadProject> read = read_project(options.file);
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
-  for (const std::string& assignment : options.settings)
-    if (const Result<void> set = set_field(read->project, assignment); !set) return fail(set.error());
+  if (const Result<void> set = set_all(read->project, options.settings); !set) return fail(set.error());
   return std::move(read->project);
+}
+
+Result<void> set_all(Project& project, const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments)
+    if (const Result<void> set = set_field(project, assignment); !set) return set;
+  return {};
+}
+
+Result<void> set_given(Project& project, const GivenSettings& settings) {
+  for (const auto& [key, value] : settings)
+    if (!value.empty())
+      if (const Result<void> set = set_field(project, key + "=" + value); !set)
+        return fail(key + ": " + value, set.error().what, ErrorKind::usage);
+  return {};
+}
+
+void add_progress_option(CLI::App& command, std::string& style) {
+  command.add_option("--progress", style, "auto, plain, json or none")
+      ->option_text("STYLE")
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 }
 
 Result<FrameRange> frame_range_of(const std::string& text) {

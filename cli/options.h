@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,16 +13,27 @@
 
 namespace sigs::cli {
 
-// What export, frame and check share: which project, and what to change in it for this once.
+// What export, frame, mask and check share: which project, and what to change in it for this once.
 struct ProjectOptions {
   std::filesystem::path file;
   std::vector<std::string> settings;  // --set key=value
 };
 
 void add_project_options(CLI::App& command, ProjectOptions& options);
+void add_set_option(CLI::App& command, ProjectOptions& options);  // --set alone
 
 // Reads the project, says its warnings on stderr, applies --set.
 [[nodiscard]] Result<Project> project_of(const ProjectOptions& options);
+
+// Applies --set.
+[[nodiscard]] Result<void> set_all(Project& project, const std::vector<std::string>& assignments);
+
+// What options say that stand for one setting of the project each, by its key; empty: not given.
+using GivenSettings = std::map<std::string, std::string>;
+[[nodiscard]] Result<void> set_given(Project& project, const GivenSettings& settings);
+
+// --progress, as progress_style() takes it.
+void add_progress_option(CLI::App& command, std::string& style);
 
 // "10-20" or "10". Error usage.
 [[nodiscard]] Result<FrameRange> frame_range_of(const std::string& text);

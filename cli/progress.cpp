@@ -22,6 +22,12 @@ bool is_plain_terminal() {
 
 }  // namespace
 
+ProgressStyle progress_style(const std::string& name) {
+  if (name == "plain") return ProgressStyle::plain;
+  if (name == "json") return ProgressStyle::json;
+  return name == "none" ? ProgressStyle::none : ProgressStyle::automatic;
+}
+
 std::string clock_text(double seconds) {
   const long whole = std::lround(std::max(0.0, seconds));
   char text[32];

@@ -8,6 +8,9 @@ namespace sigs::cli {
 
 enum class ProgressStyle { automatic, plain, json, none };
 
+// "auto", "plain", "json", "none".
+[[nodiscard]] ProgressStyle progress_style(const std::string& name);
+
 // Says on stderr how far a long job is and how long it still takes. automatic: a bar where stderr is a terminal, else
 // nothing but the end. NO_COLOR is respected.
 class Progress {

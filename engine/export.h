@@ -8,16 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/frame_range.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "video/frame_source.h"
 
 namespace sigs {
-
-struct FrameRange {
-  int first = 0;
-  int last = 0;  // included
-};
 
 struct ExportRequest {
   Project project;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <thread>
 
+#include "base/bounded_queue.h"
 #include "base/result.h"
-#include "pipeline.h"
 #include "video/video_writer.h"
 
 namespace sigs {

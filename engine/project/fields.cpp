@@ -53,6 +53,30 @@ void add_footage(FieldList list, FootageSettings& footage) {
             "picture of the footage's size, white where the UAV's own body hides the intruder; empty: none");
 }
 
+void add_own_body(FieldList list, OwnBodySettings& own_body) {
+  list.add("method", choice_of(own_body.method, {"stable", "paper"}), "",
+           "stable: what stays put while the world moves; paper: section 4 of the paper");
+  list.number("frames", &own_body.frames, "frame", 2, 1e9, "how many of the footage's frames are looked through");
+  list.number("every", &own_body.every, "frame", 1, 1e6, "of these, each K-th is used; 1: all");
+  list.number("settled_percent", &own_body.settled_percent, "%", 0, 100,
+              "stop early once the mask changes by less than this; 0: never");
+  list.number("soft_edge_px", &own_body.soft_edge_px, "px", 0, 100,
+              "width of the mask's edge, from black to white; up to 1: hard");
+  list.number("paper.canny_low", &own_body.paper.canny_low, "", 0, 1e6, "lower threshold; 0: as the clip asks for");
+  list.number("paper.canny_high", &own_body.paper.canny_high, "", 0, 1e6, "upper threshold; 0: as the clip asks for");
+  list.number("paper.dilation_px", &own_body.paper.dilation_px, "px", 0, 1000,
+              "diameter by which edges grow before they are filled; 0: as the picture's size asks for");
+  list.number("paper.closing_px", &own_body.paper.closing_px, "px", 0, 1000,
+              "gaps in contours that are closed; 0: as the picture's size asks for");
+  list.number("paper.least_area_percent", &own_body.paper.least_area_percent, "%", 0, 100,
+              "smaller contours are dropped; of the picture");
+  list.number("stable.vibration_px", &own_body.stable.vibration_px, "px", 0, 50, "how far the body may shake");
+  list.number("stable.least_area_percent", &own_body.stable.least_area_percent, "%", 0, 100,
+              "smaller parts are dropped; of the picture");
+  list.number("stable.least_moving_percent", &own_body.stable.least_moving_percent, "%", 0, 100,
+              "of the picture that has to move, or nothing can be told");
+}
+
 void add_camera(FieldList list, CameraSettings& camera) {
   list.number("position_m", &camera.position_m, "m", -kFarthest_m, kFarthest_m,
               "where the camera is at frame 0, in the world");
@@ -114,6 +138,7 @@ std::vector<Field> fields_of(Project& project) {
   std::vector<Field> fields;
   FieldList(fields, "").add("name", &project.name, "", "what the results are called").required = true;
   add_footage(FieldList(fields, "footage."), project.footage);
+  add_own_body(FieldList(fields, "own_body."), project.own_body);
   add_camera(FieldList(fields, "camera."), project.camera);
   add_light(FieldList(fields, "light."), project.light);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {

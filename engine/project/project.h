@@ -20,6 +20,40 @@ struct FootageSettings {
   [[nodiscard]] bool operator==(const FootageSettings&) const = default;
 };
 
+enum class OwnBodyMethod { stable, paper };
+
+// Section 4 of the paper. Where the paper gives no number, 0 means: as the clip asks for (occlusion/README.md).
+struct PaperOwnBodySettings {
+  double canny_low = 0;
+  double canny_high = 0;
+  int dilation_px = 0;
+  int closing_px = 0;
+  double least_area_percent = 0.5;  // of the picture; paper section 4.2
+
+  [[nodiscard]] bool operator==(const PaperOwnBodySettings&) const = default;
+};
+
+struct StableOwnBodySettings {
+  double vibration_px = 2;
+  double least_area_percent = 0.1;
+  double least_moving_percent = 5;
+
+  [[nodiscard]] bool operator==(const StableOwnBodySettings&) const = default;
+};
+
+// How the UAV's own body is found in the footage (occlusion/detect.h).
+struct OwnBodySettings {
+  OwnBodyMethod method = OwnBodyMethod::stable;
+  int frames = 1500;
+  int every = 1;
+  double settled_percent = 0;
+  double soft_edge_px = 1;
+  PaperOwnBodySettings paper;
+  StableOwnBodySettings stable;
+
+  [[nodiscard]] bool operator==(const OwnBodySettings&) const = default;
+};
+
 struct CameraSettings {
   glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
   double roll_deg = 0;
@@ -112,6 +146,7 @@ struct Project {
   std::filesystem::path file;  // where it was read from; paths in it are relative to this file's folder
   std::string name = "untitled";
   FootageSettings footage;
+  OwnBodySettings own_body;
   CameraSettings camera;
   LightSettings light;
   std::vector<IntruderSettings> intruders;

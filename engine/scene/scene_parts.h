@@ -8,6 +8,7 @@
 #include <string>
 #include <tl/expected.hpp>
 
+#include "base/frame_range.h"
 #include "project/validate.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
@@ -18,11 +19,6 @@ namespace sigs {
 // what could not be made and goes on.
 template <class T>
 using Made = tl::expected<T, Problem>;
-
-struct FrameRange {
-  int first = 0;
-  int last = 0;  // included
-};
 
 // What needs no file and cannot fail: motion, light, compositing, footage; no lens yet.
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);

@@ -28,7 +28,7 @@ bool has(const std::string& text, const std::string& part) {
 TEST_CASE("a command that is none is answered with those that are") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);
-  CHECK(run.err == "error: exprt: no such command; there are export, frame, check and info\n");
+  CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, check and info\n");
 }
 
 TEST_CASE("a second export of the same name is refused while the first one writes") {

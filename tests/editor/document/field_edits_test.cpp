@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -153,6 +154,8 @@ TEST_CASE("labels are the last part of a key, in words and without its unit") {
   CHECK(label_of("footage.own_body_mask") == "Own body mask");
   CHECK(label_of("intruders[3].trajectory.bank_limit_deg") == "Bank limit");
   CHECK(label_of("intruders[0].model.length_m") == "Length");
+  CHECK(label_of("own_body.stable.least_area_percent") == "Least area");
+  CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
   CHECK(label_of("name") == "Name");
   CHECK(label_of("").empty());
 }
@@ -176,6 +179,16 @@ TEST_CASE("numbers are written as short as they are") {
   CHECK(number_text(45, "deg") == "45°");
   CHECK(number_text(12, "frame") == "12");
   CHECK(number_text(1e7, "m") == "10000000 m");
+}
+
+// ImGui takes the format, to which a percent sign alone is the beginning of a number.
+TEST_CASE("a number's format prints its unit, percents too") {
+  for (const char* unit : {"", "m", "%", "px"}) {
+    char text[64];
+    std::snprintf(text, sizeof text, number_format(2.5, unit).c_str(), 2.5);
+    CHECK(text == number_text(2.5, unit));
+  }
+  CHECK(number_text(2.5, "%") == "2.5 %");
 }
 
 TEST_CASE("coordinates keep their hundredths however far away they are") {

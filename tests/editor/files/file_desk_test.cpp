@@ -26,7 +26,15 @@ struct Desk {
   Settings settings;
   bool exporting = false;
   double now_s = 0;
-  FileDesk desk{document, settings, {folder / "state", [] {}, [this] { return exporting; }}};
+  std::uint64_t unsaved_mask = 0;
+  std::vector<std::function<void()>> to_save_mask;  // what goes on once its name is given
+  FileDesk desk{document,
+                settings,
+                {folder / "state",
+                 [] {},
+                 [this] { return exporting; },
+                 {.unsaved = [this] { return unsaved_mask; },
+                  .save_then = [this](std::function<void()> next) { to_save_mask.push_back(std::move(next)); }}}};
 
   void edit(const std::string& name) {
     document.apply(ChangeProject{"rename", [name](Project& p) { p.name = name; }, {}});
@@ -254,4 +262,63 @@ TEST_CASE("requests that belong to others are left to them") {
   CHECK_FALSE(d.desk.take(Play{1}));
   CHECK_FALSE(d.desk.take(ShowHelp{}));
   CHECK_FALSE(d.desk.question());
+}
+
+TEST_CASE("a mask that was not saved is asked for before it is lost, whatever would lose it") {
+  Desk d;
+  const fs::path other = d.written("b.json", "b");
+  for (const Request& request :
+       {Request(OpenProject{other}), Request(NewProject{}), Request(CloseProject{}), Request(Quit{})}) {
+    d.unsaved_mask = 0;
+    d.open(d.written("a.json", "a"));
+    d.unsaved_mask = 7;
+    CHECK(d.desk.take(request));
+    REQUIRE(d.desk.question());
+    CHECK(d.desk.question()->text.find("mask") != std::string::npos);
+    d.desk.answer(2);  // cancel
+    d.wait();
+    CHECK(d.document.project().name == "a");
+    CHECK_FALSE(d.desk.is_done());
+
+    d.desk.take(request);
+    d.desk.answer(1);  // don't save
+    CHECK_FALSE(d.desk.question());
+    d.wait();
+    CHECK((d.desk.is_done() || d.document.project().name != "a"));
+  }
+}
+
+TEST_CASE("mask and project are asked for one after the other, and saving either goes on to the next") {
+  Desk d;
+  d.open(d.written("a.json", "a"));
+  d.edit("changed");
+  d.unsaved_mask = 7;
+  d.desk.take(Quit{});
+  REQUIRE(d.desk.question());
+  d.desk.answer(0);  // save the mask
+  REQUIRE(d.to_save_mask.size() == 1);
+  CHECK_FALSE(d.desk.is_done());
+  d.unsaved_mask = 0;
+  d.to_save_mask[0]();
+  REQUIRE(d.desk.question());
+  CHECK(d.desk.question()->text.find("changes") != std::string::npos);
+  d.desk.answer(0);  // save the project
+  CHECK(d.desk.is_done());
+  CHECK(read_project(d.folder / "a.json")->project.name == "changed");
+}
+
+TEST_CASE("what is painted while another project is read is asked for again") {
+  Desk d;
+  const fs::path other = d.written("b.json", "b");
+  d.open(d.written("a.json", "a"));
+  d.unsaved_mask = 7;
+  d.desk.take(OpenProject{other});
+  d.desk.answer(1);    // may be lost
+  d.unsaved_mask = 8;  // another stroke
+  d.wait();
+  REQUIRE(d.desk.question());
+  CHECK(d.document.project().name == "a");
+  d.desk.answer(1);
+  d.wait();
+  CHECK(d.document.project().name == "b");
 }

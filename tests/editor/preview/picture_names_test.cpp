@@ -24,8 +24,11 @@ Project head_on() {
 TEST_CASE("what touches no picture leaves its name alone and what does changes it") {
   const PictureName name = picture_name_of(head_on());
   const std::vector<std::function<void(Project&)>> harmless{
-      [](Project& p) { p.name = "another"; }, [](Project& p) { p.output.crf = 3; },
-      [](Project& p) { p.output.labels.clear(); }, [](Project& p) { p.unknown_json = std::string("{\"a\": 1}"); },
+      [](Project& p) { p.name = "another"; },
+      [](Project& p) { p.own_body.frames = 9; },
+      [](Project& p) { p.output.crf = 3; },
+      [](Project& p) { p.output.labels.clear(); },
+      [](Project& p) { p.unknown_json = std::string("{\"a\": 1}"); },
       [](Project& p) { p.intruders[0].unknown_json = std::string("{\"a\": 1}"); }};
   for (const auto& change : harmless) {
     Project changed = head_on();

@@ -181,6 +181,24 @@ TEST_CASE("a video that appears on disk is taken up by itself") {
   CHECK(shown.scene->footage->shape.times_s.size() == 200);
 }
 
+TEST_CASE("a mask that is replaced on disk hides at once, without any edit") {
+  const TemporaryFolder folder;
+  const fs::path mask = folder / "mask.png";
+  const auto put_mask = [&](uchar share) {
+    std::vector<uchar> png;
+    cv::imencode(".png", cv::Mat(960, 1280, CV_8UC1, cv::Scalar(share)), png);
+    REQUIRE(write_text(mask, {reinterpret_cast<const char*>(png.data()), png.size()}, true));
+  };
+  put_mask(0);
+  Project project = sample("head-on");
+  project.footage.own_body_mask = mask;
+  Viewer viewer;
+  const Revision same = revision(1, project);
+  REQUIRE(cv::countNonZero(viewer.show(frame_of(same, 100)).picture->mask) > 0);
+  put_mask(255);
+  viewer.wait([](const Shown& s) { return s.picture_is_current && cv::countNonZero(s.picture->mask) == 0; });
+}
+
 TEST_CASE("other footage is opened aside and the old picture stays until it is there") {
   Viewer viewer;
   Project project = sample("head-on");

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "own_body/finding.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "accuracy/csv.h"
+#include "accuracy/timing.h"
+#include "occlusion/intersection.h"
+
+namespace sigs::bench {
+
+namespace {
+
+// Wall-clock and processor seconds since it was made.
+class Watch {
+ public:
+  [[nodiscard]] Taken taken() const { return {accuracy::wall_s() - wall_s_, accuracy::cpu_s() - cpu_s_}; }
+
+ private:
+  double wall_s_ = accuracy::wall_s();
+  double cpu_s_ = accuracy::cpu_s();
+};
+
+void draw_outline(cv::Mat& picture, const cv::Mat& mask, const cv::Scalar& color) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(mask >= 128, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+  cv::drawContours(picture, outlines, -1, color, 1);
+}
+
+}  // namespace
+
+Finding found_in(const Clip& clip, const OwnBodySettings& settings, KeepStages stages) {
+  FrameSource source = opened(clip.path);
+  const Watch watch;
+  Result<OwnBody> body = detect_own_body(source, 0, settings, {.stages = stages});
+  const Taken taken = watch.taken();
+  Finding finding{.wall_s = taken.wall_s, .cpu_s = taken.cpu_s};
+  if (body)
+    finding.body = std::move(*body);
+  else
+    finding.cannot = body.error().text();
+  return finding;
+}
+
+Taken decoding_alone(const Clip& clip, int count) {
+  FrameSource source = opened(clip.path);
+  const Watch watch;
+  for (int n = 0; n < count; ++n)
+    if (const Result<Frame> frame = source.read(n); !frame) accuracy::stop(frame.error().text());
+  return watch.taken();
+}
+
+double agreement(const Finding& finding, const Clip& clip) {
+  if (!clip.can_be_told) return finding.cannot.empty() ? 0 : 1;
+  if (!finding.cannot.empty()) return 0;
+  return intersection_over_union(finding.body.mask, clip.own_body);
+}
+
+OwnBodySettings with_method(OwnBodyMethod method, int frames) {
+  return {.method = method, .frames = frames};
+}
+
+const char* name_of(OwnBodyMethod method) {
+  return method == OwnBodyMethod::paper ? "paper" : "stable";
+}
+
+cv::Mat overlay(const cv::Mat& bgr, const cv::Mat& mask, const cv::Mat& truth) {
+  cv::Mat picture = bgr.clone();
+  cv::Mat tinted = 0.6 * picture + cv::Scalar(0, 0, 102);
+  tinted.copyTo(picture, mask >= 128);
+  if (!truth.empty()) draw_outline(picture, truth, cv::Scalar(80, 255, 80));
+  draw_outline(picture, mask, cv::Scalar(60, 60, 255));
+  return picture;
+}
+
+void write_picture(const std::filesystem::path& path, const cv::Mat& picture) {
+  std::filesystem::create_directories(path.parent_path());
+  if (!cv::imwrite(path.string(), picture)) accuracy::stop(path.string() + ": cannot be written");
+}
+
+}  // namespace sigs::bench

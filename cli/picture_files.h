@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "base/partial_file.h"
+#include "base/result.h"
+
+namespace sigs::cli {
+
+// PNG files that get their final names together, once all of them are written. Without keep() none is left.
+class PictureFiles {
+ public:
+  explicit PictureFiles(bool overwrite) : overwrite_(overwrite) {}
+
+  // Takes the name, so that what stands in the way shows before the pictures are made. Errors as PartialFile::create.
+  [[nodiscard]] Result<void> reserve(const std::filesystem::path& path);
+
+  // Writes under a name taken before, or takes it. Error write_failed.
+  [[nodiscard]] Result<void> write(const std::filesystem::path& path, const cv::Mat& picture);
+
+  // Final names for all, in the order in which they were taken; what they are.
+  [[nodiscard]] Result<std::vector<std::filesystem::path>> keep();
+
+ private:
+  [[nodiscard]] const PartialFile* taken(const std::filesystem::path& path) const;
+
+  bool overwrite_ = false;
+  std::vector<PartialFile> files_;
+};
+
+}  // namespace sigs::cli

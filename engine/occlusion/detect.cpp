@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "occlusion/detect.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/ensure.h"
+#include "occlusion/luma_stream.h"
+#include "occlusion/settling.h"
+#include "occlusion/soft_edge.h"
+
+namespace sigs {
+
+namespace {
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  for (int y = 0; y < a.rows; ++y)
+    if (std::memcmp(a.ptr(y), b.ptr(y), static_cast<std::size_t>(a.cols)) != 0) return false;
+  return true;
+}
+
+FrameSteps steps_of(const VideoInfo& footage, int first_frame, const OwnBodySettings& settings) {
+  const int passed = std::min(settings.frames, footage.frame_count() - first_frame);
+  return {.first = first_frame, .every = settings.every, .count = (passed - 1) / settings.every + 1};
+}
+
+// One detection, from the first frame to the verdict.
+class Detection {
+ public:
+  Detection(FrameSource& footage, int first_frame, const OwnBodySettings& settings, const DetectionControl& control)
+      : footage_(footage),
+        path_(footage.info().path.string()),
+        settings_(settings),
+        control_(control),
+        steps_(steps_of(footage.info(), first_frame, settings)),
+        method_(detection_method(settings, footage.info().size_px)),
+        settling_(settings.settled_percent / 100) {}
+
+  [[nodiscard]] Result<OwnBody> run() {
+    if (steps_.count < 2) return fail(too_few());
+    if (const Result<void> seen = see_frames(); !seen) return fail(seen.error());
+    if (used_ < 2) return fail(too_few());
+    if (!anything_differs_)
+      return fail(path_, "nothing moves: all " + std::to_string(used_) + " frames are equal; take a clip in flight");
+    if (!verdict_ || control_.stages == KeepStages::yes) verdict_ = method_->verdict(control_.stages);
+    if (verdict_->undecided) return fail(path_, *verdict_->undecided);
+    return own_body();
+  }
+
+ private:
+  [[nodiscard]] Result<void> see_frames() {
+    LumaStream stream(footage_, steps_);
+    while (std::optional<Result<LumaFrame>> frame = stream.next()) {
+      if (control_.cancel != nullptr && control_.cancel->load())
+        return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+      if (!*frame) return fail(unreadable(frame->error()));
+      see(**frame);
+      if (control_.progress) control_.progress(passed_, passed_of_all());
+      if (settling_.is_settled()) break;
+    }
+    return {};
+  }
+
+  void see(const LumaFrame& frame) {
+    passed_ = frame.number - steps_.first + 1;
+    if (frame.damaged) {
+      ++damaged_;
+      return;
+    }
+    if (first_luma_.empty())
+      first_luma_ = frame.luma;
+    else if (!anything_differs_)
+      anything_differs_ = !is_same(first_luma_, frame.luma);
+    method_->add(frame.luma);
+    ++used_;
+    verdict_.reset();
+    if (settling_.is_look_due(used_)) look(frame.number);
+  }
+
+  void look(int number) {
+    const std::vector<double>& times_s = footage_.info().times_s;
+    const double passed_s = times_s[static_cast<std::size_t>(number)] - times_s[static_cast<std::size_t>(steps_.first)];
+    verdict_ = method_->verdict(KeepStages::no);
+    settling_.look(*verdict_, used_, passed_s);
+  }
+
+  [[nodiscard]] OwnBody own_body() {
+    OwnBody found{.mask = soft_edged(verdict_->own_body, settings_.soft_edge_px),
+                  .stages = std::move(verdict_->stages),
+                  .frames_used = used_,
+                  .frames_passed = passed_,
+                  .settled = settling_.is_settled(),
+                  .last_change = settling_.is_settled() ? settling_.last_change() : 0,
+                  .share = static_cast<double>(cv::countNonZero(verdict_->own_body)) /
+                           static_cast<double>(verdict_->own_body.total())};
+    verdict_->confidence.convertTo(found.confidence, CV_16U, 65535);
+    if (damaged_ > 0)
+      found.warnings.push_back({path_, std::to_string(damaged_) + " of " + std::to_string(damaged_ + used_) +
+                                           " frames are damaged and were left out"});
+    return found;
+  }
+
+  [[nodiscard]] int passed_of_all() const { return steps_.at(steps_.count - 1) - steps_.first + 1; }
+
+  [[nodiscard]] Error too_few() const {
+    const int usable = used_ + damaged_ > 0 ? used_ : steps_.count;
+    std::string text = usable == 1 ? "only 1 frame can be used" : "no frame can be used";
+    if (damaged_ > 0) text += ", " + std::to_string(damaged_) + " are damaged";
+    if (steps_.every > 1) text += ", each " + std::to_string(steps_.every) + "th is taken";
+    return {path_, text + "; at least 2 are needed to see what moves"};
+  }
+
+  // A frame that cannot be made, or is of another size than those before.
+  [[nodiscard]] Error unreadable(Error error) const {
+    if (used_ >= 2) error.what += "; own_body.frames = " + std::to_string(passed_) + " ends before it";
+    return error;
+  }
+
+  FrameSource& footage_;
+  std::string path_;
+  const OwnBodySettings& settings_;
+  const DetectionControl& control_;
+  FrameSteps steps_;
+  std::unique_ptr<DetectionMethod> method_;
+  Settling settling_;
+  cv::Mat first_luma_;
+  bool anything_differs_ = false;
+  int used_ = 0;
+  int damaged_ = 0;
+  int passed_ = 0;
+  std::optional<Verdict> verdict_;  // after the last frame seen, where it was asked for
+};
+
+}  // namespace
+
+Result<OwnBody> detect_own_body(FrameSource& footage, int first_frame, const OwnBodySettings& settings,
+                                const DetectionControl& control) {
+  ENSURE(first_frame >= 0 && first_frame < footage.info().frame_count());
+  ENSURE(settings.frames >= 1 && settings.every >= 1 && settings.soft_edge_px >= 0);
+  return Detection(footage, first_frame, settings, control).run();
+}
+
+}  // namespace sigs

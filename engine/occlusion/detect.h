@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "base/result.h"
+#include "occlusion/method.h"
+#include "project/project.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+// What was found of the carrying aircraft in its footage.
+struct OwnBody {
+  cv::Mat mask;        // CV_8UC1 of the footage's size, 255: own body; its edge as soft as the settings ask
+  cv::Mat confidence;  // CV_16UC1: 0 surely world, 32768 nobody can tell, 65535 surely own body
+  std::vector<DetectionStage> stages;
+  int frames_used = 0;
+  int frames_passed = 0;   // of the footage, from the first used to the last
+  bool settled = false;    // stopped early: more frames no longer changed the mask (settling.h)
+  double last_change = 0;  // where settled: 1 - intersection over union of the masks of the last two looks
+  double share = 0;        // of the picture that is masked, 0..1
+  std::vector<Warning> warnings;
+};
+
+struct DetectionControl {
+  std::function<void(int done, int total)> progress;  // frames passed, of those to be passed; calling thread
+  const std::atomic<bool>* cancel = nullptr;          // set: stop soon, error interrupted
+  KeepStages stages = KeepStages::no;
+};
+
+// Finds the own body in frames first_frame, first_frame + every, ... of the footage, in one pass. Memory does not grow
+// with their number. Damaged frames are left out, with a warning. first_frame is one of the footage's. Errors: bad_data
+// (fewer than 2 frames, all frames equal, nothing moves, a frame that cannot be decoded or is of another size),
+// interrupted.
+[[nodiscard]] Result<OwnBody> detect_own_body(FrameSource& footage, int first_frame, const OwnBodySettings& settings,
+                                              const DetectionControl& control);
+
+}  // namespace sigs

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "occlusion/settling.h"
+
+#include "occlusion/intersection.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kGrowth = 1.5;
+constexpr int kQuietLooks = 3;
+constexpr double kQuiet_s = 10;        // a turn that brings other ground into view takes some seconds
+constexpr double kSurelyWorld = 0.25;  // confidence below it
+constexpr double kLeastKnown = 0.5;    // share of what is not masked that is surely world
+
+bool knows_the_world(const Verdict& verdict) {
+  const cv::Mat world = verdict.own_body == 0;
+  const cv::Mat surely = verdict.confidence < kSurelyWorld;
+  return cv::countNonZero(world & surely) >= kLeastKnown * cv::countNonZero(world);
+}
+
+}  // namespace
+
+void Settling::look(const Verdict& verdict, int frames_used, double passed_s) {
+  next_look_ = static_cast<int>(frames_used * kGrowth);
+  last_change_ = mask_.empty() || verdict.undecided ? 1 : 1 - intersection_over_union(mask_, verdict.own_body);
+  const bool is_quiet = last_change_ < least_change_ && knows_the_world(verdict);
+  if (is_quiet && quiet_looks_ == 0) quiet_since_s_ = looked_s_;
+  quiet_looks_ = is_quiet ? quiet_looks_ + 1 : 0;
+  settled_ = quiet_looks_ >= kQuietLooks && passed_s - quiet_since_s_ >= kQuiet_s;
+  mask_ = verdict.undecided ? cv::Mat() : verdict.own_body;
+  looked_s_ = passed_s;
+}
+
+}  // namespace sigs

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "occlusion/stable_decision.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "occlusion/body_parts.h"
+#include "occlusion/region_cut.h"
+#include "occlusion/slow_drift.h"
+
+namespace sigs {
+
+namespace {
+
+// Costs in the cut's unit: a border as long as a pixel.
+constexpr double kMovingCost = 0.3;     // of calling a pixel body that surely moves
+constexpr double kDriftingCost = 0.05;  // that creeps: less, as this is known for windows, not pixels
+constexpr double kStillCost = 1;        // of calling a still column of the picture world
+constexpr double kStayingCost = 0.05;   // of calling an edge world that stays
+
+// Plain sky is still too, so that stillness alone says little, but a lot where all around moves.
+constexpr int kNear = 33;           // pixels: what is around
+constexpr double kFarShare = 0.25;  // of it that moves: what creeps there may be the moving world seen in a border
+
+// First all of the picture with care, then the borders of what was found with more trust in it: an edge within a body,
+// such as a line of rivets, is then no border as long as nothing moves directly beside it.
+struct Trust {
+  int sure_reach = 0;           // pixels around a pixel that must move too, so that it counts as moving
+  bool is_doubt_still = false;  // a pixel that does not count as moving counts as still
+  double still_near_cost = 0;   // of calling a still pixel world where all around moves
+  double lone_wall = 1;         // share that is left of a wall beside which nothing moves
+};
+constexpr Trust kCareful{.sure_reach = 3, .still_near_cost = 0.04};
+constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_wall = 0.7};
+constexpr int kTrustReach = 10;  // pixels beside the borders
+
+constexpr double kMostShare = 0.95;  // of the picture that a body can fill
+constexpr double kNothingPercent = 0.1;
+constexpr double kUnsureBorder = 3;  // pixels beside the border where its place is not sure
+constexpr double kPlainWorld = 0.5;  // certainty of world that is not seen to move
+
+cv::Mat disc(int reach) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
+}
+
+cv::Mat wall_of(const Walls& walls, const cv::Mat& moving, const Trust& trust) {
+  cv::Mat beside;
+  cv::dilate(moving, beside, disc(trust.sure_reach + 1));
+  return cv::max(walls.ridge, walls.motion).mul(beside * (1 - trust.lone_wall) + trust.lone_wall);
+}
+
+CutCosts costs_of(const StableDecision& decision, const Trust& trust) {
+  cv::Mat moving;
+  cv::erode(decision.motion.moving, moving, disc(trust.sure_reach));
+  cv::Mat near;
+  cv::boxFilter(moving, near, CV_32F, {kNear, kNear}, {-1, -1}, true, cv::BORDER_REFLECT);
+  const cv::Mat still = 1.0 - (trust.is_doubt_still ? moving : decision.motion.moving);
+  const cv::Mat far = cv::max(1.0 - near / kFarShare, 0.0);
+  return {.as_body = moving.mul(moving).mul(moving) * kMovingCost + decision.drift.mul(far) * kDriftingCost,
+          .as_world = still.mul(near * trust.still_near_cost + kStillCost / moving.rows) +
+                      decision.walls.staying.mul(1.0 - decision.moving) * kStayingCost,
+          .wall = wall_of(decision.walls, moving, trust)};
+}
+
+cv::Mat confidence_of(const cv::Mat& moving, const cv::Mat& body, const cv::Mat& doubtful) {
+  cv::Mat inside;
+  cv::Mat outside;
+  cv::distanceTransform(body, inside, cv::DIST_L2, 3);
+  cv::distanceTransform(~body, outside, cv::DIST_L2, 3);
+  cv::Mat certainty = cv::max(moving, kPlainWorld) * -0.5;
+  cv::Mat((1.0 - moving) * 0.5).copyTo(certainty, body);
+  certainty.setTo(0, doubtful & ~body);
+  return certainty.mul(cv::min(cv::Mat(inside + outside) / kUnsureBorder, 1.0)) + 0.5;
+}
+
+std::optional<std::string> why_undecided(const StableDecision& decision, const StableOwnBodySettings& settings) {
+  const auto pixels = static_cast<double>(decision.moving.total());
+  const double moving_percent = 100 * cv::countNonZero(decision.moving > 0.5) / pixels;
+  if (moving_percent < kNothingPercent) return "nothing moves";
+  if (moving_percent < settings.least_moving_percent) return "too little moves";
+  if (cv::countNonZero(decision.body) > kMostShare * pixels) return "nearly everything stays";
+  return std::nullopt;
+}
+
+cv::Mat as_picture(const cv::Mat& values, double white_at) {
+  cv::Mat picture;
+  values.convertTo(picture, CV_8U, 255 / white_at);
+  return picture;
+}
+
+cv::Mat root(const cv::Mat& values) {
+  cv::Mat roots;
+  cv::sqrt(values, roots);
+  return roots;
+}
+
+}  // namespace
+
+StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanPicture>& segments,
+                               const StableOwnBodySettings& settings) {
+  StableDecision decision{.motion = motion_of(moments, settings.vibration_px)};
+  decision.drift = drifting(segments, decision.motion.ratio);
+  decision.moving = cv::max(decision.motion.moving, decision.drift);
+  decision.walls = walls_of(decision.motion);
+  decision.labels = cheapest_cut(costs_of(decision, kCareful));
+  const PartEvidence inside{.staying = decision.walls.staying,
+                            .ending = decision.walls.ending,
+                            .variation = decision.motion.variation / decision.motion.noise,
+                            .drift = decision.drift};
+  const BodyParts parts = body_parts(decision.labels, inside,
+                                     settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
+  decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, kTrusting));
+  decision.confidence = confidence_of(decision.moving, decision.body, parts.doubtful);
+  decision.undecided = why_undecided(decision, settings);
+  return decision;
+}
+
+std::vector<DetectionStage> pictures_of(const StableDecision& decision) {
+  constexpr double kWhiteGradient = 20;  // gray levels per pixel
+  return {{"mean_gradient", "Mean gradient: edges that stay",
+           as_picture(root(decision.motion.mean_square), kWhiteGradient)},
+          {"coherence", "Coherence of the gradient over time", as_picture(coherence_of(decision.motion), 1)},
+          {"variation", "Variation of the gradient: what passes by",
+           as_picture(root(decision.motion.variation), kWhiteGradient)},
+          {"drift", "Slow drift", as_picture(decision.drift, 1)},
+          {"moving", "What moves", as_picture(decision.moving, 1)},
+          {"walls", "Where a body can end", as_picture(cv::max(decision.walls.ridge, decision.walls.motion), 1)},
+          {"labels", "What the cheapest cut calls body", decision.labels}};
+}
+
+}  // namespace sigs

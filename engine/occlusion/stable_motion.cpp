@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "occlusion/stable_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace sigs {
+
+namespace {
+
+constexpr double kQuietShare = 0.05;      // of the picture that at least shows nothing but noise
+constexpr double kQuietestShare = 0.01;   // of the picture, shown by any body that is worth masking
+constexpr double kNothing = 5e-4;         // less variation than any camera's: letterbox bars, clipped black
+constexpr double kLeastNoise = 0.005;     // rounding to whole gray levels alone gives as much
+constexpr double kNoiseMargin = 4;        // codecs make noise uneven: twice the amplitude is still noise
+constexpr double kVibrationShare = 0.15;  // of a shaken edge's energy varies, the mean of 8 frames being the measure
+constexpr double kLeastSpan = 4;          // ratio from which it surely moves, at least
+
+float quantile(const cv::Mat& values, double share, double above) {
+  std::vector<float> sorted;
+  sorted.reserve(values.total());
+  for (int y = 0; y < values.rows; ++y)
+    std::copy_if(values.ptr<float>(y), values.ptr<float>(y) + values.cols, std::back_inserter(sorted),
+                 [&](float value) { return value > above; });
+  if (sorted.empty()) return 0;
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  return *at;
+}
+
+cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
+  cv::Mat kept = cv::Mat::zeros(values.size(), values.type());
+  values.copyTo(kept, mask);
+  return kept;
+}
+
+// The ratio from which it surely moves: half way, as factors go, between noise and what the world does typically.
+double sure_ratio(const cv::Mat& variation, const cv::Mat& ratio, double noise) {
+  const double typical = quantile(where(variation, ratio > 1), 0.5, 0);
+  return std::max(kLeastSpan, std::sqrt(typical / (kNoiseMargin * noise)));
+}
+
+}  // namespace
+
+Motion motion_of(const GradientMoments& moments, double vibration) {
+  Motion motion;
+  motion.mean_square = moments.mean_x.mul(moments.mean_x) + moments.mean_y.mul(moments.mean_y);
+  motion.variation = cv::max(moments.mean_square - motion.mean_square, 0.0);
+  cv::Mat variation;
+  cv::GaussianBlur(motion.variation, variation, {5, 5}, 0);
+  motion.noise = std::max<double>(kLeastNoise, quantile(variation, kQuietShare, kNothing));
+  motion.quietest = std::max<double>(kLeastNoise, quantile(variation, kQuietestShare, kNothing));
+  cv::Mat shaken;
+  cv::GaussianBlur(motion.mean_square, shaken, {}, 1 + vibration);
+  motion.ratio = variation / cv::Mat(kNoiseMargin * motion.noise + kVibrationShare * shaken);
+  const double sure = sure_ratio(variation, motion.ratio, motion.noise);
+  cv::log(cv::max(motion.ratio, 1.0), motion.moving);
+  motion.moving = cv::min(motion.moving / std::log(sure), 1.0);
+  return motion;
+}
+
+cv::Mat coherence_of(const Motion& motion) {
+  return motion.mean_square / cv::Mat(motion.mean_square + motion.variation + 2 * kLeastNoise);
+}
+
+}  // namespace sigs

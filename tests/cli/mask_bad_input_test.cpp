@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "occlusion/made_clip.h"
+#include "video/clips.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Folder {
+  TemporaryFolder folder;
+  std::string video = (folder / "clip.mkv").string();
+
+  [[nodiscard]] std::string out() const { return (folder / "out").string(); }
+  [[nodiscard]] int files_out() const {
+    if (!fs::exists(out())) return 0;
+    const fs::directory_iterator files(out());
+    return static_cast<int>(std::distance(begin(files), end(files)));
+  }
+
+  // One line on stderr that says it, the right exit status, and not a file left.
+  void check_refused(const std::string& input, int status, const std::string& message,
+                     const std::string& more = "") const {
+    const Run run = run_sigs("mask " + input + " --method paper --out " + out() + "/m.png --confidence " + out() +
+                             "/c.png --stages " + out() + " " + more);
+    CHECK_MESSAGE(run.status == status, run.err);
+    CHECK_MESSAGE(run.err.starts_with("error: "), run.err);
+    CHECK_MESSAGE(run.err.find(message) != std::string::npos, run.err);
+    CHECK_MESSAGE(std::count(run.err.begin(), run.err.end(), '\n') == 1, run.err);
+    CHECK(run.out.empty());
+    CHECK(files_out() == 0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a video for a mask that is not there, is a folder or no video is named") {
+  const Folder in;
+  in.check_refused("gone.mkv", 66, "gone.mkv: no such file");
+  in.check_refused(in.folder.path().string(), 66, in.folder.path().string());
+  put_text(in.video, "this is no video");
+  const Run run = run_sigs("mask " + in.video + " --out " + in.out() + "/m.png");
+  CHECK((run.status == 65 || run.status == 66));
+  CHECK_MESSAGE(run.err.starts_with("error: " + in.video + ": "), run.err);
+  CHECK(in.files_out() == 0);
+}
+
+TEST_CASE("a clip of one frame gives no mask") {
+  const Folder in;
+  write_flight(in.video, 1);
+  in.check_refused(in.video, 65, in.video + ": only 1 frame can be used; at least 2 are needed");
+}
+
+TEST_CASE("steps that leave one frame give no mask") {
+  const Folder in;
+  write_flight(in.video, 10);
+  in.check_refused(in.video, 65, "only 1 frame can be used, each 10th is taken", "--every 10");
+}
+
+TEST_CASE("a clip in which nothing moves gives no mask") {
+  const Folder in;
+  write_luma_clip(in.video, 10, [](int) { return flight_luma(0); });
+  in.check_refused(in.video, 65, in.video + ": nothing moves");
+}
+
+TEST_CASE("a clip whose size changes gives no mask") {
+  const Folder in;
+  const std::string codec = "-c:v libx264 -pix_fmt yuv420p -f h264";
+  if (!make_clip(codec, in.folder / "a.h264", "testsrc2=size=64x48:rate=25:duration=0.4") ||
+      !make_clip(codec, in.folder / "b.h264", "testsrc2=size=96x72:rate=25:duration=0.4"))
+    return;
+  std::vector<uint8_t> both = bytes_of(in.folder / "a.h264");
+  const std::vector<uint8_t> second = bytes_of(in.folder / "b.h264");
+  both.insert(both.end(), second.begin(), second.end());
+  const fs::path path = in.folder / "both.h264";
+  write_bytes(path, both);
+  const Run run = run_sigs("mask " + path.string() + " --method paper --out " + in.out() + "/m.png");
+  CHECK(run.status == 65);
+  CHECK_MESSAGE(run.err.find("frame 10: the picture's size changes from 64x48 to 96x72; ") != std::string::npos,
+                run.err);
+  CHECK(in.files_out() == 0);
+}
+
+TEST_CASE("a command line for a mask that makes no sense ends with 64") {
+  const Folder in;
+  write_flight(in.video, 10);
+  in.check_refused(in.video, 64, "own_body.frames: is 1; it must lie between 2 and ", "--frames 1");
+  in.check_refused(in.video, 64, "own_body.every: is 0; ", "--every 0");
+  in.check_refused(in.video, 64, "own_body.frames: ten: ", "--frames ten");
+  in.check_refused(in.video, 64, "did you mean own_body.soft_edge_px?", "--set own_body.soft_edge=2");
+  in.check_refused(in.video, 64, "footage.first_frame: the footage has 10 frames, 0 to 9",
+                   "--set footage.first_frame=10");
+  CHECK(run_sigs("mask").status == 64);
+  CHECK(run_sigs("mask " + in.video + " --method magic").status == 64);
+  CHECK(run_sigs("mask " + in.video + " --nonsense").status == 64);
+}
+
+TEST_CASE("a mask goes into a PNG of its own") {
+  const Folder in;
+  write_flight(in.video, 10);
+  const std::string before = read_text(in.video).value();
+  const std::string start = "mask " + in.video + " --method paper --force --out ";
+  CHECK(run_sigs(start + in.out() + "/m.jpg").status == 64);
+  CHECK(run_sigs(start + in.out() + "/m.png --confidence " + in.out() + "/./m.png").status == 64);
+  const std::string disguised = (in.folder / "clip.png").string();
+  fs::rename(in.video, disguised);
+  const Run run = run_sigs("mask " + disguised + " --method paper --force --out " + disguised);
+  CHECK(run.status == 73);
+  CHECK_MESSAGE(run.err.find("is read by this command; choose another name") != std::string::npos, run.err);
+  CHECK(read_text(disguised).value() == before);
+  CHECK(in.files_out() == 0);
+}
+
+TEST_CASE("what is wrong in a project ends with 78 and names its field") {
+  const Folder in;
+  write_flight(in.video, 10);
+  const std::string project = (in.folder / "p.json").string();
+  put_text(project, R"({"sigs": 1, "footage": {"video": "clip.mkv", "last_frame": 12}})");
+  in.check_refused(project, 78, "p.json: footage.last_frame: the footage has 10 frames, 0 to 9");
+  put_text(project, R"({"sigs": 1, "footage": {"video": "clip.mkv"}, "own_body": {"every": -2}})");
+  in.check_refused(project, 78, "p.json: own_body.every: is -2; ");
+  put_text(project, R"({"sigs": 1, "footage": {"video": "gone.mkv"}})");
+  in.check_refused(project, 66, "p.json: footage.video: no such file: ");
+  put_text(project, R"({"sigs": 1})");
+  in.check_refused(project, 78, "p.json: footage.video: is missing");
+}
+
+TEST_CASE("a stage that is there already is found before the work begins") {
+  const Folder in;
+  write_flight(in.video, 10);
+  fs::create_directories(in.out());
+  put_text(in.out() + "/00_frame.png", "mine");
+  const Run run = run_sigs("mask " + in.video + " --method paper --out " + in.out() + "/m.png --stages " + in.out());
+  CHECK(run.status == 73);
+  CHECK_MESSAGE(run.err.find("00_frame.png: exists already; --force") != std::string::npos, run.err);
+  CHECK(in.files_out() == 1);
+  CHECK(read_text(in.out() + "/00_frame.png").value() == "mine");
+}
+
+TEST_CASE("a folder for a mask that cannot be made ends with 73") {
+  const Folder in;
+  write_flight(in.video, 10);
+  put_text(in.folder / "blocked", "a file where a folder is wanted");
+  const Run run = run_sigs("mask " + in.video + " --out " + (in.folder / "blocked/m.png").string());
+  CHECK(run.status == 73);
+  CHECK_MESSAGE(run.err.find("blocked") != std::string::npos, run.err);
+}
+
+TEST_CASE("a disk that is full leaves no mask and ends with 74") {
+  if (!fs::exists("/dev/full")) {
+    std::printf("SKIPPED: there is no /dev/full\n");
+    return;
+  }
+  const Folder in;
+  write_flight(in.video, 10);
+  fs::create_directories(in.out());
+  fs::create_symlink("/dev/full", in.out() + "/c.part.png");
+  const Run run =
+      run_sigs("mask " + in.video + " --method paper --out " + in.out() + "/m.png --confidence " + in.out() + "/c.png");
+  CHECK_MESSAGE(run.status == 74, run.err);
+  CHECK_MESSAGE(run.err.find("c.png: could not be written: ") != std::string::npos, run.err);
+  CHECK(in.files_out() == 0);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+#include "docs/markdown.h"
+#include "flights/flights.h"
+#include "occlusion/intersection.h"
+#include "support/test_data.h"
+#include "video/video_writer.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As footage comes: H.264 in MP4.
+void film(const flights::Flight& flight, int frames, double rate_hz, const fs::path& path) {
+  const VideoFormat format{
+      .codec = VideoCodec::h264, .container = Container::mp4, .crf = 20, .size_px = flight.size_px};
+  Result<VideoWriter> writer = VideoWriter::open(path, format);
+  if (!writer) throw std::runtime_error(writer.error().text());
+  for (int n = 0; n < frames; ++n) {
+    Frame frame = frame_of_bgr(flight.bgr(n), format.layout, format.color);
+    frame.time_s = n / rate_hz;
+    if (!writer->write(frame, n)) throw std::runtime_error("clip");
+  }
+  if (!writer->finish()) throw std::runtime_error("clip");
+}
+
+struct Filmed {
+  TemporaryFolder folder;
+  flights::Flight flight;
+  std::string video = (folder / "flight.mp4").string();
+  std::string mask = (folder / "mask.png").string();
+
+  explicit Filmed(const std::string& name, int frames = 120, double rate_hz = 25)
+      : flight(flights::by_name(name, {.size_px = {320, 240}, .frames = frames})) {
+    film(flight, frames, rate_hz, video);
+  }
+  [[nodiscard]] Run run(const std::string& more = "") const {
+    return run_sigs("mask " + video + " --out " + mask + " " + more);
+  }
+  [[nodiscard]] cv::Mat found() const { return cv::imread(mask, cv::IMREAD_UNCHANGED); }
+};
+
+// "`canny` edges; `closed`" names canny and closed.
+std::vector<std::string> steps_named(const std::string& cell) {
+  std::vector<std::string> names;
+  std::istringstream in(cell);
+  for (std::string step, name; std::getline(in, step, ';');) {
+    std::istringstream(step) >> name;
+    names.push_back(name);
+  }
+  return names;
+}
+
+// Between the frame and the overlay: FOLDER/03_closed.png is closed.
+std::vector<std::string> steps_written(const std::string& out, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const std::string& path : lines_of(out))
+    if (path.starts_with(folder + "/")) names.push_back(fs::path(path).stem().string().substr(3));
+  REQUIRE(names.size() >= 2);
+  return {names.begin() + 1, names.end() - 1};
+}
+
+}  // namespace
+
+TEST_CASE("the nose of a flight is found in its footage") {
+  const Filmed filmed("nose");
+  const Run run = filmed.run();
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.err.starts_with("own body: "));
+  CHECK(intersection_over_union(filmed.found(), filmed.flight.own_body) >= 0.9);
+}
+
+TEST_CASE("a flight without an own body in view gets a black mask and a word about it") {
+  const Filmed filmed("none");
+  const Run run = filmed.run();
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.err == "own body: none found, 120 frames used; the mask is black\n");
+  CHECK(filmed.found().size() == filmed.flight.size_px);
+  CHECK(cv::countNonZero(filmed.found()) == 0);
+}
+
+TEST_CASE("a camera that stands still gets no mask and is told why") {
+  const Filmed filmed("still");
+  const Run run = filmed.run();
+  CHECK(run.status == 65);
+  CHECK_MESSAGE(run.err.find("move") != std::string::npos, run.err);
+  CHECK_FALSE(fs::exists(filmed.mask));
+}
+
+TEST_CASE("a detection that settles early says when and gives nearly the same mask") {
+  const Filmed filmed("nose", 400, 10);
+  REQUIRE(filmed.run().status == 0);
+  const cv::Mat whole = filmed.found();
+  const Run run = filmed.run("--force --set own_body.settled_percent=5");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(run.err.find("\nsettled after ") != std::string::npos, run.err);
+  // The last look alone may have changed 5 %.
+  CHECK(intersection_over_union(filmed.found(), whole) >= 0.9);
+}
+
+TEST_CASE("the command line's page names the steps of both methods in their order") {
+  const Filmed filmed("nose", 30);
+  const auto rows = table_rows(page("command-line.md"), "| method | steps |");
+  REQUIRE(rows.size() == 2);
+  for (const std::vector<std::string>& row : rows) {
+    const std::string folder = (filmed.folder / row[0]).string();
+    const Run run = filmed.run("--force --method " + row[0] + " --stages " + folder);
+    CHECK_MESSAGE(run.status == 0, run.err);
+    CHECK_MESSAGE(steps_named(row[1]) == steps_written(run.out, folder), row[0]);
+  }
+}
+
+TEST_CASE("the own body of the sample footage is found") {
+  const TemporaryFolder folder;
+  const std::string mask = (folder / "m.png").string();
+  REQUIRE(run_sigs("mask " + (source_dir() / "assets/footage/sample.mp4").string() + " --out " + mask).status == 0);
+  const cv::Mat truth =
+      cv::imread((source_dir() / "assets/footage/sample_own_body.png").string(), cv::IMREAD_GRAYSCALE);
+  CHECK(intersection_over_union(cv::imread(mask, cv::IMREAD_UNCHANGED), truth) >= 0.9);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "occlusion/detect.h"
+#include "occlusion/made_clip.h"
+#include "video/frame_source.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The method that finds something in as small a clip as this.
+const std::string kPaper = " --method paper ";
+
+struct Clip {
+  TemporaryFolder folder;
+  std::string video = (folder / "flight.mkv").string();
+  std::string out = (folder / "out").string();
+
+  explicit Clip(int frames = 40) { write_flight(video, frames); }
+  [[nodiscard]] std::string mask() const { return out + "/m.png"; }
+  [[nodiscard]] std::string command() const { return "mask " + video + kPaper + "--out " + mask() + " "; }
+};
+
+OwnBody expected(const std::string& video, int first_frame, int frames, int every = 1, double soft_edge_px = 1) {
+  FrameSource footage = FrameSource::open(video).value();
+  const OwnBodySettings settings{
+      .method = OwnBodyMethod::paper, .frames = frames, .every = every, .soft_edge_px = soft_edge_px};
+  return detect_own_body(footage, first_frame, settings, {}).value();
+}
+
+cv::Mat picture(const std::string& path) {
+  return cv::imread(path, cv::IMREAD_UNCHANGED);
+}
+
+bool equal(const cv::Mat& a, const cv::Mat& b) {
+  return !a.empty() && a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) found.push_back(line);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a mask is what the detection found, its path on stdout and its share on stderr") {
+  const Clip clip;
+  const Run run = run_sigs(clip.command() + "--confidence " + clip.out + "/sure.png");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.out == clip.mask() + "\n" + clip.out + "/sure.png\n");
+  const OwnBody found = expected(clip.video, 0, 40);
+  REQUIRE(found.share > 0.1);
+  char line[80];
+  std::snprintf(line, sizeof line, "own body: %.1f %% of the picture, 40 frames used\n", 100 * found.share);
+  CHECK(run.err == line);
+  CHECK(equal(picture(clip.mask()), found.mask));
+  CHECK(equal(picture(clip.out + "/sure.png"), found.confidence));
+  CHECK(picture(clip.out + "/sure.png").type() == CV_16UC1);
+}
+
+TEST_CASE("without a name the mask is called after the video and lies in the current folder") {
+  const Clip clip;
+  fs::create_directories(clip.out);
+  const std::string command =
+      "cd " + clip.out + " && " + (build_dir() / "sigs").string() + " mask ../flight.mkv" + kPaper + ">/dev/null 2>&1";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(equal(picture(clip.out + "/flight.own-body.png"), expected(clip.video, 0, 40).mask));
+}
+
+TEST_CASE("the same command gives the same bytes twice and replaces a mask with force alone") {
+  const Clip clip;
+  REQUIRE(run_sigs(clip.command() + "--frames 20").status == 0);
+  const std::string before = read_text(clip.mask()).value();
+  const Run again = run_sigs(clip.command());
+  CHECK(again.status == 73);
+  CHECK(again.err == "error: " + clip.mask() + ": exists already; --force overwrites it\n");
+  CHECK(read_text(clip.mask()).value() == before);
+  CHECK(run_sigs(clip.command() + "--frames 20 --force").status == 0);
+  CHECK(read_text(clip.mask()).value() == before);
+}
+
+TEST_CASE("options choose the frames and settings the rest") {
+  const Clip clip;
+  const Run run = run_sigs(clip.command() + "--frames 21 --every 4 --set own_body.soft_edge_px=6 --set " +
+                           "footage.first_frame=10");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.err.find(", 6 frames used") != std::string::npos);
+  CHECK(equal(picture(clip.mask()), expected(clip.video, 10, 21, 4, 6).mask));
+}
+
+TEST_CASE("stages are numbered from the frame to the tinted mask") {
+  const Clip clip;
+  const std::string stages = clip.out + "/stages";
+  const Run run = run_sigs(clip.command() + "--stages " + stages);
+  CHECK_MESSAGE(run.status == 0, run.err);
+  std::vector<std::string> names{clip.mask()};
+  for (const char* const name : {"00_frame", "01_difference_sum", "02_canny", "03_dilated", "04_rough", "05_sobel",
+                                 "06_closed", "07_padded", "08_filled", "09_refined", "10_overlay"})
+    names.push_back(stages + "/" + name + ".png");
+  CHECK(lines(run.out) == names);
+  FrameSource footage = FrameSource::open(clip.video).value();
+  const cv::Mat frame = bgr_of(footage.read(20).value());
+  CHECK(equal(picture(stages + "/00_frame.png"), frame));
+  const cv::Mat overlay = picture(stages + "/10_overlay.png");
+  const cv::Mat mask = picture(clip.mask());
+  REQUIRE(overlay.size() == frame.size());
+  // Untouched outside; inside halfway to magenta.
+  for (int y = 0; y < frame.rows; ++y)
+    for (int x = 0; x < frame.cols; ++x) {
+      const cv::Vec3b before = frame.at<cv::Vec3b>(y, x);
+      const cv::Vec3b after = overlay.at<cv::Vec3b>(y, x);
+      if (mask.at<uchar>(y, x) == 0) CHECK(after == before);
+      if (mask.at<uchar>(y, x) == 255) CHECK(std::abs(2 * after[1] - before[1]) <= 1);
+    }
+}
+
+TEST_CASE("of a project its footage, range and settings are used and nothing else is missed") {
+  const Clip clip;
+  const std::string project = (clip.folder / "p.json").string();
+  put_text(project, R"({"sigs": 1, "footage": {"video": "flight.mkv", "calibration": "gone.xml", "first_frame": 4,
+    "last_frame": 29, "own_body_mask": "gone.png"}, "own_body": {"method": "paper", "soft_edge_px": 5, "every": 2}})");
+  const Run run = run_sigs("mask " + project + " --out " + clip.mask());
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.err.find(", 13 frames used") != std::string::npos);
+  CHECK(equal(picture(clip.mask()), expected(clip.video, 4, 26, 2, 5).mask));
+  REQUIRE(run_sigs("mask " + project + " --force --frames 10 --every 3 --out " + clip.mask()).status == 0);
+  CHECK(equal(picture(clip.mask()), expected(clip.video, 4, 10, 3, 5).mask));
+}
+
+TEST_CASE("a mask hides the intruder in the project whose footage it was made from") {
+  TinyProject tiny;
+  write_flight(tiny.file("clip.mkv"), 10, {64, 48});
+  const std::string body = tiny.file("body.png").string();
+  REQUIRE(run_sigs("mask " + tiny.project() + kPaper + "--out " + body).status == 0);
+  const std::string command = "export " + tiny.project() + " --masks png --force --out " + tiny.out();
+  const std::string intruder_png = tiny.out() + "/tiny.masks/frame_000005.png";
+  REQUIRE(run_sigs(command).status == 0);
+  const cv::Mat hidden = picture(body) == 255;
+  REQUIRE(cv::countNonZero(picture(intruder_png) & hidden) > 0);
+  const Run run = run_sigs(command + " --set footage.own_body_mask=body.png");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(cv::countNonZero(picture(intruder_png) & hidden) == 0);
+}
+
+TEST_CASE("progress of a detection ends at the last frame") {
+  const Clip clip;
+  CHECK(run_sigs(clip.command() + "--force --progress plain").err.find("frame 40 of 40, 0:00 left\n") !=
+        std::string::npos);
+  CHECK(run_sigs(clip.command() + "--force --progress json").err.find("{\"done\": 40, \"total\": 40, ") !=
+        std::string::npos);
+}
+
+TEST_CASE("an interrupted detection ends with 130 and leaves no file") {
+  const TinyProject tiny(3000);
+  const std::string program = (build_dir() / "sigs").string();
+  const std::string video = tiny.file("clip.mkv").string();
+  const std::string mask = tiny.out() + "/m.png";
+  const std::string stages = tiny.out();
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(program.c_str(), "sigs", "mask", video.c_str(), "--frames", "100000", "--out", mask.c_str(), "--stages",
+          stages.c_str(), nullptr);
+    _exit(127);
+  }
+  while (tiny.files_out() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 130);
+  CHECK(tiny.files_out() == 0);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/own_body_job.h"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+
+namespace {
+
+template <class Condition>
+bool comes_true(Condition condition) {
+  for (int i = 0; i < 6000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+DetectionState finished(const OwnBodyJob& job) {
+  REQUIRE(comes_true([&] { return !job.is_running(); }));
+  return job.state();
+}
+
+OwnBody body_of(int frames) {
+  return {.mask = cv::Mat(4, 6, CV_8UC1, cv::Scalar(frames)), .frames_used = frames};
+}
+
+// Goes through its frames at once.
+Result<OwnBody> quick(const DetectionRequest& request, const DetectionControl& control) {
+  for (int i = 1; i <= request.settings.frames; ++i) control.progress(i, request.settings.frames);
+  return body_of(request.settings.frames);
+}
+
+// Goes on until it is stopped.
+Result<OwnBody> endless(const DetectionRequest&, const DetectionControl& control) {
+  for (int i = 1; !*control.cancel; ++i) {
+    control.progress(i, 1'000'000);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return fail("", "stopped", ErrorKind::interrupted);
+}
+
+// Endless where all of the footage is asked for.
+Result<OwnBody> either(const DetectionRequest& request, const DetectionControl& control) {
+  return request.settings.frames > 1000 ? endless(request, control) : quick(request, control);
+}
+
+DetectionRequest of(int frames) {
+  DetectionRequest request;
+  request.settings.frames = frames;
+  return request;
+}
+
+}  // namespace
+
+TEST_CASE("what was found is there at the end, with what it was asked") {
+  std::atomic<int> wakes = 0;
+  OwnBodyJob job([&] { ++wakes; }, quick);
+  CHECK(job.state().phase == DetectionPhase::none);
+  REQUIRE(job.start(of(40)));
+  const DetectionState state = finished(job);
+  REQUIRE(state.phase == DetectionPhase::done);
+  CHECK(state.done == 40);
+  CHECK(state.total == 40);
+  REQUIRE(state.found);
+  CHECK(state.found->frames_used == 40);
+  CHECK(state.found_by == of(40));
+  CHECK(comes_true([&] { return wakes >= 2; }));  // the first frame, and the end
+}
+
+TEST_CASE("a detection that is stopped ends soon, and another can follow") {
+  OwnBodyJob job([] {}, either);
+  REQUIRE(job.start(of(1500)));
+  CHECK_FALSE(job.start(of(2)));
+  REQUIRE(comes_true([&] { return job.state().done > 3; }));
+  job.cancel();
+  CHECK(finished(job).phase == DetectionPhase::cancelled);
+  CHECK_FALSE(job.state().is_stopping);
+  CHECK_FALSE(job.state().found);
+  REQUIRE(job.start(of(5)));
+  CHECK(finished(job).phase == DetectionPhase::done);
+}
+
+TEST_CASE("what was found before stays while another is looked for, and when that fails") {
+  bool fails = false;
+  OwnBodyJob job([] {},
+                 [&](const DetectionRequest& request, const DetectionControl& control) -> Result<OwnBody> {
+                   if (fails) return fail("clip.mp4", "nothing moves");
+                   return either(request, control);
+                 });
+  REQUIRE(job.start(of(7)));
+  REQUIRE(finished(job).found);
+  REQUIRE(job.start(of(1500)));
+  CHECK(job.state().found->frames_used == 7);
+  job.cancel();
+  CHECK(finished(job).found->frames_used == 7);
+  fails = true;
+  REQUIRE(job.start(of(9)));
+  const DetectionState state = finished(job);
+  CHECK(state.phase == DetectionPhase::failed);
+  CHECK(state.error.text() == "clip.mp4: nothing moves");
+  CHECK(state.found->frames_used == 7);
+  CHECK(state.found_by == of(7));
+}
+
+TEST_CASE("a detection that is forgotten ends without a word, whether it was running or done") {
+  OwnBodyJob job([] {}, either);
+  REQUIRE(job.start(of(5)));
+  REQUIRE(finished(job).found);
+  job.forget();
+  CHECK_FALSE(job.state().found);
+  CHECK(job.state().phase == DetectionPhase::none);
+  REQUIRE(job.start(of(1500)));
+  REQUIRE(comes_true([&] { return job.state().done > 3; }));
+  job.forget();
+  CHECK(finished(job).phase == DetectionPhase::none);
+  CHECK_FALSE(job.state().found);
+}
+
+TEST_CASE("an editor that closes during a detection does not wait for its end") {
+  std::atomic<bool> ended = false;
+  {
+    OwnBodyJob job([] {},
+                   [&](const DetectionRequest& request, const DetectionControl& control) {
+                     const Result<OwnBody> stopped = endless(request, control);
+                     ended = true;
+                     return stopped;
+                   });
+    REQUIRE(job.start(of(1500)));
+  }
+  CHECK(ended);  // by being stopped: it has no other end
+}
+
+TEST_CASE("the window is woken some ten times a second, however fast frames pass") {
+  std::atomic<int> wakes = 0;
+  OwnBodyJob job([&] { ++wakes; }, quick);
+  const auto start = std::chrono::steady_clock::now();
+  REQUIRE(job.start(of(100000)));
+  CHECK(finished(job).done == 100000);
+  const std::chrono::duration<double> took_s = std::chrono::steady_clock::now() - start;
+  CHECK(wakes <= 3 + 10 * took_s.count());
+}
+
+TEST_CASE("the detection is polite, the thread that asks for it stays as it was") {
+  const int own = ::getpriority(PRIO_PROCESS, 0);
+  std::atomic<int> detecting = own;
+  OwnBodyJob job([] {},
+                 [&](const DetectionRequest&, const DetectionControl&) -> Result<OwnBody> {
+                   detecting = ::getpriority(PRIO_PROCESS, 0);
+                   return body_of(1);
+                 });
+  REQUIRE(job.start(of(2)));
+  REQUIRE(finished(job).phase == DetectionPhase::done);
+  CHECK(::getpriority(PRIO_PROCESS, 0) == own);
+  CHECK(detecting >= std::min(10, own + 1));
+}
+
+TEST_CASE("footage that cannot be opened is told by its name") {
+  OwnBodyJob job([] {});
+  DetectionRequest request = of(10);
+  request.video = "nowhere.mp4";
+  REQUIRE(job.start(request));
+  const DetectionState state = finished(job);
+  CHECK(state.phase == DetectionPhase::failed);
+  CHECK(state.error.text().find("nowhere.mp4") != std::string::npos);
+}

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/own_body/own_body_work.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <thread>
+
+#include "camera/lens.h"
+#include "project/json.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using sigs::test::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const cv::Size kSize(40, 30);
+
+cv::Mat disk(int x) {
+  cv::Mat mask = cv::Mat::zeros(kSize, CV_8UC1);
+  move_brush(mask, {6, 3}, {x, 15}, {x, 15});
+  return mask;
+}
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+// Finds a disk at a place that the settings name.
+Result<OwnBody> find_disk(const DetectionRequest& request, const DetectionControl&) {
+  return OwnBody{.mask = disk(request.settings.frames), .frames_used = request.settings.frames};
+}
+
+// A project without a window, and a person who works on its mask.
+struct Easel {
+  TemporaryFolder folder;
+  Document document;
+  Edits edits;
+  OwnBodyWork work{edits, [] {}, find_disk};
+  OpenedScene scene{
+      .draft = {.scene = {.camera = {*Lens::make({LensModel::brown_conrady, 30, 30, 19.5, 14.5, {}}), kSize}}}};
+
+  explicit Easel(const std::string& mask = "") {
+    Project project;
+    project.file = folder / "flight.json";
+    project.footage.video = "flight.mp4";
+    project.footage.own_body_mask = mask;
+    REQUIRE(write_project(project, project.file, true));
+    document = Document(project);
+    scene.draft.scene.footage.size_px = kSize;
+  }
+
+  // A turn of the window: edits are taken, the scene is opened anew, the mask is looked at.
+  void turn() {
+    document.apply(edits.take_edits());
+    scene.revision = document.revision().number;
+    work.follow(document, &scene);
+  }
+
+  // As the scene's files have it.
+  void use_mask_of_scene(const cv::Mat& mask) {
+    scene.draft.scene.own_body = cv::Mat();
+    if (!mask.empty()) mask.convertTo(scene.draft.scene.own_body, CV_32F, 1.0 / 255);
+  }
+
+  void detect(int x) {
+    document.apply(ChangeProject{"frames", [x](Project& p) { p.own_body.frames = x; }, {}});
+    turn();
+    REQUIRE(work.start(document));
+    for (int i = 0; i < 2000 && work.job().is_running(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    turn();
+  }
+
+  void stroke(double x) {
+    work.painting().begin_stroke({3, 1}, {x, 5});
+    work.painting().end_stroke();
+  }
+
+  // Answers the file browser; whether it was asked.
+  bool choose(const fs::path& path) {
+    for (const Request& request : edits.take_requests())
+      if (const auto* wanted = std::get_if<AskForFile>(&request)) {
+        wanted->chosen(path);
+        return true;
+      }
+    return false;
+  }
+  fs::path proposed() {
+    for (const Request& request : edits.take_requests())
+      if (const auto* wanted = std::get_if<AskForFile>(&request)) return wanted->start;
+    return {};
+  }
+  std::string errors() {
+    std::string text;
+    for (const Request& request : edits.take_requests())
+      if (const auto* said = std::get_if<Say>(&request); said != nullptr && said->is_error) text += said->text;
+    return text;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("painting begins with the project's mask, which is saved, or with nothing") {
+  Easel with("mask.png");
+  with.use_mask_of_scene(disk(10));
+  with.turn();
+  CHECK(is_same(with.work.painting().mask(), disk(10)));
+  CHECK(with.work.unsaved() == 0);
+  CHECK(with.work.is_used(with.document.project()));
+  Easel without;
+  without.turn();
+  CHECK(cv::countNonZero(without.work.painting().mask()) == 0);
+  CHECK(without.work.painting().mask().size() == kSize);
+  CHECK(without.work.unsaved() == 0);
+  CHECK_FALSE(without.work.is_used(without.document.project()));
+}
+
+TEST_CASE("what is found is taken over as a step of the painting, again and again") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  CHECK(is_same(b.work.painting().mask(), disk(10)));
+  CHECK(b.work.unsaved() != 0);
+  CHECK(b.work.painting().undo_name() == "detected mask");
+  b.detect(25);
+  CHECK(is_same(b.work.painting().mask(), disk(25)));
+  b.work.painting().undo();
+  CHECK(is_same(b.work.painting().mask(), disk(10)));
+  b.turn();  // what was undone is not taken over again
+  CHECK(is_same(b.work.painting().mask(), disk(10)));
+}
+
+TEST_CASE("strokes by hand are kept when something else is found, until the person takes it") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  b.stroke(35);
+  const cv::Mat painted = b.work.painting().mask().clone();
+  b.detect(25);
+  CHECK(is_same(b.work.painting().mask(), painted));
+  CHECK(b.work.found_waits());
+  b.work.start_from_found();
+  CHECK(is_same(b.work.painting().mask(), disk(25)));
+  CHECK_FALSE(b.work.found_waits());
+  b.work.painting().undo();
+  CHECK(is_same(b.work.painting().mask(), painted));
+}
+
+TEST_CASE("a mask is written whole under the name that was chosen, 8 bits, and counts as saved then") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  b.work.ask_save_as(b.document.project());
+  REQUIRE(b.choose(b.folder / "a mask.png"));
+  CHECK(b.work.unsaved() == 0);
+  const cv::Mat written = cv::imread((b.folder / "a mask.png").string(), cv::IMREAD_UNCHANGED);
+  REQUIRE(written.type() == CV_8UC1);
+  CHECK(is_same(written, disk(10)));
+  CHECK(b.document.project().footage.own_body_mask.empty());  // saving alone uses it nowhere
+  b.stroke(30);
+  CHECK(b.work.unsaved() != 0);
+  b.work.painting().undo();
+  CHECK(b.work.unsaved() == 0);
+}
+
+TEST_CASE("using a mask saves it first where it is not saved, and is one step of the project's history") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  const std::uint64_t revision = b.document.revision().number;
+  b.work.use(b.document.project());
+  CHECK(b.document.project().footage.own_body_mask.empty());
+  REQUIRE(b.choose(b.folder / "masks.png"));
+  b.turn();
+  CHECK(b.document.project().footage.own_body_mask == "masks.png");
+  CHECK(b.work.is_used(b.document.project()));
+  b.document.apply(Edit(Undo{}));
+  CHECK(b.document.revision().number == revision);
+  CHECK_FALSE(b.work.is_used(b.document.project()));
+  b.work.use(b.document.project());
+  CHECK_FALSE(b.choose("unasked"));  // it is in a file already
+  b.turn();
+  CHECK(b.document.project().footage.own_body_mask == "masks.png");
+}
+
+TEST_CASE("the proposed name is the project's mask, else one beside the project, else beside the footage") {
+  Easel b;
+  b.turn();
+  b.work.ask_save_as(b.document.project());
+  CHECK(b.proposed() == b.folder / "flight_own_body.png");
+  Project project = b.document.project();
+  project.footage.own_body_mask = "sub/m.png";
+  CHECK(usual_mask_file(project) == b.folder / "sub/m.png");
+  project.footage.own_body_mask = "m.jpg";  // what is written is a PNG
+  CHECK(usual_mask_file(project) == b.folder / "flight_own_body.png");
+  project.file.clear();
+  project.footage.own_body_mask.clear();
+  project.footage.video = "/clips/a.b.mp4";
+  CHECK(usual_mask_file(project) == "/clips/a.b_own_body.png");
+  CHECK(usual_mask_file(Project()).filename() == "untitled_own_body.png");
+}
+
+TEST_CASE("a new name is one that is not taken") {
+  Easel b("flight_own_body.png");
+  for (const char* taken : {"flight_own_body.png", "flight_own_body_2.png"})
+    REQUIRE(write_mask(disk(10), b.folder / taken, false));
+  b.use_mask_of_scene(disk(10));
+  b.turn();
+  b.stroke(30);
+  b.work.ask_save_and_use(b.document.project());
+  CHECK(b.proposed() == b.folder / "flight_own_body_3.png");
+  b.work.ask_save_as(b.document.project());
+  REQUIRE(b.choose(b.folder / "mine.png"));
+  b.stroke(20);
+  b.work.ask_save_and_use(b.document.project());
+  CHECK(b.proposed() == b.folder / "mine.png");  // its own
+}
+
+TEST_CASE("the project's own file is replaced only by the call that says so") {
+  Easel b("mask.png");
+  REQUIRE(write_mask(disk(10), b.folder / "mask.png", false));
+  b.use_mask_of_scene(disk(10));
+  b.turn();
+  CHECK_FALSE(b.work.could_replace(b.document.project()));  // nothing to write
+  b.stroke(30);
+  CHECK(b.work.could_replace(b.document.project()));
+  b.work.use(b.document.project());
+  CHECK_FALSE(b.proposed().empty());
+  CHECK(is_same(cv::imread((b.folder / "mask.png").string(), cv::IMREAD_UNCHANGED), disk(10)));
+  b.work.replace_and_use(b.document.project());
+  b.turn();
+  CHECK(is_same(cv::imread((b.folder / "mask.png").string(), cv::IMREAD_UNCHANGED), b.work.painting().mask()));
+  CHECK(b.work.is_used(b.document.project()));
+  // The scene reads it anew: the same bytes, and no step is lost by it.
+  b.use_mask_of_scene(b.work.painting().mask().clone());
+  b.turn();
+  CHECK(b.work.painting().can_undo());
+  b.work.painting().undo();
+  CHECK(is_same(b.work.painting().mask(), disk(10)));
+}
+
+TEST_CASE("where it cannot be written nothing counts as saved and nothing is used") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  b.work.use(b.document.project());
+  REQUIRE(b.choose(b.folder / "nowhere/mask.png"));
+  CHECK(b.errors().find("nowhere") != std::string::npos);
+  CHECK(b.work.unsaved() != 0);
+  b.turn();
+  CHECK(b.document.project().footage.own_body_mask.empty());
+}
+
+TEST_CASE("the project's mask is followed while nothing is unsaved, and never painted over otherwise") {
+  Easel b("mask.png");
+  b.use_mask_of_scene(disk(10));
+  b.turn();
+  b.use_mask_of_scene(disk(20));
+  b.turn();
+  CHECK(is_same(b.work.painting().mask(), disk(20)));
+  b.stroke(35);
+  const cv::Mat painted = b.work.painting().mask().clone();
+  b.use_mask_of_scene(disk(30));
+  b.turn();
+  b.turn();
+  CHECK(is_same(b.work.painting().mask(), painted));
+  CHECK(b.work.unsaved() != 0);
+}
+
+TEST_CASE("a stroke is not disturbed by what comes meanwhile") {
+  Easel b;
+  b.turn();
+  b.work.painting().begin_stroke({3, 1}, {5, 5});
+  b.detect(25);
+  b.use_mask_of_scene(disk(10));
+  b.turn();
+  CHECK(b.work.painting().is_stroking());
+  b.work.painting().go_on({20, 5});
+  b.work.painting().end_stroke();
+  b.turn();
+  CHECK(b.work.painting().mask().at<uchar>(5, 12) == 255);
+  CHECK(b.work.painting().mask().at<uchar>(15, 25) == 0);
+}
+
+TEST_CASE("footage of another size begins anew, but not while something is unsaved") {
+  Easel b;
+  b.turn();
+  b.scene.draft.scene.footage.size_px = {64, 48};
+  b.turn();
+  CHECK(b.work.painting().mask().size() == cv::Size(64, 48));
+  b.stroke(30);
+  b.scene.draft.scene.footage.size_px = kSize;
+  b.turn();
+  CHECK_FALSE(b.work.fits());
+  CHECK(b.work.painting().mask().size() == cv::Size(64, 48));
+  CHECK(b.work.unsaved() != 0);
+  b.work.begin_anew();
+  b.turn();
+  CHECK(b.work.fits());
+  CHECK(b.work.unsaved() == 0);
+}
+
+TEST_CASE("what was found in other footage is forgotten") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  b.document.apply(ChangeProject{"video", [](Project& p) { p.footage.video = "other.mp4"; }, {}});
+  b.turn();
+  CHECK_FALSE(b.work.detection().found);
+  CHECK(is_same(b.work.painting().mask(), disk(10)));
+}
+
+TEST_CASE("another project has nothing of the one before") {
+  Easel b;
+  b.turn();
+  b.detect(10);
+  b.work.forget();
+  CHECK(b.work.unsaved() == 0);
+  CHECK(b.work.painting().empty());
+  CHECK(b.work.file().empty());
+  b.turn();
+  CHECK(cv::countNonZero(b.work.painting().mask()) == 0);
+  CHECK_FALSE(b.work.found_waits());
+}
+
+TEST_CASE("painting can start from a file, whose size has to be the footage's") {
+  Easel b;
+  b.turn();
+  REQUIRE(write_mask(disk(12), b.folder / "good.png", false));
+  REQUIRE(write_mask(cv::Mat::zeros(5, 5, CV_8UC1), b.folder / "small.png", false));
+  std::ofstream(b.folder / "no.png") << "no picture";
+  b.work.ask_start_from_file(b.document.project());
+  REQUIRE(b.choose(b.folder / "good.png"));
+  CHECK(is_same(b.work.painting().mask(), disk(12)));
+  for (const char* file : {"small.png", "no.png", "nowhere.png"}) {
+    b.work.ask_start_from_file(b.document.project());
+    REQUIRE(b.choose(b.folder / file));
+    CHECK(b.errors().find(file) != std::string::npos);
+    CHECK(is_same(b.work.painting().mask(), disk(12)));
+  }
+  b.work.start_from_empty();
+  CHECK(cv::countNonZero(b.work.painting().mask()) == 0);
+  b.work.painting().undo();
+  CHECK(is_same(b.work.painting().mask(), disk(12)));
+}

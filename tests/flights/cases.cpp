@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "flights/cases.h"
+
+#include "flights/shapes.h"
+
+namespace sigs::flights {
+
+namespace {
+
+// Each flight begins somewhere else and sways in its own time.
+Path path(std::uint32_t seed) {
+  return {.seed = seed};
+}
+
+Path sky_until(int frame, std::uint32_t seed) {
+  return {.first_pitch_deg = 34, .level_from = frame, .seed = seed};
+}
+
+Path along_the_road(std::uint32_t seed) {
+  return {.height_m = 60, .weave_m = 0, .sway = 0.15, .pitch_deg = -15, .first_pitch_deg = -15, .seed = seed};
+}
+
+Path standing(std::uint32_t seed) {
+  return {.still = true, .seed = seed};
+}
+
+}  // namespace
+
+std::vector<Case> cases(int frames) {
+  const cv::Scalar white(244, 244, 244), grey(126, 134, 134);
+  return {
+      {.name = "tail boom", .parts = {tail_boom()}, .path = path(1)},
+      {.name = "nose", .parts = {nose()}, .path = path(2)},
+      {.name = "wing tip left", .parts = {wing_tip_left()}, .path = path(3)},
+      {.name = "wing tip right", .parts = {wing_tip_right()}, .path = path(4)},
+      {.name = "two parts", .parts = {tail_boom(), wing_tip_right()}, .path = path(5)},
+      {.name = "propeller", .parts = {engine_cowl(), spinner()}, .path = path(6), .propeller = propeller()},
+      {.name = "none", .path = path(7)},
+      {.name = "letterbox", .parts = {tail_boom()}, .path = path(8), .bar_share = 0.11},
+      {.name = "cockpit frame", .parts = {windscreen()}, .path = path(9)},
+      {.name = "top", .parts = {strut(), belly()}, .path = path(10)},
+      {.name = "exposure drift", .parts = {nose()}, .path = path(11), .exposure_drifts = true},
+      {.name = "plain sky first", .parts = {tail_boom()}, .path = sky_until(frames / 2, 12), .cloudiness = 0},
+      {.name = "still", .parts = {tail_boom()}, .path = standing(13)},
+      {.name = "still, one mover", .parts = {tail_boom()}, .path = standing(14), .small_mover = true},
+      {.name = "straight road below", .parts = {nose()}, .path = along_the_road(15), .roads = Roads::straight_below},
+      {.name = "white before bright sky", .parts = {lifted(plain(wing_tip_right(), white), 0.24)}, .path = path(16)},
+      {.name = "grey on grey", .parts = {plain(nose(), grey)}, .path = path(17)},
+  };
+}
+
+std::vector<Case> hard_cases() {
+  Path unmoved = path(20);
+  unmoved.sway = 0;
+  unmoved.weave_m = 0;
+  Path hardly = path(21);
+  hardly.sway = 0.1;
+  hardly.weave_m = 5;
+  const Path sky = sky_until(1 << 30, 22);
+  return {
+      {.name = "trembles by 1 to 4 px", .parts = {tail_boom(), wing_tip_left()}, .path = path(18), .shake = 2},
+      {.name = "trembles by 2 to 8 px", .parts = {tail_boom(), wing_tip_left()}, .path = path(18), .shake = 4},
+      {.name = "no sway at all", .parts = {nose()}, .path = unmoved},
+      {.name = "a tenth of the sway", .parts = {nose()}, .path = hardly},
+      {.name = "clouds and nothing else", .parts = {tail_boom()}, .path = sky},
+      {.name = "clear sky and nothing else", .parts = {tail_boom()}, .path = sky, .cloudiness = 0},
+      {.name = "grain of 8 codes", .parts = {wing_tip_right()}, .path = path(19), .grain_codes = 8},
+  };
+}
+
+std::vector<cv::Rect> bars(const Case& scene, cv::Size size_px) {
+  if (scene.bar_share <= 0) return {};
+  const int height = cvRound(scene.bar_share * size_px.height);
+  return {{0, 0, size_px.width, height}, {0, size_px.height - height, size_px.width, height}};
+}
+
+}  // namespace sigs::flights

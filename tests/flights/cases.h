@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flights/body.h"
+#include "flights/camera_path.h"
+#include "flights/country.h"
+
+namespace sigs::flights {
+
+inline constexpr double kGrain_codes = 2;
+
+// What a flight is made of. A new case is one more entry in cases().
+struct Case {
+  std::string name;
+  std::vector<Part> parts;
+  Path path;
+  Propeller propeller;
+  Roads roads = Roads::winding;
+  double cloudiness = 1;
+  double bar_share = 0;  // of the picture's height that a black bar takes at the top, and another at the bottom
+  bool exposure_drifts = false;
+  bool small_mover = false;
+  double shake = 1;  // factor on how far the body trembles
+  double grain_codes = kGrain_codes;
+};
+
+// frames: how many are meant to be looked at.
+[[nodiscard]] std::vector<Case> cases(int frames);
+
+// Harder than can be asked for: where finding the body ends.
+[[nodiscard]] std::vector<Case> hard_cases();
+
+[[nodiscard]] std::vector<cv::Rect> bars(const Case& scene, cv::Size size_px);
+
+}  // namespace sigs::flights

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "flights/flights.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "base/ensure.h"
+#include "flights/cases.h"
+#include "flights/scenery.h"
+#include "flights/sensor.h"
+
+namespace sigs::flights {
+
+namespace {
+
+// What several flights share, made when the first of them needs it.
+class Countries {
+ public:
+  explicit Countries(int detail) : detail_(detail) {}
+  std::shared_ptr<const Country> with(Roads roads) {
+    std::shared_ptr<const Country>& place = made_[roads];
+    if (!place) place = std::make_shared<const Country>(country(detail_, roads, 11));
+    return place;
+  }
+
+ private:
+  int detail_;
+  std::map<Roads, std::shared_ptr<const Country>> made_;
+};
+
+// A bird crosses now and then.
+void draw_mover(cv::Mat& picture, int frame) {
+  const cv::Point middle(frame * 3 % picture.cols, picture.rows / 4 + frame % 16);
+  cv::ellipse(picture, middle, {std::max(4, picture.cols / 60), std::max(2, picture.cols / 160)}, 0, 0, 360,
+              cv::Scalar(40, 40, 44), cv::FILLED, cv::LINE_AA);
+}
+
+Shake shake_of(const Case& scene, cv::Size size_px, int frame) {
+  if (scene.path.still) return {};
+  Shake shake = shake_at(frame, size_px, scene.path.seed);
+  shake.shift_px *= scene.shake;
+  return shake;
+}
+
+cv::Mat drawn(const Case& scene, const Country& country, const Body& body, const Grain& grain, cv::Size size_px,
+              int frame) {
+  cv::Mat picture = scenery(country, view_at(scene.path, size_px, frame), scene.cloudiness);
+  if (scene.small_mover) draw_mover(picture, frame);
+  lay_over(picture, scene.propeller, frame);
+  lay_over(picture, body, shake_of(scene, size_px, frame));
+  if (scene.exposure_drifts) picture *= drifting_gain(frame);
+  grain.add_to(picture, frame);
+  for (const cv::Rect& bar : bars(scene, size_px)) picture(bar).setTo(cv::Scalar::all(0));
+  return picture;
+}
+
+Flight flight(const Case& scene, const Making& making, std::shared_ptr<const Country> country) {
+  const auto body = std::make_shared<const Body>(body_of(scene.parts, making.size_px, scene.path.seed));
+  const auto grain = std::make_shared<const Grain>(scene.grain_codes);
+  cv::Mat truth = body->truth.clone();
+  for (const cv::Rect& bar : bars(scene, making.size_px)) truth(bar).setTo(255);
+  return {.name = scene.name,
+          .size_px = making.size_px,
+          .own_body = truth,
+          .bgr = [=, size_px = making.size_px](int n) { return drawn(scene, *country, *body, *grain, size_px, n); },
+          .can_be_told = !scene.path.still};
+}
+
+// About as fine as the nearest ground is seen.
+int detail_for(cv::Size size_px) {
+  return size_px.width <= 400 ? 1024 : size_px.width <= 800 ? 2048 : 4096;
+}
+
+std::vector<Flight> flights_of(const std::vector<Case>& scenes, const Making& making) {
+  Countries countries(detail_for(making.size_px));
+  std::vector<Flight> flights;
+  for (const Case& scene : scenes) flights.push_back(flight(scene, making, countries.with(scene.roads)));
+  return flights;
+}
+
+}  // namespace
+
+std::vector<Flight> all(const Making& making) {
+  return flights_of(cases(making.frames), making);
+}
+
+std::vector<Flight> hard(const Making& making) {
+  return flights_of(hard_cases(), making);
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> names;
+  for (const Case& scene : cases(1)) names.push_back(scene.name);
+  return names;
+}
+
+Flight by_name(std::string_view name, const Making& making) {
+  const std::vector<Case> scenes = cases(making.frames);
+  const auto found = std::ranges::find(scenes, name, &Case::name);
+  ENSURE(found != scenes.end());
+  return flight(*found, making, Countries(detail_for(making.size_px)).with(found->roads));
+}
+
+}  // namespace sigs::flights

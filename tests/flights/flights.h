@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <opencv2/core.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sigs::flights {
+
+// Made footage of a flight with the carrying aircraft in view, and the truth about it.
+struct Flight {
+  std::string name;  // "tail boom"
+  cv::Size size_px;
+  cv::Mat own_body;                 // truth, CV_8UC1: 255 where the body hides the world, 0 elsewhere
+  std::function<cv::Mat(int)> bgr;  // frame n (any n >= 0, by n alone), CV_8UC3; may be called by several threads
+  bool can_be_told = true;          // false: nothing moves, so that no one can tell
+};
+
+struct Making {
+  cv::Size size_px{640, 480};
+  int frames = 300;  // how many are meant to be looked at; "plain sky first" looks at the sky for half of them
+};
+
+// Every case that finding the body has to do well. The country below is made once for all of them.
+[[nodiscard]] std::vector<Flight> all(const Making& making = {});
+
+// Flights beyond what finding the body is asked to do; by_name does not know them.
+[[nodiscard]] std::vector<Flight> hard(const Making& making = {});
+
+[[nodiscard]] std::vector<std::string> names();  // of all()
+
+// One case; stops where there is none of that name.
+[[nodiscard]] Flight by_name(std::string_view name, const Making& making = {});
+
+}  // namespace sigs::flights

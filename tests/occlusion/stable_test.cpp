@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "occlusion/stable.h"
+
+#include <doctest/doctest.h>
+
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "flights/flights.h"
+#include "occlusion/intersection.h"
+
+namespace {
+
+using namespace sigs;
+
+const cv::Size kSize{320, 240};
+constexpr int kFrames = 120;
+
+cv::Mat luma_of(const flights::Flight& flight, int frame) {
+  cv::Mat luma;
+  cv::cvtColor(flight.bgr(frame), luma, cv::COLOR_BGR2GRAY);
+  return luma;
+}
+
+Verdict verdict_after(const flights::Flight& flight, int frames, KeepStages keep = KeepStages::no) {
+  const auto method = stable_method({}, flight.size_px);
+  for (int n = 0; n < frames; ++n) method->add(luma_of(flight, n));
+  return method->verdict(keep);
+}
+
+flights::Flight flight_named(const std::string& name) {
+  return flights::by_name(name, {.size_px = kSize, .frames = kFrames});
+}
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("what stays put is found in made flights") {
+  for (const char* name : {"nose", "wing tip left", "propeller", "letterbox", "cockpit frame", "exposure drift",
+                           "straight road below", "grey on grey"}) {
+    CAPTURE(name);
+    const flights::Flight flight = flight_named(name);
+    const Verdict verdict = verdict_after(flight, kFrames);
+    CHECK_FALSE(verdict.undecided);
+    CHECK(intersection_over_union(verdict.own_body, flight.own_body) >= 0.95);
+  }
+}
+
+TEST_CASE("nothing is found where there is no body") {
+  const Verdict verdict = verdict_after(flight_named("none"), kFrames);
+  CHECK_FALSE(verdict.undecided);
+  CHECK(cv::countNonZero(verdict.own_body) == 0);
+}
+
+TEST_CASE("a camera that stands still tells nothing, also where something passes by") {
+  for (const char* name : {"still", "still, one mover"}) {
+    CAPTURE(name);
+    const Verdict verdict = verdict_after(flight_named(name), 60);
+    CHECK(verdict.undecided);
+    CHECK(cv::countNonZero(verdict.own_body) == 0);
+    CHECK(cv::norm(verdict.confidence - 0.5, cv::NORM_INF) == 0);
+  }
+}
+
+TEST_CASE("no frame, one frame and black frames are undecided, at any size") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 700), cv::Size(1300, 2), cv::Size(320, 240)}) {
+    const auto method = stable_method({}, size);
+    CHECK(method->verdict(KeepStages::no).undecided);
+    for (int n = 0; n < 20; ++n) {
+      method->add(cv::Mat::zeros(size, CV_8UC1));
+      const Verdict verdict = method->verdict(KeepStages::yes);
+      CHECK(verdict.undecided);
+      CHECK(verdict.own_body.size() == size);
+      CHECK(verdict.confidence.size() == size);
+    }
+  }
+}
+
+TEST_CASE("a verdict asked for in between changes nothing, nor does the number of threads") {
+  const flights::Flight flight = flight_named("nose");
+  const auto method = stable_method({}, flight.size_px);
+  const int threads = cv::getNumThreads();
+  for (int n = 0; n < kFrames; ++n) {
+    method->add(luma_of(flight, n));
+    if (n % 37 == 5) CHECK(method->verdict(KeepStages::no).own_body.size() == kSize);
+  }
+  cv::setNumThreads(1);
+  const Verdict looked_at = method->verdict(KeepStages::no);
+  cv::setNumThreads(threads);
+  const Verdict verdict = verdict_after(flight, kFrames);
+  CHECK(is_same(looked_at.own_body, verdict.own_body));
+  CHECK(is_same(looked_at.confidence, verdict.confidence));
+}
+
+TEST_CASE("confidence agrees with the mask, and the stages are pictures of the footage's size") {
+  const flights::Flight flight = flight_named("cockpit frame");
+  const Verdict verdict = verdict_after(flight, kFrames, KeepStages::yes);
+  CHECK(cv::countNonZero((verdict.confidence < 0.5) & verdict.own_body) == 0);
+  CHECK(cv::countNonZero((verdict.confidence > 0.5) & ~verdict.own_body) == 0);
+  CHECK(cv::mean(verdict.confidence, flight.own_body)[0] > 0.9);
+  CHECK(cv::mean(verdict.confidence, ~flight.own_body)[0] < 0.25);
+  CHECK(verdict.stages.size() >= 7);
+  for (const DetectionStage& stage : verdict.stages) {
+    CHECK(stage.picture.size() == kSize);
+    CHECK(stage.picture.type() == CV_8UC1);
+  }
+}
