@@ -30,12 +30,18 @@ App::App(Window& window, Settings settings, Probe probe)
       settings_(std::move(settings)),
       probe_(std::move(probe)),
       previewer_(PreviewLimits(), [] { Window::wake(); }),
+      own_body_(edits_, [] { Window::wake(); }),
       desk_(document_, settings_,
             {.samples = SIGS_PROJECTS_DIR,
              .recovery_folder = recovery_folder(),
              .version = SIGS_VERSION,
              .help = help_lines(),
-             .wake = [] { Window::wake(); }}) {
+             .wake = [] { Window::wake(); },
+             .mask = {.unsaved = [this] { return own_body_.unsaved(); },
+                      .save_then =
+                          [this](std::function<void()> next) {
+                            own_body_.ask_save_as(document_.project(), std::move(next));
+                          }}}) {
   places_.set_wanted(probe_.wanted());
 }
 
@@ -111,7 +117,7 @@ void App::draw(const Shown& shown) {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(2);
   if (desk_.has_project())
-    layout_.draw(studio, settings_);
+    layout_.draw(studio, own_body_, settings_);
   else
     desk_.draw_start_page(studio);
   ImGui::End();
@@ -122,6 +128,7 @@ void App::draw(const Shown& shown) {
 void App::take(const Request& request) {
   if (desk_.take(request)) return;
   if (std::holds_alternative<ToggleFullScreen>(request)) window_.toggle_full_screen();
+  if (std::holds_alternative<ShowOwnBody>(request)) layout_.show_own_body();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
   if (const auto* loop = std::get_if<SetLoop>(&request)) settings_.loop = loop->loop;
@@ -168,8 +175,11 @@ void App::turn(double now_s, bool something_happened) {
   }
   const std::uint64_t document = document_.first_number();
   desk_.turn(now_s_);
-  if (document_.first_number() != document) playback_.pause();
-  previewer_.set_modest(desk_.is_exporting());
+  if (document_.first_number() != document) {
+    playback_.pause();
+    own_body_.forget();
+  }
+  previewer_.set_modest(desk_.is_exporting() || own_body_.job().is_running());
   show_title();
   ask_preview();
   done_ = desk_.is_done();

@@ -13,6 +13,7 @@
 #include "editor/document/settings.h"
 #include "editor/preview/playback.h"
 #include "editor/preview/previewer.h"
+#include "editor/views/own_body/own_body_work.h"
 #include "editor/widgets/textures.h"
 
 namespace sigs::editor {
@@ -51,6 +52,7 @@ class App {
   Places places_;
   Probe probe_;
   Previewer previewer_;
+  OwnBodyWork own_body_;
   FrontDesk desk_;
   std::string title_;
   Playback playback_;

@@ -76,7 +76,27 @@ void FileDesk::ask_which_to_open() {
                                  .chosen = [this](const fs::path& path) { take(OpenProject{path}); }});
 }
 
+std::uint64_t FileDesk::unsaved_mask() const {
+  return has_project_ && surroundings_.mask.unsaved ? surroundings_.mask.unsaved() : 0;
+}
+
 void FileDesk::leave_then(Step next) {
+  const std::uint64_t mask = unsaved_mask();
+  if (mask == 0) {
+    leave_document_then(std::move(next));
+    return;
+  }
+  const auto give_up = [this, mask, next] {
+    mask_may_be_lost_ = mask;
+    leave_document_then(next);
+  };
+  ask({.title = "Unsaved mask",
+       .text = "The own-body mask was detected or painted and not saved. Save it?",
+       .answers = {"Save...", "Don't save", "Cancel"}},
+      {[this, next] { surroundings_.mask.save_then([this, next] { leave_then(next); }); }, give_up, {}});
+}
+
+void FileDesk::leave_document_then(Step next) {
   if (!has_project_ || !document_.has_unsaved_changes()) {
     next();
     return;
@@ -134,7 +154,8 @@ void FileDesk::take_loaded() {
   }
   // Something was done while the file was read.
   const bool was_agreed = may_be_lost_ == document_.revision().number;
-  if (has_project_ && document_.has_unsaved_changes() && !was_agreed) {
+  const bool mask_was_agreed = unsaved_mask() == 0 || unsaved_mask() == mask_may_be_lost_;
+  if (has_project_ && ((document_.has_unsaved_changes() && !was_agreed) || !mask_was_agreed)) {
     leave_then([this, path = loaded->path] { open(path); });
     return;
   }

@@ -22,10 +22,16 @@ namespace sigs::editor {
 // given up without a question.
 class FileDesk {
  public:
+  // The own-body mask that is being painted, which belongs to no project yet.
+  struct UnsavedMask {
+    std::function<std::uint64_t()> unsaved;                     // 0: it may go; else the state that would be lost
+    std::function<void(std::function<void()> next)> save_then;  // asks for its name; next: once it is written
+  };
   struct Surroundings {
     std::filesystem::path recovery_folder;
     std::function<void()> wake;          // called from another thread when a file was read
     std::function<bool()> is_exporting;  // an export is lost by quitting
+    UnsavedMask mask;
   };
   // Document and settings must outlive it. At first no project is open.
   FileDesk(Document& document, Settings& settings, Surroundings surroundings);
@@ -61,6 +67,8 @@ class FileDesk {
   void ask(Question question, std::vector<Step> steps);
   void ask_which_to_open();
   void leave_then(Step next);  // next: once nothing unsaved is lost by it
+  void leave_document_then(Step next);
+  [[nodiscard]] std::uint64_t unsaved_mask() const;
   void quit();
   void open(const std::filesystem::path& path);
   void show(Project project);
@@ -80,7 +88,8 @@ class FileDesk {
   std::optional<Question> question_;
   std::vector<Step> steps_;  // one for each answer
   std::vector<Request> requests_;
-  std::uint64_t may_be_lost_ = 0;  // the unsaved state that the person agreed to give up
+  std::uint64_t may_be_lost_ = 0;       // the unsaved state that the person agreed to give up
+  std::uint64_t mask_may_be_lost_ = 0;  // and of the mask
   bool has_project_ = false;
   bool done_ = false;
 };

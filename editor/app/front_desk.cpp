@@ -42,7 +42,8 @@ FrontDesk::FrontDesk(Document& document, Settings& settings, Setup setup)
       settings_(settings),
       setup_(std::move(setup)),
       export_(setup_.wake),
-      files_(document, settings, {setup_.recovery_folder, setup_.wake, [this] { return export_.is_running(); }}),
+      files_(document, settings,
+             {setup_.recovery_folder, setup_.wake, [this] { return export_.is_running(); }, setup_.mask}),
       start_page_(setup_.samples, setup_.wake) {
   const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
   browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);

@@ -28,6 +28,7 @@ class FrontDesk {
     std::string version;
     std::vector<HelpLine> help;
     std::function<void()> wake;  // from any thread: something is to be drawn
+    FileDesk::UnsavedMask mask;
   };
   // Document and settings must outlive it.
   FrontDesk(Document& document, Settings& settings, Setup setup);

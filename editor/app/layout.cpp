@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "editor/widgets/splitter.h"
 #include "editor/widgets/theme.h"
@@ -29,31 +30,38 @@ void move(double& size, double by_px, double least, double most) {
 
 }  // namespace
 
-void Layout::draw_pictures(const Studio& studio, Settings& settings) {
+// The tabs and what is in the one that is shown.
+void Layout::draw_tabs(const Studio& studio, OwnBodyWork& own_body) {
+  if (!ImGui::BeginTabBar("picture tabs")) return;
+  const auto tab = [&](const char* label, const char* place, ImGuiTabItemFlags flags, auto content) {
+    const bool open = ImGui::BeginTabItem(label, nullptr, flags);
+    studio.places.note_item(place);
+    if (!open) return false;
+    content();
+    ImGui::EndTabItem();
+    return true;
+  };
+  tab("Footage", "tab/footage", ImGuiTabItemFlags_None, [&] {
+    viewport_.draw(studio);
+    const glm::dvec2 low(ImGui::GetWindowPos().x, ImGui::GetWindowPos().y);
+    first_steps_.draw(studio, {low, low + glm::dvec2(ImGui::GetWindowSize().x, ImGui::GetWindowSize().y)});
+  });
+  tab("Stages", "tab/stages", ImGuiTabItemFlags_None, [&] { stages_.draw(studio); });
+  const bool is_wanted = std::exchange(wants_own_body_, false);
+  shows_own_body_ = tab("Own body", "tab/own body", is_wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None,
+                        [&] { own_body_.draw(studio, own_body); });
+  ImGui::EndTabBar();
+}
+
+void Layout::draw_pictures(const Studio& studio, OwnBodyWork& own_body, Settings& settings) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float bar = splitter_thickness();
-  const float world = settings.show_world ? static_cast<float>((room.x - bar) * settings.world_share) : 0;
-  const float left = settings.show_world ? room.x - bar - world : room.x;
-  panel("pictures", {left, room.y}, false, color::kCanvas, [&] {
-    if (ImGui::BeginTabBar("picture tabs")) {
-      const bool footage = ImGui::BeginTabItem("Footage");
-      studio.places.note_item("tab/footage");
-      if (footage) {
-        viewport_.draw(studio);
-        const glm::dvec2 low(ImGui::GetWindowPos().x, ImGui::GetWindowPos().y);
-        first_steps_.draw(studio, {low, low + glm::dvec2(ImGui::GetWindowSize().x, ImGui::GetWindowSize().y)});
-        ImGui::EndTabItem();
-      }
-      const bool stages = ImGui::BeginTabItem("Stages");
-      studio.places.note_item("tab/stages");
-      if (stages) {
-        stages_.draw(studio);
-        ImGui::EndTabItem();
-      }
-      ImGui::EndTabBar();
-    }
-  });
-  if (!settings.show_world) return;
+  // Painting needs the room, and the world has nothing to say to it.
+  const bool show_world = settings.show_world && !shows_own_body_;
+  const float world = show_world ? static_cast<float>((room.x - bar) * settings.world_share) : 0;
+  const float left = show_world ? room.x - bar - world : room.x;
+  panel("pictures", {left, room.y}, false, color::kCanvas, [&] { draw_tabs(studio, own_body); });
+  if (!show_world) return;
   ImGui::SameLine(0, 0);
   const SplitterMove moved = vertical_splitter("world splitter", room.y);
   settings.world_share = std::clamp(settings.world_share - moved.by_px / std::max(1.0F, room.x), 0.1, 0.9);
@@ -62,7 +70,7 @@ void Layout::draw_pictures(const Studio& studio, Settings& settings) {
   panel("world", {world, room.y}, false, color::kCanvas, [&] { world_.draw(studio); });
 }
 
-void Layout::draw(const Studio& studio, Settings& settings) {
+void Layout::draw(const Studio& studio, OwnBodyWork& own_body, Settings& settings) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float bar = splitter_thickness();
@@ -80,7 +88,7 @@ void Layout::draw(const Studio& studio, Settings& settings) {
 
   ImGui::BeginGroup();
   ImGui::BeginChild("upper", {left, room.y - timeline - bar});
-  with_usual_spacing([&] { draw_pictures(studio, settings); });
+  with_usual_spacing([&] { draw_pictures(studio, own_body, settings); });
   ImGui::EndChild();
   const SplitterMove moved = horizontal_splitter("timeline splitter", left);
   move(settings.timeline_height, -moved.by_px, 90, most_timeline);

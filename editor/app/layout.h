@@ -4,6 +4,7 @@
 #include "editor/document/settings.h"
 #include "editor/views/first_steps.h"
 #include "editor/views/inspector/inspector_view.h"
+#include "editor/views/own_body/own_body_view.h"
 #include "editor/views/stages/stages_view.h"
 #include "editor/views/timeline/timeline_view.h"
 #include "editor/views/viewport/viewport_view.h"
@@ -16,17 +17,23 @@ namespace sigs::editor {
 class Layout {
  public:
   // Fills the window below the menu bar.
-  void draw(const Studio& studio, Settings& settings);
+  void draw(const Studio& studio, OwnBodyWork& own_body, Settings& settings);
+  // From the next turn on.
+  void show_own_body() { wants_own_body_ = true; }
 
  private:
-  void draw_pictures(const Studio& studio, Settings& settings);
+  void draw_pictures(const Studio& studio, OwnBodyWork& own_body, Settings& settings);
+  void draw_tabs(const Studio& studio, OwnBodyWork& own_body);
 
   ViewportView viewport_;
   WorldView world_;
   TimelineView timeline_;
   InspectorView inspector_;
   StagesView stages_;
+  OwnBodyView own_body_;
   FirstSteps first_steps_;
+  bool wants_own_body_ = false;
+  bool shows_own_body_ = false;
 };
 
 }  // namespace sigs::editor

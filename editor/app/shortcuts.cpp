@@ -15,7 +15,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<Shortcut, 29> kShortcuts{{
+constexpr std::array<Shortcut, 35> kShortcuts{{
     {"Playing", "Space, K", "play, stop"},
     {"Playing", "L", "play on; again: faster"},
     {"Playing", "J", "play backwards; again: faster"},
@@ -41,6 +41,12 @@ constexpr std::array<Shortcut, 29> kShortcuts{{
     {"Footage", "F or 0; 1", "whole picture; pixel for pixel"},
     {"Footage", "Shift or Alt in a drag", "along the line of sight"},
     {"Footage", "Backslash, held", "the footage alone"},
+    {"Own body", "drag; Shift + drag", "paint; with the other brush"},
+    {"Own body", "B, E", "brush, eraser"},
+    {"Own body", "[ ]", "smaller, larger brush"},
+    {"Own body", "Ctrl + Z, Ctrl + Y", "undo, redo of strokes, after a press there"},
+    {"Own body", "Esc in a stroke", "take it back"},
+    {"Own body", "wheel; middle drag; F; 1; Backslash", "as over the footage"},
     {"World", "F", "everything in sight"},
     {"World", "N", "type a position"},
     {"Window", "F11", "full screen"},
@@ -100,8 +106,9 @@ void take_program_keys(const Studio& studio, bool shift) {
 }
 
 void take_edit_keys(const Studio& studio, bool shift) {
-  if (pressed(Key::z, true)) shift ? studio.edits.redo() : studio.edits.undo();
-  if (pressed(Key::y, true)) studio.edits.redo();
+  const bool undoes = !studio.wishes.own_undo;
+  if (undoes && pressed(Key::z, true)) shift ? studio.edits.redo() : studio.edits.undo();
+  if (undoes && pressed(Key::y, true)) studio.edits.redo();
   if (pressed(Key::e)) studio.edits.ask(ShowExport{});
   if (pressed(Key::d)) duplicate_selected(studio);
 }

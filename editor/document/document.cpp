@@ -29,11 +29,21 @@ bool finite(const IntruderSettings& intruder) {
          });
 }
 
+bool finite(const OwnBodySettings& own_body) {
+  const PaperOwnBodySettings& paper = own_body.paper;
+  const StableOwnBodySettings& stable = own_body.stable;
+  for (const double number :
+       {own_body.settled_percent, own_body.soft_edge_px, paper.canny_low, paper.canny_high, paper.least_area_percent,
+        stable.vibration_px, stable.least_area_percent, stable.least_moving_percent})
+    if (!std::isfinite(number)) return false;
+  return true;
+}
+
 bool finite(const Project& project) {
   const CameraSettings& camera = project.camera;
-  return finite(camera.position_m) && std::isfinite(camera.roll_deg) && std::isfinite(camera.pitch_deg) &&
-         std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) && finite(project.light.position_m) &&
-         finite(project.light.color) && std::isfinite(project.light.ambient) &&
+  return finite(project.own_body) && finite(camera.position_m) && std::isfinite(camera.roll_deg) &&
+         std::isfinite(camera.pitch_deg) && std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) &&
+         finite(project.light.position_m) && finite(project.light.color) && std::isfinite(project.light.ambient) &&
          std::isfinite(project.compositing.blur_px_per_m) &&
          std::all_of(project.intruders.begin(), project.intruders.end(),
                      [](const IntruderSettings& intruder) { return finite(intruder); });

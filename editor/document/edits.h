@@ -53,13 +53,13 @@ struct OpenProject {
   std::filesystem::path path;
 };
 struct NewProject {};
-struct SaveProject {};       // asks for a name where there is none
+struct SaveProject {};  // asks for a name where there is none
 struct SaveProjectAs {
   std::filesystem::path path;  // empty: ask
 };
 struct CloseProject {};  // back to the start page
 struct Quit {};
-struct AskForFile {      // opens the file browser; the answer comes as the call
+struct AskForFile {  // opens the file browser; the answer comes as the call
   std::string title;
   std::vector<std::string> extensions;  // ".json"; empty: all
   bool for_saving = false;
@@ -78,6 +78,7 @@ struct ShowExport {};
 struct ShowHelp {};
 struct ShowSettings {};
 struct ShowAbout {};
+struct ShowOwnBody {};       // where the own body's mask is found and painted
 struct ShowMissingFiles {};  // to tell where they are
 struct ToggleFullScreen {};
 struct Say {  // a passing message at the lower edge
@@ -85,9 +86,9 @@ struct Say {  // a passing message at the lower edge
   bool is_error = false;
 };
 
-using Request = std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile,
-                             Play, TogglePlay, SetLoop, ShowExport, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
-                             ToggleFullScreen, Say>;
+using Request = std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play,
+                             TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHelp, ShowSettings, ShowAbout,
+                             ShowMissingFiles, ToggleFullScreen, Say>;
 
 // Views put what they want here while they draw. Afterwards the document takes the edits and the program the requests,
 // in order.

@@ -13,15 +13,19 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_m"};
+constexpr std::array<std::string_view, 6> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kNames{{
     {"compositing.blur_px_per_m", "Blur with distance"},
     {"export.video.crf", "Quality (crf)"},
     {"export.video.codec", "Codec"},
     {"export.video.container", "Container"},
     {"light.color", "Colour"},
+    {"own_body.every", "Every nth"},
+    {"own_body.settled_percent", "Settled below"},
+    {"own_body.stable.vibration_px", "Vibration"},
+    {"own_body.stable.least_moving_percent", "Least that moves"},
     {"footage.calibration", "Calibration"},
 }};
 
@@ -130,7 +134,8 @@ std::string number_format(double value, std::string_view unit) {
   const double magnitude = std::abs(value);
   const int before_point = magnitude >= 1 ? static_cast<int>(std::floor(std::log10(magnitude))) + 1 : 1;
   const int digits = std::clamp(before_point + 2, 6, 15);
-  return "%." + std::to_string(digits) + "g" + unit_text(unit);
+  const std::string beside = unit == "%" ? " %%" : unit_text(unit);
+  return "%." + std::to_string(digits) + "g" + beside;
 }
 
 std::string number_text(double value, std::string_view unit) {

@@ -37,6 +37,7 @@ PictureName picture_name_of(const Project& project) {
   Project& kept = name.project;
   kept.file.clear();
   kept.name.clear();
+  kept.own_body = {};  // only the mask that came of it counts
   kept.output = {};
   kept.unknown_json.clear();
   std::vector<std::string*> paths{&kept.footage.video, &kept.footage.calibration, &kept.footage.own_body_mask};

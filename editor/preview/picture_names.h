@@ -23,7 +23,8 @@ struct FileStamp {
 [[nodiscard]] FileStamp stamp_of(const std::filesystem::path& path);
 
 // All that the pictures of a project depend on. Two projects with equal names have the same pictures: the project's own
-// name, its place, its export settings and what this program does not know are left out.
+// name, its place, how its own body is looked for, its export settings and what this program does not know are left
+// out.
 struct PictureName {
   Project project;  // paths resolved
   std::vector<FileStamp> files;

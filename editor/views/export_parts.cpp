@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "editor/views/readable.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/open_outside.h"
@@ -30,16 +31,6 @@ bool choose(const Studio& studio, const char* id, const std::array<const char*, 
   studio.places.note_item(std::string("export/") + id);
   if (changed) value = static_cast<Choice>(index);
   return changed;
-}
-
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(std::lround(std::clamp(seconds, 0.0, 1e7)));
-  std::array<char, 32> text{};
-  if (whole >= 3600)
-    std::snprintf(text.data(), text.size(), "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  else
-    std::snprintf(text.data(), text.size(), "%ld:%02ld", whole / 60, whole % 60);
-  return text.data();
 }
 
 void draw_written(const Studio& studio, const ExportState& state) {

@@ -71,6 +71,8 @@ void draw_edit_menu(const Studio& studio, bool has_project) {
   ImGui::Separator();
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
+  if (item(studio, "Own body...", "", has_project)) studio.edits.ask(ShowOwnBody{});
+  ImGui::Separator();
   if (item(studio, "Add waypoint here", "Enter", has_project && !studio.project().intruders.empty()))
     add_waypoint_here(studio);
   if (item(studio, "Duplicate", "Ctrl+D", on_waypoint)) duplicate_selected(studio);

@@ -20,8 +20,10 @@ namespace {
 // In the order of Key.
 constexpr std::array kCodes{
     SIGS_KEY(SPACE, Space),     SIGS_KEY(COMMA, Comma),         SIGS_KEY(PERIOD, Period),
-    SIGS_KEY(SLASH, Slash),     SIGS_KEY(BACKSLASH, Backslash), SIGS_KEY(0, 0),
-    SIGS_KEY(1, 1),             SIGS_KEY(A, A),                 SIGS_KEY(C, C),
+    SIGS_KEY(SLASH, Slash),     SIGS_KEY(BACKSLASH, Backslash), SIGS_KEY(LEFT_BRACKET, LeftBracket),
+    SIGS_KEY(RIGHT_BRACKET, RightBracket), SIGS_KEY(0, 0),
+    SIGS_KEY(1, 1),             SIGS_KEY(A, A),                 SIGS_KEY(B, B),
+    SIGS_KEY(C, C),
     SIGS_KEY(D, D),             SIGS_KEY(E, E),                 SIGS_KEY(F, F),
     SIGS_KEY(I, I),             SIGS_KEY(J, J),                 SIGS_KEY(K, K),
     SIGS_KEY(L, L),             SIGS_KEY(N, N),                 SIGS_KEY(O, O),

@@ -33,6 +33,7 @@ void draw_item(const ToolbarItem& item) {
     item.content();
   else if (tool_button(item.button) && item.clicked)
     item.clicked();
+  if (item.drawn) item.drawn();
 }
 
 std::vector<ToolbarItem> without_labels(std::vector<ToolbarItem> items) {

@@ -16,6 +16,7 @@ struct ToolbarItem {
   bool is_gap = false;
   float width = 0;                // of something else
   std::function<void()> content;  // draws that
+  std::function<void()> drawn;    // after the item was drawn, as ImGui's last one
 };
 
 // One row on the panel's colour, as wide as the window: labels where all of them have room, else icons alone where

@@ -120,13 +120,13 @@ void FieldRows::draw_side_buttons(const Field& field, float top_y) {
   ImGui::SetCursorScreenPos({right - icon_button_width(), top_y});
   if (field.is_path) {
     if (icon_button("browse", Icon::folder, "Choose a file")) browse(field);
-    studio_.places.note_item("inspector/" + field.key + "/browse");
+    studio_.places.note_item(place_ + field.key + "/browse");
   } else {
     const std::string text = "Back to " + value_text(field, sheet_.default_of(field));
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
     if (icon_button("reset", Icon::reset, text.c_str())) change(field, {sheet_.default_of(field), true});
     ImGui::PopStyleColor();
-    studio_.places.note_item("inspector/" + field.key + "/reset");
+    studio_.places.note_item(place_ + field.key + "/reset");
   }
   ImGui::SetCursorScreenPos(after);
 }
@@ -165,7 +165,7 @@ void FieldRows::row(std::string_view key, const RowLook& look) {
   ImGui::EndDisabled();
   if (is_wrong) ImGui::PopStyleColor();
   ImGui::PopStyleVar();
-  studio_.places.note_item("inspector/" + field->key);
+  studio_.places.note_item(place_ + field->key);
   draw_hint(*field, look);
   if (edited) change(*field, *edited);
   if (is_left) studio_.edits.end_gesture();

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "editor/document/field_edits.h"
 #include "editor/views/inspector/field_inputs.h"
@@ -28,8 +29,10 @@ struct RowMemory {
 // anew each turn.
 class FieldRows {
  public:
-  FieldRows(const Studio& studio, const FieldSheet& sheet, const ProblemsByField& problems, RowMemory& memory)
-      : studio_(studio), sheet_(sheet), problems_(problems), memory_(memory) {}
+  // place  what the fields' places on the screen begin with
+  FieldRows(const Studio& studio, const FieldSheet& sheet, const ProblemsByField& problems, RowMemory& memory,
+            std::string place = "inspector/")
+      : studio_(studio), sheet_(sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
 
   // Nothing where there is no such field.
   void row(std::string_view key, const RowLook& look = {});
@@ -56,6 +59,7 @@ class FieldRows {
   const FieldSheet& sheet_;
   const ProblemsByField& problems_;
   RowMemory& memory_;
+  std::string place_;
 };
 
 // Quiet text that breaks its lines, for what is told beside fields.

@@ -34,6 +34,20 @@ const char* block_of(Selected kind) {
   }
 }
 
+void draw_own_body(const Studio& studio, FieldRows& rows) {
+  const bool is_paper = studio.project().own_body.method == OwnBodyMethod::paper;
+  rows.rows("own_body.", [&](const Field& field) {
+    RowLook look;
+    if (field.key.starts_with("own_body.paper.") && !is_paper) look.off_because = "Counts for the paper method alone.";
+    if (field.key.starts_with("own_body.stable.") && is_paper) look.off_because = "Counts for the stable method alone.";
+    return look;
+  });
+  ImGui::Spacing();
+  if (ImGui::Button("Detect and paint...")) studio.edits.ask(ShowOwnBody{});
+  studio.places.note_item("inspector/own body");
+  tooltip_for_item("Finds the aircraft that carries the camera in its footage");
+}
+
 void draw_compositing(const Studio& studio, FieldRows& rows) {
   const bool is_direct = studio.project().compositing.method == MethodChoice::direct;
   rows.rows("compositing.", [&](const Field& field) {
@@ -147,6 +161,7 @@ void InspectorView::block(const Studio& studio, const char* title, bool opens_fi
 
 void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
   block(studio, "Inputs", true, [&] { draw_inputs(studio, rows); });
+  block(studio, "Own body", false, [&] { draw_own_body(studio, rows); });
   block(studio, "Camera", true, [&] { rows.rows("camera."); });
   block(studio, "Light", false, [&] { light_.draw(studio, rows); });
   block(studio, "Intruders", true, [&] { model_.draw(studio, rows); });

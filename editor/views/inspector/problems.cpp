@@ -28,7 +28,8 @@ std::optional<std::size_t> index_in(std::string_view key, std::string_view name)
 }  // namespace
 
 std::string block_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 5> kBlocks{{{"footage.", "Inputs"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kBlocks{{{"footage.", "Inputs"},
+                                                                             {"own_body.", "Own body"},
                                                                              {"camera.", "Camera"},
                                                                              {"light.", "Light"},
                                                                              {"compositing.", "Compositing"},

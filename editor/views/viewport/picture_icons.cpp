@@ -65,4 +65,37 @@ void target(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
   pen.line({{0, 0.3F}, {0, 0.85F}});
 }
 
+void brush(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
+  IconPen pen(draw, center, side, color);
+  pen.line({{0.7F, -0.75F}, {-0.15F, 0.15F}});
+  pen.fill({{-0.35F, 0}, {0, 0.35F}, {-0.3F, 0.7F}, {-0.8F, 0.75F}, {-0.65F, 0.3F}});
+}
+
+void eraser(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
+  IconPen pen(draw, center, side, color);
+  pen.line({{-0.1F, 0.65F}, {-0.75F, 0.05F}, {0.15F, -0.7F}, {0.75F, -0.1F}, {-0.1F, 0.65F}, {0.75F, 0.65F}});
+  pen.line({{-0.3F, -0.3F}, {0.35F, 0.25F}});
+}
+
+namespace {
+
+// side_sign -1: the arrow's head is at the left.
+void draw_turn(ImDrawList& draw, ImVec2 center, float side, ImU32 color, float side_sign) {
+  IconPen pen(draw, center, side, color);
+  const auto at = [side_sign](float x, float y) { return ImVec2(side_sign * -x, y); };
+  pen.line({at(-0.7F, -0.2F), at(0.2F, -0.2F), at(0.55F, -0.05F), at(0.7F, 0.25F), at(0.55F, 0.55F), at(0.2F, 0.7F),
+            at(-0.25F, 0.7F)});
+  pen.line({at(-0.3F, -0.6F), at(-0.7F, -0.2F), at(-0.3F, 0.2F)});
+}
+
+}  // namespace
+
+void undo(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
+  draw_turn(draw, center, side, color, -1);
+}
+
+void redo(ImDrawList& draw, ImVec2 center, float side, ImU32 color) {
+  draw_turn(draw, center, side, color, 1);
+}
+
 }  // namespace sigs::editor::picture_icon

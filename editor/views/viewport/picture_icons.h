@@ -15,5 +15,9 @@ void grid(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
 void wipe(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
 void fit(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
 void target(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void brush(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void eraser(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void undo(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
+void redo(ImDrawList& draw, ImVec2 center, float side, ImU32 color);
 
 }  // namespace sigs::editor::picture_icon

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/document/brush.h"
+
+namespace sigs::editor {
+
+// A mask that is painted, and its history. Every stroke is one step, so is every other mask that takes its place; undo
+// brings back the very bytes.
+class MaskPainting {
+ public:
+  // None: no picture is known yet, and nothing can be painted.
+  MaskPainting() = default;
+  // CV_8UC1. It counts as saved.
+  explicit MaskPainting(const cv::Mat& mask);
+
+  // Changes with what is painted: copy what is to be kept.
+  [[nodiscard]] const cv::Mat& mask() const { return mask_; }
+  [[nodiscard]] bool empty() const { return mask_.empty(); }
+
+  // From press to release. Pieces of a stroke join without a gap; one that is taken back leaves no trace.
+  void begin_stroke(const Brush& brush, const glm::dvec2& at);
+  void go_on(const glm::dvec2& to);
+  void end_stroke();
+  void take_back_stroke();
+  [[nodiscard]] bool is_stroking() const { return stroke_.has_value(); }
+
+  // Another mask of the same size, as a step of its own.
+  void replace(const cv::Mat& mask, std::string name);
+
+  [[nodiscard]] bool can_undo() const { return !past_.empty() && !stroke_; }
+  [[nodiscard]] bool can_redo() const { return !future_.empty() && !stroke_; }
+  [[nodiscard]] std::string undo_name() const { return past_.empty() ? "" : past_.back().name; }
+  [[nodiscard]] std::string redo_name() const { return future_.empty() ? "" : future_.back().name; }
+  void undo();
+  void redo();
+
+  // A number of its own for each state; undo comes back to the one it had.
+  [[nodiscard]] std::uint64_t state() const { return state_; }
+  [[nodiscard]] bool has_unsaved_changes() const { return state_ != saved_state_; }
+  void mark_saved() { saved_state_ = state_; }
+  // Strokes by hand since the last mask that came as a whole.
+  [[nodiscard]] bool has_strokes() const { return state_ != whole_state_; }
+
+ private:
+  struct Stroke {
+    Brush brush;
+    glm::dvec2 at{0, 0};
+    cv::Mat before;
+    cv::Rect touched;
+  };
+  // What a part of the picture held on the other side of the step.
+  struct Step {
+    std::string name;
+    cv::Rect place;
+    cv::Mat other;
+    std::uint64_t other_state = 0;
+    std::uint64_t other_whole_state = 0;
+  };
+
+  void remember(std::string name, const cv::Rect& place, const cv::Mat& before, bool is_whole);
+  void swap_with(Step& step);
+  void move(const glm::dvec2& to);
+  void forget_oldest();
+
+  cv::Mat mask_;
+  std::uint64_t state_ = 1;
+  std::uint64_t last_state_ = 1;
+  std::uint64_t saved_state_ = 1;
+  std::uint64_t whole_state_ = 1;
+  std::optional<Stroke> stroke_;
+  std::vector<Step> past_;
+  std::vector<Step> future_;
+};
+
+}  // namespace sigs::editor

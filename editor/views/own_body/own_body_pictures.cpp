@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/own_body/own_body_pictures.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/ensure.h"
+#include "editor/views/readable.h"
+
+namespace sigs::editor {
+
+namespace {
+
+// Blue, green, red.
+const cv::Vec3d kWorld(170, 110, 40);
+const cv::Vec3d kUnknown(70, 70, 70);
+const cv::Vec3d kBody(230, 110, 225);
+
+cv::Vec3b color_of(double confidence) {
+  const double side = 2 * confidence - 1;
+  return cv::Vec3b(kUnknown + std::abs(side) * ((side < 0 ? kWorld : kBody) - kUnknown));
+}
+
+std::string frames_text(int frames) {
+  return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+}
+
+}  // namespace
+
+cv::Mat confidence_picture(const cv::Mat& confidence) {
+  ENSURE(confidence.empty() || confidence.type() == CV_16UC1);
+  static const std::vector<cv::Vec3b> kColors = [] {
+    std::vector<cv::Vec3b> colors(256);
+    for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color_of(static_cast<double>(i) / 255);
+    return colors;
+  }();
+  cv::Mat picture(confidence.size(), CV_8UC3);
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x) {
+      // 65535 is 255 times 257.
+      const auto index = static_cast<std::size_t>((confidence.at<ushort>(y, x) + 128) / 257);
+      picture.at<cv::Vec3b>(y, x) = kColors[index];
+    }
+  return picture;
+}
+
+std::vector<StageTile> stage_tiles(const OwnBody& found) {
+  std::vector<StageTile> tiles;
+  for (const DetectionStage& stage : found.stages)
+    if (!stage.picture.empty())
+      tiles.push_back({std::to_string(tiles.size() + 1) + "  " + stage.title, stage.name, stage.picture});
+  return tiles;
+}
+
+std::string result_text(const OwnBody& found) {
+  if (!(found.share > 0)) return "No own body, " + frames_text(found.frames_used);
+  std::array<char, 32> share{};
+  std::snprintf(share.data(), share.size(), found.share < 0.1 ? "%.2g" : "%.3g", found.share * 100);
+  return std::string(share.data()) + " % of the picture, " + frames_text(found.frames_used) +
+         (found.settled ? ", settled early" : "");
+}
+
+std::string progress_text(const DetectionState& state) {
+  if (state.is_stopping) return "stopping...";
+  if (state.total <= 0) return "opening the footage...";
+  std::string text = std::to_string(state.done) + " of " + frames_text(state.total);
+  if (state.left_s) text += ", " + clock_text(*state.left_s) + " left";
+  return text;
+}
+
+}  // namespace sigs::editor
