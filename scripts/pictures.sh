@@ -32,16 +32,17 @@ ffmpeg -v error -y "${stages[@]}" -filter_complex "
   -q:v 4 docs/pictures/classic-stages.jpg
 
 # The editor, as a test drives it.
-"$build"/test_editor_walk --test-case='a person authors*' >"$work/walk.log" || {
+"$build"/test_editor_walk --test-case='a person authors*,a person finds the own body*' >"$work/walk.log" || {
   cat "$work/walk.log"
   exit 1
 }
 editor_picture() {  # NAME SCREENSHOT
-  ffmpeg -v error -y -i "$build/screenshots/walk-$2.png" -vf scale=1200:-1:flags=lanczos -q:v 5 \
+  ffmpeg -v error -y -i "$build/screenshots/$2.png" -vf scale=1200:-1:flags=lanczos -q:v 5 \
     "docs/pictures/editor-$1.jpg"
 }
-editor_picture open open
-editor_picture footage footage
-editor_picture world world
-editor_picture light light
-editor_picture stages stages-classic
+editor_picture open walk-open
+editor_picture footage walk-footage
+editor_picture world walk-world
+editor_picture light walk-light
+editor_picture stages walk-stages-classic
+editor_picture own-body own-body-found

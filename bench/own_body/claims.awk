@@ -1,5 +1,5 @@
 # What docs/own-body.md says in words, held against the tables: prints each sentence that the figures no longer carry.
-#   awk -F, -f claims.awk flights.csv limits.csv real.csv time.csv
+#   awk -F, -f claims.awk flights.csv limits.csv real.csv time.csv early.csv
 function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
 FNR == 1 { next }
 FILENAME ~ /flights\.csv$/ && $(NF - 5) == "stable" {
@@ -21,4 +21,6 @@ FILENAME ~ /time\.csv$/ && $1 == "stable" && $2 == 1500 && $3 == 1 && $4 == 0 {
   claim($11 <= 1.3, "1500 frames take at most 1.3 times what decoding takes")
   claim($7 >= 0.95, "1500 frames of 1280 x 960: stable agrees by 0.95 and more")
 }
+FILENAME ~ /early\.csv$/ { claim($5 >= $6 - 0.005, $1 ": stopping early costs less than 0.005") }
+FILENAME ~ /early\.csv$/ && $1 == "plain sky first" { claim($3 > $4 / 2, $1 ": no stop before the ground is seen") }
 END { exit broken }

@@ -14,6 +14,9 @@ void measure_limits(const accuracy::Call& call);
 // Agreement by run time, frames, `every` and early stop: time.csv.
 void measure_time(const accuracy::Call& call);
 
+// What stopping early saves and costs, on the made flights that can be told: early.csv.
+void measure_early_stop(const accuracy::Call& call);
+
 // Real clips, and shapes laid over one of them: real.csv, overlays in real/. Says so where there are none.
 void measure_real_clips(const accuracy::Call& call);
 

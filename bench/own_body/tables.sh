@@ -42,6 +42,16 @@ table_time() {
   ' "$folder/time.csv"
 }
 
+# What stopping early saves and costs.
+table_early() {
+  awk -F, '
+    FNR == 1 { print "| flight | frames used | IoU | IoU with all frames | s | s with all frames |"; print "|---|---|---|---|---|---|"; next }
+    { printf "| %s | %d of %d | %.4f | %.4f | %.2f | %.2f |\n", $1, $3, $4, $5, $6, $7, $8; early += $7; all += $8; used += $3; of += $4
+      if ($6 - $5 > cost) cost = $6 - $5 }
+    END { printf "| all | %.0f %% | at most %.4f less | | %.1f | %.1f |\n", 100 * used / of, cost, early, all }
+  ' "$folder/early.csv"
+}
+
 table_real() {
   awk -F, '
     function cell(iou, percent, truth, said) {

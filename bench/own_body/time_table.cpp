@@ -32,7 +32,7 @@ std::vector<Way> ways(int most) {
     for (const OwnBodyMethod method : {OwnBodyMethod::stable, OwnBodyMethod::paper})
       if (frames <= most) ways.push_back(way(method, frames));
   for (const int every : {2, 4, 8, 16}) ways.push_back(way(OwnBodyMethod::stable, most, every));
-  for (const double settled_percent : {0.5, 2.0}) ways.push_back(way(OwnBodyMethod::stable, most, 1, settled_percent));
+  for (const double settled_percent : {1.0, 2.0}) ways.push_back(way(OwnBodyMethod::stable, most, 1, settled_percent));
   return ways;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace sigs {
 
@@ -11,6 +12,7 @@ struct PartEvidence {
   cv::Mat ending;     // 0..1: places where motion ends abruptly
   cv::Mat variation;  // of the gradient over time; 1: as much as noise
   cv::Mat drift;      // 0..1: what creeps
+  cv::Mat middle;     // 0..1: the middles of the edges and of the ends of motion
 };
 
 struct BodyParts {
@@ -21,11 +23,12 @@ struct BodyParts {
 // Those connected parts of a labelling that can be the carrying aircraft's:
 // - large enough,
 // - at the picture's border: the aircraft goes on to where the camera is fixed to it,
-// - walled off: what separates it from the rest is mostly an edge that stays or an abrupt end of motion, and where it
-// is
-//   only the latter, as around a sky between passing trees, more of it,
-// - still inside: not a road, whose faint texture passes by, and no clouds that creep.
-// labels: CV_8UC1, non-zero: may be body.
-[[nodiscard]] BodyParts body_parts(const cv::Mat& labels, const PartEvidence& evidence, double least_area_px);
+// - of which the following together speak more for the aircraft than against it: what separates them from the rest is
+//   an edge that stays or an abrupt end of motion, with few such just outside, as a world passing by has none; they are
+//   still inside, not a road, whose faint texture passes by, and no clouds that creep.
+// labellings: one or more, CV_8UC1, non-zero: may be body. Where parts of several overlap, the more convincing one
+// stays, with what is nearly as convincing.
+[[nodiscard]] BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence& evidence,
+                                   double least_area_px);
 
 }  // namespace sigs

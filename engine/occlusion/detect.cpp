@@ -46,7 +46,7 @@ class Detection {
     if (!anything_differs_)
       return fail(path_, "nothing moves: all " + std::to_string(used_) + " frames are equal; take a clip in flight");
     if (!verdict_ || control_.stages == KeepStages::yes) verdict_ = method_->verdict(control_.stages);
-    if (verdict_->undecided) return fail(path_, *verdict_->undecided);
+    if (verdict_->undecided) return fail(undecided(*verdict_->undecided));
     return own_body();
   }
 
@@ -111,6 +111,12 @@ class Detection {
     if (damaged_ > 0) text += ", " + std::to_string(damaged_) + " are damaged";
     if (steps_.every > 1) text += ", each " + std::to_string(steps_.every) + "th is taken";
     return {path_, text + "; at least 2 are needed to see what moves"};
+  }
+
+  [[nodiscard]] Error undecided(const std::string& reason) const {
+    constexpr int kFew = 9;  // fewer than half a second of any footage
+    const std::string few = used_ <= kFew ? std::to_string(used_) + " frames are too few to tell: " : "";
+    return {path_, few + reason + "; take a longer part of the flight, with turns"};
   }
 
   // A frame that cannot be made, or is of another size than those before.

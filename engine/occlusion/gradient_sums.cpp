@@ -39,6 +39,7 @@ void GradientSums::add(const MeanPicture& picture) {
     if (right > 0) add_at(right, right - 1, right);
   }
   frames_ += picture.frames;
+  ++pictures_;
 }
 
 GradientSums GradientSums::clone() const {
@@ -52,7 +53,7 @@ GradientSums GradientSums::clone() const {
 GradientMoments GradientSums::moments() const {
   ENSURE(frames_ > 0);
   const double share = 1.0 / frames_;
-  return {sum_x_ * share, sum_y_ * share, sum_square_ * share};
+  return {sum_x_ * share, sum_y_ * share, sum_square_ * share, 1.0 * frames_ / pictures_};
 }
 
 }  // namespace sigs

@@ -10,7 +10,8 @@ namespace sigs {
 // Of each pixel, over time; CV_32FC1. Gradients are in gray levels per pixel of the pictures, these slightly blurred.
 struct GradientMoments {
   cv::Mat mean_x, mean_y;
-  cv::Mat mean_square;  // of the gradient's length
+  cv::Mat mean_square;        // of the gradient's length
+  double picture_frames = 1;  // that a picture is the mean of, on average
 };
 
 // Gradients do not notice that the exposure shifts, and little that it scales.
@@ -29,6 +30,7 @@ class GradientSums {
 
  private:
   int frames_ = 0;
+  int pictures_ = 0;
   cv::Mat sum_x_, sum_y_, sum_square_;  // CV_32FC1
 };
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "occlusion/settling.h"
 
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
 #include "occlusion/intersection.h"
 
 namespace sigs {
@@ -12,6 +16,9 @@ constexpr int kQuietLooks = 3;
 constexpr double kQuiet_s = 10;        // a turn that brings other ground into view takes some seconds
 constexpr double kSurelyWorld = 0.25;  // confidence below it
 constexpr double kLeastKnown = 0.5;    // share of what is not masked that is surely world
+constexpr double kDoubtFrom = 0.3;     // confidence
+constexpr double kDoubtTo = 0.7;
+constexpr double kPatch = 0.02;  // side by the picture's diagonal: wider than the doubt along a border
 
 bool knows_the_world(const Verdict& verdict) {
   const cv::Mat world = verdict.own_body == 0;
@@ -19,12 +26,21 @@ bool knows_the_world(const Verdict& verdict) {
   return cv::countNonZero(world & surely) >= kLeastKnown * cv::countNonZero(world);
 }
 
+// A part that one look takes for body and the next for world is in doubt before it changes sides.
+bool leaves_a_patch_in_doubt(const Verdict& verdict) {
+  cv::Mat doubt;
+  cv::inRange(verdict.confidence, kDoubtFrom, kDoubtTo, doubt);
+  const int side_px = std::max(3, static_cast<int>(std::lround(kPatch * std::hypot(doubt.cols, doubt.rows))));
+  cv::erode(doubt, doubt, cv::Mat::ones(side_px, side_px, CV_8U));
+  return cv::countNonZero(doubt) > 0;
+}
+
 }  // namespace
 
 void Settling::look(const Verdict& verdict, int frames_used, double passed_s) {
   next_look_ = static_cast<int>(frames_used * kGrowth);
   last_change_ = mask_.empty() || verdict.undecided ? 1 : 1 - intersection_over_union(mask_, verdict.own_body);
-  const bool is_quiet = last_change_ < least_change_ && knows_the_world(verdict);
+  const bool is_quiet = last_change_ < least_change_ && knows_the_world(verdict) && !leaves_a_patch_in_doubt(verdict);
   if (is_quiet && quiet_looks_ == 0) quiet_since_s_ = looked_s_;
   quiet_looks_ = is_quiet ? quiet_looks_ + 1 : 0;
   settled_ = quiet_looks_ >= kQuietLooks && passed_s - quiet_since_s_ >= kQuiet_s;

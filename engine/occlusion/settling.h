@@ -10,7 +10,8 @@ namespace sigs {
 // Decides when more frames no longer change the mask. A verdict costs as much as decoding many frames, so it is asked
 // for at few counts, each half as large again as the one before. Settled: at least three looks in a row, over at least
 // ten seconds of footage, changed the mask by less than the limit, with at least half of what is not masked known to
-// move. A sky that is plain at first therefore does not end it, as far as its plainness tells.
+// move and no patch of the picture, as wide as 2 % of its diagonal, in doubt (confidence 0.3 to 0.7). A sky that is
+// plain at first therefore does not end it, nor a part that comes and goes.
 class Settling {
  public:
   // The limit: 1 - intersection over union of the masks of successive looks, 0..1; 0: never settled.

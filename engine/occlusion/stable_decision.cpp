@@ -22,19 +22,28 @@ constexpr double kStayingCost = 0.05;   // of calling an edge world that stays
 constexpr int kNear = 33;           // pixels: what is around
 constexpr double kFarShare = 0.25;  // of it that moves: what creeps there may be the moving world seen in a border
 
-// First all of the picture with care, then the borders of what was found with more trust in it: an edge within a body,
-// such as a line of rivets, is then no border as long as nothing moves directly beside it.
+// First all of the picture with care, more than once: plain sky beside a body comes along with it unless calling a
+// pixel body costs something, and a slender body is lost if it does. Then the borders of what was found with more trust
+// in it: an edge within a body, such as a line of rivets, is then no border as long as nothing moves directly beside
+// it.
 struct Trust {
   int sure_reach = 0;           // pixels around a pixel that must move too, so that it counts as moving
   bool is_doubt_still = false;  // a pixel that does not count as moving counts as still
   double still_near_cost = 0;   // of calling a still pixel world where all around moves
   double lone_wall = 1;         // share that is left of a wall beside which nothing moves
+  double body_cost = 0;         // of calling any pixel body
 };
 constexpr Trust kCareful{.sure_reach = 3, .still_near_cost = 0.04};
+constexpr Trust kSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.01};
+constexpr Trust kMostSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.02};
 constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_wall = 0.7};
 constexpr int kTrustReach = 10;  // pixels beside the borders
 
-constexpr double kMostShare = 0.95;  // of the picture that a body can fill
+constexpr double kStrong = 4;   // gray levels per pixel: half an edge whose strength hides what creeps beside it
+constexpr int kDriftSpill = 6;  // pixels
+
+constexpr double kMostShare = 0.85;     // of the picture that a body can fill
+constexpr double kDoubtfulShare = 0.6;  // of the picture that stays, though nothing in it looks like a body
 constexpr double kNothingPercent = 0.1;
 constexpr double kUnsureBorder = 3;  // pixels beside the border where its place is not sure
 constexpr double kPlainWorld = 0.5;  // certainty of world that is not seen to move
@@ -43,23 +52,40 @@ cv::Mat disc(int reach) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
 }
 
+// 0 near strong edges that stay .. 1: what passes beside them changes them more than creeping would.
+cv::Mat away_from_edges(const StableDecision& decision) {
+  const cv::Mat& square = decision.motion.mean_square;
+  cv::Mat near = decision.walls.staying.mul(square / cv::Mat(square + kStrong * kStrong));
+  cv::dilate(near, near, disc(kDriftSpill));
+  return 1.0 - near;
+}
+
 cv::Mat wall_of(const Walls& walls, const cv::Mat& moving, const Trust& trust) {
   cv::Mat beside;
   cv::dilate(moving, beside, disc(trust.sure_reach + 1));
   return cv::max(walls.ridge, walls.motion).mul(beside * (1 - trust.lone_wall) + trust.lone_wall);
 }
 
-CutCosts costs_of(const StableDecision& decision, const Trust& trust) {
+CutCosts costs_of(const StableDecision& decision, const cv::Mat& drift, const Trust& trust) {
   cv::Mat moving;
   cv::erode(decision.motion.moving, moving, disc(trust.sure_reach));
   cv::Mat near;
   cv::boxFilter(moving, near, CV_32F, {kNear, kNear}, {-1, -1}, true, cv::BORDER_REFLECT);
   const cv::Mat still = 1.0 - (trust.is_doubt_still ? moving : decision.motion.moving);
   const cv::Mat far = cv::max(1.0 - near / kFarShare, 0.0);
-  return {.as_body = moving.mul(moving).mul(moving) * kMovingCost + decision.drift.mul(far) * kDriftingCost,
+  return {.as_body = moving.mul(moving).mul(moving) * kMovingCost + drift.mul(far) * kDriftingCost + trust.body_cost,
           .as_world = still.mul(near * trust.still_near_cost + kStillCost / moving.rows) +
                       decision.walls.staying.mul(1.0 - decision.moving) * kStayingCost,
           .wall = wall_of(decision.walls, moving, trust)};
+}
+
+// Drift beside strong edges may be a creeping highlight on the body, or a cloud that ends there: once with it, once
+// without.
+std::vector<cv::Mat> labellings_of(const StableDecision& decision, const cv::Mat& drift_away) {
+  return {cheapest_cut(costs_of(decision, decision.drift, kCareful)),
+          cheapest_cut(costs_of(decision, drift_away, kCareful)),
+          cheapest_cut(costs_of(decision, decision.drift, kSparing)),
+          cheapest_cut(costs_of(decision, drift_away, kMostSparing))};
 }
 
 cv::Mat confidence_of(const cv::Mat& moving, const cv::Mat& body, const cv::Mat& doubtful) {
@@ -79,6 +105,8 @@ std::optional<std::string> why_undecided(const StableDecision& decision, const S
   if (moving_percent < kNothingPercent) return "nothing moves";
   if (moving_percent < settings.least_moving_percent) return "too little moves";
   if (cv::countNonZero(decision.body) > kMostShare * pixels) return "nearly everything stays";
+  if (cv::countNonZero(decision.body) == 0 && cv::countNonZero(decision.labels) > kDoubtfulShare * pixels)
+    return "too little moves";
   return std::nullopt;
 }
 
@@ -99,17 +127,20 @@ cv::Mat root(const cv::Mat& values) {
 StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanPicture>& segments,
                                const StableOwnBodySettings& settings) {
   StableDecision decision{.motion = motion_of(moments, settings.vibration_px)};
+  decision.walls = walls_of(decision.motion);
   decision.drift = drifting(segments, decision.motion.ratio);
   decision.moving = cv::max(decision.motion.moving, decision.drift);
-  decision.walls = walls_of(decision.motion);
-  decision.labels = cheapest_cut(costs_of(decision, kCareful));
+  const cv::Mat away = decision.drift.mul(away_from_edges(decision));
+  const std::vector<cv::Mat> labellings = labellings_of(decision, away);
+  decision.labels = labellings.front();
   const PartEvidence inside{.staying = decision.walls.staying,
                             .ending = decision.walls.ending,
                             .variation = decision.motion.variation / decision.motion.noise,
-                            .drift = decision.drift};
-  const BodyParts parts = body_parts(decision.labels, inside,
-                                     settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
-  decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, kTrusting));
+                            .drift = decision.drift,
+                            .middle = cv::max(decision.walls.ridge, decision.walls.motion)};
+  const BodyParts parts =
+      body_parts(labellings, inside, settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
+  decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, away, kTrusting));
   decision.confidence = confidence_of(decision.moving, decision.body, parts.doubtful);
   decision.undecided = why_undecided(decision, settings);
   return decision;

@@ -21,7 +21,7 @@ struct StableDecision {
   cv::Mat drift;   // slow_drift.h
   cv::Mat moving;  // the larger of both, CV_32FC1, 0..1
   Walls walls;
-  cv::Mat labels;      // CV_8UC1, 255: may be body
+  cv::Mat labels;      // CV_8UC1, 255: may be body, by the first of several cuts
   cv::Mat body;        // CV_8UC1, 255: body
   cv::Mat confidence;  // CV_32FC1: 0 surely world, 0.5 nobody can tell, 1 surely body
   std::optional<std::string> undecided;

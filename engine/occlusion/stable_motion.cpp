@@ -10,13 +10,16 @@ namespace sigs {
 
 namespace {
 
-constexpr double kQuietShare = 0.05;      // of the picture that at least shows nothing but noise
-constexpr double kQuietestShare = 0.01;   // of the picture, shown by any body that is worth masking
-constexpr double kNothing = 5e-4;         // less variation than any camera's: letterbox bars, clipped black
-constexpr double kLeastNoise = 0.005;     // rounding to whole gray levels alone gives as much
-constexpr double kNoiseMargin = 4;        // codecs make noise uneven: twice the amplitude is still noise
-constexpr double kVibrationShare = 0.15;  // of a shaken edge's energy varies, the mean of 8 frames being the measure
-constexpr double kLeastSpan = 4;          // ratio from which it surely moves, at least
+constexpr double kQuietShare = 0.05;     // of the picture that at least shows nothing but noise
+constexpr double kQuietestShare = 0.01;  // of the picture, shown by any body that is worth masking
+constexpr double kNothing = 5e-4;        // less variation than any camera's: letterbox bars, clipped black
+constexpr double kLeastNoise = 0.005;    // rounding to whole gray levels alone gives as much
+constexpr double kNoiseMargin = 4;       // codecs make noise uneven: twice the amplitude is still noise
+constexpr double kShakeSquare = 0.22;    // mean square along an axis, of what shakes by up to 1 in any direction
+constexpr double kSpotSquare = 1.3;      // pixels: variance of a point as the blurred gradient sees it
+constexpr double kShakenMargin = 0.8;    // most of a body are lines and areas, which vary less than spots
+constexpr double kLeastShaken = 0.15;    // light and codec alone vary an edge's energy by less
+constexpr double kLeastSpan = 4;         // ratio from which it surely moves, at least
 
 float quantile(const cv::Mat& values, double share, double above) {
   std::vector<float> sorted;
@@ -34,6 +37,12 @@ cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
   cv::Mat kept = cv::Mat::zeros(values.size(), values.type());
   values.copyTo(kept, mask);
   return kept;
+}
+
+// How much more a shaken spot's gradient varies than its mean has energy: spread by the shaking, that falls with the
+// variance. A mean of some frames shakes the less.
+double shaken_share(double vibration, double picture_frames) {
+  return kShakenMargin * kShakeSquare * vibration * vibration / (kSpotSquare * picture_frames);
 }
 
 // The ratio from which it surely moves: half way, as factors go, between noise and what the world does typically.
@@ -54,7 +63,8 @@ Motion motion_of(const GradientMoments& moments, double vibration) {
   motion.quietest = std::max<double>(kLeastNoise, quantile(variation, kQuietestShare, kNothing));
   cv::Mat shaken;
   cv::GaussianBlur(motion.mean_square, shaken, {}, 1 + vibration);
-  motion.ratio = variation / cv::Mat(kNoiseMargin * motion.noise + kVibrationShare * shaken);
+  const double share = std::max(kLeastShaken, shaken_share(vibration, moments.picture_frames));
+  motion.ratio = variation / cv::Mat(kNoiseMargin * motion.noise + share * shaken);
   const double sure = sure_ratio(variation, motion.ratio, motion.noise);
   cv::log(cv::max(motion.ratio, 1.0), motion.moving);
   motion.moving = cv::min(motion.moving / std::log(sure), 1.0);

@@ -12,8 +12,10 @@ namespace {
 
 using libav::Picture;
 
-// Going on costs decoding, seeking costs a decoder's start-up: about as much as this many pictures.
+// Going on costs decoding, seeking costs a decoder's start-up: about as much as this many pictures. Where each stands
+// alone nothing but the picture asked for is decoded after a seek, and start-up is less than one of them.
 constexpr int kWorthASeek = 16;
+constexpr int kWorthASeekIntraOnly = 1;
 
 size_t bytes_of(const AVFrame& frame) {
   const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, 1);
@@ -58,7 +60,8 @@ void PictureSeeker::keep(Placed placed) {
 bool PictureSeeker::can_go_on_to(int n) const {
   if (!started_ || kept_.empty() || n < kept_.back().n) return false;
   if (ahead_ && n <= ahead_->n) return true;
-  return nearest_start(n).ordinal <= stream_.fed() + kWorthASeek;
+  const int worth_a_seek = order_.intra_only ? kWorthASeekIntraOnly : kWorthASeek;
+  return nearest_start(n).ordinal <= stream_.fed() + worth_a_seek;
 }
 
 Result<void> PictureSeeker::restart(int n) {

@@ -104,7 +104,8 @@ TEST_CASE("light that changes all over an even picture has no edges and gives no
 TEST_CASE("the bodies of made flights that shake are found") {
   for (const std::string name : {"nose", "tail boom"}) {
     CAPTURE(name);
-    constexpr int kFrames = 40;
+    // Until the outline is brighter all along than the world's differences, it has gaps. At 40 frames the nose has one.
+    constexpr int kFrames = 150;
     const flights::Flight flight = flights::by_name(name, {.size_px = {640, 480}, .frames = kFrames});
     const auto method = paper_method({}, flight.size_px);
     cv::Mat luma;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kLong_s = 5;  // between looks
 
-// The left columns are body, of the rest the upper rows are known to be world.
+// The left columns are body, of the rest the upper rows are known to be world; below it is plain.
 Verdict verdict_with(int body_columns, int known_rows = 100) {
   Verdict verdict{.own_body = cv::Mat::zeros(100, 100, CV_8UC1),
-                  .confidence = cv::Mat(100, 100, CV_32FC1, cv::Scalar(0.5))};
+                  .confidence = cv::Mat(100, 100, CV_32FC1, cv::Scalar(0.25))};
   verdict.confidence.rowRange(0, known_rows).setTo(0);
   verdict.own_body.colRange(0, body_columns).setTo(255);
   verdict.confidence.colRange(0, body_columns).setTo(1);
@@ -69,6 +69,26 @@ TEST_CASE(
   CHECK_FALSE(settles({plain, plain, plain, plain, plain}, 0.01));
   const Verdict half = verdict_with(50, 50);
   CHECK(settles({half, half, half, half}, 0.01));
+}
+
+TEST_CASE(
+    "nothing settles while a patch of the picture is in doubt, in the mask or beside it; a border's doubt is no "
+    "patch") {
+  const auto with_doubt = [](const cv::Rect& where, double confidence) {
+    Verdict verdict = verdict_with(50);
+    verdict.confidence(where).setTo(confidence);
+    return std::vector<Verdict>(4, verdict);
+  };
+  // 2 % of the diagonal are 2.8 pixels.
+  for (const cv::Point corner : {cv::Point(10, 20), cv::Point(70, 20), cv::Point(0, 0), cv::Point(97, 97)}) {
+    CAPTURE(corner);
+    CHECK_FALSE(settles(with_doubt({corner, cv::Size(3, 3)}, 0.5), 0.01));
+    CHECK_FALSE(settles(with_doubt({corner, cv::Size(3, 3)}, 0.31), 0.01));
+    CHECK_FALSE(settles(with_doubt({corner, cv::Size(3, 3)}, 0.69), 0.01));
+    CHECK(settles(with_doubt({corner, cv::Size(3, 3)}, 0.29), 0.01));
+    CHECK(settles(with_doubt({corner, cv::Size(3, 3)}, 0.71), 0.01));
+  }
+  CHECK(settles(with_doubt({49, 0, 2, 100}, 0.5), 0.01));
 }
 
 TEST_CASE("looks are few, each at half as many frames again, and there are none without a limit") {

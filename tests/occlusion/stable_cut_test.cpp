@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
@@ -49,11 +50,15 @@ double cheapest_of_all(const CutCosts& costs) {
   return cheapest;
 }
 
-PartEvidence sure_evidence(cv::Size size) {
+// Around the part, an edge that stays; nothing else.
+PartEvidence sure_evidence(cv::Size size, const cv::Rect& part) {
+  cv::Mat middle = cv::Mat::zeros(size, CV_32FC1);
+  cv::rectangle(middle, part, cv::Scalar(1), 1);
   return {.staying = cv::Mat::ones(size, CV_32FC1),
           .ending = cv::Mat::zeros(size, CV_32FC1),
           .variation = cv::Mat::ones(size, CV_32FC1),
-          .drift = cv::Mat::zeros(size, CV_32FC1)};
+          .drift = cv::Mat::zeros(size, CV_32FC1),
+          .middle = middle};
 }
 
 }  // namespace
@@ -91,25 +96,42 @@ TEST_CASE("a cut near given labels changes nothing farther away") {
   CHECK(cv::countNonZero(far_off) == 0);
 }
 
-TEST_CASE("a part is kept only at the border, walled off and still inside") {
+TEST_CASE("a part is kept only at the border, and where its rim and its inside together speak for it") {
   const cv::Size size(320, 100);
   cv::Mat labels = cv::Mat::zeros(size, CV_8UC1);
   const cv::Rect part(100, 50, 40, 50);
   labels(part) = 255;
-  const auto is_kept = [&](const PartEvidence& evidence) {
-    const BodyParts parts = body_parts(labels, evidence, 10);
+  const PartEvidence sure = sure_evidence(size, part);
+  const auto is_kept = [&](const std::function<void(PartEvidence&)>& change) {
+    PartEvidence evidence = sure_evidence(size, part);
+    change(evidence);
+    const BodyParts parts = body_parts({labels}, evidence, 10);
     CHECK(cv::countNonZero(parts.kept | parts.doubtful) == part.area());
     return cv::countNonZero(parts.kept) == part.area();
   };
-  const PartEvidence sure = sure_evidence(size);
-  CHECK(is_kept(sure));
-  CHECK_FALSE(is_kept({sure.staying * 0.5, sure.ending, sure.variation, sure.drift}));
-  CHECK(is_kept({sure.staying * 0.5, sure.ending + 0.9, sure.variation, sure.drift}));
-  CHECK_FALSE(is_kept({sure.staying * 0.2, sure.ending + 0.9, sure.variation, sure.drift}));
-  CHECK_FALSE(is_kept({sure.staying, sure.ending, sure.variation * 6, sure.drift}));
-  CHECK_FALSE(is_kept({sure.staying, sure.ending, sure.variation, sure.drift + 0.3}));
-  CHECK(cv::countNonZero(body_parts(labels, sure, 3000).kept) == 0);
+  CHECK(is_kept([](PartEvidence&) {}));
+  CHECK_FALSE(is_kept([](PartEvidence& of) { of.middle = of.middle * 0.2; }));
+  CHECK_FALSE(is_kept([](PartEvidence& of) { of.middle = cv::Mat::ones(of.middle.size(), CV_32FC1); }));
+  CHECK(is_kept([](PartEvidence& of) {
+    of.staying = of.staying * 0;
+    of.ending = of.ending + 0.9;
+  }));
+  CHECK_FALSE(is_kept([](PartEvidence& of) {
+    of.staying = of.staying * 0;
+    of.middle = of.middle * 0.6;
+  }));
+  CHECK(is_kept([](PartEvidence& of) { of.variation = of.variation * 8; }));
+  CHECK_FALSE(is_kept([](PartEvidence& of) { of.variation = of.variation * 3 * 200; }));
+  CHECK(is_kept([](PartEvidence& of) {
+    of.drift = of.drift + 0.2;
+    of.middle = of.middle * 0.8;
+  }));
+  CHECK_FALSE(is_kept([](PartEvidence& of) {
+    of.drift = of.drift + 0.5;
+    of.middle = of.middle * 0.5;
+  }));
+  CHECK(cv::countNonZero(body_parts({labels}, sure, 3000).kept) == 0);
   cv::Mat floating = cv::Mat::zeros(size, CV_8UC1);
   floating(cv::Rect(100, 20, 40, 50)) = 255;
-  CHECK(cv::countNonZero(body_parts(floating, sure, 10).kept) == 0);
+  CHECK(cv::countNonZero(body_parts({floating}, sure, 10).kept) == 0);
 }

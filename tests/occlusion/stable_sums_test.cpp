@@ -98,6 +98,7 @@ TEST_CASE("the gradient's moments are those of a plain double loop over the pict
     sums.add(pictures.back());
   }
   const GradientMoments moments = sums.moments();
+  CHECK(moments.picture_frames == doctest::Approx((1 + 2 + 3) * 4 / 12.0));
   for (int y = 0; y < 7; ++y)
     for (int x = 0; x < 9; ++x) {
       cv::Point2d mean;

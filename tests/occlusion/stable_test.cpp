@@ -39,8 +39,8 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 }  // namespace
 
 TEST_CASE("what stays put is found in made flights") {
-  for (const char* name : {"nose", "wing tip left", "propeller", "letterbox", "cockpit frame", "exposure drift",
-                           "straight road below", "grey on grey"}) {
+  for (const char* name : {"nose", "wing tip left", "white before bright sky", "propeller", "letterbox",
+                           "cockpit frame", "exposure drift", "straight road below", "grey on grey"}) {
     CAPTURE(name);
     const flights::Flight flight = flight_named(name);
     const Verdict verdict = verdict_after(flight, kFrames);

@@ -67,6 +67,22 @@ TEST_CASE("any frame of any kind of clip is the one that a whole decode gives") 
   }
 }
 
+TEST_CASE("frames taken in steps of any length are those of a whole decode") {
+  for (const char* options : {"-c:v mjpeg -pix_fmt yuvj420p", "-c:v libx264 -bf 3 -g 20"}) {
+    CAPTURE(std::string(options));
+    const TemporaryFolder folder;
+    if (!make_clip(options, folder / "a.avi")) continue;
+    const WholeDecode truth = whole_decode(folder / "a.avi");
+    const int count = static_cast<int>(truth.pictures.size());
+    for (int step = 2; step <= 18; ++step) {
+      CAPTURE(step);
+      FrameSource source = opened(folder / "a.avi");
+      for (int n = 0; n < count; n += step)
+        CHECK(samples_of(*source.read(n)) == truth.pictures[static_cast<size_t>(n)]);
+    }
+  }
+}
+
 TEST_CASE("an AVI without an index gives every frame") {
   for (const char* codec : {"-c:v mjpeg", "-c:v mpeg4 -g 12", "-c:v libx264 -bf 3 -g 20"}) {
     CAPTURE(std::string(codec));
