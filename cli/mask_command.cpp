@@ -11,9 +11,8 @@
 #include <utility>
 
 #include "cli/interrupt.h"
+#include "cli/mask_outputs.h"
 #include "cli/options.h"
-#include "cli/overlay.h"
-#include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "export.h"
 #include "occlusion/detect.h"
@@ -27,11 +26,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  sigs mask flight.mp4\n"
+    "  sigs mask flight.mp4 --out own_body.png --confidence sure.png --stages steps\n"
+    "  sigs mask encounter.json --out own_body.png --frames 600 --set own_body.soft_edge_px=3\n"
+    "  sigs mask flight.mp4 --method paper --every 2 --out own_body.png --force\n"
+    "\n"
+    "A project's own settings stand where an option is not given.";
+
 struct MaskOptions {
   ProjectOptions project;  // its file may be a video too
-  fs::path mask;           // empty: named after the video
-  fs::path confidence;     // empty: not asked for
-  fs::path stages;         // folder; empty: not asked for
+  MaskPaths paths;         // mask empty: named after the video
   GivenSettings settings;
   bool force = false;
   std::string progress = "auto";
@@ -83,60 +89,14 @@ Result<FrameSource> footage_of(const Project& project) {
   return source;
 }
 
-Result<void> check_name(const char* option, const fs::path& path, const std::array<fs::path, 2>& inputs) {
-  const std::string where = std::string(option) + " " + path.string();
-  if (path.extension() != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
-  std::error_code code;
-  for (const fs::path& input : inputs)
-    if (!input.empty() && fs::equivalent(input, path, code))
-      return fail(where, "is read by this command; choose another name", ErrorKind::cannot_create);
-  return {};
+fs::path default_mask(const fs::path& video) {
+  return video.stem().string() + ".own-body.png";
 }
 
-Result<void> make_folder(const fs::path& folder) {
-  std::error_code code;
-  if (!folder.empty()) fs::create_directories(folder, code);
-  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  return {};
-}
-
-// Takes the name of a picture, in a folder that is made where it is not there.
-Result<void> reserve(PictureFiles& files, const char* option, const fs::path& path,
-                     const std::array<fs::path, 2>& inputs) {
-  Result<void> step = check_name(option, path, inputs);
-  if (step) step = make_folder(path.parent_path());
-  if (step) step = files.reserve(path);
-  return step;
-}
-
-// What the command writes, and where.
-struct Outputs {
-  fs::path mask;
-  fs::path confidence;
-  fs::path stages;
-  PictureFiles files;
-
-  [[nodiscard]] fs::path stage(std::size_t number, const std::string& name) const {
-    return stages / ((number < 10 ? "0" : "") + std::to_string(number) + "_" + name + ".png");
-  }
-};
-
-// Before the work begins: finding that a file stands in the way after minutes would be late.
-Result<Outputs> reserved(const MaskOptions& options, const Project& project, const fs::path& video) {
-  Outputs out{.mask = options.mask.empty() ? fs::path(video.stem().string() + ".own-body.png") : options.mask,
-              .confidence = options.confidence,
-              .stages = options.stages,
-              .files = PictureFiles(options.force)};
-  if (out.confidence.lexically_normal() == out.mask.lexically_normal())
-    return fail("--confidence " + out.confidence.string(), "is where the mask goes", ErrorKind::usage);
-  const std::array<fs::path, 2> inputs{video, project.file};
-  Result<void> step = reserve(out.files, "--out", out.mask, inputs);
-  if (step && !out.confidence.empty()) step = reserve(out.files, "--confidence", out.confidence, inputs);
-  if (!step) return fail(step.error());
-  if (out.stages.empty()) return out;
-  if (const Result<void> made = make_folder(out.stages); !made) return fail(made.error());
-  if (const Result<void> first = out.files.reserve(out.stage(0, "frame")); !first) return fail(first.error());
-  return out;
+Result<MaskOutputs> reserved(const MaskOptions& options, const Project& project, const fs::path& video) {
+  MaskPaths paths = options.paths;
+  if (paths.mask.empty()) paths.mask = default_mask(video);
+  return MaskOutputs::reserved(std::move(paths), {video, project.file}, options.force);
 }
 
 Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Project& project,
@@ -146,33 +106,20 @@ Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Pr
   Progress progress(progress_style(options.progress));
   const DetectionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                  .cancel = &interrupt_flag(),
-                                 .stages = options.stages.empty() ? KeepStages::no : KeepStages::yes};
+                                 .stages = options.paths.stages.empty() ? KeepStages::no : KeepStages::yes};
   Result<OwnBody> found = detect_own_body(footage, range.first, settings, control);
   progress.end();
   return found;
 }
 
-// The steps of the method, between a frame of the footage and what was found tinted over it.
-Result<void> write_stages(Outputs& out, const OwnBody& found, const Frame& frame) {
-  const cv::Mat picture = bgr_of(frame);
-  Result<void> step = out.files.write(out.stage(0, "frame"), picture);
-  std::size_t number = 1;
-  for (const DetectionStage& stage : found.stages)
-    if (step) step = out.files.write(out.stage(number++, stage.name), stage.picture);
-  if (step) step = out.files.write(out.stage(number, "overlay"), tinted(picture, found.mask));
-  return step;
-}
-
-Result<void> write(Outputs& out, const OwnBody& found, FrameSource& footage, int first_frame) {
-  Result<void> step = out.files.write(out.mask, found.mask);
-  if (step && !out.confidence.empty()) step = out.files.write(out.confidence, found.confidence);
-  if (step && !out.stages.empty()) {
+Result<void> write(MaskOutputs& out, const OwnBody& found, FrameSource& footage, int first_frame) {
+  cv::Mat picture;
+  if (out.has_stages()) {
     const Result<Frame> middle = footage.read(first_frame + found.frames_passed / 2);
     if (!middle) return fail(middle.error());
-    step = write_stages(out, found, *middle);
+    picture = bgr_of(*middle);
   }
-  if (!step) return step;
-  const Result<std::vector<fs::path>> written = out.files.keep();
+  const Result<std::vector<fs::path>> written = out.write(found, picture);
   if (!written) return fail(written.error());
   for (const fs::path& path : *written) std::printf("%s\n", path.c_str());
   return {};
@@ -189,6 +136,27 @@ void say(const OwnBody& found, const Project& project) {
                  found.frames_passed, project.own_body.frames, 100 * found.last_change);
 }
 
+// Where what was found may well be wrong, and only a look can tell.
+void say_doubts(const OwnBody& found, const VideoInfo& footage, int first_frame) {
+  constexpr double kEnough_s = 9.95;  // 10.0 as it is printed
+  constexpr double kMuch = 0.5;
+  const auto first = static_cast<std::size_t>(first_frame);
+  const auto steps = static_cast<std::size_t>(found.frames_passed - 1);
+  const double from_first_to_last_s = footage.times_s[first + steps] - footage.times_s[first];
+  const double passed_s = from_first_to_last_s * (1 + 1 / static_cast<double>(steps));  // the last one is shown too
+  if (passed_s < kEnough_s) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "only %.1f s of footage were looked through, parts of the world may be masked; look at the mask, or "
+                  "take 10 s or more",
+                  passed_s);
+    print_warning({footage.path.string(), text});
+  }
+  if (found.share > kMuch)
+    print_warning(
+        {footage.path.string(), "more than half of the picture is masked; look whether all of it is the UAV"});
+}
+
 Result<void> run(const MaskOptions& options) {
   const Result<Project> project = project_of(options);
   if (!project) return fail(project.error());
@@ -196,12 +164,13 @@ Result<void> run(const MaskOptions& options) {
   if (!footage) return fail(footage.error());
   const Made<FrameRange> range = made_range(project->footage, shape_of(footage->info()));
   if (!range) return fail(error_in(*project, range.error()));
-  Result<Outputs> out = reserved(options, *project, footage->info().path);
+  Result<MaskOutputs> out = reserved(options, *project, footage->info().path);
   if (!out) return fail(out.error());
   const Result<OwnBody> found = found_in(*footage, *range, *project, options);
   if (!found) return fail(found.error());
   if (const Result<void> written = write(*out, *found, *footage, range->first); !written) return written;
   say(*found, *project);
+  say_doubts(*found, footage->info(), range->first);
   return {};
 }
 
@@ -211,22 +180,24 @@ std::function<Result<void>()> add_mask_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("mask", "find which pixels of a video show the UAV's own body");
   const auto options = std::make_shared<MaskOptions>();
   command->add_option("FILE", options->project.file, "a video, or a project (json): its footage, range and settings")
-      ->required();
+      ->required()
+      ->check(not_empty());
   add_set_option(*command, options->project);
-  command->add_option("--out", options->mask, "the mask, a PNG; without it VIDEO.own-body.png in the current folder")
-      ->option_text("FILE");
-  const std::array<std::array<const char*, 4>, 3> settings{
-      {{"--frames", "own_body.frames", "N", "how many frames are looked through; 1500 if nothing is said"},
-       {"--every", "own_body.every", "K", "use each K-th of them alone"},
-       {"--method", "own_body.method", "NAME", "stable or paper"}}};
-  for (const auto& [option, key, text, help] : settings)
-    command->add_option(option, options->settings[key], help)->option_text(text);
-  command->add_option("--confidence", options->confidence, "write how sure each pixel is too: a 16-bit PNG")
-      ->option_text("FILE");
-  command->add_option("--stages", options->stages, "write the picture of every step into this folder")
-      ->option_text("DIR");
+  const auto add_path = [command](const char* name, fs::path& path, const char* value, const char* help) {
+    command->add_option(name, path, help)->option_text(value)->check(not_empty());
+  };
+  add_path("--out", options->paths.mask, "FILE",
+           "the mask, a PNG; without it VIDEO.own-body.png in the current folder");
+  for (const SettingOption& option : {SettingOption{"--frames", "own_body.frames", "N",
+                                                    "how many frames are looked through; all where there are fewer"},
+                                      SettingOption{"--every", "own_body.every", "K", "use each K-th of them alone"},
+                                      SettingOption{"--method", "own_body.method", "NAME", "stable or paper"}})
+    add_setting_option(*command, option, options->settings);
+  add_path("--confidence", options->paths.confidence, "FILE", "write how sure each pixel is too: a 16-bit PNG");
+  add_path("--stages", options->paths.stages, "DIR", "write the picture of every step into this folder");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
+  command->footer(kFooter);
   return [options] { return run(*options); };
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 
+#include "base/ensure.h"
+#include "project/fields.h"
 #include "project/json.h"
 #include "project/set_field.h"
 
@@ -17,6 +21,57 @@ std::optional<int> whole_number(std::string_view text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (text.empty() || code != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
   return number;
+}
+
+Field field_of(Project& project, const std::string& key) {
+  const std::vector<Field> fields = fields_of(project);
+  const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& one) { return one.key == key; });
+  ENSURE(field != fields.end());
+  return *field;
+}
+
+std::string whole_text(double number) {
+  return std::to_string(static_cast<int64_t>(number));
+}
+
+std::string default_of(const char* key) {
+  Project project;
+  const Field field = field_of(project, key);
+  if (const auto* const choice = std::get_if<Choice>(&field.value))
+    return std::string(choice->names[static_cast<std::size_t>(choice->get())]);
+  return std::to_string(*std::get<int*>(field.value));
+}
+
+std::string wrong_choice(const Choice& choice, const std::string& text) {
+  std::string names;
+  for (const std::string_view name : choice.names) {
+    if (name == text) return "";
+    names += (names.empty() ? "" : " or ") + std::string(name);
+  }
+  return "is " + text + ", must be " + names;
+}
+
+std::string wrong_number(const Field& field, const std::string& text) {
+  int64_t number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_negative = text.starts_with('-');
+  if (end != text.data() + text.size() || code == std::errc::invalid_argument)
+    return "is " + text + ", must be a whole number";
+  const bool is_too_long = code == std::errc::result_out_of_range;
+  const auto value = static_cast<double>(number);
+  if (is_too_long ? is_negative : value < field.minimum)
+    return "is " + text + ", must be " + whole_text(field.minimum) + " or more";
+  if (is_too_long || value > field.maximum) return "is " + text + ", must be " + whole_text(field.maximum) + " or less";
+  return "";
+}
+
+// Empty: the setting can be this.
+std::string wrong_value(const std::string& key, const std::string& text) {
+  if (text.empty()) return "is empty";
+  Project project;
+  const Field field = field_of(project, key);
+  if (const auto* const choice = std::get_if<Choice>(&field.value)) return wrong_choice(*choice, text);
+  return wrong_number(field, text);
 }
 
 }  // namespace
@@ -54,6 +109,18 @@ Result<void> set_given(Project& project, const GivenSettings& settings) {
       if (const Result<void> set = set_field(project, key + "=" + value); !set)
         return fail(key + ": " + value, set.error().what, ErrorKind::usage);
   return {};
+}
+
+void add_setting_option(CLI::App& command, const SettingOption& option, GivenSettings& settings) {
+  const std::string key = option.key;
+  command.add_option(option.name, settings[key], option.help)
+      ->type_name(option.value)
+      ->default_str(default_of(option.key))
+      ->check(CLI::Validator([key](const std::string& text) { return wrong_value(key, text); }, ""));
+}
+
+CLI::Validator not_empty() {
+  return {[](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
 }
 
 void add_progress_option(CLI::App& command, std::string& style) {

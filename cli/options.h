@@ -32,6 +32,20 @@ void add_set_option(CLI::App& command, ProjectOptions& options);  // --set alone
 using GivenSettings = std::map<std::string, std::string>;
 [[nodiscard]] Result<void> set_given(Project& project, const GivenSettings& settings);
 
+// An option that stands for one setting: a whole number or a choice.
+struct SettingOption {
+  const char* name;   // "--frames"
+  const char* key;    // "own_body.frames"
+  const char* value;  // what the help calls the value: "N"
+  const char* help;
+};
+
+// Adds it, its default shown. A value that the setting cannot have is the command line's fault, whatever the project.
+void add_setting_option(CLI::App& command, const SettingOption& option, GivenSettings& settings);
+
+// For paths: an option or argument that is given says something.
+[[nodiscard]] CLI::Validator not_empty();
+
 // --progress, as progress_style() takes it.
 void add_progress_option(CLI::App& command, std::string& style);
 

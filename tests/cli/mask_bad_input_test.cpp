@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/partial_file.h"
@@ -30,7 +31,16 @@ struct Folder {
     return static_cast<int>(std::distance(begin(files), end(files)));
   }
 
-  // One line on stderr that says it, the right exit status, and not a file left.
+  // What is wrong with an option itself: said with a pointer to the help, and nothing is made.
+  void check_option_refused(const std::string& input, const std::string& options, const std::string& line) const {
+    const Run run = run_sigs("mask " + input + " " + options);
+    CHECK(run.status == 64);
+    CHECK_MESSAGE(run.err == line + "\nRun with --help for more information.\n", run.err);
+    CHECK(run.out.empty());
+    CHECK_FALSE(fs::exists(out()));
+  }
+
+  // One line on stderr that says it, the right exit status, and neither file nor folder left.
   void check_refused(const std::string& input, int status, const std::string& message,
                      const std::string& more = "") const {
     const Run run = run_sigs("mask " + input + " --method paper --out " + out() + "/m.png --confidence " + out() +
@@ -40,7 +50,7 @@ struct Folder {
     CHECK_MESSAGE(run.err.find(message) != std::string::npos, run.err);
     CHECK_MESSAGE(std::count(run.err.begin(), run.err.end(), '\n') == 1, run.err);
     CHECK(run.out.empty());
-    CHECK(files_out() == 0);
+    CHECK_FALSE(fs::exists(out()));
   }
 };
 
@@ -96,15 +106,48 @@ TEST_CASE("a clip whose size changes gives no mask") {
 TEST_CASE("a command line for a mask that makes no sense ends with 64") {
   const Folder in;
   write_flight(in.video, 10);
-  in.check_refused(in.video, 64, "own_body.frames: is 1; it must lie between 2 and ", "--frames 1");
-  in.check_refused(in.video, 64, "own_body.every: is 0; ", "--every 0");
-  in.check_refused(in.video, 64, "own_body.frames: ten: ", "--frames ten");
+  in.check_refused(in.video, 64, "own_body.every: is 0; ", "--set own_body.every=0");
   in.check_refused(in.video, 64, "did you mean own_body.soft_edge_px?", "--set own_body.soft_edge=2");
   in.check_refused(in.video, 64, "footage.first_frame: the footage has 10 frames, 0 to 9",
                    "--set footage.first_frame=10");
   CHECK(run_sigs("mask").status == 64);
-  CHECK(run_sigs("mask " + in.video + " --method magic").status == 64);
   CHECK(run_sigs("mask " + in.video + " --nonsense").status == 64);
+}
+
+TEST_CASE("a number or method for a mask that cannot be is the command line's fault, for a video and for a project") {
+  const Folder in;
+  write_flight(in.video, 10);
+  const std::string project = (in.folder / "p.json").string();
+  put_text(project, R"({"sigs": 1, "footage": {"video": "clip.mkv"}})");
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"--frames 0", "--frames: is 0, must be 2 or more"},
+      {"--frames 1", "--frames: is 1, must be 2 or more"},
+      {"--frames -5", "--frames: is -5, must be 2 or more"},
+      {"--frames -99999999999999999999", "--frames: is -99999999999999999999, must be 2 or more"},
+      {"--frames 1000000001", "--frames: is 1000000001, must be 1000000000 or less"},
+      {"--frames 99999999999999999999", "--frames: is 99999999999999999999, must be 1000000000 or less"},
+      {"--frames ten", "--frames: is ten, must be a whole number"},
+      {"--frames 2.5", "--frames: is 2.5, must be a whole number"},
+      {"--frames ''", "--frames: is empty"},
+      {"--every 0", "--every: is 0, must be 1 or more"},
+      {"--every 1000001", "--every: is 1000001, must be 1000000 or less"},
+      {"--method magic", "--method: is magic, must be stable or paper"},
+      {"--method ''", "--method: is empty"}};
+  for (const auto& [options, line] : wrong) {
+    in.check_option_refused(in.video, "--out " + in.out() + "/m.png " + options, line);
+    if (options.ends_with(" 0") || options.ends_with("magic"))
+      in.check_option_refused(project, "--out " + in.out() + "/m.png " + options, line);
+  }
+}
+
+TEST_CASE("a path for a mask that is given and empty is named") {
+  const Folder in;
+  write_flight(in.video, 10);
+  in.check_option_refused("''", "--out " + in.out() + "/m.png", "FILE: is empty");
+  in.check_option_refused(in.video, "--out ''", "--out: is empty");
+  const std::string out = "--out " + in.out() + "/m.png ";
+  in.check_option_refused(in.video, out + "--confidence ''", "--confidence: is empty");
+  in.check_option_refused(in.video, out + "--stages ''", "--stages: is empty");
 }
 
 TEST_CASE("a mask goes into a PNG of its own") {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "cli/mask_outputs.h"
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "cli/overlay.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The steps of every method, and what stands around them.
+constexpr std::string_view kStages[] = {
+    "frame", "overlay",
+    // paper
+    "difference_sum", "canny", "dilated", "rough", "sobel", "closed", "padded", "filled", "refined",
+    // stable
+    "mean_gradient", "coherence", "variation", "drift", "moving", "walls", "labels", "own_body", "confidence"};
+
+// One spelling for one place, also where it is not there yet.
+fs::path place_of_folder(const fs::path& folder) {
+  std::error_code code;
+  const fs::path place = fs::weakly_canonical(fs::absolute(folder, code), code);
+  const fs::path plain = code ? fs::absolute(folder, code).lexically_normal() : place;
+  return plain.has_filename() ? plain : plain.parent_path();
+}
+
+// Of a link the link itself: a file that gets its name replaces it.
+fs::path place_of_file(const fs::path& file) {
+  std::error_code code;
+  return place_of_folder(fs::absolute(file, code).parent_path()) / file.filename();
+}
+
+bool lies_at_or_below(const fs::path& place, const fs::path& top) {
+  return std::mismatch(top.begin(), top.end(), place.begin(), place.end()).first == top.end();
+}
+
+bool is_taken_by_a_stage(const fs::path& file, const fs::path& stages) {
+  if (!lies_at_or_below(file, stages) || file == stages) return false;
+  const fs::path first = *file.lexically_relative(stages).begin();
+  return is_stage_name(first.string());
+}
+
+// Two outputs that want the same place.
+Result<void> check_apart(const MaskPaths& paths) {
+  const fs::path mask = place_of_file(paths.mask);
+  const fs::path confidence = paths.confidence.empty() ? fs::path() : place_of_file(paths.confidence);
+  if (!confidence.empty() && (lies_at_or_below(confidence, mask) || lies_at_or_below(mask, confidence)))
+    return fail("--confidence " + paths.confidence.string(), "is where the mask goes", ErrorKind::usage);
+  if (paths.stages.empty()) return {};
+  const fs::path stages = place_of_folder(paths.stages);
+  const std::pair<std::string, fs::path> files[] = {{"--out " + paths.mask.string(), mask},
+                                                    {"--confidence " + paths.confidence.string(), confidence}};
+  for (const auto& [option, file] : files) {
+    if (file.empty()) continue;
+    if (lies_at_or_below(stages, file))
+      return fail(option, "is the folder that --stages makes; choose another name", ErrorKind::usage);
+    if (is_taken_by_a_stage(file, stages))
+      return fail(option, "is a name that --stages writes; choose another", ErrorKind::usage);
+  }
+  return {};
+}
+
+Result<void> check_name(const char* option, const fs::path& path, const std::array<fs::path, 2>& inputs) {
+  const std::string where = std::string(option) + " " + path.string();
+  if (path.extension() != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
+  std::error_code code;
+  for (const fs::path& input : inputs)
+    if (!input.empty() && fs::equivalent(input, path, code))
+      return fail(where, "is read by this command; choose another name", ErrorKind::cannot_create);
+  return {};
+}
+
+std::vector<fs::path> stages_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (is_stage_name(entry.path().filename().string())) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+bool is_stage_name(std::string_view file_name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (file_name.size() < 8 || !is_digit(file_name[0]) || !is_digit(file_name[1]) || file_name[2] != '_' ||
+      !file_name.ends_with(".png"))
+    return false;
+  return std::ranges::find(kStages, file_name.substr(3, file_name.size() - 7)) != std::end(kStages);
+}
+
+fs::path MaskOutputs::stage(std::size_t number, std::string_view name) const {
+  std::string file = std::to_string(number);
+  if (number < 10) file.insert(0, 1, '0');
+  return paths_.stages / file.append("_").append(name).append(".png");
+}
+
+// Takes the name of a picture, in a folder that is made where it is not there.
+Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::array<fs::path, 2>& inputs) {
+  Result<void> step = check_name(option, path, inputs);
+  if (step) step = folders_.make(path.parent_path());
+  if (step) step = files_.reserve(path);
+  return step;
+}
+
+// Which steps there will be is known at the end alone; any that is there already stands in the way.
+Result<void> MaskOutputs::reserve_stages(bool overwrite) {
+  if (const Result<void> made = folders_.make(paths_.stages); !made) return made;
+  const std::vector<fs::path> there = stages_in(paths_.stages);
+  if (!overwrite && !there.empty())
+    return fail(there.front().string(), "exists already; --force replaces the stages that are there",
+                ErrorKind::cannot_create);
+  return files_.reserve(stage(0, "frame"));
+}
+
+Result<MaskOutputs> MaskOutputs::reserved(MaskPaths paths, const std::array<fs::path, 2>& inputs, bool overwrite) {
+  if (const Result<void> apart = check_apart(paths); !apart) return fail(apart.error());
+  MaskOutputs out(std::move(paths), overwrite);
+  Result<void> step = out.reserve("--out", out.paths_.mask, inputs);
+  if (step && !out.paths_.confidence.empty()) step = out.reserve("--confidence", out.paths_.confidence, inputs);
+  if (step && out.has_stages()) step = out.reserve_stages(overwrite);
+  if (!step) return fail(step.error());
+  return out;
+}
+
+// The steps of the method, between a frame of the footage and what was found tinted over it.
+Result<void> MaskOutputs::write_stages(const OwnBody& found, const cv::Mat& bgr) {
+  Result<void> step = files_.write(stage(0, "frame"), bgr);
+  std::size_t number = 1;
+  for (const DetectionStage& made : found.stages)
+    if (step) step = files_.write(stage(number++, made.name), made.picture);
+  if (step) step = files_.write(stage(number, "overlay"), tinted(bgr, found.mask));
+  return step;
+}
+
+Result<std::vector<fs::path>> MaskOutputs::write(const OwnBody& found, const cv::Mat& bgr) {
+  Result<void> step = files_.write(paths_.mask, found.mask);
+  if (step && !paths_.confidence.empty()) step = files_.write(paths_.confidence, found.confidence);
+  if (step && has_stages()) step = write_stages(found, bgr);
+  if (!step) return fail(step.error());
+  Result<std::vector<fs::path>> written = files_.keep();
+  if (!written || !has_stages()) return written;
+  std::error_code code;
+  for (const fs::path& there : stages_in(paths_.stages))
+    if (std::find(written->begin(), written->end(), there) == written->end() && !fs::is_directory(there, code))
+      fs::remove(there, code);
+  return written;
+}
+
+}  // namespace sigs::cli

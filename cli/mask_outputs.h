@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "cli/made_folders.h"
+#include "cli/picture_files.h"
+#include "occlusion/detect.h"
+
+namespace sigs::cli {
+
+// Where `sigs mask` writes.
+struct MaskPaths {
+  std::filesystem::path mask;
+  std::filesystem::path confidence;  // empty: not asked for
+  std::filesystem::path stages;      // a folder; empty: not asked for
+};
+
+// The pictures of one run. They get their names together, or none of them and no folder is left.
+class MaskOutputs {
+ public:
+  // Before the work begins: finding that a file stands in the way after minutes would be late. inputs: what the command
+  // reads; may be empty paths. Errors: usage (not a PNG, one output where another goes), cannot_create.
+  [[nodiscard]] static Result<MaskOutputs> reserved(MaskPaths paths, const std::array<std::filesystem::path, 2>& inputs,
+                                                    bool overwrite);
+
+  [[nodiscard]] bool has_stages() const { return !paths_.stages.empty(); }
+
+  // Writes all; what the files are called. bgr: a frame of the footage, for the stages; empty where there are none.
+  // Pictures of stages that another run has left in the folder go: they would look like steps of this one.
+  [[nodiscard]] Result<std::vector<std::filesystem::path>> write(const OwnBody& found, const cv::Mat& bgr);
+
+ private:
+  MaskOutputs(MaskPaths paths, bool overwrite) : paths_(std::move(paths)), files_(overwrite) {}
+  [[nodiscard]] Result<void> reserve(const char* option, const std::filesystem::path& path,
+                                     const std::array<std::filesystem::path, 2>& inputs);
+  [[nodiscard]] Result<void> reserve_stages(bool overwrite);
+  [[nodiscard]] Result<void> write_stages(const OwnBody& found, const cv::Mat& bgr);
+  [[nodiscard]] std::filesystem::path stage(std::size_t number, std::string_view name) const;
+
+  MaskPaths paths_;
+  MadeFolders folders_;  // outlives the files: a folder can go only once it is empty
+  PictureFiles files_;
+};
+
+// Whether a picture of a step, of any method, may have this name: "03_canny.png".
+[[nodiscard]] bool is_stage_name(std::string_view file_name);
+
+}  // namespace sigs::cli

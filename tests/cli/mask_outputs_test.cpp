@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "occlusion/made_clip.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Place {
+  TemporaryFolder folder;
+  std::string video = (folder / "clip.mkv").string();
+
+  explicit Place(int frames = 10) { write_flight(video, frames); }
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
+  [[nodiscard]] Run run(const std::string& options) const {
+    return run_sigs("mask " + video + " --method paper " + options);
+  }
+  // Of everything, folders too, however deep.
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path()))
+      found.insert(entry.path().lexically_relative(folder.path()).string());
+    return found;
+  }
+  void check_refused(const std::string& options, const std::string& message) const {
+    const std::set<std::string> before = names();
+    const Run refused = run(options);
+    CHECK(refused.status == 64);
+    CHECK_MESSAGE(refused.err == "error: " + message + "\n", refused.err);
+    CHECK(names() == before);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a detection that fails takes away the folders that it made and no others") {
+  const Place place(1);
+  fs::create_directories(place.at("mine/empty"));
+  const std::set<std::string> before = place.names();
+  const Run run = place.run("--out " + place.at("new/deep/m.png") + " --confidence " + place.at("mine/sure/c.png") +
+                            " --stages " + place.at("mine/empty/steps/") + " --every 1");
+  CHECK(run.status == 65);
+  CHECK(place.names() == before);
+  CHECK(place.run("--out " + place.at("mine/empty/m.png")).status == 65);
+  CHECK(place.names() == before);
+}
+
+TEST_CASE("what is found to stand in the way leaves no folder either") {
+  const Place place;
+  put_text(place.at("there.png"), "mine");
+  const std::set<std::string> before = place.names();
+  const Run run = place.run("--out " + place.at("new/deep/m.png") + " --confidence " + place.at("there.png"));
+  CHECK(run.status == 73);
+  CHECK(place.names() == before);
+}
+
+TEST_CASE("a relative path into folders that are not there makes them") {
+  const Place place;
+  const std::string command = "cd " + place.folder.path().string() + " && " + (build_dir() / "sigs").string() +
+                              " mask clip.mkv --method paper --out a/b/m.png --stages a/../c/steps >/dev/null 2>&1";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(fs::exists(place.at("a/b/m.png")));
+  CHECK(fs::exists(place.at("c/steps/00_frame.png")));
+}
+
+TEST_CASE("outputs that want the same place are refused before anything is made") {
+  const Place place;
+  const std::string out = "--out " + place.at("out/m.png");
+  place.check_refused(out + " --confidence " + place.at("out/../out/m.png"),
+                      "--confidence " + place.at("out/../out/m.png") + ": is where the mask goes");
+  place.check_refused(out + " --confidence " + place.at("out/m.png/c.png"),
+                      "--confidence " + place.at("out/m.png/c.png") + ": is where the mask goes");
+  const std::string folder = ": is the folder that --stages makes; choose another name";
+  place.check_refused(out + " --stages " + place.at("out/m.png/"), "--out " + place.at("out/m.png") + folder);
+  place.check_refused(out + " --stages " + place.at("out/m.png/steps"), "--out " + place.at("out/m.png") + folder);
+  place.check_refused(out + " --confidence " + place.at("c.png") + " --stages " + place.at("c.png"),
+                      "--confidence " + place.at("c.png") + folder);
+  const std::string name = ": is a name that --stages writes; choose another";
+  for (const char* const taken : {"steps/00_frame.png", "steps/../steps/02_canny.png", "steps/09_own_body.png/m.png"}) {
+    const std::string path = place.at(taken);
+    place.check_refused("--out " + path + " --stages " + place.at("steps/"), "--out " + path + name);
+    place.check_refused(out + " --confidence " + path + " --stages " + place.at("./steps"),
+                        "--confidence " + path + name);
+  }
+}
+
+TEST_CASE("outputs beside each other in one folder go well") {
+  const Place place;
+  for (const char* const name : {"m.png", "02_mine.png", "2_canny.png", "02_canny.2.png", "deeper/02_canny.png"}) {
+    const Run run = place.run("--force --stages " + place.at("out") + " --out " + place.at("out/" + std::string(name)));
+    CHECK_MESSAGE(run.status == 0, run.err);
+  }
+  CHECK(place.names().contains("out/deeper/02_canny.png"));
+}
+
+TEST_CASE("stages of another run stand in the way and with force go, of either method and nothing else") {
+  const Place place;
+  const std::string command = "--out " + place.at("m.png") + " --stages " + place.at("out");
+  fs::create_directories(place.at("out"));
+  put_text(place.at("out/07_labels.png"), "of the other method");
+  const Run refused = place.run(command);
+  CHECK(refused.status == 73);
+  CHECK_MESSAGE(refused.err.find("07_labels.png: exists already; --force") != std::string::npos, refused.err);
+  for (const char* const mine : {"out/07_mine.png", "out/labels.png", "out/07_labels.jpg", "out/m.png"})
+    put_text(place.at(mine), "mine");
+  for (const char* const old : {"out/11_overlay.png", "out/12_closed.png", "out/01_frame.png"})
+    put_text(place.at(old), "of a run with other steps");
+  REQUIRE(place.run(command + " --force").status == 0);
+  const std::set<std::string> names = place.names();
+  for (const char* const old : {"out/07_labels.png", "out/11_overlay.png", "out/12_closed.png", "out/01_frame.png"})
+    CHECK_FALSE(names.contains(old));
+  for (const char* const kept : {"out/07_mine.png", "out/labels.png", "out/07_labels.jpg", "out/m.png", "m.png",
+                                 "out/00_frame.png", "out/06_closed.png", "out/10_overlay.png"})
+    CHECK_MESSAGE(names.contains(kept), kept);
+}
+
+TEST_CASE("stages of another run stay where a detection fails") {
+  const Place place(1);
+  fs::create_directories(place.at("out"));
+  put_text(place.at("out/07_labels.png"), "of another run");
+  const std::set<std::string> before = place.names();
+  CHECK(place.run("--force --out " + place.at("m.png") + " --stages " + place.at("out")).status == 65);
+  CHECK(place.names() == before);
+}
+
+TEST_CASE("the help for masks has examples of its own and the defaults of the project") {
+  const std::string help = run_sigs("mask --help").out;
+  for (const char* const text : {"--frames N=1500 ", "--every K=1 ", "--method NAME=stable ", "Examples:\n  sigs mask ",
+                                 "--stages steps\n", "--confidence sure.png ", "sigs mask encounter.json "})
+    CHECK_MESSAGE(help.find(text) != std::string::npos, text);
+  CHECK(help.find("sigs export") == std::string::npos);
+}
+
+}  // namespace sigs::test
