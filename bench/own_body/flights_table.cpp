@@ -63,6 +63,11 @@ void measure_limits(const accuracy::Call& call) {
     flight.name += "; vibration_px 8";
     measure(flight, making.frames, call, table, {.vibration_px = 8});
   }
+  for (const char* name : {"tail boom", "two parts", "plain sky first"}) {
+    Flight small = flights::by_name(name, {.size_px = {320, 240}, .frames = making.frames});
+    small.name += ", small";
+    measure(small, making.frames, call, table);
+  }
 }
 
 }  // namespace sigs::bench

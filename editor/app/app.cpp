@@ -38,11 +38,16 @@ App::App(Window& window, Settings settings, Probe probe)
              .help = help_lines(),
              .wake = [] { Window::wake(); },
              .mask = {.unsaved = [this] { return own_body_.unsaved(); },
-                      .save_then =
-                          [this](std::function<void()> next) {
-                            own_body_.ask_save_as(document_.project(), std::move(next));
-                          }}}) {
+                      .save_then = [this](std::function<void()> next) { keep_mask_then(std::move(next)); }}}) {
   places_.set_wanted(probe_.wanted());
+}
+
+// What comes next has to see the edit that uses the mask: it is not saved either.
+void App::keep_mask_then(std::function<void()> next) {
+  own_body_.ask_keep(document_.project(), [this, next = std::move(next)] {
+    take_edits();
+    next();
+  });
 }
 
 void App::open(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,7 @@ class App {
   void ask_preview();
   void advance(const Shown& shown);
   void take_edits();
+  void keep_mask_then(std::function<void()> next);
   void play(double speed);
   void draw(const Shown& shown);
   void take(const Request& request);

@@ -91,8 +91,8 @@ void FileDesk::leave_then(Step next) {
     leave_document_then(next);
   };
   ask({.title = "Unsaved mask",
-       .text = "The own-body mask was detected or painted and not saved. Save it?",
-       .answers = {"Save...", "Don't save", "Cancel"}},
+       .text = "The own-body mask was detected or painted and not saved. Save it and use it in the project?",
+       .answers = {"Save and use...", "Don't save", "Cancel"}},
       {[this, next] { surroundings_.mask.save_then([this, next] { leave_then(next); }); }, give_up, {}});
 }
 

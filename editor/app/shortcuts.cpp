@@ -15,7 +15,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<Shortcut, 35> kShortcuts{{
+constexpr std::array<Shortcut, 36> kShortcuts{{
     {"Playing", "Space, K", "play, stop"},
     {"Playing", "L", "play on; again: faster"},
     {"Playing", "J", "play backwards; again: faster"},
@@ -41,6 +41,7 @@ constexpr std::array<Shortcut, 35> kShortcuts{{
     {"Footage", "F or 0; 1", "whole picture; pixel for pixel"},
     {"Footage", "Shift or Alt in a drag", "along the line of sight"},
     {"Footage", "Backslash, held", "the footage alone"},
+    {"Stages", "click; Esc", "one large; all again"},
     {"Own body", "drag; Shift + drag", "paint; with the other brush"},
     {"Own body", "B, E", "brush, eraser"},
     {"Own body", "[ ]", "smaller, larger brush"},
@@ -94,7 +95,7 @@ void take_waypoint_keys(const Studio& studio) {
   if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(studio);
   if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(studio);
   // In a drag it belongs to what is dragged.
-  if (pressed(Key::escape) && !ImGui::IsAnyItemActive()) studio.edits.select({});
+  if (pressed(Key::escape) && !ImGui::IsAnyItemActive() && !studio.wishes.own_escape) studio.edits.select({});
 }
 
 // With Ctrl held.

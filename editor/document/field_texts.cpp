@@ -116,7 +116,16 @@ std::string range_text(const Field& field) {
   return high ? "at most " + limit_text(field.maximum) + unit_text(field.unit) : "";
 }
 
+std::string word_for_zero(std::string_view key) {
+  constexpr std::array<std::string_view, 4> kAsTheClipAsks{"own_body.paper.canny_low", "own_body.paper.canny_high",
+                                                           "own_body.paper.dilation_px", "own_body.paper.closing_px"};
+  if (std::find(kAsTheClipAsks.begin(), kAsTheClipAsks.end(), key) != kAsTheClipAsks.end()) return "auto";
+  return key == "own_body.settled_percent" ? "never" : "";
+}
+
 std::string value_text(const Field& field, const PlainValue& value) {
+  if (value == PlainValue(0.0) || value == PlainValue(0))
+    if (const std::string word = word_for_zero(field.key); !word.empty()) return word;
   return std::visit(Words{field}, value);
 }
 

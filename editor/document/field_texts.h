@@ -19,7 +19,9 @@ namespace sigs::editor {
 
 // "-1000 to 1000 m/s", "at least 0 m"; "" where every number is good.
 [[nodiscard]] std::string range_text(const Field& field);
-// "22 m/s", "none", "0, 0, -150 m", "constant speed".
+// What a 0 of this field means, where it is no number: "auto", "never"; "": it is one.
+[[nodiscard]] std::string word_for_zero(std::string_view key);
+// "22 m/s", "none", "0, 0, -150 m", "constant speed", "auto".
 [[nodiscard]] std::string value_text(const Field& field, const PlainValue& value);
 
 // What the person can do about a problem; "" where the problem itself says so. field: null where the key has none.

@@ -48,6 +48,8 @@ class MaskPainting {
   void mark_saved() { saved_state_ = state_; }
   // Strokes by hand since the last mask that came as a whole.
   [[nodiscard]] bool has_strokes() const { return state_ != whole_state_; }
+  // The state that had this mask, before these strokes.
+  [[nodiscard]] std::uint64_t whole_state() const { return whole_state_; }
 
  private:
   struct Stroke {

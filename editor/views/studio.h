@@ -15,7 +15,8 @@ struct Wishes {
   bool stages = false;
   std::optional<MethodChoice> compare_with;
   std::optional<Wanted::Turntable> turntable;
-  bool own_undo = false;  // the view that is worked in takes undo and redo itself
+  bool own_undo = false;    // the view that is worked in takes undo and redo itself
+  bool own_escape = false;  // a view has taken Escape
 };
 
 // What a view draws from and where it puts what the person wants. A view changes nothing else.

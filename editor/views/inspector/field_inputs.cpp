@@ -66,6 +66,19 @@ std::string end_of(const std::string& path, float width) {
   return "..." + std::string(end);
 }
 
+// Over a number that is 0 and means something else, while it is not changed.
+void cover_with_word(const std::string& word) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  const ImVec2 size = ImGui::CalcTextSize(word.c_str());
+  const ImGuiCol frame = ImGui::IsItemHovered() ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), ImGui::GetStyle().FrameRounding);
+  list.AddRectFilled(low, high, ImGui::GetColorU32(frame), ImGui::GetStyle().FrameRounding);
+  list.AddText({std::round((low.x + high.x - size.x) / 2), std::round((low.y + high.y - size.y) / 2)},
+               ImGui::GetColorU32(ImGuiCol_Text), word.c_str());
+}
+
 // Over the item before, while nothing is typed there.
 void cover_with_end_of(const std::string& path) {
   const ImVec2 low = ImGui::GetItemRectMin();
@@ -154,7 +167,10 @@ struct Input {
 
   template <class Number>
   std::optional<Edited> number(Number value) const {
-    if (!any_number_input(value, field, width)) return std::nullopt;
+    const std::string word = value == 0 ? word_for_zero(field.key) : "";
+    const bool is_changed = any_number_input(value, field, width);
+    if (!word.empty() && !ImGui::IsItemActive()) cover_with_word(word);
+    if (!is_changed) return std::nullopt;
     return Edited{value};
   }
   std::optional<Edited> operator()(double* place) const { return number(*place); }

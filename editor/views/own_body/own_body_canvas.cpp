@@ -150,7 +150,7 @@ void OwnBodyCanvas::draw_readout(const OwnBodyWork& work) const {
     left = formatted("x %4d  y %4d   mask %3.0f%%", pixel_->x, pixel_->y, mask.at<uchar>(*pixel_) / 2.55);
     const std::shared_ptr<const OwnBody>& found = work.detection().found;
     if (found && found->confidence.size() == mask.size())
-      left += formatted("   own body %3.0f%%", found->confidence.at<ushort>(*pixel_) / 655.35);
+      left += formatted("   confidence %3.0f%%", found->confidence.at<ushort>(*pixel_) / 655.35);
   }
   draw.AddText(&mono, mono.FontSize, {low.x + scaled(10), y}, color::kText, left.c_str());
   const std::string right = formatted("%.0f%%   %d x %d", look_.zoom() * 100, mask.cols, mask.rows);

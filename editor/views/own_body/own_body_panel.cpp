@@ -4,13 +4,14 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "editor/views/export_parts.h"
 #include "editor/views/inspector/field_rows.h"
 #include "editor/views/own_body/own_body_pictures.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 
@@ -53,6 +54,18 @@ std::string frames_text(const Studio& studio) {
   std::string text = "Frames " + std::to_string(first) + " to " + std::to_string(first + passed - 1);
   if (used != passed) text += ", " + std::to_string(used) + " of them used";
   return text;
+}
+
+// Until the end of the last frame that was passed, from the first that the project uses.
+double seconds_of(const Studio& studio, int frames) {
+  if (!has_footage(studio) || frames < 1) return 0;
+  const FootageShape& shape = studio.shown.scene->footage->shape;
+  const auto there = static_cast<int>(shape.times_s.size());
+  const int first = std::clamp(studio.project().footage.first_frame, 0, std::max(0, there - 1));
+  const int last = std::min(first + frames, there) - 1;
+  if (last < first) return 0;
+  return shape.times_s[static_cast<std::size_t>(last)] - shape.times_s[static_cast<std::size_t>(first)] +
+         shape.frame_interval_s;
 }
 
 }  // namespace
@@ -101,17 +114,25 @@ void OwnBodyPanel::draw_detection(const Studio& studio, OwnBodyWork& work) const
     note("Stopped.");
     studio.places.note_item("own body/stopped");
   }
-  if (!state.found) return;
-  if (state.phase == DetectionPhase::done) {
-    note_line(Icon::check, color::kGood, result_text(*state.found));
-    studio.places.note_item("own body/found");
-  } else {
-    note("Before: " + result_text(*state.found));
-  }
-  for (const Warning& warning : state.found->warnings) note(warning.text(), true);
+  if (state.found) draw_found(studio, state);
 }
 
-void OwnBodyPanel::draw_start_from(const Studio& studio, OwnBodyWork& work) const {
+void OwnBodyPanel::draw_found(const Studio& studio, const DetectionState& state) const {
+  const OwnBody& found = *state.found;
+  if (state.phase != DetectionPhase::done) {
+    note("Before: " + result_text(found));
+    return;
+  }
+  const std::vector<std::string> doubts = doubts_about(found, seconds_of(studio, found.frames_passed));
+  const bool is_doubted = !doubts.empty();
+  note_line(is_doubted ? Icon::warning : Icon::check, is_doubted ? color::kPartly : color::kGood, result_text(found));
+  studio.places.note_item("own body/found");
+  for (const std::string& doubt : doubts) note(doubt, true);
+  if (is_doubted) studio.places.note_item("own body/doubt");
+}
+
+bool OwnBodyPanel::draw_start_from(const Studio& studio, OwnBodyWork& work) const {
+  const std::uint64_t before = work.painting().state();
   if (work.found_waits() && !work.detection().is_running())
     note(
         "What was painted by hand is kept. Start from \"Detected\" to take the result instead; Ctrl + Z brings back "
@@ -120,10 +141,21 @@ void OwnBodyPanel::draw_start_from(const Studio& studio, OwnBodyWork& work) cons
   ButtonFlow flow;
   if (flow.button("Detected", "The mask that was found", work.detection().found != nullptr)) work.start_from_found();
   studio.places.note_item("own body/start from found");
+  if (work.could_start_from_project(studio.project()) && !work.is_used(studio.project())) {
+    if (flow.button("Project's", "The mask that the project uses")) work.start_from_project(studio.project());
+    studio.places.note_item("own body/start from project");
+  }
   if (flow.button("File...", "A mask in a file")) work.ask_start_from_file(studio.project());
   studio.places.note_item("own body/start from file");
   if (flow.button("Empty", "Nothing is masked")) work.start_from_empty();
   studio.places.note_item("own body/clear");
+  if (work.edge_waits()) {
+    note("The soft edge counts for strokes from now on. This mask has the edge that it had.");
+    if (flow.button("Soften this mask", "The whole mask gets the edge of the setting; Ctrl + Z brings the other back"))
+      work.soften();
+    studio.places.note_item("own body/soften");
+  }
+  return work.painting().state() != before;
 }
 
 void OwnBodyPanel::draw_misfit(const Studio& studio, OwnBodyWork& work) const {
@@ -136,7 +168,11 @@ void OwnBodyPanel::draw_misfit(const Studio& studio, OwnBodyWork& work) const {
 
 void OwnBodyPanel::draw_replacing(const Studio& studio, OwnBodyWork& work) {
   const std::string name = usual_mask_file(studio.project()).filename().string();
-  note_line(Icon::warning, color::kPartly, "The project uses " + name + ". Replace it, or take a new name?");
+  const std::filesystem::path folder = usual_mask_file(studio.project()).parent_path();
+  const bool is_elsewhere = folder != std::filesystem::absolute(studio.project().file).lexically_normal().parent_path();
+  note_line(Icon::warning, color::kPartly,
+            "The project uses " + name + (is_elsewhere ? ", which lies elsewhere: other projects may use it too" : "") +
+                ". Replace it, or take a new name?");
   ButtonFlow flow;
   if (flow.button("New name...", "The old mask stays as it is")) {
     work.ask_save_and_use(studio.project());
@@ -154,23 +190,17 @@ void OwnBodyPanel::draw_replacing(const Studio& studio, OwnBodyWork& work) {
 void OwnBodyPanel::draw_file(const Studio& studio, OwnBodyWork& work) {
   const Project& project = studio.project();
   const bool is_unsaved = work.unsaved() != 0;
-  const std::string name = work.file().filename().string();
-  const float room = ImGui::GetContentRegionAvail().x;
-  if (work.is_used(project)) {
-    note(elided(name + ", used in the project", room));
-    studio.places.note_item("own body/used");
-  } else if (is_unsaved) {
-    note(elided(name.empty() ? "Not saved" : name + ", not saved", room), true);
-    studio.places.note_item("own body/unsaved");
-  } else {
-    note(name.empty() ? "Nothing painted" : elided(name + ", not used in the project", room));
-  }
+  note(work.mask_text(project), is_unsaved);
+  if (is_unsaved) studio.places.note_item("own body/unsaved");
+  if (work.is_used(project)) studio.places.note_item("own body/used");
+  if (!work.painting().empty()) note(share_text(work.share()));
   asks_to_replace_ = asks_to_replace_ && work.could_replace(project);
   if (asks_to_replace_) {
     draw_replacing(studio, work);
     return;
   }
-  if (wide_button("Use in project", true, work.fits() && !work.is_used(project) && (is_unsaved || !name.empty()))) {
+  if (wide_button("Use in project", true,
+                  work.fits() && !work.is_used(project) && (is_unsaved || !work.file().empty()))) {
     asks_to_replace_ = work.could_replace(project);
     if (!asks_to_replace_) work.use(project);
   }
@@ -181,20 +211,22 @@ void OwnBodyPanel::draw_file(const Studio& studio, OwnBodyWork& work) {
   tooltip_for_item("A PNG of 8 bits, of the footage's size: 255 is own body");
 }
 
-void OwnBodyPanel::draw(const Studio& studio, OwnBodyWork& work) {
+bool OwnBodyPanel::draw(const Studio& studio, OwnBodyWork& work) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
   heading("Detect");
   draw_settings(studio);
   ImGui::Spacing();
   draw_detection(studio, work);
   heading("Start from");
+  bool is_started = false;
   if (work.fits())
-    draw_start_from(studio, work);
+    is_started = draw_start_from(studio, work);
   else
     draw_misfit(studio, work);
   heading("Mask");
   draw_file(studio, work);
   ImGui::PopStyleVar();
+  return is_started;
 }
 
 }  // namespace sigs::editor

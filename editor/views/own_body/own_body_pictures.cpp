@@ -53,12 +53,31 @@ std::vector<StageTile> stage_tiles(const OwnBody& found) {
   return tiles;
 }
 
+std::string share_text(double share) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), share < 0.1 ? "%.2g" : "%.3g", share * 100);
+  return std::string(text.data()) + " % of the picture";
+}
+
 std::string result_text(const OwnBody& found) {
-  if (!(found.share > 0)) return "No own body, " + frames_text(found.frames_used);
-  std::array<char, 32> share{};
-  std::snprintf(share.data(), share.size(), found.share < 0.1 ? "%.2g" : "%.3g", found.share * 100);
-  return std::string(share.data()) + " % of the picture, " + frames_text(found.frames_used) +
-         (found.settled ? ", settled early" : "");
+  const std::string frames = frames_text(found.frames_used) + (found.settled ? ", settled early" : "");
+  return (found.share > 0 ? "Found in " : "No own body in ") + frames;
+}
+
+std::vector<std::string> doubts_about(const OwnBody& found, double seconds) {
+  constexpr double kFew_s = 10;
+  constexpr double kMuch = 0.5;
+  std::vector<std::string> doubts;
+  for (const Warning& warning : found.warnings) doubts.push_back(warning.text());
+  if (found.share > kMuch)
+    doubts.push_back(share_text(found.share) + ", more than half, is masked: is that the aircraft, or the world?");
+  if (seconds < kFew_s) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "Only %.2g s of footage", seconds);
+    doubts.push_back(std::string(text.data()) +
+                     " were looked through: what hardly moved meanwhile may be taken for own body. Look closely.");
+  }
+  return doubts;
 }
 
 std::string progress_text(const DetectionState& state) {

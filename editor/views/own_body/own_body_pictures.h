@@ -17,8 +17,12 @@ namespace sigs::editor {
 // The stages in their order.
 [[nodiscard]] std::vector<StageTile> stage_tiles(const OwnBody& found);
 
-// "12.3 % of the picture, 800 frames, settled early"
+// "12.3 % of the picture"
+[[nodiscard]] std::string share_text(double share);
+// "Found in 800 frames, settled early"
 [[nodiscard]] std::string result_text(const OwnBody& found);
+// Why a person should look twice before he believes it; empty: no reason. seconds: of footage that was looked through.
+[[nodiscard]] std::vector<std::string> doubts_about(const OwnBody& found, double seconds);
 // "120 of 800 frames, 0:05 left"
 [[nodiscard]] std::string progress_text(const DetectionState& state);
 

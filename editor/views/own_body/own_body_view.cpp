@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "editor/views/own_body/own_body_pictures.h"
 #include "editor/views/viewport/picture_icons.h"
@@ -111,6 +112,7 @@ void OwnBodyView::draw_stages(const Studio& studio, const OwnBodyWork& work, con
   const std::vector<StageTile> tiles = found ? stage_tiles(*found) : std::vector<StageTile>();
   studio.places.note("own body/stages", rect);
   if (!tiles.empty()) {
+    if (grid_.take_escape()) studio.wishes.own_escape = true;
     grid_.draw(tiles, found->mask.size(), rect, studio.textures);
     return;
   }
@@ -132,14 +134,16 @@ void OwnBodyView::draw_picture_of(const Studio& studio, OwnBodyWork& work, const
   }
 }
 
-// As in every program with several panels: undo counts where the last press was.
+// As in every program with several panels: undo counts where the last press was. A dialog in between is no other place.
+// Where strokes cannot be seen none is taken back, nor anything else.
 void OwnBodyView::take_undo(const Studio& studio, MaskPainting& painting, const ScreenRect& worked_in) {
   const ImGuiIO& io = ImGui::GetIO();
+  if (std::exchange(last_turn_, ImGui::GetFrameCount()) != ImGui::GetFrameCount() - 1) is_worked_in_ = false;
   for (int button = 0; button < 3; ++button)
-    if (ImGui::IsMouseClicked(button)) is_worked_in_ = worked_in.contains(dv(io.MousePos)) && !any_popup_open();
-  if (!is_worked_in_ || !paints()) return;
+    if (ImGui::IsMouseClicked(button) && !any_popup_open()) is_worked_in_ = worked_in.contains(dv(io.MousePos));
+  if (!is_worked_in_) return;
   studio.wishes.own_undo = true;
-  if (io.WantTextInput || any_popup_open() || !io.KeyCtrl || io.KeyAlt) return;
+  if (!paints() || io.WantTextInput || any_popup_open() || !io.KeyCtrl || io.KeyAlt) return;
   if (pressed(Key::z, true)) io.KeyShift ? painting.redo() : painting.undo();
   if (pressed(Key::y, true)) painting.redo();
 }
@@ -170,7 +174,7 @@ void OwnBodyView::draw(const Studio& studio, OwnBodyWork& work) {
   ImGui::SameLine(0, scaled(1));
   ImGui::PushStyleColor(ImGuiCol_ChildBg, color::kPanel);
   ImGui::BeginChild("panel", {panel, room.y}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-  panel_.draw(studio, work);
+  if (panel_.draw(studio, work)) is_worked_in_ = true;
   ImGui::EndChild();
   ImGui::PopStyleColor();
   ImGui::PopID();

@@ -30,7 +30,8 @@ class OwnBodyView {
   OwnBodyCanvas canvas_;
   OwnBodyPanel panel_;
   StageGrid grid_;
-  bool is_worked_in_ = false;  // the last press was on the picture or its toolbar
+  bool is_worked_in_ = false;  // the last press was on the picture or its toolbar, or gave the painting another start
+  int last_turn_ = -1;         // in which it was drawn
 };
 
 }  // namespace sigs::editor

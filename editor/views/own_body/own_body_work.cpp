@@ -11,6 +11,7 @@
 #include "base/partial_file.h"
 #include "editor/document/field_texts.h"
 #include "editor/document/moved_paths.h"
+#include "occlusion/soft_edge.h"
 #include "scene/own_body_mask.h"
 
 namespace sigs::editor {
@@ -30,11 +31,21 @@ fs::path project_mask_file(const Project& project) {
   return named.empty() ? fs::path() : fs::absolute(resolved(project, named)).lexically_normal();
 }
 
+// A soft edge is centred on the border.
+cv::Mat hard(const cv::Mat& mask) {
+  return mask > 127;
+}
+
 bool is_png(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return extension == ".png";
+}
+
+// What was found with one edge, with another.
+cv::Mat with_edge(const cv::Mat& mask, double has_px, double wanted_px) {
+  return has_px == wanted_px ? mask : soft_edged(hard(mask), wanted_px);
 }
 
 // 1: without a number.
@@ -82,12 +93,37 @@ void OwnBodyWork::forget() {
   project_mask_ = cv::Mat();
   taken_ = nullptr;
   video_.clear();
-  file_.clear();
+  origin_.clear();
+  remember_file({}, false);
+  found_state_ = softened_state_ = share_state_ = 0;
+  share_ = 0;
 }
 
-void OwnBodyWork::begin(const cv::Mat& mask) {
+void OwnBodyWork::begin(const cv::Mat& mask, std::string origin) {
   painting_ = MaskPainting(mask);
-  file_.clear();
+  origin_ = {{painting_.whole_state(), std::move(origin)}};
+  remember_file({}, false);
+  mask_edge_px_ = edge_px_;
+  found_state_ = softened_state_ = share_state_ = 0;
+}
+
+void OwnBodyWork::replace(const cv::Mat& mask, std::string step, std::string origin) {
+  painting_.replace(mask, std::move(step));
+  origin_[painting_.whole_state()] = std::move(origin);
+  mask_edge_px_ = edge_px_;
+}
+
+void OwnBodyWork::remember_file(const fs::path& file, bool written_here) {
+  file_ = file;
+  file_is_own_ = written_here;
+  file_whole_ = painting_.whole_state();
+}
+
+void OwnBodyWork::measure_share() {
+  if (painting_.state() == share_state_ && !painting_.is_stroking()) return;
+  share_state_ = painting_.is_stroking() ? 0 : painting_.state();
+  const cv::Mat& mask = painting_.mask();
+  share_ = mask.empty() ? 0 : static_cast<double>(cv::countNonZero(hard(mask))) / static_cast<double>(mask.total());
 }
 
 void OwnBodyWork::follow(const Document& document, const OpenedScene* scene) {
@@ -96,36 +132,63 @@ void OwnBodyWork::follow(const Document& document, const OpenedScene* scene) {
   const fs::path video = resolved(project, project.footage.video);
   if (std::exchange(video_, video) != video) job_.forget();
   detection_ = job_.state();
+  measure_share();
   if (scene == nullptr || scene->revision != document.revision().number) return;
   footage_px_ = scene->draft.scene.footage.size_px;
   if (!fits()) {
     if (painting_.has_unsaved_changes()) return;
-    begin(cv::Mat::zeros(footage_px_, CV_8UC1));
-    project_mask_ = cv::Mat();
+    begin_anew();
   }
   if (painting_.is_stroking()) return;
+  take_soft_edge(project.own_body.soft_edge_px);
   take_project_mask(project, scene->draft.scene.own_body);
   if (found_waits() && (!painting_.has_strokes() || !painting_.has_unsaved_changes())) take_found();
 }
 
-// Only where the project's mask has changed. One that was written here comes back with the same bytes: no step.
+// Only where the project's mask has changed. One that was written here comes back with the same bytes: no step. What
+// was made here stays when the project is undone, or names another file.
 void OwnBodyWork::take_project_mask(const Project& project, const cv::Mat& own_body) {
   if (own_body.data == project_mask_.data) return;
   project_mask_ = own_body;
-  if (painting_.has_unsaved_changes()) return;
-  const cv::Mat mask = own_body.empty() ? cv::Mat::zeros(footage_px_, CV_8UC1) : bytes_of(own_body);
-  if (painting_.can_undo() || painting_.can_redo())
-    painting_.replace(mask, "the project's mask");
-  else
-    begin(mask);
-  painting_.mark_saved();
-  file_ = own_body.empty() ? fs::path() : project_mask_file(project);
+  const bool was_worked_on = painting_.can_undo() || painting_.can_redo();
+  const bool is_another = own_body.empty() || file_ != project_mask_file(project);
+  if (painting_.has_unsaved_changes() || (was_worked_on && !file_.empty() && is_another)) return;
+  if (was_worked_on) {
+    start_from_project(project);
+    return;
+  }
+  const fs::path file = own_body.empty() ? fs::path() : project_mask_file(project);
+  begin(own_body.empty() ? cv::Mat::zeros(footage_px_, CV_8UC1) : bytes_of(own_body),
+        file.empty() ? std::string() : "from " + file.filename().string());
+  remember_file(file, false);
 }
 
 void OwnBodyWork::take_found() {
   taken_ = detection_.found;
-  if (taken_->mask.size() == painting_.mask().size() && taken_->mask.type() == CV_8UC1)
-    painting_.replace(taken_->mask, "detected mask");
+  taken_edge_px_ = detection_.found_by.settings.soft_edge_px;
+  if (taken_->mask.size() != painting_.mask().size() || taken_->mask.type() != CV_8UC1) return;
+  replace(with_edge(taken_->mask, taken_edge_px_, edge_px_), "detected mask", "detected");
+  found_state_ = softened_state_ = painting_.state();
+}
+
+// What was found and not changed since follows at once, by one step at most; back at its own edge it is as it was.
+void OwnBodyWork::take_soft_edge(double edge_px) {
+  if (std::exchange(edge_px_, edge_px) == edge_px || !taken_) return;
+  const std::uint64_t state = painting_.state();
+  if (state != found_state_ && state != softened_state_) return;
+  if (state != found_state_) painting_.undo();
+  replace(with_edge(taken_->mask, taken_edge_px_, edge_px_), "soft edge", "detected");
+  softened_state_ = painting_.state();
+}
+
+void OwnBodyWork::soften() {
+  const auto origin = origin_.find(painting_.whole_state());
+  const std::string name = origin == origin_.end() ? std::string() : origin->second;
+  replace(soft_edged(hard(painting_.mask()), edge_px_), "soft edge", name);
+}
+
+bool OwnBodyWork::edge_waits() const {
+  return mask_edge_px_ != edge_px_ && share_ > 0 && fits();
 }
 
 bool OwnBodyWork::start(const Document& document) {
@@ -138,7 +201,7 @@ bool OwnBodyWork::start(const Document& document) {
 }
 
 void OwnBodyWork::begin_anew() {
-  begin(cv::Mat::zeros(footage_px_, CV_8UC1));
+  begin(cv::Mat::zeros(footage_px_, CV_8UC1), "");
   project_mask_ = cv::Mat();
 }
 
@@ -147,7 +210,22 @@ void OwnBodyWork::start_from_found() {
 }
 
 void OwnBodyWork::start_from_empty() {
-  if (!painting_.empty()) painting_.replace(cv::Mat::zeros(painting_.mask().size(), CV_8UC1), "clear");
+  if (!painting_.empty()) replace(cv::Mat::zeros(painting_.mask().size(), CV_8UC1), "clear", "");
+}
+
+bool OwnBodyWork::could_start_from_project(const Project& project) const {
+  return fits() && project_mask_.size() == footage_px_ && !project_mask_file(project).empty();
+}
+
+// It counts as saved: it lies in the project's file.
+void OwnBodyWork::start_from_project(const Project& project) {
+  if (!could_start_from_project(project)) return;
+  const fs::path file = project_mask_file(project);
+  const cv::Mat mask = bytes_of(project_mask_);
+  if (cv::norm(mask, painting_.mask(), cv::NORM_INF) > 0)
+    replace(mask, "the project's mask", "from " + file.filename().string());
+  painting_.mark_saved();
+  remember_file(file, file_is_own_ && file == file_);
 }
 
 void OwnBodyWork::ask_start_from_file(const Project& project) {
@@ -159,7 +237,8 @@ void OwnBodyWork::ask_start_from_file(const Project& project) {
                           if (!read)
                             edits_.ask(Say{read.error().text(), true});
                           else if (fits())
-                            painting_.replace(bytes_of(*read), "start from " + path.filename().string());
+                            replace(bytes_of(*read), "start from " + path.filename().string(),
+                                    "from " + path.filename().string());
                         }});
 }
 
@@ -171,14 +250,26 @@ bool OwnBodyWork::is_used(const Project& project) const {
   return unsaved() == 0 && !file_.empty() && file_ == project_mask_file(project);
 }
 
+std::string OwnBodyWork::mask_text(const Project& project) const {
+  const std::string name = file_.filename().string();
+  if (is_used(project)) return name + ", used in the project";
+  if (unsaved() == 0) return name.empty() ? "Nothing painted" : name + ", not used in the project";
+  // Nothing but strokes lies between the file and this.
+  if (!name.empty() && painting_.whole_state() == file_whole_) return name + ", changed, not saved";
+  const auto found = origin_.find(painting_.whole_state());
+  const std::string origin = found == origin_.end() ? std::string() : found->second;
+  if (origin.empty()) return painting_.has_strokes() ? "painted, not saved" : "emptied, not saved";
+  return origin + (painting_.has_strokes() ? ", painted on, not saved" : ", not saved");
+}
+
 bool OwnBodyWork::write(const fs::path& path) {
   const fs::path place = fs::absolute(path).lexically_normal();
   if (const Result<void> written = write_mask(painting_.mask(), place, true); !written) {
     edits_.ask(Say{written.error().text() + "; the mask was not saved", true});
     return false;
   }
-  file_ = place;
   painting_.mark_saved();
+  remember_file(place, true);
   return true;
 }
 
@@ -195,7 +286,7 @@ void OwnBodyWork::ask_save(const fs::path& proposed, std::function<void()> next)
 }
 
 void OwnBodyWork::ask_save_as(const Project& project, std::function<void()> next) {
-  ask_save(is_png(file_) ? file_ : usual_mask_file(project), std::move(next));
+  ask_save(file_is_own_ ? file_ : new_mask_file(project), std::move(next));
 }
 
 void OwnBodyWork::name_in_project() {
@@ -211,13 +302,21 @@ void OwnBodyWork::use(const Project& project) {
     ask_save_and_use(project);
 }
 
-void OwnBodyWork::ask_save_and_use(const Project& project) {
-  const bool has_own = is_png(file_) && file_ != project_mask_file(project);
-  ask_save(has_own ? file_ : new_mask_file(project), [this] { name_in_project(); });
+void OwnBodyWork::ask_save_and_use(const Project& project, std::function<void()> next) {
+  const bool has_own = file_is_own_ && file_ != project_mask_file(project);
+  ask_save(has_own ? file_ : new_mask_file(project), [this, next = std::move(next)] {
+    name_in_project();
+    if (next) next();
+  });
+}
+
+void OwnBodyWork::ask_keep(const Project& project, std::function<void()> next) {
+  fits() ? ask_save_and_use(project, std::move(next)) : ask_save_as(project, std::move(next));
 }
 
 bool OwnBodyWork::could_replace(const Project& project) const {
-  return (unsaved() != 0 || file_.empty()) && is_png(project_mask_file(project));
+  const fs::path named = project_mask_file(project);
+  return file_.empty() ? is_png(named) : unsaved() != 0 && is_png(named) && file_ == named;
 }
 
 void OwnBodyWork::replace_and_use(const Project& project) {

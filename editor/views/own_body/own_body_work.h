@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <string>
 
 #include "editor/document/document.h"
 #include "editor/document/mask_painting.h"
@@ -22,8 +24,8 @@ class OwnBodyWork {
   // wake   called from another thread as a detection goes on
   OwnBodyWork(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect = detected);
 
-  // Once a turn in which the mask is looked at: begins with the project's mask, follows the project where nothing is
-  // unsaved, and takes over what was found where nothing is painted by hand.
+  // Once a turn in which the mask is looked at: begins with the project's mask and follows it as long as nothing else
+  // was made here, takes over what was found where nothing is painted by hand, and softens that as the settings say.
   void follow(const Document& document, const OpenedScene* scene);
   // Another project was opened, or none.
   void forget();
@@ -46,23 +48,39 @@ class OwnBodyWork {
   // Each a step of the painting.
   void start_from_found();
   void start_from_empty();
+  void start_from_project(const Project& project);
+  [[nodiscard]] bool could_start_from_project(const Project& project) const;
   void ask_start_from_file(const Project& project);
+  // The edge of the settings for the whole mask.
+  void soften();
+  // The settings ask for another edge than the mask has, which was not only found.
+  [[nodiscard]] bool edge_waits() const;
 
   // 0: all is on disk. Else the state that is not: the same as long as nothing is painted.
   [[nodiscard]] std::uint64_t unsaved() const;
   // The file that holds the painting; "": none does.
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] bool is_used(const Project& project) const;
+  // What the painting is and whether it is on disk: "detected, not saved". Names no file but one that the painting was
+  // read from or saved to.
+  [[nodiscard]] std::string mask_text(const Project& project) const;
+  // Of the picture that is masked, 0..1; as of the last follow().
+  [[nodiscard]] double share() const { return share_; }
 
-  // Writes an 8-bit PNG under a name that is asked for; then goes on.
+  // Writes an 8-bit PNG under a name that is asked for; then goes on. Proposed is the painting's own file, where it was
+  // written here, else a name that is not taken.
   void ask_save_as(const Project& project, std::function<void()> next = {});
   // The project names the file that holds the painting. Where the painting is not in a file yet, it is written first,
   // under a name that is asked for.
   void use(const Project& project);
-  void ask_save_and_use(const Project& project);  // proposes a name that is not taken
+  // Proposes a name that is not taken. next: once the edit that uses it is queued.
+  void ask_save_and_use(const Project& project, std::function<void()> next = {});
+  // Before the painting is left behind: the same, or only saved where it does not fit the footage.
+  void ask_keep(const Project& project, std::function<void()> next);
   // The same, into the file that the project names already: only after the person has agreed.
   void replace_and_use(const Project& project);
-  // Whether that can be asked at all: the project names a PNG, and the painting is not in a file yet.
+  // Whether that can be asked at all: the project names a PNG, and the painting is not in a file yet and has none of
+  // its own.
   [[nodiscard]] bool could_replace(const Project& project) const;
 
  private:
@@ -71,7 +89,11 @@ class OwnBodyWork {
   void name_in_project();
   void take_found();
   void take_project_mask(const Project& project, const cv::Mat& own_body);
-  void begin(const cv::Mat& mask);
+  void take_soft_edge(double edge_px);
+  void replace(const cv::Mat& mask, std::string step, std::string origin);
+  void remember_file(const std::filesystem::path& file, bool written_here);
+  void begin(const cv::Mat& mask, std::string origin);
+  void measure_share();
 
   Edits& edits_;
   OwnBodyJob job_;
@@ -82,6 +104,16 @@ class OwnBodyWork {
   std::shared_ptr<const OwnBody> taken_;  // what was found and taken over, or passed over
   std::filesystem::path video_;           // that was looked through
   std::filesystem::path file_;
+  bool file_is_own_ = false;                     // written here
+  std::uint64_t file_whole_ = 0;                 // the painting's whole_state() that file_ belongs to
+  std::map<std::uint64_t, std::string> origin_;  // of each whole_state()
+  double edge_px_ = 0;                           // of the settings
+  double mask_edge_px_ = 0;                      // of the mask as a whole
+  double taken_edge_px_ = 0;                     // of taken_
+  std::uint64_t found_state_ = 0;                // the painting's state() that is taken_
+  std::uint64_t softened_state_ = 0;             // and with another edge
+  double share_ = 0;
+  std::uint64_t share_state_ = 0;
 };
 
 // Where the mask of a project would lie: the file that it names, else one beside it.

@@ -8,6 +8,8 @@
 
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keys.h"
+#include "editor/widgets/popups.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -43,6 +45,12 @@ void StageGrid::zoom_to_exact() {
   look_.zoom_to(1, look_.room_px() / 2.0);
 }
 
+bool StageGrid::take_escape() {
+  if (large_.empty() || ImGui::GetIO().WantTextInput || any_popup_open() || !pressed(Key::escape)) return false;
+  show_all();
+  return true;
+}
+
 void StageGrid::draw(std::span<const StageTile> tiles, const cv::Size& frame_px, const ScreenRect& rect,
                      Textures& textures) {
   const auto large =
@@ -70,7 +78,8 @@ void StageGrid::draw_tile(const StageTile& tile, const cv::Size& frame_px, const
   ImGui::SetCursorScreenPos(im(rect.low));
   ImGui::InvisibleButton("head", im({rect.size().x, head_px()}));
   if (ImGui::IsItemClicked()) large_ = large_.empty() ? tile.label : std::string();
-  tooltip_for_item(tile.tooltip.c_str());
+  const std::string about = tile.tooltip.empty() || tile.tooltip == tile.label ? "" : "\n" + tile.tooltip;
+  tooltip_for_item((tile.label + about + (large_.empty() ? "\nClick: larger" : "\nClick or Esc: all")).c_str());
   ImGui::SetCursorScreenPos(im(room.low));
   ImGui::InvisibleButton("picture", im(room.size()),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
@@ -127,11 +136,15 @@ void StageGrid::draw_head(const StageTile& tile, bool linked, const ScreenRect& 
   const float y = static_cast<float>(std::floor(rect.low.y + (head_px() - font(Font::small)->FontSize) / 2));
   double room = rect.size().x - 2 * scaled(6);
   std::string value;
-  if (linked && pixel_) value = pixel_text(tile.picture, *pixel_);
+  if (linked && pixel_) value = (tile.picture.channels() == 1 ? "value " : "RGB ") + pixel_text(tile.picture, *pixel_);
   if (!linked) value = std::to_string(tile.picture.cols) + " x " + std::to_string(tile.picture.rows);
+  ImGui::PushFont(font(Font::small));
+  const float label_width = ImGui::CalcTextSize(tile.label.c_str()).x;
+  ImGui::PopFont();
   ImGui::PushFont(font(Font::mono));
   const float value_width = ImGui::CalcTextSize(value.c_str()).x;
-  if (!value.empty() && value_width + scaled(40) < room) {
+  // The value is beside the pixel's mark too; the label is nowhere else.
+  if (!value.empty() && value_width + scaled(8) + label_width <= room) {
     draw.AddText({static_cast<float>(rect.high.x) - scaled(6) - value_width, y},
                  linked ? color::kAccent : color::kQuiet, value.c_str());
     room -= value_width + scaled(8);

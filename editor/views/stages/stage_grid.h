@@ -22,7 +22,7 @@ struct GridShape {
 
 // Pictures side by side, each under its label. Those of one size, the frame's, are zoomed and panned as one, and the
 // pixel under the mouse is marked in all of them; the others are shown whole. A click makes one large, a click more
-// brings the others back.
+// or Escape brings the others back.
 class StageGrid {
  public:
   void draw(std::span<const StageTile> tiles, const cv::Size& frame_px, const ScreenRect& rect, Textures& textures);
@@ -32,6 +32,8 @@ class StageGrid {
   void zoom_to_exact();
   [[nodiscard]] const ZoomablePicture& look() const { return look_; }
   void show_all() { large_.clear(); }
+  // Before drawing: Escape brings all back. Whether it was pressed for that.
+  [[nodiscard]] bool take_escape();
 
  private:
   void draw_tile(const StageTile& tile, const cv::Size& frame_px, const ScreenRect& rect, Textures& textures);

@@ -267,6 +267,7 @@ void StagesView::draw(const Studio& studio) {
   const ScreenRect rect{low, low + glm::max(glm::floor(dv(ImGui::GetContentRegionAvail())), 1.0)};
   const std::vector<StageTile> shown = tiles(studio);
   const Picture* const picture = looked_at(studio);
+  if (!shown.empty() && grid_.take_escape()) studio.wishes.own_escape = true;
   if (!shown.empty() && picture != nullptr) grid_.draw(shown, picture->bgr.size(), rect, studio.textures);
   draw_notice(studio, rect);
   ImGui::PopStyleVar();

@@ -230,3 +230,16 @@ TEST_CASE("advice is given where a file has to be chosen, and only there") {
   }
   CHECK(advice({"intruders[0].trajectory.waypoints", "is empty"}, nullptr).empty());
 }
+
+TEST_CASE("a zero that is no number is told by its word") {
+  Project project;
+  for (const Field& field : fields_of(project)) {
+    if (field.key == "own_body.paper.canny_low") {
+      CHECK(value_text(field, 0.0) == "auto");
+      CHECK(value_text(field, 2.0) == "2");
+    }
+    if (field.key == "own_body.paper.closing_px") CHECK(value_text(field, 0) == "auto");
+    if (field.key == "own_body.settled_percent") CHECK(value_text(field, 0.0) == "never");
+    if (field.key == "camera.speed_mps") CHECK(value_text(field, 0.0) == "0 m/s");
+  }
+}

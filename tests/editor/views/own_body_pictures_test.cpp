@@ -45,10 +45,24 @@ TEST_CASE("the tint is as opaque as the mask says") {
 }
 
 TEST_CASE("what was found is told in a line") {
-  CHECK(result_text({.frames_used = 800, .settled = true, .share = 0.1234}) ==
-        "12.3 % of the picture, 800 frames, settled early");
-  CHECK(result_text({.frames_used = 2, .share = 0.00456}) == "0.46 % of the picture, 2 frames");
-  CHECK(result_text({.frames_used = 1500}) == "No own body, 1500 frames");
+  CHECK(result_text({.frames_used = 800, .settled = true, .share = 0.1234}) == "Found in 800 frames, settled early");
+  CHECK(result_text({.frames_used = 2, .share = 0.00456}) == "Found in 2 frames");
+  CHECK(result_text({.frames_used = 1500}) == "No own body in 1500 frames");
+  CHECK(share_text(0.1234) == "12.3 % of the picture");
+  CHECK(share_text(0.00456) == "0.46 % of the picture");
+  CHECK(share_text(0) == "0 % of the picture");
+}
+
+TEST_CASE("a result is doubted where the engine warns, where most is masked and where little was looked through") {
+  CHECK(doubts_about({.share = 0.5}, 10).empty());
+  CHECK(doubts_about({.share = 0}, 60).empty());
+  const std::vector<std::string> all =
+      doubts_about({.share = 0.501, .warnings = {{"clip.mp4", "3 damaged frames"}}}, 6.66);
+  REQUIRE(all.size() == 3);
+  CHECK(all[0] == "clip.mp4: 3 damaged frames");
+  CHECK(all[1].starts_with("50.1 % of the picture, more than half"));
+  CHECK(all[2].starts_with("Only 6.7 s"));
+  CHECK(doubts_about({}, 9.99).size() == 1);
 }
 
 TEST_CASE("progress is told with the time that is left") {

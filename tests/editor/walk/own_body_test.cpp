@@ -113,6 +113,14 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   CHECK(value_at(mask, 640, 940) == 0);  // cleared
   CHECK(walk.saved(project)["footage"]["own_body_mask"] == "flight_own_body.png");
   CHECK(editor.state()["problems"].empty());
+  // The last press was in the panel: the project's edit goes, what was painted stays.
+  walk.edit([&] { editor.key("ctrl+z"); });
+  editor.wait_for("the other use", [](const Json& now) { return !shows(now, "own body/used"); });
+  CHECK_FALSE(shows(editor.state(), "own body/unsaved"));
+  editor.settle();
+  walk.picture("undone");
+  walk.edit([&] { editor.key("ctrl+y"); });
+  wait_for_place(walk, "own body/used");
 
   // With the wheel turned in, a stroke lies where the mouse was.
   const glm::dvec2 corner = on_screen(walk, 900, 300);
@@ -142,11 +150,13 @@ TEST_CASE("an unsaved mask is not given up without a question") {
   editor.wait_for("the question to go", [](const Json& now) { return !shows(now, "question/Cancel"); });
   CHECK(shows(editor.state(), "own body/unsaved"));
   editor.key("ctrl+q");
-  editor.click("question/Save...");
+  editor.click("question/Save and use...");
   (void)editor.place("browser/answer");
   editor.settle();
   editor.key("Return");
+  editor.click("question/Save");  // the project, which uses it
   CHECK(editor.exit_status() == 0);
+  CHECK(json_of(walk.folder() / "flight.json")["footage"]["own_body_mask"] == "flight_own_body.png");
   CHECK(value_at(walk.folder() / "flight_own_body.png", 350, 200) == 255);
 }
 
