@@ -138,13 +138,12 @@ void say(const OwnBody& found, const Project& project) {
 
 // Where what was found may well be wrong, and only a look can tell.
 void say_doubts(const OwnBody& found, const VideoInfo& footage, int first_frame) {
-  constexpr double kEnough_s = 9.95;  // 10.0 as it is printed
-  constexpr double kMuch = 0.5;
+  constexpr double kRounding_s = 0.05;  // 9.95 is printed as 10.0
   const auto first = static_cast<std::size_t>(first_frame);
   const auto steps = static_cast<std::size_t>(found.frames_passed - 1);
   const double from_first_to_last_s = footage.times_s[first + steps] - footage.times_s[first];
   const double passed_s = from_first_to_last_s * (1 + 1 / static_cast<double>(steps));  // the last one is shown too
-  if (passed_s < kEnough_s) {
+  if (passed_s < kEnoughFootage_s - kRounding_s) {
     char text[160];
     std::snprintf(text, sizeof text,
                   "only %.1f s of footage were looked through, parts of the world may be masked; look at the mask, or "
@@ -152,7 +151,7 @@ void say_doubts(const OwnBody& found, const VideoInfo& footage, int first_frame)
                   passed_s);
     print_warning({footage.path.string(), text});
   }
-  if (found.share > kMuch)
+  if (found.share > kLargeShare)
     print_warning(
         {footage.path.string(), "more than half of the picture is masked; look whether all of it is the UAV"});
 }

@@ -26,6 +26,10 @@ struct OwnBody {
   std::vector<Warning> warnings;
 };
 
+// A mask from less footage, or one that covers more of the picture, should be looked at before it is used.
+inline constexpr double kEnoughFootage_s = 10;
+inline constexpr double kLargeShare = 0.5;
+
 struct DetectionControl {
   std::function<void(int done, int total)> progress;  // frames passed, of those to be passed; calling thread
   const std::atomic<bool>* cancel = nullptr;          // set: stop soon, error interrupted

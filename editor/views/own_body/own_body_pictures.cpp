@@ -65,13 +65,11 @@ std::string result_text(const OwnBody& found) {
 }
 
 std::vector<std::string> doubts_about(const OwnBody& found, double seconds) {
-  constexpr double kFew_s = 10;
-  constexpr double kMuch = 0.5;
   std::vector<std::string> doubts;
   for (const Warning& warning : found.warnings) doubts.push_back(warning.text());
-  if (found.share > kMuch)
+  if (found.share > kLargeShare)
     doubts.push_back(share_text(found.share) + ", more than half, is masked: is that the aircraft, or the world?");
-  if (seconds < kFew_s) {
+  if (seconds < kEnoughFootage_s) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "Only %.2g s of footage", seconds);
     doubts.push_back(std::string(text.data()) +
