@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "cli/check_command.h"
+#include "cli/dataset_command.h"
+#include "cli/evaluate_command.h"
 #include "cli/export_command.h"
 #include "cli/frame_command.h"
 #include "cli/info_command.h"
@@ -41,14 +43,15 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   std::vector<Command> commands;
-  for (const auto add :
-       {add_export_command, add_frame_command, add_mask_command, add_check_command, add_info_command}) {
+  for (const auto add : {add_export_command, add_frame_command, add_mask_command, add_dataset_command,
+                         add_evaluate_command, add_check_command, add_info_command}) {
     std::function<sigs::Result<void>()> run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
   }
   const auto is_asked_for = [&](const Command& command) { return command.app->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
-    print_error({argv[1], "no such command; there are export, frame, mask, check and info", sigs::ErrorKind::usage});
+    print_error({argv[1], "no such command; there are export, frame, mask, dataset, evaluate, check and info",
+                 sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
   }
   try {

@@ -171,7 +171,7 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   ExportReport report;
   for (const Warning& warning : warnings_of(video)) say(control, report, warning);
   for (const Warning& warning : scene->warnings) say(control, report, warning);
-  Result<ExportFiles> files = ExportFiles::open(request, video, *range);
+  Result<ExportFiles> files = ExportFiles::open(request, video, *scene, *range);
   if (!files) return fail(files.error());
   {
     Pipeline pipeline(*scene, *source, *range, std::max(1, request.jobs));

@@ -87,6 +87,32 @@ Frame frame_of_mask(cv::Mat mask, double time_s) {
           .time_s = time_s};
 }
 
+LabelSequence label_sequence(const Project& project, const VideoInfo& footage, const Scene& scene,
+                             const FrameRange& range, const std::string& output) {
+  const bool has_pictures = project.output.codec == CodecChoice::png;
+  LabelSequence sequence{.name = project.name,
+                         .footage = {.video = footage.path.filename().string(),
+                                     .size_px = footage.size_px,
+                                     .first_frame = range.first,
+                                     .last_frame = range.last,
+                                     .frame_rate_num = footage.frame_rate_num,
+                                     .frame_rate_den = footage.frame_rate_den},
+                         .categories = categories_of(project),
+                         .video = has_pictures ? std::string() : output,
+                         .pictures = project.name,
+                         .own_body = scene.own_body,
+                         .camera = scene.camera,
+                         .thresholds = {.least_pixels = project.output.label_least_pixels,
+                                        .least_visible_fraction = project.output.label_least_visible_fraction}};
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i)
+    sequence.intruders.push_back({.id = static_cast<int>(i),
+                                  .name = scene.intruders[i].name,
+                                  .category = project.intruders[i].category,
+                                  .low_m = scene.intruders[i].model->mesh.low_m,
+                                  .high_m = scene.intruders[i].model->mesh.high_m});
+  return sequence;
+}
+
 Result<void> make_folder(const fs::path& folder) {
   std::error_code code;
   fs::create_directories(folder, code);
@@ -134,11 +160,12 @@ Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const V
   return Video{std::move(*file), std::make_unique<WriterThread>(std::move(*writer))};
 }
 
-Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const FootageTruth& footage,
-                                                     bool overwrite) {
-  Result<PartialFile> file = PartialFile::create(path, overwrite);
+Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const LabelFormat& format,
+                                                     const LabelSequence& sequence, bool overwrite) {
+  Result<PartialFile> file =
+      format.is_folder ? PartialFile::create_folder(path, overwrite) : PartialFile::create(path, overwrite);
   if (!file) return fail(file.error());
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open(file->part(), footage);
+  Result<std::unique_ptr<LabelWriter>> writer = format.open(file->part(), sequence);
   if (!writer) return fail(writer.error());
   return Labels{std::move(*file), std::move(*writer)};
 }
@@ -155,7 +182,8 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
   return {};
 }
 
-Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const FrameRange& range) {
+Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                      const FrameRange& range) {
   if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
   const ExportSettings& output = request.project.output;
   const fs::path base = request.folder / request.project.name;
@@ -163,32 +191,44 @@ Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoI
   const VideoFormat masks = mask_format(format, output.masks);
   const fs::path video_path = with_extension(base.string(), format);
   const fs::path masks_path = with_extension(base.string() + ".masks", masks);
-  const fs::path labels_path = base.string() + ".xml";
-  for (const fs::path& path : {video_path, masks_path, labels_path})
+  std::vector<fs::path> paths{video_path, masks_path};
+  for (const std::string& label : output.labels)
+    paths.push_back(base.string() + std::string(label_format(label)->suffix));
+  for (const fs::path& path : paths)
     if (const Result<void> free = check_not_read(request.project, path); !free) return fail(free.error());
   ExportFiles files;
 
   Result<Video> video = open_video(video_path, format, request.overwrite);
   if (!video) return fail(video.error());
   files.video_.emplace(std::move(*video));
+  if (format.codec == VideoCodec::png) files.pictures_ = files.video_->file.part();
 
   if (output.masks != MasksChoice::none) {
     Result<Video> opened = open_video(masks_path, masks, request.overwrite);
     if (!opened) return fail(opened.error());
     files.masks_.emplace(std::move(*opened));
   }
-  if (std::find(output.labels.begin(), output.labels.end(), "xml") != output.labels.end()) {
-    const FootageTruth truth{.video = footage.path.filename().string(),
-                             .size_px = footage.size_px,
-                             .first_frame = range.first,
-                             .last_frame = range.last,
-                             .frame_rate_num = footage.frame_rate_num,
-                             .frame_rate_den = footage.frame_rate_den};
-    Result<Labels> labels = open_labels(labels_path, truth, request.overwrite);
+  const LabelSequence sequence = label_sequence(request.project, footage, scene, range, video_path.filename().string());
+  for (const std::string& label : output.labels) {
+    const LabelFormat& chosen = *label_format(label);
+    Result<Labels> labels =
+        open_labels(base.string() + std::string(chosen.suffix), chosen, sequence, request.overwrite);
     if (!labels) return fail(labels.error());
-    files.labels_.emplace(std::move(*labels));
+    files.labels_.push_back(std::move(*labels));
   }
   return files;
+}
+
+bool ExportFiles::write_labels(const FrameTruth& truth) {
+  bool goes_on = true;
+  for (Labels& labels : labels_) {
+    if (labels.failure) continue;
+    const Result<void> written = labels.writer->write(truth);
+    if (written) continue;
+    labels.failure = {truth.index, written.error()};
+    goes_on = false;
+  }
+  return goes_on;
 }
 
 Result<void> ExportFiles::write(ComposedFrame frame) {
@@ -200,18 +240,14 @@ Result<void> ExportFiles::write(ComposedFrame frame) {
     goes_on &= frame.mask.empty() ? masks.put_blank(time_s, number)
                                   : masks.put(frame_of_mask(std::move(frame.mask), time_s), number);
   }
-  if (labels_)
-    if (const Result<void> written = labels_->writer.write(frame.truth); !written) {
-      labels_->failure = {number, written.error()};
-      goes_on = false;
-    }
+  goes_on &= write_labels(frame.truth);
   return goes_on ? Result<void>() : settle();
 }
 
 Result<void> ExportFiles::settle() {
   std::vector<std::optional<FrameFailure>> failures{video_->writer->settle()};
   if (masks_) failures.push_back(masks_->writer->settle());
-  if (labels_) failures.push_back(labels_->failure);
+  for (const Labels& labels : labels_) failures.push_back(labels.failure);
   std::erase(failures, std::nullopt);
   if (failures.empty()) return {};
   const auto first = std::min_element(failures.begin(), failures.end(),
@@ -227,7 +263,8 @@ Result<void> ExportFiles::finish() {
   Result<void> step = settle();
   if (step) step = video_->writer->finish();
   if (step && masks_) step = masks_->writer->finish();
-  if (step && labels_) step = labels_->writer.finish();
+  for (Labels& labels : labels_)
+    if (step) step = labels.writer->finish(pictures_);
   return step;
 }
 
@@ -235,7 +272,7 @@ Result<std::vector<fs::path>> ExportFiles::keep() {
   if (const Result<void> step = finish(); !step) return fail(step.error());
   std::vector<PartialFile*> files{&video_->file};
   if (masks_) files.push_back(&masks_->file);
-  if (labels_) files.push_back(&labels_->file);
+  for (Labels& labels : labels_) files.push_back(&labels.file);
   std::vector<fs::path> written;
   for (PartialFile* file : files) {
     if (const Result<void> step = file->keep(); !step) return fail(step.error());

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "annotation/sigs_xml.h"
+#include "annotation/labels.h"
 #include "base/partial_file.h"
 #include "export.h"
 #include "export_writer.h"
@@ -18,7 +18,7 @@ namespace sigs {
 class ExportFiles {
  public:
   [[nodiscard]] static Result<ExportFiles> open(const ExportRequest& request, const VideoInfo& footage,
-                                                const FrameRange& range);
+                                                const Scene& scene, const FrameRange& range);
 
   // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
   [[nodiscard]] Result<void> write(ComposedFrame frame);
@@ -40,20 +40,23 @@ class ExportFiles {
     PartialFile file;
     std::unique_ptr<WriterThread> writer;
   };
+  // Likewise.
   struct Labels {
     PartialFile file;
-    SigsXmlWriter writer;
+    std::unique_ptr<LabelWriter> writer;
     std::optional<FrameFailure> failure{};
   };
   [[nodiscard]] static Result<Video> open_video(const std::filesystem::path& path, const VideoFormat& format,
                                                 bool overwrite);
-  [[nodiscard]] static Result<Labels> open_labels(const std::filesystem::path& path, const FootageTruth& footage,
-                                                  bool overwrite);
+  [[nodiscard]] static Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
+                                                  const LabelSequence& sequence, bool overwrite);
+  [[nodiscard]] bool write_labels(const FrameTruth& truth);
   [[nodiscard]] Result<void> finish();
 
   std::optional<Video> video_;
   std::optional<Video> masks_;
-  std::optional<Labels> labels_;
+  std::vector<Labels> labels_;
+  std::filesystem::path pictures_;  // where numbered pictures are written to; empty: a video is
 };
 
 }  // namespace sigs

@@ -205,8 +205,9 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   return seen;
 }
 
-std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIntruder>& far_to_near,
-                                    const cv::Mat& mask) {
+std::vector<IntruderTruth> measured(const Scene& scene, const SceneMoment& moment,
+                                    const std::vector<SeenIntruder>& far_to_near, const cv::Mat& mask) {
+  const glm::dvec3 up_in_camera = glm::conjugate(moment.world_from_camera.rotation) * glm::dvec3(0, 0, -1);
   std::vector<IntruderTruth> truths;
   for (std::size_t i = 0; i < far_to_near.size(); ++i) {
     const SeenIntruder& seen = far_to_near[i];
@@ -216,6 +217,7 @@ std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIn
                         .position_m = seen.placed.camera_from_body.translation_m,
                         .attitude = seen.placed.attitude};
     if (seen.silhouette) truth.silhouette = seen.silhouette->box;
+    truth.horizon = horizon_side_of(scene.intruders[id].model->outermost_m, seen.placed.camera_from_body, up_in_camera);
     const cv::Rect outline = outline_of(seen);
     const Layer inside = clipped(seen.sharp, picture_of(scene));
     const double inside_px = area_px(inside.coverage);
@@ -228,7 +230,10 @@ std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIn
       visible.setTo(0, mask(seen.soft.rect) == 0);
       for (std::size_t j = i + 1; j < far_to_near.size(); ++j)
         hide_coverage(visible, seen.soft.rect, far_to_near[j].soft);
-      truth.box = common(covered_box(visible, seen.soft.rect, std::max(least, kLeastVisible)), outline);
+      const float least_visible = std::max(least, kLeastVisible);
+      truth.box = common(covered_box(visible, seen.soft.rect, least_visible), outline);
+      if (truth.box) truth.visible = covered_pixels(visible, seen.soft.rect, least_visible, *truth.box);
+      if (truth.box) truth.visible_pixels = cv::countNonZero(truth.visible);
       const double visible_px = area_px(visible);
       truth.visible_fraction = visible_px < kRounding * inside_px ? 0.0 : std::min(visible_px / whole_px, 1.0);
     }

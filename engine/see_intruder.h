@@ -36,7 +36,7 @@ struct SeenIntruder {
 //   mask  ComposedFrame::mask; what was not laid on the picture is not visible in it (the classic method cannot show
 //   what
 //         lies beyond the edge of its undistorted picture)
-[[nodiscard]] std::vector<IntruderTruth> measured(const Scene& scene, const std::vector<SeenIntruder>& far_to_near,
-                                                  const cv::Mat& mask);
+[[nodiscard]] std::vector<IntruderTruth> measured(const Scene& scene, const SceneMoment& moment,
+                                                  const std::vector<SeenIntruder>& far_to_near, const cv::Mat& mask);
 
 }  // namespace sigs

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/image.h"
@@ -12,16 +13,37 @@
 
 namespace sigs {
 
+// Where a body lies against the horizon: the plane through the camera, level in the world (flat ground without end).
+enum class HorizonSide { below, on, above };
+
+[[nodiscard]] constexpr std::string_view name_of(HorizonSide side) {
+  if (side == HorizonSide::on) return "on";
+  return side == HorizonSide::above ? "above" : "below";
+}
+
 // The truth of one intruder in one frame. docs/annotation-format.md has the formula of each.
 struct IntruderTruth {
   int id = 0;
   std::string name;
-  glm::dvec3 position_m{0, 0, 0};  // of the reference point, in the camera frame
-  Attitude attitude;               // in the world
-  bool in_picture = false;         // some of it lies within the picture and in front of the lens, hidden or not
-  double visible_fraction = 0;     // of the whole silhouette's area: what lies in the picture and is not hidden
-  std::optional<cv::Rect> box;     // visible pixels; none where nothing is visible
-  std::optional<Box> silhouette;   // the whole of it through the lens; none where no part of it has an image
+  glm::dvec3 position_m{0, 0, 0};         // of the reference point, in the camera frame
+  Attitude attitude;                      // in the world
+  bool in_picture = false;                // some of it lies within the picture and in front of the lens, hidden or not
+  double visible_fraction = 0;            // of the whole silhouette's area: what lies in the picture and is not hidden
+  std::optional<cv::Rect> box;            // visible pixels; none where nothing is visible
+  cv::Mat visible;                        // CV_8UC1 over box: 255 where a pixel shows it, else 0; empty: not measured
+  int visible_pixels = 0;                 // how many of them there are
+  std::optional<Box> silhouette;          // the whole of it through the lens; none where no part of it has an image
+  HorizonSide horizon = HorizonSide::on;  // above or below: all of it is
+};
+
+// What the frames are counted in, and which of them a set of labels holds.
+struct FootageTruth {
+  std::string video;  // file name without folder
+  cv::Size size_px;
+  int first_frame = 0;
+  int last_frame = 0;  // included
+  int frame_rate_num = 25;
+  int frame_rate_den = 1;
 };
 
 struct FrameTruth {

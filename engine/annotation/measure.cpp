@@ -46,6 +46,26 @@ std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rec
   return cv::Rect(low + rect.tl(), high + rect.tl() + cv::Point(1, 1));
 }
 
+cv::Mat covered_pixels(const cv::Mat& coverage, const cv::Rect& rect, float least, const cv::Rect& box) {
+  const cv::Mat within = coverage(box - rect.tl());
+  return (within >= least) & (within > 0);
+}
+
+HorizonSide horizon_side_of(std::span<const glm::vec3> points_in_body,
+                            const Pose<frame::Camera, frame::Body>& camera_from_body, const glm::dvec3& up_in_camera) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double lowest_m = kInfinity;
+  double highest_m = -kInfinity;
+  for (const glm::vec3& point : points_in_body) {
+    const double height_m = glm::dot(up_in_camera, camera_from_body * glm::dvec3(point));
+    lowest_m = std::min(lowest_m, height_m);
+    highest_m = std::max(highest_m, height_m);
+  }
+  if (lowest_m > 0 && !points_in_body.empty()) return HorizonSide::above;
+  if (highest_m < 0 && !points_in_body.empty()) return HorizonSide::below;
+  return HorizonSide::on;
+}
+
 double area_px(const cv::Mat& coverage) {
   return coverage.empty() ? 0.0 : cv::sum(coverage)[0];
 }

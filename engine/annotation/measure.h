@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "annotation/annotation.h"
 #include "base/image.h"
 #include "base/layer.h"
 #include "base/pose.h"
@@ -38,6 +39,16 @@ inline constexpr float kLeastVisible = 0.5F / 255.0F;
 // Smallest box of whole pixels around those covered by at least `least` and by more than nothing; coverage is CV_32FC1
 // over rect.
 [[nodiscard]] std::optional<cv::Rect> covered_box(const cv::Mat& coverage, const cv::Rect& rect, float least);
+
+// Which pixels of box are covered by at least `least` and by more than nothing: CV_8UC1 of its size, 255 or 0. coverage
+// is CV_32FC1 over rect, which holds box.
+[[nodiscard]] cv::Mat covered_pixels(const cv::Mat& coverage, const cv::Rect& rect, float least, const cv::Rect& box);
+
+// Where points lie against the level plane through the camera. Nothing given lies on it.
+//   up_in_camera  unit vector, away from the ground
+[[nodiscard]] HorizonSide horizon_side_of(std::span<const glm::vec3> points_in_body,
+                                          const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                          const glm::dvec3& up_in_camera);
 
 // Sum of the coverage, in pixels.
 [[nodiscard]] double area_px(const cv::Mat& coverage);

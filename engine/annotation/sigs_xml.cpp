@@ -45,6 +45,7 @@ void add_boxes(pugi::xml_node node, const IntruderTruth& truth) {
     box.append_attribute("y") = truth.box->y;
     box.append_attribute("width") = truth.box->width;
     box.append_attribute("height") = truth.box->height;
+    box.append_attribute("pixels") = truth.visible_pixels;
   }
   if (truth.silhouette) {
     pugi::xml_node silhouette = node.append_child("silhouette");
@@ -61,6 +62,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   node.append_attribute("name") = xml_text(truth.name).c_str();
   node.append_attribute("in_picture") = truth.in_picture;
   set(node, "visible_fraction", truth.visible_fraction, kFractionDecimals);
+  node.append_attribute("horizon") = name_of(truth.horizon).data();
   set_position(node.append_child("position"), truth.position_m);
   set(node.append_child("distance"), "m", glm::length(truth.position_m), kMetreDecimals);
   set_attitude(node.append_child("attitude"), truth.attitude);
@@ -129,6 +131,26 @@ Result<void> SigsXmlWriter::put(const std::string& text) {
   if (!out_)
     return fail(path_.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
   return {};
+}
+
+namespace {
+
+class SigsXmlLabels : public LabelWriter {
+ public:
+  explicit SigsXmlLabels(SigsXmlWriter writer) : writer_(std::move(writer)) {}
+  Result<void> write(const FrameTruth& truth) override { return writer_.write(truth); }
+  Result<void> finish(const std::filesystem::path&) override { return writer_.finish(); }
+
+ private:
+  SigsXmlWriter writer_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path, const LabelSequence& sequence) {
+  Result<SigsXmlWriter> writer = SigsXmlWriter::open(path, sequence.footage);
+  if (!writer) return fail(writer.error());
+  return std::make_unique<SigsXmlLabels>(std::move(*writer));
 }
 
 }  // namespace sigs

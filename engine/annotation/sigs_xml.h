@@ -3,22 +3,14 @@
 
 #include <filesystem>
 #include <fstream>
-#include <opencv2/core.hpp>
+#include <memory>
 #include <string>
 
 #include "annotation/annotation.h"
+#include "annotation/labels.h"
 #include "base/result.h"
 
 namespace sigs {
-
-struct FootageTruth {
-  std::string video;  // file name without folder
-  cv::Size size_px;
-  int first_frame = 0;
-  int last_frame = 0;
-  int frame_rate_num = 25;
-  int frame_rate_den = 1;
-};
 
 // The truth of one frame as an element of the file, indented, with its line end.
 [[nodiscard]] std::string xml_of(const FrameTruth& truth);
@@ -41,5 +33,9 @@ class SigsXmlWriter {
   std::filesystem::path path_;
   std::ofstream out_;
 };
+
+// The same as one of the label formats.
+[[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path,
+                                                                 const LabelSequence& sequence);
 
 }  // namespace sigs

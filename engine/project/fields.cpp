@@ -129,7 +129,14 @@ void add_output(FieldList list, ExportSettings& output) {
   list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
   list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "",
            "opacity of the intruders, as video or pictures");
-  list.add("labels", &output.labels, "", "annotation formats to write: xml");
+  list.add("labels", &output.labels, "",
+           "annotation formats to write: xml, coco, yolo, voc, mot, kitti, cvat, vot, aot, csv");
+  list.number("label_least_pixels", &output.label_least_pixels, "px", 1, 1e9,
+              "fewer visible pixels: no label; xml and csv leave nothing out");
+  list.number("label_least_visible_fraction", &output.label_least_visible_fraction, "", 0, 1,
+              "less of it to be seen: no label; xml and csv leave nothing out");
+  list.add("categories", &output.categories, "",
+           "categories that labels count, in this order; empty: those of the intruders");
 }
 
 }  // namespace
@@ -145,6 +152,8 @@ std::vector<Field> fields_of(Project& project) {
     IntruderSettings& intruder = project.intruders[i];
     const std::string prefix = "intruders[" + std::to_string(i) + "].";
     FieldList(fields, prefix).add("name", &intruder.name, "", "what the annotations call it");
+    FieldList(fields, prefix).add("category", &intruder.category, "", "what kind of thing labels call it").required =
+        true;
     add_model(FieldList(fields, prefix + "model."), intruder.model);
     add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sigs {
@@ -109,6 +111,7 @@ struct TrajectoryPlan {
 
 struct IntruderSettings {
   std::string name = "intruder";
+  std::string category = "airplane";
   ModelSettings model;
   TrajectoryPlan trajectory;
   std::string unknown_json;
@@ -132,12 +135,19 @@ enum class CodecChoice { ffv1, h264, mjpeg, png };
 enum class ContainerChoice { automatic, mkv, mp4, avi };
 enum class MasksChoice { none, video, png };
 
+// What export.labels may hold.
+inline constexpr std::array<std::string_view, 10> kLabelNames{"xml",   "coco", "yolo", "voc", "mot",
+                                                              "kitti", "cvat", "vot",  "aot", "csv"};
+
 struct ExportSettings {
   CodecChoice codec = CodecChoice::ffv1;
   ContainerChoice container = ContainerChoice::automatic;
   int crf = 18;
   MasksChoice masks = MasksChoice::video;
   std::vector<std::string> labels{"xml"};
+  int label_least_pixels = 1;
+  double label_least_visible_fraction = 0;
+  std::vector<std::string> categories;  // empty: those of the intruders, in their order
 
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };
@@ -156,6 +166,9 @@ struct Project {
 
   [[nodiscard]] bool operator==(const Project&) const = default;
 };
+
+// The categories that labels count: export.categories or, where that is empty, those of the intruders, each once.
+[[nodiscard]] std::vector<std::string> categories_of(const Project& project);
 
 // A path of the project as the file system knows it: absolute ones as they are, others from the project file's folder.
 [[nodiscard]] std::filesystem::path resolved(const Project& project, const std::string& path);

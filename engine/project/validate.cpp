@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -19,6 +20,12 @@ std::string short_text(double number) {
   std::ostringstream text;
   text << number;
   return text.str();
+}
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string list;
+  for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
 }
 
 void check_number(const Field& field, double number, Problems& problems) {
@@ -99,11 +106,43 @@ void check_output(const ExportSettings& output, Problems& problems) {
     problems.push_back({"export.video.container", "mp4 cannot hold ffv1; use mkv or avi"});
   if (output.codec == CodecChoice::png && container != ContainerChoice::automatic)
     problems.push_back({"export.video.container", "png writes numbered pictures, not a container; use auto"});
-  for (const std::string& label : output.labels)
-    if (label != "xml") problems.push_back({"export.labels", "knows no format \"" + label + "\"; there is xml"});
+}
+
+bool is_twice(const std::vector<std::string>& list, const std::string& text) {
+  return std::count(list.begin(), list.end(), text) > 1;
+}
+
+void check_labels(const ExportSettings& output, Problems& problems) {
+  for (const std::string& label : output.labels) {
+    if (std::find(kLabelNames.begin(), kLabelNames.end(), label) == kLabelNames.end())
+      problems.push_back({"export.labels", "knows no format \"" + label + "\"; there are " + listed(kLabelNames)});
+    if (is_twice(output.labels, label))
+      return problems.push_back({"export.labels", "has \"" + label + "\" twice; leave one out"});
+  }
+}
+
+void check_categories(const Project& project, Problems& problems) {
+  const std::vector<std::string>& categories = project.output.categories;
+  for (const std::string& category : categories)
+    if (category.empty() || is_twice(categories, category))
+      return problems.push_back({"export.categories", "has \"" + category + "\" twice or empty; leave one out"});
+  if (categories.empty()) return;
+  for (std::size_t i = 0; i < project.intruders.size(); ++i)
+    if (std::find(categories.begin(), categories.end(), project.intruders[i].category) == categories.end())
+      problems.push_back({"intruders[" + std::to_string(i) + "].category",
+                          "is \"" + project.intruders[i].category + "\", which export.categories does not have"});
 }
 
 }  // namespace
+
+std::vector<std::string> categories_of(const Project& project) {
+  if (!project.output.categories.empty()) return project.output.categories;
+  std::vector<std::string> categories;
+  for (const IntruderSettings& intruder : project.intruders)
+    if (std::find(categories.begin(), categories.end(), intruder.category) == categories.end())
+      categories.push_back(intruder.category);
+  return categories;
+}
 
 std::filesystem::path resolved(const Project& project, const std::string& path) {
   return path.empty() ? std::filesystem::path() : project.file.parent_path() / path;
@@ -119,6 +158,8 @@ std::vector<Problem> validate(const Project& project) {
   check_name(project, problems);
   check_frames(project.footage, problems);
   check_output(project.output, problems);
+  check_labels(project.output, problems);
+  check_categories(project, problems);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const std::string key = "intruders[" + std::to_string(i) + "]";
     check_axes(project.intruders[i].model, key + ".model", problems);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "annotation/labels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "annotation/aot.h"
+#include "annotation/coco.h"
+#include "annotation/csv.h"
+#include "annotation/cvat.h"
+#include "annotation/kitti.h"
+#include "annotation/mot.h"
+#include "annotation/sigs_xml.h"
+#include "annotation/voc.h"
+#include "annotation/vot.h"
+#include "annotation/yolo.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr LabelFormat kFormats[] = {
+    {"xml", ".xml", false, "SIGS annotations: everything, docs/annotation-format.md", open_sigs_xml},
+    {"coco", ".coco.json", false,
+     "COCO instances JSON: run-length masks, video and track ids, own body as crowd region", open_coco},
+    {"yolo", ".yolo", true, "YOLO folder: one text file a picture, data.yaml", open_yolo},
+    {"voc", ".voc", true, "Pascal VOC folder: one XML file a picture", open_voc},
+    {"mot", ".mot", true, "MOTChallenge folder: gt.txt, seqinfo.ini, seqmaps", open_mot},
+    {"kitti", ".kitti", true, "KITTI tracking folder: label_02, calib", open_kitti},
+    {"cvat", ".cvat.xml", false, "CVAT for video XML 1.1: a track for each intruder", open_cvat},
+    {"vot", ".vot", true, "VOT folder: sequence, groundtruth.txt, list.txt", open_vot},
+    {"aot", ".aot.json", false, "Airborne Object Tracking ground truth JSON: range, side of the horizon", open_aot},
+    {"csv", ".csv", false, "one row for each intruder and frame", open_csv},
+};
+
+}  // namespace
+
+bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds) {
+  return truth.box && truth.visible_pixels >= thresholds.least_pixels &&
+         truth.visible_fraction >= thresholds.least_visible_fraction;
+}
+
+std::string picture_name(int frame) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "frame_%06d.png", frame);
+  return name.data();
+}
+
+std::span<const LabelFormat> label_formats() {
+  return kFormats;
+}
+
+const LabelFormat* label_format(std::string_view name) {
+  const auto found =
+      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const LabelFormat& f) { return f.name == name; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+}  // namespace sigs

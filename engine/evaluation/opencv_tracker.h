@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/image.h"
+#include "base/result.h"
+#include "evaluation/results.h"
+
+namespace sigs {
+
+// The trackers that OpenCV has and that need no files: csrt kcf mil mosse medianflow tld boosting.
+[[nodiscard]] std::span<const std::string_view> tracker_names();
+
+// One of OpenCV's trackers on one film: started once, then fed each picture in order. Results, pictures and seeds being
+// equal, so is what it says.
+class OpenCvTracker {
+ public:
+  // Error usage: there is none of that name; names those there are.
+  [[nodiscard]] static Result<OpenCvTracker> make(std::string_view name);
+  OpenCvTracker(OpenCvTracker&&) noexcept;
+  OpenCvTracker& operator=(OpenCvTracker&&) noexcept;
+  ~OpenCvTracker();
+
+  // picture is CV_8UC3, BGR. The box is given to OpenCV in whole pixels. What OpenCV throws is error bad_data.
+  [[nodiscard]] Result<void> start(int frame, const cv::Mat& picture, const Box& box);
+  [[nodiscard]] Result<void> follow(int frame, const cv::Mat& picture);
+
+  // What it said so far, and frames a second of OpenCV's own time in follow().
+  [[nodiscard]] const Results& results() const;
+
+ private:
+  struct Inside;
+  explicit OpenCvTracker(std::unique_ptr<Inside> inside);
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace sigs

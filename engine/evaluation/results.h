@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "annotation/annotation.h"
+#include "base/image.h"
+#include "base/result.h"
+
+namespace sigs {
+
+// What a tracker or detector says of one frame.
+struct ReportedBox {
+  Box box;           // edges, as base/image.h has them
+  double score = 1;  // confidence; larger is surer
+  int track = 0;     // the reporter's own number of what it follows
+  int line = 0;      // of the file it came from, from 1; 0: from no file
+};
+
+// What one tracker or detector says of one film.
+struct Results {
+  std::string name;                                // of the tracker, for tables and plots
+  std::map<int, std::vector<ReportedBox>> frames;  // by the footage's frame number; absent: nothing reported there
+  std::optional<double> frames_per_s;              // of the tracker alone, where it is known
+
+  [[nodiscard]] const ReportedBox* best_at(int frame) const;  // highest score, first of equals; nullptr: none
+};
+
+// Layouts of result files (docs/evaluation.md): which frame a line belongs to, where pixels and frames are counted
+// from.
+enum class ResultsFormat { automatic, otb, vot, mot, csv, aot };
+[[nodiscard]] std::span<const std::string_view> results_format_names();  // in the order of the enum
+
+struct ResultsOptions {
+  ResultsFormat format = ResultsFormat::automatic;  // automatic: told by the file's name and first lines
+  bool may_hold_many = false;                       // several boxes a frame, as a detector reports; else an error
+};
+
+// Errors bad_data name file and line: a number of frames that is not the film's, frames past its end, NaN or infinite
+// numbers, widths or heights of zero or less, the same id twice in a frame, lines of another layout than the first.
+[[nodiscard]] Result<Results> read_results(const std::filesystem::path& path, const FootageTruth& film,
+                                           const ResultsOptions& options = {});
+
+// The tracker's name of a result file: its name without extension.
+[[nodiscard]] std::string results_name(const std::filesystem::path& path);
+
+}  // namespace sigs

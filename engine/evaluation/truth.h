@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "annotation/annotation.h"
+#include "base/image.h"
+#include "base/result.h"
+
+namespace sigs {
+
+// One intruder in one frame, as far as scoring needs it. Boxes are edges in pixels (base/image.h): of the annotation's
+// whole-pixel box x, y, width, height the left edge is x - 0.5.
+struct TargetFrame {
+  std::optional<Box> visible;     // around its visible pixels; none: nothing of it can be seen
+  std::optional<Box> silhouette;  // the whole of it, hidden or not
+  double visible_fraction = 0;
+  int visible_pixels = 0;  // 0 where the file does not say
+  double distance_m = 0;
+  HorizonSide horizon = HorizonSide::on;
+};
+
+struct TargetTruth {
+  int id = 0;
+  std::string name;
+  std::vector<TargetFrame> frames;  // one for each of FilmTruth::times_s
+};
+
+// The truth of a film: frames FilmTruth::footage.first_frame to last_frame.
+struct FilmTruth {
+  FootageTruth footage;
+  std::vector<double> times_s;
+  std::vector<TargetTruth> targets;  // by id
+
+  [[nodiscard]] int frames() const { return static_cast<int>(times_s.size()); }
+};
+
+[[nodiscard]] TargetFrame target_frame_of(const IntruderTruth& truth);
+
+// Adds the next frame. Error bad_data: it is not the next one, or its intruders are not those of the frames before.
+[[nodiscard]] Result<void> add_frame(FilmTruth& film, const FrameTruth& truth);
+
+// Reads a SIGS annotation file (NAME.xml). Errors name the file and the line.
+[[nodiscard]] Result<FilmTruth> read_truth(const std::filesystem::path& path);
+
+}  // namespace sigs
