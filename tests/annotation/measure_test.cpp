@@ -199,9 +199,43 @@ TEST_CASE("the box is the one that OpenCV finds around the pixels that count") {
     REQUIRE(box.has_value() == (cv::countNonZero(counts) > 0));
     if (!box) continue;
     CHECK(*box == cv::boundingRect(counts) + rect.tl());
+    const cv::Mat pixels = covered_pixels(coverage, rect, kLeast, *box);
+    CHECK(pixels.type() == CV_8UC1);
+    CHECK(pixels.size() == box->size());
+    CHECK(cv::countNonZero(pixels != counts(*box - rect.tl())) == 0);
     ++with_box;
   }
   CHECK(with_box > 50);
+}
+
+TEST_CASE("a body is above or below the horizon where all of it is higher or lower than the camera") {
+  const std::vector<glm::vec3> body = cuboid({10, 8, 3});
+  const glm::dvec3 up(0, 0, -1);
+  const auto side = [&](double down_m, const glm::dquat& turn = {1, 0, 0, 0}) {
+    return horizon_side_of(body, CameraFromBody{turn, {500, 40, down_m}}, up);
+  };
+  CHECK(side(-3.001) == HorizonSide::above);
+  CHECK(side(-2.999) == HorizonSide::on);
+  CHECK(side(-3) == HorizonSide::on);
+  CHECK(side(0) == HorizonSide::on);
+  CHECK(side(3) == HorizonSide::on);
+  CHECK(side(3.001) == HorizonSide::below);
+  CHECK(side(-1e7) == HorizonSide::above);
+  // Banked upright, its half span reaches up and down.
+  const glm::dquat banked = rotation_of(Attitude{.roll_rad = std::numbers::pi / 2});
+  CHECK(side(-7.99, banked) == HorizonSide::on);
+  CHECK(side(-8.01, banked) == HorizonSide::above);
+  CHECK(horizon_side_of({}, CameraFromBody{}, up) == HorizonSide::on);
+}
+
+TEST_CASE("a camera that is pitched up sees what lies on its axis above the horizon") {
+  // By the camera's pitch, up leans back along its axis.
+  const double pitch_rad = rad_of_deg(10);
+  const glm::dvec3 up = glm::conjugate(rotation_of(Attitude{.pitch_rad = pitch_rad})) * glm::dvec3(0, 0, -1);
+  const CameraFromBody ahead{{1, 0, 0, 0}, {1000, 0, 0}};
+  CHECK(horizon_side_of(cuboid({10, 10, 10}), ahead, up) == HorizonSide::above);
+  const CameraFromBody lower{{1, 0, 0, 0}, {1000, 0, 1000 * std::tan(pitch_rad)}};
+  CHECK(horizon_side_of(cuboid({10, 10, 10}), lower, up) == HorizonSide::on);
 }
 
 TEST_CASE("a part of a larger coverage is measured alone") {

@@ -29,7 +29,9 @@ IntruderTruth some_intruder() {
           .in_picture = true,
           .visible_fraction = 2.0 / 3,
           .box = cv::Rect(301, 0, 41, 13),
-          .silhouette = Box{300.62341, -1.8833333, 41.375, 13.02}};
+          .visible_pixels = 287,
+          .silhouette = Box{300.62341, -1.8833333, 41.375, 13.02},
+          .horizon = HorizonSide::above};
 }
 
 FrameTruth some_frame() {
@@ -102,6 +104,8 @@ TEST_CASE("an intruder read back has the values that were written") {
   CHECK(std::string(intruder.attribute("name").value()) == "airliner");
   CHECK(std::string(intruder.attribute("in_picture").value()) == "true");
   check_number(intruder, "visible_fraction", 2.0 / 3, kHalfMicro);
+  CHECK(std::string(intruder.attribute("horizon").value()) == "above");
+  CHECK(intruder.child("box").attribute("pixels").as_int() == 287);
   check_number(intruder.child("position"), "x_m", 899.2345678, kHalfMicro);
   check_number(intruder.child("position"), "y_m", -250.1, kHalfMicro);
   check_number(intruder.child("position"), "z_m", -20, kHalfMicro);

@@ -47,6 +47,7 @@ IntruderTruth seen(int id) {
           .in_picture = true,
           .visible_fraction = 0.5,
           .box = cv::Rect(0, 7, 41, 13),
+          .visible_pixels = 287,
           .silhouette = Box{-1e6, 0.00004, 2e6, 0}};
 }
 
@@ -98,6 +99,8 @@ const std::vector<Change> kBroken{
     {"in_picture=\"true\"", "in_picture=\"1\""},
     {"visible_fraction=\"0.5\"", "visible_fraction=\"1.5\""},
     {"visible_fraction=\"0.5\"", "visible_fraction=\"-0.5\""},
+    {"horizon=\"on\"", "horizon=\"in\""},
+    {"pixels=\"287\"", "pixels=\"0\""},
     {"<distance", "<range"},
     {"<distance m=\"", "<distance m=\"-"},
     {"<box x=\"0\" y=\"7\" width=\"41\"", "<box x=\"0.5\" y=\"7\" width=\"41\""},

@@ -58,6 +58,10 @@ VideoInfo footage_info() {
   return info;
 }
 
+Scene empty_scene() {
+  return {.camera = {*Lens::make({.fx = 100, .fy = 100, .cx = 50, .cy = 40}), kSize}};
+}
+
 }  // namespace
 
 TEST_CASE("all that was handed to a writer is written once it has settled") {
@@ -117,7 +121,7 @@ TEST_CASE("of several outputs that fail the first frame's error is told and of o
       lot.project.output.masks = MasksChoice::png;
       lot.project.output.labels = {};
       const ExportRequest request{.project = lot.project, .folder = lot.path("out")};
-      Result<ExportFiles> files = ExportFiles::open(request, footage_info(), Scene{}, {0, 8});
+      Result<ExportFiles> files = ExportFiles::open(request, footage_info(), empty_scene(), {0, 8});
       REQUIRE(files.has_value());
       for (const auto& entry : fs::directory_iterator(lot.path("out"))) {
         const bool is_masks = entry.path().filename().string().find("masks") != std::string::npos;

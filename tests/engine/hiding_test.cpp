@@ -86,6 +86,9 @@ TEST_CASE("the own body hides its part of an intruder from picture and mask and 
   const IntruderTruth& truth = frame.truth.intruders.front();
   CHECK(std::abs(truth.visible_fraction - 0.5) < 2 * kEdge);
   CHECK(truth.box == cv::Rect(kPlateBox.x, kPlateBox.y, 16, kPlateBox.height));
+  CHECK(truth.visible_pixels == 16 * kPlateBox.height);
+  CHECK(cv::countNonZero(truth.visible) == truth.visible_pixels);
+  CHECK(truth.visible.size() == truth.box->size());
   CHECK(cv::countNonZero(frame.mask.colRange(160, 320)) == 0);
   CHECK(frame.mask.at<uchar>(120, 150) == 255);
   CHECK(same_bytes(frame.picture.planes[0].colRange(160, 320), background.planes[0].colRange(160, 320)));
