@@ -51,7 +51,7 @@ bool is_sound(const Attitude& attitude) {
 
 // The attributes that hold no number.
 bool is_text(const std::string& name) {
-  constexpr std::array<const char*, 3> kTexts{"name", "in_picture", "video"};
+  constexpr std::array<const char*, 4> kTexts{"name", "in_picture", "horizon", "video"};
   return std::find(kTexts.begin(), kTexts.end(), name) != kTexts.end();
 }
 
