@@ -1,11 +1,166 @@
 // SPDX-License-Identifier: MIT
 #include "cli/dataset_command.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/dataset_table.h"
+#include "cli/interrupt.h"
+#include "cli/kept_memory.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "dataset/plan.h"
+#include "dataset/recipe.h"
+#include "dataset/run.h"
+
 namespace sigs::cli {
 
+namespace {
+
+struct DatasetOptions {
+  std::filesystem::path recipe;
+  std::filesystem::path folder;  // empty: called as the dataset is
+  ProjectOptions project;        // --set
+  int jobs = 0;
+  bool resume = false;
+  std::string shard;
+  bool merge = false;
+  bool dry_run = false;
+  std::string progress = "auto";
+};
+
+// "2/3"
+Result<Shard> shard_of(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, code] = std::from_chars(text.data(), end, shard.part);
+  const bool has_parts = code == std::errc() && slash != end && *slash == '/';
+  if (has_parts) {
+    const auto [last, wrong] = std::from_chars(slash + 1, end, shard.parts);
+    if (wrong == std::errc() && last == end && shard.part >= 1 && shard.part <= shard.parts) return shard;
+  }
+  return fail("--shard " + text, "expected I/N with I from 1 to N, as in 2/3", ErrorKind::usage);
+}
+
+std::string count_text(std::size_t count, const char* thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+// What several videos share is said once.
+class Teller {
+ public:
+  explicit Teller(ProgressStyle style) : progress_(style) {}
+
+  [[nodiscard]] DatasetControl control() {
+    return {.progress =
+                [this](int done, int total) {
+                  if (done > 0) progress_.update(done, total);
+                },
+            .warn =
+                [this](const Warning& warning) {
+                  if (!said_.insert(warning.what).second) return;
+                  progress_.end();
+                  print_warning(warning);
+                },
+            .cancel = &interrupt_flag()};
+  }
+  void end() { progress_.end(); }
+
+ private:
+  Progress progress_;
+  std::set<std::string> said_;
+};
+
+Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
+  Result<ReadRecipe> read = read_recipe(options.recipe);
+  if (!read) return fail(read.error());
+  for (const Warning& warning : read->warnings) print_warning(warning);
+  if (const Result<void> set = set_all(read->recipe.base, options.project.settings); !set) return fail(set.error());
+  source = {.program = std::string("sigs ") + SIGS_VERSION,
+            .seed = read->recipe.seed,
+            .recipe = read->recipe.text,
+            .settings = options.project.settings};
+  return plan_of(read->recipe);
+}
+
+// Videos that cannot be are the recipe's fault, whatever else has been done.
+Result<void> judged(const Plan& plan, const std::filesystem::path& recipe) {
+  for (const ImpossibleVideo& video : plan.impossible)
+    print_error({video.name, video.why + "; nothing is generated for it", ErrorKind::bad_data});
+  if (plan.impossible.empty()) return {};
+  return fail(recipe.string(), count_text(plan.impossible.size(), "video") + " cannot be; the others are planned",
+              ErrorKind::bad_data);
+}
+
+Result<void> told(const DatasetReport& report) {
+  for (const std::filesystem::path& path : report.written) std::printf("%s\n", path.c_str());
+  const double rate = report.frames / std::max(report.seconds, 1e-6);
+  std::fprintf(stderr, "%s made, %d kept; %d frames in %s, %.1f frames/s\n",
+               count_text(static_cast<std::size_t>(report.exported), "video").c_str(), report.kept, report.frames,
+               clock_text(report.seconds).c_str(), rate);
+  if (!report.checksum.empty()) std::fprintf(stderr, "checksum of all: %s\n", report.checksum.c_str());
+  for (const VideoFailure& failure : report.failures)
+    print_error({failure.video, failure.error.text(), failure.error.kind});
+  if (report.failures.empty()) return {};
+  return fail("", count_text(report.failures.size(), "video") + " failed, so there is no index; --resume tries again",
+              report.failures.front().error.kind);
+}
+
+Result<void> run(const DatasetOptions& options) {
+  if (options.merge && (options.resume || !options.shard.empty()))
+    return fail("--merge", "exports nothing, so it goes without --resume and --shard", ErrorKind::usage);
+  DatasetRequest request{.jobs = options.jobs, .resume = options.resume, .merge_only = options.merge};
+  if (!options.shard.empty()) {
+    const Result<Shard> shard = shard_of(options.shard);
+    if (!shard) return fail(shard.error());
+    request.shard = *shard;
+  }
+  const Result<Plan> plan = planned(options, request.source);
+  if (!plan) return fail(plan.error());
+  if (options.dry_run) {
+    const Result<std::string> table = table_of(*plan, request.shard.value_or(Shard{}));
+    if (!table) return fail(table.error());
+    std::fputs(table->c_str(), stdout);
+    return judged(*plan, options.recipe);
+  }
+  request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
+  keep_freed_memory();
+  Teller teller(progress_style(options.progress));
+  const Result<DatasetReport> report = make_dataset(*plan, request, teller.control());
+  teller.end();
+  if (!report) return fail(report.error());
+  const Result<void> made = told(*report);
+  // The run that makes the index answers for what the recipe asks; a share of it for its videos.
+  const Result<void> possible = request.shard ? Result<void>() : judged(*plan, options.recipe);
+  return made ? possible : made;
+}
+
+}  // namespace
+
 std::function<Result<void>()> add_dataset_command(CLI::App& program) {
-  program.add_subcommand("dataset", "make a whole dataset from a recipe");
-  return []() -> Result<void> { return fail("dataset", "not yet", ErrorKind::unavailable); };
+  const auto options = std::make_shared<DatasetOptions>();
+  CLI::App* const command =
+      program.add_subcommand("dataset", "make a whole dataset from a recipe: videos, truth, labels, index");
+  command->add_option("RECIPE", options->recipe, "the recipe, a JSON file")->required();
+  command->add_option("--out", options->folder, "folder to write into; not given: the dataset's name")
+      ->option_text("DIR")
+      ->check(not_empty());
+  command->add_option("--jobs", options->jobs, "videos exported side by side; 0: one for every four processor cores")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_flag("--resume", options->resume, "keep the videos that are complete and as the recipe asks");
+  command->add_option("--shard", options->shard, "only part I of N of the videos, and no index")->option_text("I/N");
+  command->add_flag("--merge", options->merge, "export nothing: make the index of videos that are there");
+  command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
+  add_set_option(*command, options->project);
+  add_progress_option(*command, options->progress);
+  return [options] { return run(*options); };
 }
 
 }  // namespace sigs::cli

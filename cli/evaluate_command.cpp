@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "cli/evaluate_command.h"
 
+#include "cli/evaluate_detect.h"
+#include "cli/evaluate_track.h"
+
 namespace sigs::cli {
 
+namespace {
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out report\n"
+    "  sigs evaluate track out/crossing.xml --results mine.txt --format otb\n"
+    "  sigs evaluate detect out/crossing.xml --results found.csv\n"
+    "\n"
+    "sigs evaluate track --help and sigs evaluate detect --help have the options of each.";
+
+}  // namespace
+
 std::function<Result<void>()> add_evaluate_command(CLI::App& program) {
-  program.add_subcommand("evaluate", "measure trackers and detectors against the truth");
-  return []() -> Result<void> { return fail("evaluate", "not yet", ErrorKind::unavailable); };
+  CLI::App* const command = program.add_subcommand("evaluate", "measure trackers and detectors against the truth");
+  command->require_subcommand(1);
+  command->footer(kFooter);
+  const std::function<Result<void>()> track = add_evaluate_track(*command);
+  const std::function<Result<void>()> detect = add_evaluate_detect(*command);
+  return [command, track, detect] { return command->got_subcommand("track") ? track() : detect(); };
 }
 
 }  // namespace sigs::cli

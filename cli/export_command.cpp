@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cli/export_command.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <string>
 #include <thread>
 
+#include "annotation/labels.h"
 #include "cli/interrupt.h"
+#include "cli/kept_memory.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "export.h"
@@ -31,6 +30,31 @@ struct ExportOptions {
   bool times = false;
   std::string progress = "auto";
 };
+
+// Options that stand for one setting each; what it may be is checked where the project is.
+struct SettingText {
+  const char* option;
+  const char* key;
+  const char* value;
+  const char* help;
+};
+
+constexpr SettingText kSettings[] = {
+    {"--codec", "export.video.codec", "NAME", "ffv1, h264, mjpeg or png"},
+    {"--crf", "export.video.crf", "N", "quality of h264: 0 lossless to 51 worst"},
+    {"--container", "export.video.container", "NAME", "mkv, mp4 or avi"},
+    {"--method", "compositing.method", "NAME", "direct, classic or plain"},
+    {"--masks", "export.masks", "NAME", "video, png or none"},
+    {"--least-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible; not for xml, csv"},
+    {"--least-visible", "export.label_least_visible_fraction", "F",
+     "no label where less of the intruder is visible, 0 to 1; not for xml, csv"},
+};
+
+std::string label_names() {
+  std::string names;
+  for (const LabelFormat& format : label_formats()) names.append(names.empty() ? "" : ", ").append(format.name);
+  return names;
+}
 
 std::string json_list(const std::string& comma_separated) {
   std::string list = "[\"";
@@ -65,15 +89,6 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
     request.frames = *range;
   }
   return request;
-}
-
-// Pictures and layers of some megabytes come and go with every frame. Memory that the program keeps instead of handing
-// it back to the system costs no page faults when it is taken again.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
-#endif
 }
 
 void print_times(const ExportReport& report) {
@@ -118,19 +133,10 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
   command->add_option("--out", options->folder, "folder to write into; made where it is not there")
       ->capture_default_str();
   command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
-  const std::pair<const char*, const char*> settings[] = {{"--codec", "export.video.codec"},
-                                                          {"--crf", "export.video.crf"},
-                                                          {"--container", "export.video.container"},
-                                                          {"--method", "compositing.method"},
-                                                          {"--masks", "export.masks"}};
-  const std::map<std::string, std::string> help{{"--codec", "ffv1, h264, mjpeg or png"},
-                                                {"--crf", "quality of h264: 0 lossless to 51 worst"},
-                                                {"--container", "mkv, mp4 or avi"},
-                                                {"--method", "direct, classic or plain"},
-                                                {"--masks", "video, png or none"}};
-  for (const auto& [option, key] : settings)
-    command->add_option(option, options->settings[key], help.at(option))->option_text("NAME");
-  command->add_option("--labels", options->labels, "annotation formats, separated by commas: xml; none")
+  for (const SettingText& setting : kSettings)
+    command->add_option(setting.option, options->settings[setting.key], setting.help)->option_text(setting.value);
+  command
+      ->add_option("--labels", options->labels, "annotation formats, separated by commas: " + label_names() + "; none")
       ->option_text("NAMES");
   command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
       ->check(CLI::Range(0, 256))

@@ -23,6 +23,8 @@ constexpr const char* kFooter =
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
     "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
     "  sigs mask assets/footage/sample.mp4 --out out/own_body.png\n"
+    "  sigs dataset projects/table1/table1.json --out table1 --resume\n"
+    "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out out/report\n"
     "  sigs check projects/crossing/crossing.json\n"
     "  sigs info assets/footage/sample.mp4\n"
     "\n"

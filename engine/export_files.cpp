@@ -6,6 +6,9 @@
 #include <thread>
 #include <utility>
 
+#include "label_folder.h"
+#include "opened_project.h"
+
 namespace sigs {
 
 namespace {
@@ -91,14 +94,10 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
                              const FrameRange& range, const std::string& output) {
   const bool has_pictures = project.output.codec == CodecChoice::png;
   LabelSequence sequence{.name = project.name,
-                         .footage = {.video = footage.path.filename().string(),
-                                     .size_px = footage.size_px,
-                                     .first_frame = range.first,
-                                     .last_frame = range.last,
-                                     .frame_rate_num = footage.frame_rate_num,
-                                     .frame_rate_den = footage.frame_rate_den},
+                         .footage = footage_truth(footage, range),
                          .categories = categories_of(project),
                          .video = has_pictures ? std::string() : output,
+                         .channels = footage.layout == PixelLayout::gray ? 1 : 3,
                          .pictures = project.name,
                          .own_body = scene.own_body,
                          .camera = scene.camera,
@@ -135,7 +134,8 @@ Result<void> check_replaceable(const fs::path& folder) {
 // An output may replace an older one, but nothing that this export reads.
 Result<void> check_not_read(const Project& project, const fs::path& output) {
   std::vector<fs::path> inputs{project.file};
-  for (const std::string& input : {project.footage.video, project.footage.calibration, project.footage.own_body_mask})
+  for (const std::string& input : {project.footage.video, project.footage.calibration, project.footage.own_body_mask,
+                                   project.camera.attitude_file})
     inputs.push_back(resolved(project, input));
   for (const IntruderSettings& intruder : project.intruders) inputs.push_back(resolved(project, intruder.model.file));
   std::error_code code;
@@ -162,6 +162,8 @@ Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const V
 
 Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const LabelFormat& format,
                                                      const LabelSequence& sequence, bool overwrite) {
+  if (format.is_folder)
+    if (const Result<void> ours = check_label_folder(path, format); !ours) return fail(ours.error());
   Result<PartialFile> file =
       format.is_folder ? PartialFile::create_folder(path, overwrite) : PartialFile::create(path, overwrite);
   if (!file) return fail(file.error());

@@ -225,6 +225,7 @@ std::vector<IntruderTruth> measured(const Scene& scene, const SceneMoment& momen
     // By its own measure: a distant one may cover no pixel by more than a hundredth.
     const float least = kLeastShare * strongest(seen.sharp.coverage);
     truth.in_picture = common(covered_box(inside.coverage, inside.rect, least), outline).has_value();
+    if (truth.in_picture) truth.inside_fraction = std::min(inside_px / whole_px, 1.0);
     if (truth.in_picture && !seen.soft.empty() && !mask.empty()) {
       cv::Mat visible = seen.soft.coverage.clone();
       visible.setTo(0, mask(seen.soft.rect) == 0);

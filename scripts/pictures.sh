@@ -32,7 +32,7 @@ ffmpeg -v error -y "${stages[@]}" -filter_complex "
   -q:v 4 docs/pictures/classic-stages.jpg
 
 # The editor, as a test drives it.
-"$build"/test_editor_walk --test-case='a person authors*,a person finds the own body*' >"$work/walk.log" || {
+"$build"/test_editor_walk --test-case='a person authors*,a person finds the own body*,a person loads what trackers*' >"$work/walk.log" || {
   cat "$work/walk.log"
   exit 1
 }
@@ -46,3 +46,4 @@ editor_picture world walk-world
 editor_picture light walk-light
 editor_picture stages walk-stages-classic
 editor_picture own-body own-body-found
+editor_picture results results-loaded

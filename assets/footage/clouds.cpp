@@ -15,6 +15,7 @@ namespace {
 constexpr int kCube = 96;              // cells along one side of the noise cube
 constexpr float kExtinction = 0.026F;  // 1/m in the thick of a cloud
 constexpr double kReach_m = 42000;
+constexpr float kNoMoreThan = 1.5F;  // the noise that clouds follow never gets there
 
 // Distance to the nearest of one jittered point in each of count^3 boxes of a cube of side 1 that repeats.
 float nearest_point(const glm::vec3& p, int count, std::uint32_t seed) {
@@ -53,7 +54,7 @@ float passed(float thickness) {
 
 }  // namespace
 
-Clouds::Clouds() : billows_(static_cast<std::size_t>(kCube) * kCube * kCube) {
+Clouds::Clouds(const CloudCover& cover) : cover_(cover), billows_(static_cast<std::size_t>(kCube) * kCube * kCube) {
   for_each_row(kCube, [&](int z) {
     for (int y = 0; y < kCube; ++y)
       for (int x = 0; x < kCube; ++x)
@@ -80,8 +81,8 @@ float Clouds::billows(const glm::dvec3& p) const {
 }
 
 float Clouds::cover(const glm::dvec2& p_m) const {
-  const float shape = fractal_noise(p_m / 2800.0, 3, 111) + 0.35F * fractal_noise(p_m / 9000.0, 2, 115);
-  return smooth(0.0F, 0.62F, shape);
+  const float shape = fractal_noise(p_m / cover_.size_m, 3, 111) + 0.35F * fractal_noise(p_m / 9000.0, 2, 115);
+  return smooth(cover_.clear_below, cover_.full_above, shape);
 }
 
 float Clouds::density(const glm::dvec3& p_m, float cover_here, float detail) const {
@@ -122,7 +123,7 @@ float Clouds::sun_share(const glm::dvec2& p_m) const {
 
 glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dvec3& ray, double dither) const {
   const double climb = -ray.z;
-  if (climb < 0.02) return glm::vec4(0);
+  if (climb < 0.02 || cover_.clear_below > kNoMoreThan) return glm::vec4(0);
   const double enter_m = (kBase_m - height_m) / climb, leave_m = std::min((kTop_m - height_m) / climb, kReach_m);
   if (enter_m >= kReach_m) return glm::vec4(0);
   const double step_m = std::max((leave_m - enter_m) / 90, 20.0);

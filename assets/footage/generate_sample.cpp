@@ -1,16 +1,51 @@
 // SPDX-License-Identifier: MIT
 // generate_sample CALIBRATION MASK.png [FIRST LAST] writes the own body's mask and, to stdout, the frames as raw 8-bit
-// Y'CbCr 4:2:0 planes for an encoder. SOURCE.md has the whole command.
+// Y'CbCr 4:2:0 planes for an encoder. SOURCE.md has the whole commands.
+#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <string>
 
+#include "base/angles.h"
 #include "flight.h"
 #include "sensor.h"
 
 namespace {
 
-bool write_mask(const char* path, const cv::Mat_<float>& cover) {
+using namespace sigs::footage;
+
+struct Wishes {
+  std::string calibration;
+  std::string mask;
+  int first = 0;
+  int last = -1;  // the clip's last
+  std::string clip = "sample";
+  int length = 0;  // frames of the clip; 0: as many as the condition has
+  std::string attitudes;
+};
+
+void describe(CLI::App& app, Wishes& wishes) {
+  app.add_option("CALIBRATION", wishes.calibration, "the lens")->required();
+  app.add_option("MASK", wishes.mask, "PNG to write: what the own body hides")->required();
+  CLI::Option* first = app.add_option("FIRST", wishes.first, "first frame to draw")->check(CLI::NonNegativeNumber);
+  CLI::Option* last = app.add_option("LAST", wishes.last, "last frame to draw")->check(CLI::NonNegativeNumber);
+  first->needs(last);
+  app.add_option("--clip", wishes.clip, "sample, table1_clouds, table1_clear or table1_vibration");
+  app.add_option("--length", wishes.length, "frames of the whole clip")->check(CLI::Range(1, 10000));
+  app.add_option("--attitudes", wishes.attitudes, "CSV to write: the attitude at each frame of the whole clip");
+}
+
+std::optional<Condition> condition_of(const Wishes& wishes) {
+  for (Condition condition : conditions()) {
+    if (condition.name != wishes.clip) continue;
+    if (wishes.length > 0) condition.frames = wishes.length;
+    return condition;
+  }
+  return std::nullopt;
+}
+
+bool write_mask(const std::string& path, const cv::Mat_<float>& cover) {
   cv::Mat mask;
   cover.convertTo(mask, CV_8UC1, 255);
   try {
@@ -20,28 +55,57 @@ bool write_mask(const char* path, const cv::Mat_<float>& cover) {
   }
 }
 
-}  // namespace
+// As the project's camera.attitude_file wants it. A millionth of a degree is a hundred-thousandth of a pixel.
+bool write_attitudes(const std::string& path, const Condition& condition) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) return false;
+  std::fputs("frame,roll_deg,pitch_deg,yaw_deg\n", file);
+  for (int frame = 0; frame < condition.frames; ++frame) {
+    const sigs::Attitude attitude = attitude_at(condition, frame);
+    std::fprintf(file, "%d,%.6f,%.6f,%.6f\n", frame, sigs::deg_of_rad(attitude.roll_rad),
+                 sigs::deg_of_rad(attitude.pitch_rad), sigs::deg_of_rad(attitude.yaw_rad));
+  }
+  return std::fclose(file) == 0;
+}
 
-int main(int count, char** arguments) {
-  if (count != 3 && count != 5) {
-    std::fprintf(stderr, "usage: generate_sample CALIBRATION MASK.png [FIRST LAST]\n");
-    return 64;
-  }
-  const auto camera = sigs::read_calibration(arguments[1]);
-  if (!camera) {
-    std::fprintf(stderr, "%s\n", camera.error().text().c_str());
-    return 66;
-  }
-  const sigs::footage::Flight flight(*camera);
-  if (!write_mask(arguments[2], flight.body().cover)) {
-    std::fprintf(stderr, "%s: cannot be written\n", arguments[2]);
-    return 73;
-  }
-  const int first = count == 5 ? std::atoi(arguments[3]) : 0;
-  const int last = count == 5 ? std::atoi(arguments[4]) : sigs::footage::kFrames - 1;
+int failed(const std::string& text, int status) {
+  std::fprintf(stderr, "%s\n", text.c_str());
+  return status;
+}
+
+int write_frames(Flight& flight, const Condition& condition, int first, int last) {
   for (int frame = first; frame <= last; ++frame) {
-    const auto bytes = sigs::footage::developed(flight.light(frame), frame);
+    const auto bytes = developed(flight.light(frame), condition.exposure, frame);
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size()) return 74;
   }
   return std::fflush(stdout) == 0 ? 0 : 74;
+}
+
+int generate(const Wishes& wishes) {
+  const std::optional<Condition> condition = condition_of(wishes);
+  if (!condition) return failed(wishes.clip + ": there is no such clip", 64);
+  const int last = wishes.last < 0 ? condition->frames - 1 : wishes.last;
+  if (last >= condition->frames || wishes.first > last)
+    return failed("the clip has the frames 0 to " + std::to_string(condition->frames - 1), 64);
+  const auto camera = sigs::read_calibration(wishes.calibration);
+  if (!camera) return failed(camera.error().text(), 66);
+  if (!wishes.attitudes.empty() && !write_attitudes(wishes.attitudes, *condition))
+    return failed(wishes.attitudes + ": cannot be written", 73);
+  Flight flight(*camera, *condition);
+  if (!write_mask(wishes.mask, flight.body().cover)) return failed(wishes.mask + ": cannot be written", 73);
+  return write_frames(flight, *condition, wishes.first, last);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  CLI::App app("Draws the sample footage.");
+  Wishes wishes;
+  describe(app, wishes);
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 64;
+  }
+  return generate(wishes);
 }

@@ -31,7 +31,7 @@ struct Field {
 // Shadow that woods throw on the fields beside them: 1 none.
 [[nodiscard]] float wood_shadow(const glm::dvec2& p_m);
 
-// Draws single trees and houses with their shadows on top of a painted layer.
-void draw_objects(const GroundMap::Layer& layer, cv::Mat& color);
+// Draws single trees and houses with their shadows on top of a painted layer, as they are seen from 150 m above eye_m.
+void draw_objects(const GroundMap::Layer& layer, const glm::dvec2& eye_m, cv::Mat& color);
 
 }  // namespace sigs::footage

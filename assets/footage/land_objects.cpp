@@ -50,20 +50,19 @@ void draw_shadow(Brush& brush, const glm::dvec2& middle_m, float radius_m, float
       });
 }
 
-// The map is flat, but a tree is seen from the side: its top hides the ground behind it. Each is drawn as it hides that
-// ground from the middle of the flight.
-glm::vec2 hidden_for_each_metre(const glm::dvec2& p_m) {
-  constexpr double kEyeHeight_m = 150, kMiddle_x_m = 88, kMost = 7;
-  const glm::dvec2 lean = (p_m - glm::dvec2(kMiddle_x_m, 0)) / kEyeHeight_m;
+// The map is flat, but a tree is seen from the side: its top hides the ground behind it.
+glm::vec2 hidden_for_each_metre(const glm::dvec2& p_m, const glm::dvec2& eye_m) {
+  constexpr double kEyeHeight_m = 150, kMost = 7;
+  const glm::dvec2 lean = (p_m - eye_m) / kEyeHeight_m;
   return glm::vec2(lean * std::min(1.0, kMost / std::max(glm::length(lean), 1e-9)));
 }
 
-void draw_tree(Brush& brush, const glm::dvec2& foot_m, std::uint32_t id) {
+void draw_tree(Brush& brush, const glm::dvec2& foot_m, const glm::dvec2& eye_m, std::uint32_t id) {
   const float radius_m = 2.2F + 3.0F * chance(hash(id)), height_m = radius_m * (1.7F + 0.7F * chance(hash(id, 6, 1)));
   draw_shadow(brush, foot_m, 0.9F * radius_m, height_m);
   const glm::vec3 leaf =
       glm::mix(glm::vec3(0.040F, 0.070F, 0.020F), glm::vec3(0.085F, 0.112F, 0.034F), chance(hash(id, 1, 1)));
-  const glm::vec2 lean = hidden_for_each_metre(foot_m), crown = lean * std::max(height_m - radius_m, 0.1F);
+  const glm::vec2 lean = hidden_for_each_metre(foot_m, eye_m), crown = lean * std::max(height_m - radius_m, 0.1F);
   const glm::vec2 to_sun = glm::normalize(glm::vec2(kToSun));
   brush.touch(
       foot_m + 0.5 * glm::dvec2(crown), 0.5F * glm::length(crown) + 1.4F * radius_m,
@@ -135,11 +134,12 @@ void for_each_place(const GroundMap::Layer& layer, double spacing_m, std::uint32
 
 }  // namespace
 
-void draw_objects(const GroundMap::Layer& layer, cv::Mat& color) {
+void draw_objects(const GroundMap::Layer& layer, const glm::dvec2& eye_m, cv::Mat& color) {
   if (layer.cell_m > 6) return;
   Brush brush(layer, color);
   for_each_place(layer, 7.5, 95, [&](const glm::dvec2& p_m, std::uint32_t id) {
-    if (const float draw = chance(hash(id, 3, 1)); draw < 0.8F && tree_stands(p_m, draw)) draw_tree(brush, p_m, id);
+    if (const float draw = chance(hash(id, 3, 1)); draw < 0.8F && tree_stands(p_m, draw))
+      draw_tree(brush, p_m, eye_m, id);
   });
   for_each_place(layer, 23, 96, [&](const glm::dvec2& p_m, std::uint32_t id) {
     if (house_stands(p_m, chance(hash(id, 3, 1)))) draw_house(brush, p_m, id);

@@ -62,12 +62,12 @@ struct Planes {
   cv::Mat_<float> luma, blue, red;
 };
 
-Planes ycbcr(const cv::Mat_<cv::Vec3f>& light) {
+Planes ycbcr(const cv::Mat_<cv::Vec3f>& light, float exposure) {
   static const ToneTable tone;
   Planes planes{cv::Mat_<float>(light.size()), cv::Mat_<float>(light.size()), cv::Mat_<float>(light.size())};
   for_each_row(light.rows, [&](int y) {
     for (int x = 0; x < light.cols; ++x) {
-      const float dim = vignette(x, y, light.size());
+      const float dim = exposure * vignette(x, y, light.size());
       const cv::Vec3f& c = light(y, x);
       const float r = tone(c[0] * dim), g = tone(c[1] * dim), b = tone(c[2] * dim);
       const float luma = 0.2126F * r + 0.7152F * g + 0.0722F * b;
@@ -103,8 +103,8 @@ void write_chroma(const cv::Mat_<float>& plane, std::uint32_t seed, std::uint8_t
 
 }  // namespace
 
-std::vector<std::uint8_t> developed(const cv::Mat_<cv::Vec3f>& light, int frame) {
-  const Planes planes = ycbcr(light);
+std::vector<std::uint8_t> developed(const cv::Mat_<cv::Vec3f>& light, float exposure, int frame) {
+  const Planes planes = ycbcr(light, exposure);
   const cv::Mat_<float> luma = sharpened(planes.luma);
   const std::size_t pixels = light.total();
   std::vector<std::uint8_t> bytes(pixels * 3 / 2);

@@ -16,14 +16,16 @@ namespace {
 constexpr double kPixelsPerRadian = 640;
 constexpr double kHalfWidth_rad = 1.42, kHeight_rad = 1.05;
 constexpr double kMiddleOfClouds_m = 1550;
+constexpr double kFarthestApart_m = 40;  // of two places; farther apart one would be seen to fade into the next
 
 // Thin ice clouds high up, drawn out by the wind there.
-float cirrus(const glm::dvec3& ray, double x_m) {
+float cirrus(float thickest, const glm::dvec3& ray, const glm::dvec2& eye_m) {
   const double distance_m = 8500 / std::max(-ray.z, 0.02);
-  const glm::dvec2 p{x_m + distance_m * ray.x, distance_m * ray.y};
+  const glm::dvec2 p{eye_m.x + distance_m * ray.x, eye_m.y + distance_m * ray.y};
   const glm::dvec2 drawn{(0.8 * p.x + 0.6 * p.y) / 9000, (0.8 * p.y - 0.6 * p.x) / 2600};
   const glm::dvec2 swirl = drawn + 0.5 * glm::dvec2(gradient_noise(drawn * 0.7, 131), gradient_noise(drawn * 0.7, 132));
-  return 0.34F * smooth(-0.10F, 0.95F, fractal_noise(swirl, 5, 133)) * smooth(0.03F, 0.25F, static_cast<float>(-ray.z));
+  return thickest * smooth(-0.10F, 0.95F, fractal_noise(swirl, 5, 133)) *
+         smooth(0.03F, 0.25F, static_cast<float>(-ray.z));
 }
 
 // Hills along the horizon, as the sine of their elevation.
@@ -33,8 +35,10 @@ float ridge(double azimuth_rad, double size, std::uint32_t seed) {
 
 }  // namespace
 
-SkyMap::SkyMap(const Clouds& clouds, double flight_m, double height_m) : height_m_(height_m), spacing_m_(flight_m / 8) {
-  for (int i = 0; i <= 8; ++i) places_.push_back(seen_from(clouds, i * spacing_m_));
+SkyMap::SkyMap(const Clouds& clouds, const Setting& setting) : setting_(setting) {
+  const int steps = std::max(8, static_cast<int>(std::ceil(setting.flight_m / kFarthestApart_m)));
+  spacing_m_ = setting.flight_m / steps;
+  for (int i = 0; i <= steps; ++i) places_.push_back(seen_from(clouds, i * spacing_m_));
 }
 
 cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
@@ -44,7 +48,8 @@ cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
     for (int i = 0; i < picture.cols; ++i) {
       const double up = row / kPixelsPerRadian, azimuth = i / kPixelsPerRadian - kHalfWidth_rad;
       const glm::dvec3 ray{std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), -std::sin(up)};
-      const glm::vec4 c = clouds.along({x_m, 0}, height_m_, ray, chance(i, row, 121));
+      const glm::vec4 c =
+          clouds.along(setting_.country_m + glm::dvec2(x_m, 0), setting_.height_m, ray, chance(i, row, 121));
       picture(row, i) = {c.r, c.g, c.b, c.a};
     }
   });
@@ -53,7 +58,7 @@ cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
 }
 
 glm::vec4 SkyMap::clouds_from(int place, double x_m, const glm::dvec3& ray) const {
-  const double distance_m = (kMiddleOfClouds_m - height_m_) / std::max(-ray.z, 0.02);
+  const double distance_m = (kMiddleOfClouds_m - setting_.height_m) / std::max(-ray.z, 0.02);
   const glm::dvec3 seen = distance_m * ray + glm::dvec3(x_m - place * spacing_m_, 0, 0);
   const double azimuth = std::atan2(seen.y, seen.x), up = std::atan2(-seen.z, std::hypot(seen.x, seen.y));
   const cv::Mat_<cv::Vec4f>& picture = places_[place];
@@ -72,10 +77,13 @@ glm::vec3 SkyMap::color(double x_m, const glm::dvec3& ray) const {
   const glm::vec3 near_hills = glm::mix(glm::vec3(0.13F, 0.19F, 0.17F), kHaze, 0.72F);
   const glm::vec3 far_hills = glm::mix(glm::vec3(0.13F, 0.19F, 0.22F), kHaze, 0.86F);
   constexpr float kSoft = 0.0012F;
-  const float far_height = ridge(azimuth + 2, 0.0085, 141), near_height = ridge(azimuth, 0.0052, 142);
+  const double elsewhere = setting_.country_m.x / 1000;
+  const float far_height = ridge(azimuth + 2 + elsewhere, 0.0085, 141),
+              near_height = ridge(azimuth + elsewhere, 0.0052, 142);
 
   glm::vec3 sky = clear_sky(climb);
-  sky = glm::mix(sky, glm::vec3(0.93F, 0.95F, 0.98F), cirrus(ray, x_m));
+  sky = glm::mix(sky, glm::vec3(0.93F, 0.95F, 0.98F),
+                 cirrus(setting_.cirrus, ray, setting_.country_m + glm::dvec2(x_m, 0)));
   const double where = std::clamp(x_m / spacing_m_, 0.0, static_cast<double>(places_.size()) - 1.001);
   const int place = static_cast<int>(where);
   const glm::vec4 cloud =

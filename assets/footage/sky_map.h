@@ -13,16 +13,22 @@ namespace sigs::footage {
 // the clouds are shifted as things at their middle height are, and faded from one to the other.
 class SkyMap {
  public:
-  SkyMap(const Clouds& clouds, double flight_m, double height_m);
+  struct Setting {
+    glm::dvec2 country_m{0};  // where the flight begins, for the clouds
+    float cirrus = 0;         // opacity of the thickest ice cloud
+    double flight_m = 0;
+    double height_m = 0;
+  };
+  SkyMap(const Clouds& clouds, const Setting& setting);
 
-  // Colour in linear light, of a unit direction at or above the horizon, seen from (x_m, 0, -height_m).
+  // Colour in linear light, of a unit direction at or above the horizon, seen x_m after the beginning.
   [[nodiscard]] glm::vec3 color(double x_m, const glm::dvec3& ray_in_world) const;
 
  private:
   [[nodiscard]] cv::Mat_<cv::Vec4f> seen_from(const Clouds& clouds, double x_m) const;
   [[nodiscard]] glm::vec4 clouds_from(int place, double x_m, const glm::dvec3& ray_in_world) const;
 
-  double height_m_;
+  Setting setting_;
   double spacing_m_;
   std::vector<cv::Mat_<cv::Vec4f>> places_;  // azimuth along x, elevation along y from the horizon up
 };

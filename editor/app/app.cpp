@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/app/shortcuts.h"
+#include "editor/views/waypoint_actions.h"
 #include "editor/widgets/popups.h"
 #include "project/json.h"
 
@@ -31,6 +32,7 @@ App::App(Window& window, Settings settings, Probe probe)
       probe_(std::move(probe)),
       previewer_(PreviewLimits(), [] { Window::wake(); }),
       own_body_(edits_, [] { Window::wake(); }),
+      scoring_([] { Window::wake(); }),
       desk_(document_, settings_,
             {.samples = SIGS_PROJECTS_DIR,
              .recovery_folder = recovery_folder(),
@@ -110,7 +112,9 @@ void App::draw(const Shown& shown) {
                       .wishes = wishes_,
                       .places = places_,
                       .playing = playback_.playing(),
-                      .speed = playback_.speed()};
+                      .speed = playback_.speed(),
+                      .scored = scored_.get()};
+  ask_scores(studio);
   desk_.draw_menu(studio);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(screen.WorkPos);
@@ -130,8 +134,58 @@ void App::draw(const Shown& shown) {
   if (!keys_are_taken) take_keys(studio, desk_.has_project());
 }
 
+void App::ask_scores(const Studio& studio) {
+  if (results_.files().empty()) {
+    scoring_.want({});
+    return;
+  }
+  scoring_.want({.scene = studio.shown.scene,
+                 .surveys = studio.shown.surveys,
+                 .files = results_.files(),
+                 .intruder = current_intruder(studio).value_or(0)});
+}
+
+// What is wrong with a file is told once, when it is known what it is measured by: which frame a tracker was started in
+// may hang on that.
+void App::tell_of_results() {
+  if (!scored_) {
+    told_problems_.clear();
+    return;
+  }
+  if (scored_->truth != TruthKind::measured && scored_->truth_problem.empty()) return;
+  for (const ScoredTracker& tracker : scored_->trackers) {
+    std::string& told = told_problems_[tracker.file.id];
+    if (tracker.problem != told && !tracker.problem.empty()) edits_.ask(Say{tracker.problem, true});
+    told = tracker.problem;
+  }
+}
+
+bool App::take_results(const Request& request) {
+  if (const auto* wanted = std::get_if<LoadResults>(&request)) {
+    if (!desk_.has_project()) return true;
+    if (wanted->path.empty()) {
+      const std::filesystem::path near =
+          results_.files().empty() ? document_.project().file : results_.files().back().path;
+      edits_.ask(AskForFile{.title = "Load a tracker's results",
+                            .extensions = {".txt", ".csv", ".json"},
+                            .start = near.parent_path() / "",
+                            .chosen = [this](const std::filesystem::path& path) { edits_.ask(LoadResults{path}); }});
+    } else {
+      results_.add(wanted->path);
+      settings_.show_inspector = true;
+    }
+  } else if (const auto* gone = std::get_if<RemoveResults>(&request)) {
+    results_.remove(gone->id);
+  } else if (const auto* look = std::get_if<ShowResults>(&request)) {
+    results_.set_shown(look->id, look->shown);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 void App::take(const Request& request) {
-  if (desk_.take(request)) return;
+  if (take_results(request) || desk_.take(request)) return;
   if (std::holds_alternative<ToggleFullScreen>(request)) window_.toggle_full_screen();
   if (std::holds_alternative<ShowOwnBody>(request)) layout_.show_own_body();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
@@ -165,6 +219,8 @@ void App::turn(double now_s, bool something_happened) {
   if (shown.scene && shown.scene->revision < document_.first_number()) shown = {};
   if (shown.scene) document_.set_frame_count(static_cast<int>(shown.scene->footage->shape.times_s.size()));
   advance(shown);
+  scored_ = scoring_.scored();
+  tell_of_results();
   window_.begin(settings_);
   draw(shown);
   window_.end();
@@ -183,6 +239,9 @@ void App::turn(double now_s, bool something_happened) {
   if (document_.first_number() != document) {
     playback_.pause();
     own_body_.forget();
+    results_.clear();
+    scored_.reset();
+    scoring_.want({});
   }
   previewer_.set_modest(desk_.is_exporting() || own_body_.job().is_running());
   show_title();

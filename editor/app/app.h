@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,9 +13,11 @@
 #include "editor/app/probe.h"
 #include "editor/app/window.h"
 #include "editor/document/document.h"
+#include "editor/document/result_files.h"
 #include "editor/document/settings.h"
 #include "editor/preview/playback.h"
 #include "editor/preview/previewer.h"
+#include "editor/preview/scoring.h"
 #include "editor/views/own_body/own_body_work.h"
 #include "editor/widgets/textures.h"
 
@@ -42,6 +46,9 @@ class App {
   void play(double speed);
   void draw(const Shown& shown);
   void take(const Request& request);
+  bool take_results(const Request& request);
+  void ask_scores(const Studio& studio);
+  void tell_of_results();
   void show_title();
   void count_turns();
 
@@ -55,6 +62,10 @@ class App {
   Probe probe_;
   Previewer previewer_;
   OwnBodyWork own_body_;
+  ResultFiles results_;
+  Scoring scoring_;
+  std::shared_ptr<const Scored> scored_;      // of this turn
+  std::map<int, std::string> told_problems_;  // by the result file's id
   FrontDesk desk_;
   std::string title_;
   Playback playback_;

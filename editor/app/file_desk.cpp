@@ -252,6 +252,13 @@ void FileDesk::take_dropped(const fs::path& path, Edits& edits) {
     take(OpenProject{path});
     return;
   }
+  if (dropped.kind == DroppedKind::results) {
+    if (has_project_)
+      edits.ask(LoadResults{path});
+    else
+      say("Open the project that " + path.filename().string() + " belongs to, then drop it again", true);
+    return;
+  }
   if (!has_project_) show(Project());
   if (std::optional<ChangeProject> change = change_by(dropped, document_.selection())) {
     say(path.filename().string() + ": " + change->name);

@@ -65,6 +65,8 @@ DroppedKind kind_by_content(std::string_view bytes) {
   const std::string_view text = without_blanks(bytes);
   if (text.starts_with("{"))
     return text.find("\"sigs\"") != std::string_view::npos ? DroppedKind::project : DroppedKind::calibration;
+  // Lists of detections (AOT); no calibration is a list.
+  if (text.starts_with("[")) return DroppedKind::results;
   if (text.starts_with("%YAML") || text.find("<opencv_storage") != std::string_view::npos)
     return DroppedKind::calibration;
   return DroppedKind::nothing;
@@ -84,7 +86,8 @@ DroppedKind kind_by_extension(const std::string& extension) {
                                      Known{".y4m", DroppedKind::video},       Known{".obj", DroppedKind::model},
                                      Known{".xml", DroppedKind::calibration}, Known{".yaml", DroppedKind::calibration},
                                      Known{".yml", DroppedKind::calibration}, Known{".png", DroppedKind::mask},
-                                     Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project}};
+                                     Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project},
+                                     Known{".txt", DroppedKind::results},     Known{".csv", DroppedKind::results}};
   const auto found =
       std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) { return known.extension == extension; });
   return found == kKnown.end() ? DroppedKind::nothing : found->kind;
@@ -120,7 +123,8 @@ Dropped what_was_dropped(const fs::path& path) {
   const DroppedKind kind = content != DroppedKind::nothing ? content : kind_by_extension(extension);
   if (kind == DroppedKind::nothing)
     return nothing(path.filename().string() +
-                   " is neither project, video, calibration, OBJ model nor mask picture; nothing was changed");
+                   " is neither project, video, calibration, OBJ model, mask picture nor results of a tracker; nothing "
+                   "was changed");
   return {kind, path, {}};
 }
 
@@ -138,6 +142,7 @@ std::optional<ChangeProject> change_by(const Dropped& dropped, const Selection& 
     case DroppedKind::model:
       return ChangeProject{"drop model", [path, selection](Project& p) { put_model(p, path, selection); }, {}};
     case DroppedKind::project:
+    case DroppedKind::results:
     case DroppedKind::nothing:
       break;
   }

@@ -11,7 +11,7 @@
 
 namespace sigs::editor {
 
-enum class DroppedKind { nothing, project, video, calibration, model, mask };
+enum class DroppedKind { nothing, project, video, calibration, model, mask, results };
 
 // What a file is that was dropped onto the window: by its first bytes, else by its extension.
 struct Dropped {
@@ -22,7 +22,8 @@ struct Dropped {
 [[nodiscard]] Dropped what_was_dropped(const std::filesystem::path& path);
 
 // What it means for the project: footage, calibration or mask are replaced; a model replaces that of the selected
-// intruder, or is a further intruder 300 m ahead of the camera. Nothing for projects and for what is none of these.
+// intruder, or is a further intruder 300 m ahead of the camera. Nothing for projects, for results
+// of trackers and for what is none of these.
 [[nodiscard]] std::optional<ChangeProject> change_by(const Dropped& dropped, const Selection& selection);
 
 }  // namespace sigs::editor

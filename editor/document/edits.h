@@ -81,6 +81,16 @@ struct ShowAbout {};
 struct ShowOwnBody {};       // where the own body's mask is found and painted
 struct ShowMissingFiles {};  // to tell where they are
 struct ToggleFullScreen {};
+struct LoadResults {           // of a tracker, to be shown beside the truth
+  std::filesystem::path path;  // empty: ask
+};
+struct RemoveResults {
+  int id = 0;  // ResultFile::id; the file on disk stays
+};
+struct ShowResults {
+  int id = 0;
+  bool shown = true;
+};
 struct Say {  // a passing message at the lower edge
   std::string text;
   bool is_error = false;
@@ -88,7 +98,7 @@ struct Say {  // a passing message at the lower edge
 
 using Request = std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play,
                              TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHelp, ShowSettings, ShowAbout,
-                             ShowMissingFiles, ToggleFullScreen, Say>;
+                             ShowMissingFiles, ToggleFullScreen, LoadResults, RemoveResults, ShowResults, Say>;
 
 // Views put what they want here while they draw. Afterwards the document takes the edits and the program the requests,
 // in order.

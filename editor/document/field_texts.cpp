@@ -158,6 +158,7 @@ std::vector<std::string> extensions_for(std::string_view key) {
   if (key.ends_with(".video")) return {".mp4", ".mov", ".mkv", ".avi", ".webm", ".m4v", ".mts", ".png"};
   if (key.ends_with(".calibration")) return {".xml", ".yml", ".yaml", ".json"};
   if (key.ends_with("mask")) return {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+  if (key.ends_with(".attitude_file")) return {".csv"};
   if (key.ends_with(".model.file")) return {".obj"};
   return {};
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "annotation/labels.h"
+
 namespace sigs::editor {
 
 namespace {
@@ -53,7 +55,9 @@ std::vector<fs::path> outputs_of(const Project& project, const fs::path& folder)
   std::vector<fs::path> paths{folder / (project.name + ending_of(output))};
   if (output.masks == MasksChoice::video) paths.push_back(folder / (project.name + ".masks.mkv"));
   if (output.masks == MasksChoice::png) paths.push_back(folder / (project.name + ".masks"));
-  if (!output.labels.empty()) paths.push_back(folder / (project.name + ".xml"));
+  for (const std::string& label : output.labels)
+    if (const LabelFormat* format = label_format(label))
+      paths.push_back(folder / (project.name + std::string(format->suffix)));
   return paths;
 }
 

@@ -40,7 +40,8 @@ PictureName picture_name_of(const Project& project) {
   kept.own_body = {};  // only the mask that came of it counts
   kept.output = {};
   kept.unknown_json.clear();
-  std::vector<std::string*> paths{&kept.footage.video, &kept.footage.calibration, &kept.footage.own_body_mask};
+  std::vector<std::string*> paths{&kept.footage.video, &kept.footage.calibration, &kept.footage.own_body_mask,
+                                  &kept.camera.attitude_file};
   for (IntruderSettings& intruder : kept.intruders) {
     intruder.unknown_json.clear();
     for (WaypointSettings& waypoint : intruder.trajectory.waypoints) waypoint.unknown_json.clear();

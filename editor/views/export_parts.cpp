@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "annotation/labels.h"
 #include "editor/views/readable.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"
@@ -48,6 +49,57 @@ void draw_written(const Studio& studio, const ExportState& state) {
   }
 }
 
+bool is_chosen(const ExportSettings& output, std::string_view format) {
+  return std::find(output.labels.begin(), output.labels.end(), format) != output.labels.end();
+}
+
+// The formats stay in one order, however they are chosen.
+void choose_label(ExportSettings& output, std::string_view format, bool chosen) {
+  std::vector<std::string> labels;
+  for (const LabelFormat& one : label_formats())
+    if (one.name == format ? chosen : is_chosen(output, one.name)) labels.emplace_back(one.name);
+  output.labels = std::move(labels);
+}
+
+void draw_label_format(const Studio& studio, const LabelFormat& format) {
+  const std::string name(format.name);
+  bool chosen = is_chosen(studio.project().output, name);
+  if (ImGui::Checkbox(name.c_str(), &chosen))
+    studio.edits.change("labels", [name, chosen](Project& p) { choose_label(p.output, name, chosen); });
+  studio.places.note_item("export/labels/" + name);
+  tooltip_for_item(std::string(format.help).c_str());
+}
+
+// xml and csv leave nothing out.
+bool has_thresholds(const ExportSettings& output) {
+  return std::any_of(output.labels.begin(), output.labels.end(),
+                     [](const std::string& label) { return label != "xml" && label != "csv"; });
+}
+
+void draw_thresholds(const Studio& studio) {
+  ExportSettings output = studio.project().output;
+  ImGui::SetNextItemWidth(scaled(150));
+  if (ImGui::DragInt("##least pixels", &output.label_least_pixels, 0.2F, 1, 1'000'000, "from %d px on",
+                     ImGuiSliderFlags_AlwaysClamp))
+    studio.edits.change(
+        "least pixels", [px = output.label_least_pixels](Project& p) { p.output.label_least_pixels = px; },
+        "export least pixels");
+  if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
+  studio.places.note_item("export/least pixels");
+  tooltip_for_item("No label where fewer pixels show the intruder; xml and csv leave nothing out");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(scaled(150));
+  auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
+  if (ImGui::SliderFloat("##least visible", &percent, 0, 100, "%.0f %% visible", ImGuiSliderFlags_AlwaysClamp))
+    studio.edits.change(
+        "least visible",
+        [share = std::round(percent) / 100.0](Project& p) { p.output.label_least_visible_fraction = share; },
+        "export least visible");
+  if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
+  studio.places.note_item("export/least visible");
+  tooltip_for_item("No label where less of the intruder can be seen; xml and csv leave nothing out");
+}
+
 }  // namespace
 
 void note_line(Icon icon, ImU32 color, const std::string& text) {
@@ -88,14 +140,19 @@ void draw_mask_choice(const Studio& studio) {
 }
 
 void draw_label_choice(const Studio& studio) {
-  const std::vector<std::string>& labels = studio.project().output.labels;
-  bool xml = std::find(labels.begin(), labels.end(), "xml") != labels.end();
-  if (ImGui::Checkbox("SIGS XML", &xml))
-    studio.edits.change("labels", [xml](Project& p) {
-      std::erase(p.output.labels, "xml");
-      if (xml) p.output.labels.emplace_back("xml");
-    });
-  studio.places.note_item("export/labels");
+  constexpr int kColumns = 5;
+  const float column = scaled(84);
+  const float left = ImGui::GetCursorPosX();
+  int place = 0;
+  for (const LabelFormat& format : label_formats()) {
+    if (place % kColumns != 0) {
+      ImGui::SameLine();
+      ImGui::SetCursorPosX(left + static_cast<float>(place % kColumns) * column);
+    }
+    ++place;
+    draw_label_format(studio, format);
+  }
+  if (has_thresholds(studio.project().output)) draw_thresholds(studio);
 }
 
 std::string progress_text(const ExportState& state) {

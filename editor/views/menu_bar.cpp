@@ -53,6 +53,7 @@ void draw_file_menu(const Studio& studio, bool has_project) {
   if (item(studio, "Save as...", "Ctrl+Shift+S", has_project)) edits.ask(SaveProjectAs{});
   if (item(studio, "Export...", "Ctrl+E", has_project)) edits.ask(ShowExport{});
   if (item(studio, "Find missing files...", "", has_project)) edits.ask(ShowMissingFiles{});
+  if (item(studio, "Load tracker results...", "", has_project)) edits.ask(LoadResults{});
   ImGui::Separator();
   if (item(studio, "Close project", "", has_project)) edits.ask(CloseProject{});
   if (item(studio, "Quit", "Ctrl+Q")) edits.ask(Quit{});

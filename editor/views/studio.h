@@ -4,6 +4,7 @@
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
 #include "editor/preview/previewer.h"
+#include "editor/preview/scoring.h"
 #include "editor/widgets/places.h"
 #include "editor/widgets/textures.h"
 
@@ -29,7 +30,8 @@ struct Studio {
   Wishes& wishes;
   Places& places;
   bool playing = false;
-  double speed = 0;  // of playing, 0 while it stands
+  double speed = 0;                // of playing, 0 while it stands
+  const Scored* scored = nullptr;  // null: no results of trackers are loaded
 
   [[nodiscard]] const Project& project() const { return document.project(); }
 };

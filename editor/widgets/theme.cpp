@@ -106,6 +106,13 @@ ImU32 intruder_color(int intruder) {
   return kColors[static_cast<std::size_t>(std::max(0, intruder)) % kColors.size()];
 }
 
+ImU32 result_color(int number) {
+  static constexpr std::array<ImU32, 8> kColors{
+      IM_COL32(255, 84, 196, 255), IM_COL32(64, 226, 235, 255),  IM_COL32(150, 236, 84, 255), IM_COL32(176, 138, 255, 255),
+      IM_COL32(255, 112, 98, 255), IM_COL32(238, 240, 245, 255), IM_COL32(60, 200, 150, 255), IM_COL32(214, 168, 122, 255)};
+  return kColors[static_cast<std::size_t>(std::max(0, number)) % kColors.size()];
+}
+
 ImU32 faded(ImU32 color, double opacity) {
   const auto alpha = static_cast<ImU32>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
   return (color & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);

@@ -31,6 +31,10 @@ inline constexpr ImU32 kAxisZ = IM_COL32(96, 148, 255, 255);
 // One colour per intruder, in order, repeating after eight.
 [[nodiscard]] ImU32 intruder_color(int intruder);
 
+// One colour per tracker whose results are shown, other ones than the truth's, the paths' and the selection's; repeating
+// after eight.
+[[nodiscard]] ImU32 result_color(int number);
+
 // The same colour with another opacity, 0..1.
 [[nodiscard]] ImU32 faded(ImU32 color, double opacity);
 

@@ -34,6 +34,7 @@ struct IntruderTruth {
   int visible_pixels = 0;                 // how many of them there are
   std::optional<Box> silhouette;          // the whole of it through the lens; none where no part of it has an image
   HorizonSide horizon = HorizonSide::on;  // above or below: all of it is
+  double inside_fraction = 0;             // of the whole silhouette's area: what lies in the picture, hidden or not
 };
 
 // What the frames are counted in, and which of them a set of labels holds.

@@ -8,7 +8,8 @@
 
 namespace sigs {
 
-// one row for each intruder and frame. docs/label-formats.md.
+// A row for each intruder and frame (RFC 4180: commas, quotes, CRLF), seen or not: what the SIGS XML file has, with the
+// same digits; empty where there is no box. docs/label-formats.md.
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_csv(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);
 

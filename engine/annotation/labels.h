@@ -37,6 +37,7 @@ struct LabelSequence {
   std::vector<LabelledIntruder> intruders;  // by id
   std::vector<std::string> categories;      // a category's number in a format is its place here
   std::string video;     // the exported video, beside the labels; empty: numbered pictures are written
+  int channels = 3;      // of a picture: 3 colour, 1 grey
   std::string pictures;  // folder beside the labels where numbered pictures of it lie, or belong: frame_000123.png
   cv::Mat own_body;      // CV_32FC1 of the picture's size, 1 where the own body hides everything; empty: none
   std::optional<Camera> camera;
@@ -71,6 +72,10 @@ struct LabelFormat {
 
   // Begins a set of labels at path, which is an empty file, or an empty folder where is_folder. Error cannot_create.
   Result<std::unique_ptr<LabelWriter>> (*open)(const std::filesystem::path& path, const LabelSequence& sequence);
+
+  // What its folder may hold: relative paths, * any part of a name, # a number. A later export replaces a folder of
+  // these, and none that holds anything else.
+  std::span<const std::string_view> files{};
 };
 
 // All of them, in the order in which help lists them.

@@ -1,10 +1,165 @@
 // SPDX-License-Identifier: MIT
 #include "annotation/voc.h"
 
+#include <algorithm>
+#include <pugixml.hpp>
+#include <sstream>
+#include <utility>
+
+#include "annotation/hidden_part.h"
+#include "annotation/label_words.h"
+#include "annotation/picture_links.h"
+#include "annotation/text_file.h"
+#include "annotation/xml_text.h"
+
 namespace sigs {
 
-Result<std::unique_ptr<LabelWriter>> open_voc(const std::filesystem::path& path, const LabelSequence&) {
-  return fail(path.string(), "voc labels cannot be written yet", ErrorKind::unavailable);
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTruncated = 0.15;  // the guidelines say 15 to 20 %
+constexpr double kDifficult = 0.2;   // of which less than 10 to 20 % can be seen they do not label
+
+bool is_difficult(const IntruderTruth& truth) {
+  return truth.visible_fraction < kDifficult;
+}
+
+void add(pugi::xml_node node, const char* name, const std::string& text) {
+  node.append_child(name).text() = xml_text(text).c_str();
+}
+
+void add(pugi::xml_node node, const char* name, int number) {
+  add(node, name, std::to_string(number));
+}
+
+void add_object(pugi::xml_node annotation, const IntruderTruth& truth, const std::string& category) {
+  pugi::xml_node object = annotation.append_child("object");
+  add(object, "name", category);
+  add(object, "pose", "Unspecified");
+  add(object, "truncated", truth.inside_fraction < 1 - kTruncated ? 1 : 0);
+  add(object, "occluded", is_occluded(truth) ? 1 : 0);
+  add(object, "difficult", is_difficult(truth) ? 1 : 0);
+  add(object, "trackid", truth.id);
+  pugi::xml_node box = object.append_child("bndbox");
+  add(box, "xmin", truth.box->x + 1);
+  add(box, "ymin", truth.box->y + 1);
+  add(box, "xmax", truth.box->x + truth.box->width);
+  add(box, "ymax", truth.box->y + truth.box->height);
+}
+
+std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence) {
+  pugi::xml_document document;
+  pugi::xml_node annotation = document.append_child("annotation");
+  add(annotation, "folder", sequence.name + ".voc");
+  add(annotation, "filename", picture_name(truth.index));
+  pugi::xml_node source = annotation.append_child("source");
+  add(source, "database", "SIGS");
+  add(source, "annotation", sequence.name);
+  add(source, "image", sequence.footage.video);
+  pugi::xml_node size = annotation.append_child("size");
+  add(size, "width", sequence.footage.size_px.width);
+  add(size, "height", sequence.footage.size_px.height);
+  add(size, "depth", sequence.channels);
+  add(annotation, "segmented", 0);
+  for (const IntruderTruth& intruder : truth.intruders)
+    if (is_labelled(intruder, sequence.thresholds))
+      add_object(annotation, intruder,
+                 sequence.categories[static_cast<std::size_t>(category_place(sequence, intruder.id))]);
+  std::ostringstream text;
+  document.save(text, "  ", pugi::format_default | pugi::format_no_declaration, pugi::encoding_utf8);
+  return text.str();
+}
+
+// Whether a picture shows a category, as VOC's lists say it.
+enum class Shows { no = -1, difficult = 0, yes = 1 };
+
+// A category as part of a file's name; the number keeps apart those that become alike.
+std::vector<std::string> file_names_of(const std::vector<std::string>& categories) {
+  constexpr std::size_t kLongest = 200;  // bytes; a name with what follows may have 255
+  std::vector<std::string> names;
+  for (const std::string& category : categories) {
+    std::string name = category.substr(0, kLongest);
+    std::replace(name.begin(), name.end(), '/', '_');
+    const bool is_taken = std::find(names.begin(), names.end(), name) != names.end();
+    names.push_back(is_taken ? name + "_" + std::to_string(names.size()) : name);
+  }
+  return names;
+}
+
+class VocLabels : public LabelWriter {
+ public:
+  VocLabels(fs::path root, const LabelSequence& sequence)
+      : root_(std::move(root)), sequence_(sequence), shown_(sequence.categories.size()) {}
+
+  Result<void> begin() {
+    if (const Result<void> made = make_inner_folder(root_ / "Annotations"); !made) return made;
+    return make_inner_folder(root_ / "ImageSets" / "Main");
+  }
+
+  Result<void> write(const FrameTruth& truth) override {
+    pictures_.emplace_back(picture_name(truth.index));
+    for (std::vector<Shows>& shown : shown_) shown.push_back(Shows::no);
+    for (const IntruderTruth& intruder : truth.intruders)
+      if (is_labelled(intruder, sequence_.thresholds)) remember(intruder);
+    const fs::path file = fs::path(pictures_.back()).replace_extension(".xml");
+    return write_text_file(root_ / "Annotations" / file, annotation_of(truth, sequence_));
+  }
+
+  Result<void> finish(const fs::path& pictures) override {
+    if (const Result<void> written = write_lists(); !written || pictures.empty()) return written;
+    if (const Result<void> made = make_inner_folder(root_ / "JPEGImages"); !made) return made;
+    for (const fs::path& picture : pictures_)
+      if (const Result<void> linked = link_or_copy(pictures / picture, root_ / "JPEGImages" / picture); !linked)
+        return linked;
+    return {};
+  }
+
+ private:
+  void remember(const IntruderTruth& intruder) {
+    Shows& shows = shown_[static_cast<std::size_t>(category_place(sequence_, intruder.id))].back();
+    shows = std::max(shows, is_difficult(intruder) ? Shows::difficult : Shows::yes);
+  }
+
+  Result<void> write_lists() {
+    std::string all;
+    for (const fs::path& picture : pictures_) all += picture.stem().string() + "\n";
+    if (const Result<void> written = write_sets("", all); !written) return written;
+    const std::vector<std::string> names = file_names_of(sequence_.categories);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (const Result<void> written = write_sets(names[i] + "_", list_of(shown_[i])); !written) return written;
+    return {};
+  }
+
+  [[nodiscard]] std::string list_of(const std::vector<Shows>& shown) const {
+    std::string list;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      list += pictures_[i].stem().string() + (shown[i] == Shows::no ? " " : "  ") +
+              std::to_string(static_cast<int>(shown[i])) + "\n";
+    return list;
+  }
+
+  Result<void> write_sets(const std::string& prefix, const std::string& list) {
+    const fs::path folder = root_ / "ImageSets" / "Main";
+    for (const auto& [set, text] :
+         {std::pair("train", list), std::pair("val", std::string()), std::pair("trainval", list)})
+      if (const Result<void> written = write_text_file(folder / (prefix + set + ".txt"), text); !written)
+        return written;
+    return {};
+  }
+
+  fs::path root_;
+  LabelSequence sequence_;
+  std::vector<fs::path> pictures_;
+  std::vector<std::vector<Shows>> shown_;  // by category, then picture
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LabelWriter>> open_voc(const fs::path& path, const LabelSequence& sequence) {
+  auto writer = std::make_unique<VocLabels>(path, sequence);
+  if (const Result<void> begun = writer->begin(); !begun) return fail(begun.error());
+  return writer;
 }
 
 }  // namespace sigs

@@ -3,32 +3,22 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <glm/glm.hpp>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "dataset/draw.h"
+#include "dataset/flight_quantities.h"
 #include "project/project.h"
 
 namespace sigs {
 
-// A number that is fixed, or drawn anew for each video. docs/dataset.md has how each is written.
-struct Quantity {
-  enum class Kind { fixed, uniform, normal, choice };
-  Kind kind = Kind::fixed;
-  double value = 0;                // fixed
-  double low = 0, high = 0;        // uniform: [low, high); normal: bounds, within which it is drawn
-  double mean = 0, deviation = 0;  // normal
-  std::vector<double> choices;     // choice: each as likely
-};
-
-// Footage that videos may use. Paths are relative to the recipe's file.
+// Footage that videos may use, with the camera that took it and its light. Paths are absolute.
 struct Background {
   std::string name;
-  FootageSettings footage;
+  FootageSettings footage;  // first and last frame: the part that may be used
   CameraSettings camera;
   LightSettings light;
   std::map<std::string, std::string> tags;
@@ -37,17 +27,15 @@ struct Background {
 struct Aircraft {
   std::string name;
   std::string category = "airplane";
-  ModelSettings model;
+  ModelSettings model;                   // its path is absolute
+  std::optional<Span> speed_limits_mps;  // over ground; none: it flies as fast as a flight asks for
+  std::map<std::string, std::string> tags;
 };
-
-// How one intruder flies: one of the paper's four ways, or an encounter.
-enum class FlightKind { left_right, right_left, approaching, moving_away, encounter };
 
 struct FlightPlan {
   std::string name;  // what names of videos call it
   FlightKind kind = FlightKind::left_right;
-  // Which of these a kind reads, and their defaults: docs/dataset.md.
-  std::map<std::string, Quantity> quantities;  // "miss_distance_m", "closing_speed_mps", "bearing_deg", ...
+  std::map<std::string, Quantity> quantities;  // those that the recipe gives: dataset/flight_quantities.h
 };
 
 // A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each.
@@ -57,8 +45,8 @@ struct VideoGroup {
   std::vector<std::string> aircraft;
   std::vector<FlightPlan> flights;
   int count = 1;
-  std::optional<int> frames;  // length; none: what the background has
-  int first_frame = 0;        // of the background
+  std::optional<int> frames;  // length; none: to the end of what the background has
+  Quantity first_frame;       // counted from the background's first one; the whole part is taken
   std::string split;          // fixed; empty: drawn
   std::map<std::string, std::string> tags;
 };
@@ -72,20 +60,28 @@ struct Recipe {
   std::filesystem::path file;
   std::string name;
   std::uint64_t seed = 0;
-  std::vector<std::string> settings;  // KEY=VALUE for every project, as --set takes them
+  std::vector<std::string> settings;  // KEY=VALUE for every project, as --set takes them; later ones count
+  Project base;                       // a project that has them, with one intruder; all videos start from it
   std::vector<Background> backgrounds;
   std::vector<Aircraft> aircraft;
   std::vector<VideoGroup> groups;
-  std::vector<SplitShare> splits;  // shares add up to 1
-  std::string keep_together;       // videos that agree in it share a split: "background", "aircraft" or empty
+  std::vector<SplitShare> splits;  // shares add up to 1; none: videos without a split of their own have none
+  std::string keep_together;       // a tag: videos that agree in it share a split; empty: none
   std::string text;                // the file as it is
 };
 
-// Errors bad_data name the file and the key.
+// Every name that is used is there, every number has the form it should; whether a flight can be flown is plan.h's
+// business. Errors name the file and the key: cannot_read where a file is not there, else bad_data.
 struct ReadRecipe {
   Recipe recipe;
   std::vector<Warning> warnings;  // unknown keys
 };
-[[nodiscard]] Result<ReadRecipe> read_recipe(const std::filesystem::path& path);
+// settings: KEY=VALUE that go before the recipe's own, as --set gives them; what is wrong with them is kind usage.
+[[nodiscard]] Result<ReadRecipe> read_recipe(const std::filesystem::path& path,
+                                             const std::vector<std::string>& settings = {});
+
+// The same from text; path stands for the file in messages and for relative paths.
+[[nodiscard]] Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::path& path,
+                                              const std::vector<std::string>& settings = {});
 
 }  // namespace sigs

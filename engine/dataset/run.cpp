@@ -1,10 +1,322 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/run.h"
 
+#include <algorithm>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "dataset/fingerprint.h"
+#include "dataset/merge_labels.h"
+#include "dataset/side_by_side.h"
+#include "dataset/video_folder.h"
+#include "video/frame_source.h"
+
 namespace sigs {
 
-Result<DatasetReport> make_dataset(const Plan&, const DatasetRequest& request, const DatasetControl&) {
-  return fail(request.folder.string(), "cannot be made yet", ErrorKind::unavailable);
+namespace fs = std::filesystem;
+
+namespace {
+
+int cores() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+// One export keeps some four cores busy: decoding, composing, two encoders.
+int videos_at_a_time(const DatasetRequest& request, int videos) {
+  const int wanted = request.jobs > 0 ? request.jobs : std::max(1, cores() / 4);
+  return std::clamp(wanted, 1, std::max(1, videos));
+}
+
+// What a run knows of one of its videos.
+struct Task {
+  VideoFolder folder;
+  std::string planned;              // fingerprint
+  std::optional<VideoEntry> entry;  // of a complete folder as planned
+  std::optional<Error> error;
+  int frames = 0;  // to be exported
+  int done = 0;    // of these
+
+  [[nodiscard]] bool is_to_do() const { return !entry && !error; }
+};
+
+class Run {
+ public:
+  Run(const Plan& plan, const DatasetRequest& request, const DatasetControl& control, const fs::path& dataset)
+      : plan_(plan), request_(request), control_(control), dataset_(dataset), inputs_(control.cancel) {
+    for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i)
+      if (!request.shard || request.shard->has(i)) tasks_.push_back({.folder = {dataset, &plan.videos[i]}});
+  }
+
+  [[nodiscard]] Result<DatasetReport> all();
+
+ private:
+  [[nodiscard]] bool is_cancelled() const { return control_.cancel != nullptr && *control_.cancel; }
+  [[nodiscard]] Error interrupted() const;
+  void warn(const Warning& warning);
+  void look_at(Task& task);
+  [[nodiscard]] std::string outdated(const Task& task, const VideoEntry& entry);
+  [[nodiscard]] Result<void> check_all_there() const;
+  [[nodiscard]] Result<void> make_missing(DatasetReport& report);
+  void make(Task& task, int jobs);
+  void advance(Task& task, int done);
+  [[nodiscard]] Result<void> write_index(DatasetReport& report);
+  void warn_of_strays();
+  [[nodiscard]] Result<void> clear_workshop() const;
+
+  const Plan& plan_;
+  const DatasetRequest& request_;
+  const DatasetControl& control_;
+  fs::path dataset_;
+  InputChecksums inputs_;
+  std::vector<Task> tasks_;
+  std::mutex mutex_;  // of the callbacks and the counts
+  int frames_to_do_ = 0;
+  int frames_done_ = 0;
+};
+
+Error Run::interrupted() const {
+  const auto complete = std::count_if(tasks_.begin(), tasks_.end(), [](const Task& task) { return task.entry; });
+  return {"",
+          "interrupted; " + std::to_string(complete) + " of " + std::to_string(tasks_.size()) +
+              " videos are complete, --resume goes on",
+          ErrorKind::interrupted};
+}
+
+void Run::warn(const Warning& warning) {
+  const std::lock_guard lock(mutex_);
+  if (control_.warn) control_.warn(warning);
+}
+
+// Why a video that is there is not kept; empty: it is.
+std::string Run::outdated(const Task& task, const VideoEntry& entry) {
+  if (entry.planned != task.planned) return "was made from other settings, inputs or with another program";
+  const Result<std::string> damage = damage_of(task.folder.path(), entry, control_.cancel);
+  return damage ? *damage : damage.error().text();
+}
+
+void Run::look_at(Task& task) {
+  if (is_cancelled()) return;
+  const PlannedVideo& video = *task.folder.video;
+  Result<std::string> planned = fingerprint_of(video.project, request_.source.program, inputs_);
+  if (!planned) {
+    task.error = planned.error();
+    return;
+  }
+  task.planned = std::move(*planned);
+  if (request_.resume || request_.merge_only) {
+    Result<VideoEntry> entry = read_entry(task.folder.path() / kEntryName);
+    const std::string why = entry ? outdated(task, *entry) : std::string();
+    if (entry && why.empty()) task.entry = std::move(*entry);
+    if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
+  }
+  if (!task.is_to_do() || request_.merge_only) return;
+  const Result<int> frames = frames_of(video.project);
+  if (frames)
+    task.frames = *frames;
+  else
+    task.error = frames.error();
+}
+
+Result<void> Run::check_all_there() const {
+  std::string list;
+  int missing = 0;
+  for (const Task& task : tasks_)
+    if (!task.entry && ++missing <= 20) list += (missing > 1 ? ", " : "") + task.folder.video->name;
+  if (missing == 0) return {};
+  if (missing > 20) list += ", ...";
+  return fail(dataset_.string(), "of " + std::to_string(tasks_.size()) + " videos " + std::to_string(missing) +
+                                     " are missing, damaged or not as planned: " + list);
+}
+
+void Run::advance(Task& task, int done) {
+  const std::lock_guard lock(mutex_);
+  frames_done_ += done - task.done;
+  task.done = done;
+  if (control_.progress && frames_to_do_ > 0) control_.progress(frames_done_, frames_to_do_);
+}
+
+void Run::make(Task& task, int jobs) {
+  const VideoExport wanted{.planned = task.planned,
+                           .jobs = jobs,
+                           .progress = [&](int done, int) { advance(task, done); },
+                           .warn = [&](const Warning& warning) { warn(warning); },
+                           .cancel = control_.cancel};
+  Result<VideoEntry> made = make_video(task.folder, wanted);
+  if (!made) {
+    task.error = made.error();
+    if (!is_cancelled()) advance(task, task.frames);
+    return;
+  }
+  const std::lock_guard lock(mutex_);
+  task.entry = std::move(*made);
+  if (control_.finished) control_.finished(task.folder.video->name);
+}
+
+Result<void> Run::make_missing(DatasetReport& report) {
+  std::vector<Task*> to_do;
+  for (Task& task : tasks_)
+    if (task.is_to_do()) to_do.push_back(&task);
+  if (to_do.empty()) return {};
+  if (const Result<void> step = remove_index(dataset_); !step) return step;
+  for (const Task* const task : to_do) frames_to_do_ += task->frames;
+  const int count = static_cast<int>(to_do.size());
+  const int at_a_time = videos_at_a_time(request_, count);
+  const int jobs_of_each = std::max(1, cores() / at_a_time - 1);
+  side_by_side(count, at_a_time, [&](int i) {
+    if (!is_cancelled()) make(*to_do[i], jobs_of_each);
+  });
+  for (const Task* const task : to_do) {
+    if (!task->entry) continue;
+    ++report.exported;
+    report.frames += task->entry->frames;
+    report.written.push_back(task->folder.path());
+  }
+  return {};
+}
+
+// What killed runs have left goes, but where other shares of the dataset may be in the making only what is empty.
+Result<void> Run::clear_workshop() const {
+  for (const char* const name : {"new", "old", "labels", "splits"}) {
+    std::error_code code;
+    if (request_.shard) {
+      fs::remove(workshop_of(dataset_) / name, code);
+      continue;
+    }
+    fs::remove_all(workshop_of(dataset_) / name, code);
+    if (code)
+      return fail((workshop_of(dataset_) / name).string(), "cannot be removed: " + code.message(),
+                  ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+// Videos of an older recipe.
+void Run::warn_of_strays() {
+  std::set<std::string> planned;
+  for (const Task& task : tasks_) planned.insert(task.folder.video->name);
+  std::error_code code;
+  for (fs::directory_iterator it(dataset_, code), end; !code && it != end; it.increment(code)) {
+    const std::string name = it->path().filename().string();
+    if (!planned.contains(name) && fs::exists(it->path() / kEntryName, code))
+      warn({(dataset_ / name).string(), "is a video that is not in the recipe; the index leaves it out"});
+  }
+}
+
+Result<void> Run::write_index(DatasetReport& report) {
+  warn_of_strays();
+  std::vector<FinishedVideo> videos;
+  for (const Task& task : tasks_) videos.push_back({task.folder.video, *task.entry});
+  Result<DatasetIndex> index = make_index(plan_, request_.source, dataset_, videos, control_.cancel);
+  if (!index) return fail(index.error());
+  report.written.insert(report.written.end(), index->written.begin(), index->written.end());
+  report.checksum = index->checksum;
+  return {};
+}
+
+Result<DatasetReport> Run::all() {
+  const Stopwatch watch;
+  DatasetReport report;
+  side_by_side(static_cast<int>(tasks_.size()), std::min(cores(), 8), [&](int i) { look_at(tasks_[i]); });
+  if (is_cancelled()) return fail(interrupted());
+  if (request_.merge_only)
+    if (const Result<void> there = check_all_there(); !there) return fail(there.error());
+  report.kept = static_cast<int>(std::count_if(tasks_.begin(), tasks_.end(), [](const Task& t) { return t.entry; }));
+  for (Task& task : tasks_)
+    if (task.entry)
+      if (const Result<void> step = update_notes(task.folder, *task.entry); !step) task.error = step.error();
+  if (const Result<void> step = make_missing(report); !step) return fail(step.error());
+  for (const Task& task : tasks_)
+    if (task.error) report.failures.push_back({task.folder.video->name, *task.error});
+  Result<void> step = clear_workshop();
+  if (is_cancelled()) return fail(interrupted());
+  if (step && !request_.shard && report.failures.empty()) step = write_index(report);
+  if (!step && is_cancelled()) return fail(interrupted());
+  if (!step) return fail(step.error());
+  report.seconds = watch.elapsed_s();
+  return report;
+}
+
+Result<void> check_names(const Plan& plan) {
+  if (const std::string wrong = wrong_name(plan.name); !wrong.empty())
+    return fail("dataset \"" + plan.name + "\"", wrong);
+  std::set<std::string> names;
+  for (const PlannedVideo& video : plan.videos) {
+    if (const std::string wrong = wrong_name(video.name); !wrong.empty())
+      return fail("video \"" + video.name + "\"", wrong);
+    if (!names.insert(video.name).second) return fail("video \"" + video.name + "\"", "is planned twice");
+    if (const std::string wrong = wrong_name(split_of(video)); !wrong.empty())
+      return fail("split \"" + video.split + "\"", wrong);
+  }
+  return {};
+}
+
+Result<fs::path> made_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  fs::path there = code ? folder : fs::canonical(folder, code);
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  if (!fs::is_directory(there, code))
+    return fail(folder.string(), "is a file; a folder is to be written into", ErrorKind::cannot_create);
+  return there;
+}
+
+bool has_index(const fs::path& dataset) {
+  std::error_code code;
+  return fs::exists(dataset / "index.json", code);
+}
+
+// The first of the videos asked for whose folder is there already.
+std::optional<std::string> video_there(const Plan& plan, const DatasetRequest& request, const fs::path& dataset) {
+  for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i) {
+    std::error_code code;
+    if ((!request.shard || request.shard->has(i)) && fs::exists(dataset / plan.videos[i].name, code))
+      return plan.videos[i].name;
+  }
+  return std::nullopt;
+}
+
+// What is in the folder is either a dataset that may be gone on with, or nothing that stands in the way.
+Result<void> check_free(const Plan& plan, const DatasetRequest& request, const fs::path& dataset) {
+  const std::optional<std::string> video = video_there(plan, request, dataset);
+  const bool goes_on = request.resume || request.merge_only;
+  if (!goes_on && has_index(dataset))
+    return fail(dataset.string(), "holds a dataset; --resume goes on with it, or choose another --out",
+                ErrorKind::cannot_create);
+  if (!goes_on && video)
+    return fail(dataset.string(), "holds " + *video + " already; --resume goes on with it, or choose another --out",
+                ErrorKind::cannot_create);
+  if (has_index(dataset) || video || request.shard) return {};
+  for (const char* const name : {"labels", "splits"}) {
+    std::error_code code;
+    if (fs::exists(dataset / name, code))
+      return fail(dataset.string(), std::string("holds ") + name + ", but no dataset; choose another --out",
+                  ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<int> frames_of(const Project& project) {
+  if (project.footage.last_frame) return *project.footage.last_frame - project.footage.first_frame + 1;
+  const Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  if (!source) return fail(source.error());
+  return source->info().frame_count() - project.footage.first_frame;
+}
+
+Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request, const DatasetControl& control) {
+  if (const Result<void> names = check_names(plan); !names) return fail(names.error());
+  if (const Result<void> labels = check_labels_agree(plan); !labels) return fail(labels.error());
+  const Result<fs::path> dataset = made_folder(request.folder);
+  if (!dataset) return fail(dataset.error());
+  if (const Result<void> free = check_free(plan, request, *dataset); !free) return fail(free.error());
+  const Result<Claim> claim = Claim::take(*dataset, request.shard.value_or(Shard{}));
+  if (!claim) return fail(claim.error());
+  return Run(plan, request, control, *dataset).all();
 }
 
 }  // namespace sigs

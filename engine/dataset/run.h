@@ -9,20 +9,17 @@
 #include <vector>
 
 #include "base/result.h"
+#include "dataset/claim.h"
+#include "dataset/index.h"
 #include "dataset/plan.h"
 
 namespace sigs {
 
-// Every part-th video of the plan, parts counted from 1.
-struct Shard {
-  int part = 1;
-  int parts = 1;
-};
-
 struct DatasetRequest {
   std::filesystem::path folder;
-  int jobs = 1;                // videos exported side by side; the bytes do not depend on it
-  bool resume = false;         // keep videos that are complete and as planned; else the folder must hold no dataset
+  DatasetSource source;
+  int jobs = 0;         // videos exported side by side, 0: as the processor asks for; the bytes do not depend on it
+  bool resume = false;  // keep videos that are complete and as planned; else the folder must hold no dataset
   std::optional<Shard> shard;  // only these videos, and no index
   bool merge_only = false;     // export nothing: make the index of what is there; a missing video is an error
 };
@@ -37,21 +34,28 @@ struct DatasetReport {
   int kept = 0;    // complete before
   int frames = 0;  // exported
   double seconds = 0;
-  std::vector<VideoFailure> failures;          // the others finished
-  std::vector<std::filesystem::path> written;  // the index and its like; empty where failures or a shard left it out
+  std::vector<VideoFailure> failures;          // in the plan's order; the others finished
+  std::vector<std::filesystem::path> written;  // videos' folders, and the index and its like; these are left out where
+                                               // there are failures or a shard
+  std::string checksum;                        // of the whole dataset; empty where there is no index
 };
 
+// Each may be called from any thread, but never two at a time.
 struct DatasetControl {
-  std::function<void(int done, int total)>
-      progress;                              // frames, of all videos to be exported; from any thread, one at a time
-  std::function<void(const Warning&)> warn;  // likewise
-  std::function<void(const std::string& video)> finished;  // likewise
-  const std::atomic<bool>* cancel = nullptr;               // set: stop soon, error interrupted; finished videos stay
+  std::function<void(int done, int total)> progress;  // frames, of all videos to be exported
+  std::function<void(const Warning&)> warn;
+  std::function<void(const std::string& video)> finished;
+  const std::atomic<bool>* cancel = nullptr;  // set: stop soon, error interrupted; finished videos stay
 };
 
 // Exports a plan: FOLDER/NAME/ for each video, complete or not there at all; at the end FOLDER/index.json with
 // checksums and, for the label formats that span videos, FOLDER/labels/. docs/dataset.md has the layout.
+// Errors: cannot_create (the folder holds a dataset and resume is false; another run makes the same videos),
+// bad_data (merge_only: videos are missing or not as planned), interrupted.
 [[nodiscard]] Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request,
                                                  const DatasetControl& control);
+
+// How many frames an export of the project has. Opens the footage only where the project does not say.
+[[nodiscard]] Result<int> frames_of(const Project& project);
 
 }  // namespace sigs

@@ -1,14 +1,142 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/detection_score.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "base/ensure.h"
+#include "evaluation/detection_match.h"
+#include "evaluation/encounters.h"
+
 namespace sigs {
 
-double extended_overlap(const Box&, const Box&, double) {
-  return 0;
+namespace {
+
+double ratio(double part, double whole) {
+  return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
 }
 
-DetectionScore score_detections(const std::string&, const std::vector<DetectedFilm>&, const DetectionPolicy&) {
-  return {};
+// One target of one film, with what matches it in each frame.
+struct Followed {
+  const DetectedFilm& film;
+  const TargetTruth& target;
+  std::span<const std::set<int>> tracks;
+  double rate_hz = 0;
+};
+
+template <class Visit>
+void for_frames_in_range(const Followed& followed, const Encounter& encounter, const DetectionPolicy& policy,
+                         Visit&& visit) {
+  for (int frame = encounter.first; frame <= encounter.last; ++frame) {
+    const TargetFrame& truth = followed.target.frames[static_cast<std::size_t>(frame)];
+    if (is_in_range(truth, policy)) visit(frame, truth);
+  }
+}
+
+// Above or below in all its frames, else on.
+HorizonSide horizon_of(const Followed& followed, const Encounter& encounter, const DetectionPolicy& policy) {
+  std::set<HorizonSide> sides;
+  for_frames_in_range(followed, encounter, policy, [&](int, const TargetFrame& truth) { sides.insert(truth.horizon); });
+  return sides.size() == 1 ? *sides.begin() : HorizonSide::on;
+}
+
+EncounterScore score_of(const Followed& followed, const Encounter& encounter, const DetectionPolicy& policy) {
+  const FilmTruth& film = followed.film.truth;
+  const auto time_in_s = [&](int frame) {
+    return film.times_s[static_cast<std::size_t>(frame)] - film.times_s[static_cast<std::size_t>(encounter.first)];
+  };
+  EncounterScore score{.film = followed.film.name,
+                       .target = followed.target.id,
+                       .first_frame = film.footage.first_frame + encounter.first,
+                       .last_frame = film.footage.first_frame + encounter.last,
+                       .horizon = horizon_of(followed, encounter, policy),
+                       .nearest_m = std::numeric_limits<double>::infinity()};
+  for_frames_in_range(followed, encounter, policy, [&](int frame, const TargetFrame& truth) {
+    score.nearest_m = std::min(score.nearest_m, truth.distance_m);
+    ++score.frames_visible;
+    if (followed.tracks[static_cast<std::size_t>(frame)].empty()) return;
+    if (score.frames_matched++ > 0) return;
+    score.first_detection_range_m = truth.distance_m;
+    score.first_detection_time_s = time_in_s(frame);
+  });
+  const std::optional<int> confirmed =
+      confirmed_at(encounter, followed.target, followed.tracks, followed.rate_hz, policy);
+  if (!confirmed) return score;
+  score.confirmed_range_m = followed.target.frames[static_cast<std::size_t>(*confirmed)].distance_m;
+  score.confirmed_time_s = time_in_s(*confirmed);
+  score.is_detected = *confirmed <= deadline_of(encounter, followed.target, followed.rate_hz, policy);
+  return score;
+}
+
+void count(DetectionRate& rate, bool is_detected) {
+  ++rate.encounters;
+  rate.detected += is_detected;
+}
+
+void take_encounter(DetectionScore& sum, EncounterScore encounter, const DetectionPolicy& policy) {
+  if (encounter.nearest_m > policy.nearest_range_m) {
+    ++sum.encounters_too_far;
+    return;
+  }
+  count(sum.all, encounter.is_detected);
+  count(encounter.horizon == HorizonSide::above   ? sum.above_horizon
+        : encounter.horizon == HorizonSide::below ? sum.below_horizon
+                                                  : sum.on_horizon,
+        encounter.is_detected);
+  sum.encounters.push_back(std::move(encounter));
+}
+
+// (frame, target) pairs that a detector is asked for, and those it has.
+struct Pairs {
+  int all = 0;
+  int matched = 0;
+};
+
+void take_film(DetectionScore& sum, Pairs& pairs, const DetectedFilm& film, const DetectionPolicy& policy) {
+  const double rate_hz = rate_hz_of(film.truth);
+  ENSURE(rate_hz > 0);
+  const FilmMatches matches = matches_of(film, policy);
+  sum.frames += film.truth.frames();
+  sum.hours += film.truth.frames() / rate_hz / 3600;
+  sum.false_alarm_boxes += matches.false_boxes;
+  sum.false_alarm_tracks += static_cast<int>(matches.false_tracks.size()) + matches.untracked_false_boxes;
+  for (std::size_t i = 0; i < film.truth.targets.size(); ++i) {
+    const Followed followed{film, film.truth.targets[i], matches.tracks[i], rate_hz};
+    for (const Encounter& encounter : encounters_of(followed.target, rate_hz, policy))
+      take_encounter(sum, score_of(followed, encounter, policy), policy);
+    for_frames_in_range(followed, {0, film.truth.frames() - 1}, policy, [&](int frame, const TargetFrame&) {
+      ++pairs.all;
+      pairs.matched += !followed.tracks[static_cast<std::size_t>(frame)].empty();
+    });
+  }
+}
+
+double mean_first_range_m(const std::vector<EncounterScore>& encounters) {
+  double sum_m = 0;
+  int seen = 0;
+  for (const EncounterScore& encounter : encounters) {
+    sum_m += encounter.first_detection_range_m.value_or(0);
+    seen += encounter.first_detection_range_m.has_value();
+  }
+  return ratio(sum_m, seen);
+}
+
+}  // namespace
+
+double DetectionRate::rate() const {
+  return ratio(detected, encounters);
+}
+
+DetectionScore score_detections(const std::string& name, const std::vector<DetectedFilm>& films,
+                                const DetectionPolicy& policy) {
+  DetectionScore score{.name = name};
+  Pairs pairs;
+  for (const DetectedFilm& film : films) take_film(score, pairs, film, policy);
+  score.false_alarms_per_hour = ratio(score.false_alarm_tracks, score.hours);
+  score.false_boxes_per_frame = ratio(score.false_alarm_boxes, score.frames);
+  score.frame_detection_rate = ratio(pairs.matched, pairs.all);
+  score.mean_first_range_m = mean_first_range_m(score.encounters);
+  return score;
 }
 
 }  // namespace sigs

@@ -10,17 +10,19 @@
 
 namespace sigs {
 
-// The airborne metrics, as published with the Airborne Object Tracking challenge; docs/evaluation.md defines each.
+// The airborne metrics, as published with the Airborne Object Tracking challenge; docs/evaluation.md defines each, and
+// says where this differs. What is published in frames at 10 Hz is in seconds here.
 struct DetectionPolicy {
-  double least_area_px2 = 100;   // smaller boxes of the truth are grown to it, about their middle (extended overlap)
-  double match_overlap = 0.2;    // extended overlap of a match
+  double least_area_px2 = 100;   // extended overlap: where the truth's box is smaller, both boxes are grown to it
+  double match_overlap = 0.2;    // extended overlap of a match, or more
   double false_overlap = 0.02;   // less with every truth: a false alarm; between the two: neither
   double least_score = 0;        // reports below it are left out
   double longest_range_m = 700;  // an encounter is within it
-  int least_encounter_frames = 30;
-  int longest_gap_frames = 3;
-  double detect_range_m = 300;  // an encounter counts as detected where it is before it comes nearer than this
-  double window_s = 3;          // ... in at least half the frames of a window of this length
+  double nearest_range_m = 330;  // ... and comes at least so near
+  double least_encounter_s = 3;
+  double longest_gap_s = 0.3;   // not visible or out of range, within an encounter
+  double detect_range_m = 300;  // an encounter counts as detected where it is before it comes nearer than this, or
+  double window_s = 3;          // in its first window: by one track in a share of the frames of a window of this length
   double least_window_share = 0.5;
 };
 
@@ -36,17 +38,21 @@ struct EncounterScore {
   int target = 0;
   int first_frame = 0;
   int last_frame = 0;
-  HorizonSide horizon = HorizonSide::on;  // of most of its frames
-  bool is_detected = false;               // in time
-  std::optional<double> first_detection_range_m;
-  std::optional<double> first_detection_time_s;  // from the encounter's first frame
-  int frames_matched = 0;
+  HorizonSide horizon = HorizonSide::on;  // above or below: in all its frames
+  double nearest_m = 0;
+  bool is_detected = false;                       // in time
+  std::optional<double> first_detection_range_m;  // of its first match
+  std::optional<double> first_detection_time_s;   // from the encounter's first frame
+  std::optional<double> confirmed_range_m;        // at the end of the first window with matches enough, in time or not
+  std::optional<double> confirmed_time_s;         // from the encounter's first frame
+  int frames_visible = 0;                         // within longest_range_m
+  int frames_matched = 0;                         // of these
 };
 
 struct DetectionRate {
   int encounters = 0;
   int detected = 0;
-  [[nodiscard]] double rate() const { return encounters > 0 ? double(detected) / encounters : 0; }
+  [[nodiscard]] double rate() const;  // detected / encounters; NaN where there is none
 };
 
 struct DetectionScore {
@@ -56,18 +62,18 @@ struct DetectionScore {
   DetectionRate above_horizon;
   DetectionRate on_horizon;
   DetectionRate below_horizon;
+  int encounters_too_far = 0;  // that never come within nearest_range_m: not counted, not listed
   int frames = 0;
   double hours = 0;
-  int false_alarm_tracks = 0;        // tracks of the reporter with at least one false alarm
-  double false_alarms_per_hour = 0;  // false_alarm_tracks / hours
+  int false_alarm_tracks = 0;  // tracks of the reporter with at least one false alarm; a box without one is its own
+  double false_alarms_per_hour = 0;  // HFAR: false_alarm_tracks / hours; NaN for no hours
   int false_alarm_boxes = 0;
-  double false_boxes_per_frame = 0;  // FPPI
-  double frame_detection_rate = 0;   // AFDR: matched (frame, target) pairs of all within longest_range_m
-  double mean_first_range_m = 0;     // over encounters with any detection; NaN where there is none
+  double false_boxes_per_frame = 0;  // FPPI; NaN for no frames
+  double frame_detection_rate = 0;   // AFDR: matched (frame, target) pairs of all within longest_range_m; NaN for none
+  double mean_first_range_m = 0;     // first_detection_range_m over encounters with one; NaN where there is none
 };
 
-[[nodiscard]] double extended_overlap(const Box& truth, const Box& reported, double least_area_px2);
-
+// Names of films tell their tracks apart: two films may both have a track 7.
 [[nodiscard]] DetectionScore score_detections(const std::string& name, const std::vector<DetectedFilm>& films,
                                               const DetectionPolicy& policy);
 

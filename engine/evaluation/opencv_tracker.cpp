@@ -1,10 +1,148 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/opencv_tracker.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <opencv2/tracking.hpp>
+#include <opencv2/tracking/tracking_legacy.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <optional>
+#include <utility>
+
+#include "base/ensure.h"
+#include "base/stopwatch.h"
+
 namespace sigs {
+
+namespace {
+
+// OpenCV has two interfaces to its trackers, of whole pixels and of fractions; this is what they have in common. Boxes
+// are in OpenCV's way: x is the number of the first column covered.
+class AnyTracker {
+ public:
+  virtual ~AnyTracker() = default;
+  virtual bool init(const cv::Mat& picture, const cv::Rect& box) = 0;
+  virtual std::optional<cv::Rect2d> update(const cv::Mat& picture) = 0;
+};
+
+class PresentTracker : public AnyTracker {
+ public:
+  explicit PresentTracker(cv::Ptr<cv::Tracker> tracker) : tracker_(std::move(tracker)) {}
+
+  bool init(const cv::Mat& picture, const cv::Rect& box) override {
+    tracker_->init(picture, box);
+    return true;
+  }
+  std::optional<cv::Rect2d> update(const cv::Mat& picture) override {
+    cv::Rect box;
+    return tracker_->update(picture, box) ? std::optional<cv::Rect2d>(box) : std::nullopt;
+  }
+
+ private:
+  cv::Ptr<cv::Tracker> tracker_;
+};
+
+class LegacyTracker : public AnyTracker {
+ public:
+  explicit LegacyTracker(cv::Ptr<cv::legacy::Tracker> tracker) : tracker_(std::move(tracker)) {}
+
+  bool init(const cv::Mat& picture, const cv::Rect& box) override { return tracker_->init(picture, cv::Rect2d(box)); }
+  std::optional<cv::Rect2d> update(const cv::Mat& picture) override {
+    cv::Rect2d box;
+    return tracker_->update(picture, box) ? std::optional(box) : std::nullopt;
+  }
+
+ private:
+  cv::Ptr<cv::legacy::Tracker> tracker_;
+};
+
+constexpr std::array<std::string_view, 7> kNames{"csrt", "kcf", "mil", "mosse", "medianflow", "tld", "boosting"};
+
+std::unique_ptr<AnyTracker> made(std::string_view name) {
+  namespace legacy = cv::legacy;
+  if (name == "csrt") return std::make_unique<PresentTracker>(cv::TrackerCSRT::create());
+  if (name == "kcf") return std::make_unique<PresentTracker>(cv::TrackerKCF::create());
+  if (name == "mil") return std::make_unique<PresentTracker>(cv::TrackerMIL::create());
+  if (name == "mosse") return std::make_unique<LegacyTracker>(legacy::TrackerMOSSE::create());
+  if (name == "medianflow") return std::make_unique<LegacyTracker>(legacy::TrackerMedianFlow::create());
+  if (name == "tld") return std::make_unique<LegacyTracker>(legacy::TrackerTLD::create());
+  return std::make_unique<LegacyTracker>(legacy::TrackerBoosting::create());
+}
+
+std::string known_names() {
+  std::string names;
+  for (const std::string_view name : kNames) names.append(names.empty() ? "" : ", ").append(name);
+  return names;
+}
+
+// OpenCV's trackers draw from the thread's generator, the boosting ones from the C library's too. Both are set anew for
+// each picture, so that no tracker sees what another has drawn.
+void seed(int frame) {
+  cv::theRNG().state = 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
+  std::srand(static_cast<unsigned>(frame) + 1U);
+}
+
+// The pixels that the box covers, edges to the nearest border between pixels, at least one each way.
+cv::Rect pixels_of(const Box& box, cv::Size size) {
+  const auto border = [](double edge, int end) {
+    return static_cast<int>(std::lround(std::clamp(edge + 0.5, 0.0, static_cast<double>(end))));
+  };
+  const int left = std::min(border(box.x, size.width), size.width - 1);
+  const int top = std::min(border(box.y, size.height), size.height - 1);
+  const int right = std::max(border(box.x + box.width, size.width), left + 1);
+  const int bottom = std::max(border(box.y + box.height, size.height), top + 1);
+  return {left, top, right - left, bottom - top};
+}
+
+bool lies_in(const Box& box, cv::Size size) {
+  const bool is_finite =
+      std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) && std::isfinite(box.height);
+  return is_finite && box.width > 0 && box.height > 0 && box.x < size.width - 0.5 && box.y < size.height - 0.5 &&
+         box.x + box.width > -0.5 && box.y + box.height > -0.5;
+}
+
+std::optional<Box> box_of(const std::optional<cv::Rect2d>& found) {
+  if (!found || !(found->width > 0) || !(found->height > 0)) return std::nullopt;
+  for (const double number : {found->x, found->y, found->width, found->height})
+    if (!std::isfinite(number)) return std::nullopt;
+  return Box{found->x - 0.5, found->y - 0.5, found->width, found->height};
+}
+
+// The message of an exception in one line: OpenCV's has the place in its sources before it and a line end behind.
+std::string one_line(const std::exception& thrown) {
+  const auto* const of_opencv = dynamic_cast<const cv::Exception*>(&thrown);
+  std::string text = of_opencv != nullptr ? of_opencv->err : thrown.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+std::string frame_text(int frame) {
+  return "frame " + std::to_string(frame);
+}
+
+}  // namespace
 
 struct OpenCvTracker::Inside {
   Results results;
+  std::unique_ptr<AnyTracker> tracker;
+  double spent_s = 0;
+  int followed = 0;
+
+  // Calls OpenCV; no exception of its own gets out.
+  Result<void> guarded(int frame, const char* what, const std::function<Result<void>()>& call) const {
+    const std::string where = results.name + ": " + frame_text(frame);
+    try {
+      seed(frame);
+      return call();
+    } catch (const std::exception& thrown) {
+      return fail(where, std::string("OpenCV cannot ") + what + " it: " + one_line(thrown));
+    }
+  }
 };
 
 OpenCvTracker::OpenCvTracker(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
@@ -13,19 +151,47 @@ OpenCvTracker& OpenCvTracker::operator=(OpenCvTracker&&) noexcept = default;
 OpenCvTracker::~OpenCvTracker() = default;
 
 std::span<const std::string_view> tracker_names() {
-  return {};
+  return kNames;
 }
 
 Result<OpenCvTracker> OpenCvTracker::make(std::string_view name) {
-  return fail(std::string(name), "not yet", ErrorKind::unavailable);
+  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
+    return fail(std::string(name), "no such tracker; there are " + known_names(), ErrorKind::usage);
+  auto inside = std::make_unique<Inside>();
+  inside->results.name = name;
+  return OpenCvTracker(std::move(inside));
 }
 
-Result<void> OpenCvTracker::start(int, const cv::Mat&, const Box&) {
-  return {};
+Result<void> OpenCvTracker::start(int frame, const cv::Mat& picture, const Box& box) {
+  ENSURE(picture.type() == CV_8UC3);
+  Inside& in = *inside_;
+  ENSURE(!in.tracker);
+  if (!lies_in(box, picture.size()))
+    return fail(in.results.name + ": " + frame_text(frame), "cannot be started with a box outside the picture");
+  const cv::Rect pixels = pixels_of(box, picture.size());
+  return in.guarded(frame, "start on", [&]() -> Result<void> {
+    std::unique_ptr<AnyTracker> tracker = made(in.results.name);
+    if (!tracker->init(picture, pixels))
+      return fail(in.results.name + ": " + frame_text(frame), "OpenCV cannot start on it");
+    in.tracker = std::move(tracker);
+    in.results.frames[frame] = {{.box = *box_of(cv::Rect2d(pixels))}};
+    return {};
+  });
 }
 
-Result<void> OpenCvTracker::follow(int, const cv::Mat&) {
-  return {};
+Result<void> OpenCvTracker::follow(int frame, const cv::Mat& picture) {
+  ENSURE(picture.type() == CV_8UC3);
+  Inside& in = *inside_;
+  ENSURE(in.tracker);
+  return in.guarded(frame, "follow in", [&]() -> Result<void> {
+    const Stopwatch watch;
+    const std::optional<Box> box = box_of(in.tracker->update(picture));
+    in.spent_s += watch.elapsed_s();
+    ++in.followed;
+    if (in.spent_s > 0) in.results.frames_per_s = in.followed / in.spent_s;
+    if (box) in.results.frames[frame] = {{.box = *box}};
+    return {};
+  });
 }
 
 const Results& OpenCvTracker::results() const {

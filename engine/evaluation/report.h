@@ -21,20 +21,36 @@ struct TrackReport {
   std::vector<std::string> remarks;  // a tracker that could not be started, ...
 };
 
-// A table for a terminal: one row a tracker.
-[[nodiscard]] std::string table_text(const TrackReport& report);
-[[nodiscard]] std::string table_text(const DetectionScore& score);
+// Several detectors on the same films.
+struct DetectionReport {
+  std::vector<std::string> films;
+  DetectionPolicy policy;
+  std::vector<DetectionScore> scores;
+};
 
-// Writes into folder: summary.csv, frames.csv, evaluation.json; where gnuplot is installed center_error, x_error,
-// y_error, precision, success and normalized_precision as .svg and .png; report.html, which holds all it shows and
-// opens from disk. Returns what was written; a missing gnuplot is said in `warnings`.
+// A table for a terminal: one row for each tracker or detector.
+[[nodiscard]] std::string table_text(const TrackReport& report);
+[[nodiscard]] std::string table_text(const DetectionReport& report);
+
+// What the figures count and what they do not, one sentence each; docs/evaluation.md says why.
+[[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
+[[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);
+
 struct WrittenReport {
   std::vector<std::filesystem::path> files;
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings;  // gnuplot is missing: no plots
 };
+
+// Writes into folder, which is there: summary.csv, frames.csv, evaluation.json; where gnuplot is installed
+// center_error, x_error, y_error, precision, success and normalized_precision as .svg and .png; report.html, which
+// holds all it shows and opens from disk. The same report gives the same bytes; speeds in it are measured, so they
+// differ from run to run.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const TrackReport& report);
-[[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder,
-                                                 const std::vector<DetectionScore>& scores,
-                                                 const DetectionPolicy& policy);
+
+// The same with summary.csv, encounters.csv, evaluation.json, the plots detection_rate and first_range, report.html.
+[[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const DetectionReport& report);
+
+// Whether a file of this name in a report's folder may be one that write_report wrote.
+[[nodiscard]] bool is_report_file(const std::string& name);
 
 }  // namespace sigs

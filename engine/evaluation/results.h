@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,11 +16,14 @@
 
 namespace sigs {
 
+// ReportedBox::track of a reporter that follows nothing: each of its boxes stands for itself.
+inline constexpr int kNoTrack = -1;
+
 // What a tracker or detector says of one frame.
 struct ReportedBox {
   Box box;           // edges, as base/image.h has them
   double score = 1;  // confidence; larger is surer
-  int track = 0;     // the reporter's own number of what it follows
+  int track = 0;     // the reporter's own number of what it follows, or kNoTrack
   int line = 0;      // of the file it came from, from 1; 0: from no file
 };
 
@@ -27,6 +31,7 @@ struct ReportedBox {
 struct Results {
   std::string name;                                // of the tracker, for tables and plots
   std::map<int, std::vector<ReportedBox>> frames;  // by the footage's frame number; absent: nothing reported there
+  std::set<int> given;                             // frames in which it was given the truth (VOT's 1): not scored
   std::optional<double> frames_per_s;              // of the tracker alone, where it is known
 
   [[nodiscard]] const ReportedBox* best_at(int frame) const;  // highest score, first of equals; nullptr: none
@@ -40,10 +45,14 @@ enum class ResultsFormat { automatic, otb, vot, mot, csv, aot };
 struct ResultsOptions {
   ResultsFormat format = ResultsFormat::automatic;  // automatic: told by the file's name and first lines
   bool may_hold_many = false;                       // several boxes a frame, as a detector reports; else an error
+  // Layouts with a line a frame (otb, vot) tell no frame numbers. They must have a line for each of the film's frames,
+  // or for each from this one on (the footage's number), the one the tracker was started in.
+  std::optional<int> start_frame;
 };
 
 // Errors bad_data name file and line: a number of frames that is not the film's, frames past its end, NaN or infinite
-// numbers, widths or heights of zero or less, the same id twice in a frame, lines of another layout than the first.
+// numbers, coordinates beyond a billion pixels, widths or heights of zero or less, the same id twice in a frame, lines
+// of another layout than the first. Error cannot_read.
 [[nodiscard]] Result<Results> read_results(const std::filesystem::path& path, const FootageTruth& film,
                                            const ResultsOptions& options = {});
 

@@ -1,13 +1,167 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/track_score.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/ensure.h"
+#include "evaluation/overlap.h"
+
 namespace sigs {
 
-TrackScore score_track(const FilmTruth&, const TargetTruth&, const Results&, const TrackPolicy&) {
-  return {};
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const std::optional<Box>& true_box(const TargetFrame& truth, const TrackPolicy& policy) {
+  return policy.truth == TruthBox::visible ? truth.visible : truth.silhouette;
 }
 
-std::optional<int> first_frame_to_track(const FilmTruth&, const TargetTruth&, const TrackPolicy&, double) {
+// Whether there is something to follow: a silhouette of which nothing can be seen is not.
+bool is_there(const TargetFrame& truth, const TrackPolicy& policy) {
+  return truth.visible.has_value() && true_box(truth, policy).has_value();
+}
+
+bool is_counted(int frame, const TargetFrame& truth, const TrackPolicy& policy) {
+  return frame >= policy.from_frame && is_there(truth, policy) &&
+         truth.visible_fraction >= policy.least_visible_fraction;
+}
+
+// An error of nothing is nothing, also of a box without width.
+double share_of(double error, double size) {
+  return error == 0 ? 0 : error / size;
+}
+
+void compare(FrameScore& score, const Box& truth, const Box& reported) {
+  const double dx = (reported.x + reported.width / 2) - (truth.x + truth.width / 2);
+  const double dy = (reported.y + reported.height / 2) - (truth.y + truth.height / 2);
+  score.dx_px = dx;
+  score.dy_px = dy;
+  score.center_error_px = std::hypot(dx, dy);
+  score.normalized_error = std::hypot(share_of(dx, truth.width), share_of(dy, truth.height));
+  score.overlap = overlap(truth, reported);
+}
+
+FrameScore frame_score(int frame, double time_s, const TargetFrame& truth, const Results& results,
+                       const TrackPolicy& policy) {
+  FrameScore score{.frame = frame, .time_s = time_s};
+  const ReportedBox* reported = results.best_at(frame);
+  const std::optional<Box>& box = true_box(truth, policy);
+  score.is_scored = is_counted(frame, truth, policy) && !results.given.contains(frame);
+  score.is_reported = reported != nullptr;
+  if (box && reported) compare(score, *box, reported->box);
+  score.is_lost = score.is_scored && !exceeds(score.overlap, 0);
+  return score;
+}
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return kNaN;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Linear between neighbours of the sorted values: their first is quantile 0, their last 1.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return kNaN;
+  std::ranges::sort(values);
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(place);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  const double part = place - static_cast<double>(low);
+  return part == 0 ? values[low] : values[low] + part * (values[high] - values[low]);
+}
+
+template <std::size_t kSteps>
+double mean(const std::array<double, kSteps>& curve) {
+  return std::accumulate(curve.begin(), curve.end(), 0.0) / static_cast<double>(kSteps);
+}
+
+template <std::size_t kSteps, class Meets>
+std::array<double, kSteps> curve_of(const TrackScore& score, Meets&& meets) {
+  std::array<double, kSteps> curve{};
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    const auto met = std::ranges::count_if(
+        score.frames, [&](const FrameScore& frame) { return frame.is_scored && meets(frame, static_cast<int>(step)); });
+    curve[step] = score.scored > 0 ? static_cast<double>(met) / score.scored : kNaN;
+  }
+  return curve;
+}
+
+void count_frames(TrackScore& score) {
+  for (const FrameScore& frame : score.frames) {
+    score.scored += frame.is_scored;
+    score.reported += frame.is_scored && frame.is_reported;
+    score.lost += frame.is_lost;
+  }
+}
+
+void sum_errors(TrackScore& score) {
+  std::vector<double> errors;
+  std::vector<double> dx;
+  std::vector<double> dy;
+  std::vector<double> overlaps;
+  for (const FrameScore& frame : score.frames) {
+    if (!frame.is_scored) continue;
+    overlaps.push_back(frame.overlap);
+    if (!frame.is_reported) continue;
+    errors.push_back(*frame.center_error_px);
+    dx.push_back(*frame.dx_px);
+    dy.push_back(*frame.dy_px);
+  }
+  score.mean_center_error_px = mean(errors);
+  score.median_center_error_px = quantile(errors, 0.5);
+  score.p95_center_error_px = quantile(errors, 0.95);
+  score.mean_dx_px = mean(dx);
+  score.mean_dy_px = mean(dy);
+  score.mean_overlap = mean(overlaps);
+}
+
+void draw_curves(TrackScore& score) {
+  score.precision = curve_of<kPrecisionSteps>(score, [](const FrameScore& frame, int step) {
+    return frame.center_error_px && !exceeds(*frame.center_error_px, step);
+  });
+  score.precision_at_20 = score.precision[20];
+  score.success = curve_of<kSuccessSteps>(score, [](const FrameScore& frame, int step) {
+    constexpr int kLast = kSuccessSteps - 1;
+    return step < kLast ? exceeds(frame.overlap, step / double(kLast)) : !exceeds(1, frame.overlap);
+  });
+  score.success_auc = mean(score.success);
+  score.normalized_precision = curve_of<kNormalizedSteps>(score, [](const FrameScore& frame, int step) {
+    return frame.normalized_error && !exceeds(*frame.normalized_error, step / 100.0);
+  });
+  score.normalized_precision_auc = mean(score.normalized_precision);
+}
+
+}  // namespace
+
+TrackScore score_track(const FilmTruth& film, const TargetTruth& target, const Results& results,
+                       const TrackPolicy& policy) {
+  ENSURE(target.frames.size() == film.times_s.size());
+  TrackScore score{.name = results.name, .frames_per_s = results.frames_per_s};
+  score.frames.reserve(target.frames.size());
+  for (std::size_t i = 0; i < target.frames.size(); ++i) {
+    const int frame = film.footage.first_frame + static_cast<int>(i);
+    const TargetFrame& truth = target.frames[i];
+    score.frames.push_back(frame_score(frame, film.times_s[i], truth, results, policy));
+    if (score.frames.back().is_reported && frame >= policy.from_frame && !is_there(truth, policy))
+      ++score.reported_absent;
+  }
+  count_frames(score);
+  sum_errors(score);
+  draw_curves(score);
+  return score;
+}
+
+std::optional<int> first_frame_to_track(const FilmTruth& film, const TargetTruth& target, const TrackPolicy& policy,
+                                        double least_side_px) {
+  for (std::size_t i = 0; i < target.frames.size(); ++i) {
+    const int frame = film.footage.first_frame + static_cast<int>(i);
+    const TargetFrame& truth = target.frames[i];
+    if (!is_counted(frame, truth, policy)) continue;
+    const Box& box = *true_box(truth, policy);
+    if (std::min(box.width, box.height) >= least_side_px) return frame;
+  }
   return std::nullopt;
 }
 

@@ -1,18 +1,76 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/truth.h"
 
+#include <glm/geometric.hpp>
+#include <utility>
+
 namespace sigs {
 
-TargetFrame target_frame_of(const IntruderTruth&) {
+namespace {
+
+std::string count_of_intruders(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " intruder" : " intruders");
+}
+
+// The first frame says who there is.
+Result<void> add_targets(FilmTruth& film, const std::vector<TargetInFrame>& targets) {
+  for (const TargetInFrame& target : targets) {
+    if (!film.targets.empty() && target.id <= film.targets.back().id) {
+      const std::string before = std::to_string(film.targets.back().id);
+      film.targets.clear();
+      return fail("", "intruder " + std::to_string(target.id) + " stands behind intruder " + before +
+                          ": they must be in order, each once");
+    }
+    film.targets.push_back({.id = target.id, .name = target.name});
+  }
   return {};
 }
 
-Result<void> add_frame(FilmTruth&, const FrameTruth&) {
-  return fail("", "not yet", ErrorKind::unavailable);
+Result<void> check_targets(const FilmTruth& film, int index, const std::vector<TargetInFrame>& targets) {
+  const std::string frame = "frame " + std::to_string(index);
+  if (targets.size() != film.targets.size())
+    return fail("", frame + " has " + count_of_intruders(targets.size()) + ", the frames before it " +
+                        std::to_string(film.targets.size()));
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    if (targets[i].id != film.targets[i].id)
+      return fail("", frame + " has intruder " + std::to_string(targets[i].id) + " where the frames before it have " +
+                          std::to_string(film.targets[i].id));
+  return {};
 }
 
-Result<FilmTruth> read_truth(const std::filesystem::path& path) {
-  return fail(path.string(), "cannot be read yet", ErrorKind::unavailable);
+}  // namespace
+
+TargetFrame target_frame_of(const IntruderTruth& truth) {
+  TargetFrame frame{.silhouette = truth.silhouette,
+                    .visible_fraction = truth.visible_fraction,
+                    .visible_pixels = truth.visible_pixels,
+                    .distance_m = glm::length(truth.position_m),
+                    .horizon = truth.horizon};
+  if (truth.box) frame.visible = box_of(*truth.box);
+  return frame;
+}
+
+Box box_of(const cv::Rect& pixels) {
+  return {pixels.x - 0.5, pixels.y - 0.5, double(pixels.width), double(pixels.height)};
+}
+
+Result<void> add_frame(FilmTruth& film, int index, double time_s, const std::vector<TargetInFrame>& targets) {
+  const int next = film.footage.first_frame + film.frames();
+  if (index != next)
+    return fail("", "frame " + std::to_string(index) + " stands where frame " + std::to_string(next) + " belongs");
+  const Result<void> known = film.frames() == 0 ? add_targets(film, targets) : check_targets(film, index, targets);
+  if (!known) return fail(known.error());
+  film.times_s.push_back(time_s);
+  for (std::size_t i = 0; i < targets.size(); ++i) film.targets[i].frames.push_back(targets[i].frame);
+  return {};
+}
+
+Result<void> add_frame(FilmTruth& film, const FrameTruth& truth) {
+  std::vector<TargetInFrame> targets;
+  targets.reserve(truth.intruders.size());
+  for (const IntruderTruth& intruder : truth.intruders)
+    targets.push_back({.id = intruder.id, .name = intruder.name, .frame = target_frame_of(intruder)});
+  return add_frame(film, truth.index, truth.time_s, targets);
 }
 
 }  // namespace sigs

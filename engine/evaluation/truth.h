@@ -40,10 +40,23 @@ struct FilmTruth {
 
 [[nodiscard]] TargetFrame target_frame_of(const IntruderTruth& truth);
 
-// Adds the next frame. Error bad_data: it is not the next one, or its intruders are not those of the frames before.
-[[nodiscard]] Result<void> add_frame(FilmTruth& film, const FrameTruth& truth);
+// Edges of a rectangle of whole pixels.
+[[nodiscard]] Box box_of(const cv::Rect& pixels);
 
-// Reads a SIGS annotation file (NAME.xml). Errors name the file and the line.
+struct TargetInFrame {
+  int id = 0;
+  std::string name;
+  TargetFrame frame;
+};
+
+// Adds the next frame; the first says which targets there are. Error bad_data, without a place: it is not the next one
+// of footage.first_frame, ..., or its intruders are not those of the frames before.
+[[nodiscard]] Result<void> add_frame(FilmTruth& film, const FrameTruth& truth);
+[[nodiscard]] Result<void> add_frame(FilmTruth& film, int index, double time_s,
+                                     const std::vector<TargetInFrame>& targets);
+
+// Reads a SIGS annotation file (NAME.xml). Errors name the file and the line. The frames are those that its footage
+// element says, without a gap.
 [[nodiscard]] Result<FilmTruth> read_truth(const std::filesystem::path& path);
 
 }  // namespace sigs

@@ -83,6 +83,8 @@ void add_camera(FieldList list, CameraSettings& camera) {
   list.number("attitude_deg.roll", &camera.roll_deg, "deg", -180, 180, "right side down");
   list.number("attitude_deg.pitch", &camera.pitch_deg, "deg", -90, 90, "axis up");
   list.number("attitude_deg.yaw", &camera.yaw_deg, "deg", -180, 180, "axis to the right of world X");
+  list.path("attitude_file", camera.attitude_file, false,
+            "CSV with the attitude, at each frame, of what carries the camera; empty: level");
   list.number("speed_mps", &camera.speed_mps, "m/s", -1000, 1000, "constant speed along world X");
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "project/json.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include "base/partial_file.h"
+#include "base/text_place.h"
 #include "project/field_json.h"
 
 namespace sigs {
@@ -91,14 +91,6 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
 
 Json parsed_or_empty(const std::string& text) {
   return text.empty() ? Json::object() : Json::parse(text);
-}
-
-// Lines and columns as an editor counts them.
-std::string place_of(const std::string& text, std::size_t byte) {
-  const std::string before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-  const std::size_t column = before.size() - (before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1) + 1;
-  return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
 Result<Json> parsed(const std::string& text, const std::string& file) {

@@ -61,7 +61,8 @@ struct CameraSettings {
   double roll_deg = 0;
   double pitch_deg = 0;
   double yaw_deg = 0;
-  double speed_mps = 0;  // along world X
+  std::string attitude_file;  // how what carries the camera is turned, frame by frame; empty: level
+  double speed_mps = 0;       // along world X
 
   [[nodiscard]] bool operator==(const CameraSettings&) const = default;
 };

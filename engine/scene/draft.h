@@ -10,8 +10,9 @@
 namespace sigs {
 
 // A scene for authoring. What cannot be opened is stood in for and named, so that everything else can be seen and
-// edited: a calibration by a pinhole that sees 60 degrees across, an own-body mask by none, a model by a cross of its
-// true size (length_m, else 10 m), a trajectory that cannot be flown by hovering at its first waypoint.
+// edited: a calibration by a pinhole that sees 60 degrees across, an attitude file and an own-body mask by none, a
+// model by a cross of its true size (length_m, else 10 m), a trajectory that cannot be flown by hovering at its first
+// waypoint.
 struct DraftScene {
   Scene scene;
   std::vector<int> intruder_of_project;  // number in scene.intruders of each of the project's; -1: has no waypoint

@@ -24,6 +24,9 @@ Result<Scene> opened(const Project& project, const FootageShape& footage, SceneF
   Made<Camera> camera = made_camera(project, footage.size_px, files);
   if (!camera) return stop(camera.error());
   scene.camera = *std::move(camera);
+  Made<std::vector<CarrierTurn>> turns = made_turns(project, footage, files);
+  if (!turns) return stop(turns.error());
+  scene.motion.turns = *std::move(turns);
   const Made<cv::Mat> own_body = made_own_body(project, footage.size_px, files);
   if (!own_body) return stop(own_body.error());
   scene.own_body = *own_body;

@@ -44,10 +44,18 @@ struct SceneIntruder {
   Trajectory trajectory;
 };
 
-// The camera flies straight along world X with constant attitude (paper section 3.1.3).
+// How what carries the camera is turned: level with its nose along world X where it is 1.
+struct CarrierTurn {
+  double time_s = 0;
+  glm::dquat world_from_carrier{1, 0, 0, 0};
+};
+
+// The camera flies straight along world X (paper section 3.1.3). Its attitude is constant unless the carrier's turns
+// are known.
 struct CameraMotion {
-  Pose<frame::World, frame::Camera> world_from_camera_at_start;
+  Pose<frame::World, frame::Camera> world_from_camera_at_start;  // with the carrier level
   double speed_mps = 0;
+  std::vector<CarrierTurn> turns = {};  // times rise; empty: always level
 };
 
 // Everything that a project names, opened and checked; nothing in it changes any more.

@@ -2,12 +2,25 @@
 #include "scene/scene_at.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sigs {
+
+glm::dquat world_from_carrier_at(const std::vector<CarrierTurn>& turns, double time_s) {
+  if (turns.empty()) return {1, 0, 0, 0};
+  const auto after = std::upper_bound(turns.begin(), turns.end(), time_s,
+                                      [](double time, const CarrierTurn& turn) { return time < turn.time_s; });
+  if (after == turns.begin()) return after->world_from_carrier;
+  const auto before = std::prev(after);
+  if (after == turns.end() || before->time_s == time_s) return before->world_from_carrier;
+  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
+  return glm::slerp(before->world_from_carrier, after->world_from_carrier, share);
+}
 
 Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {
   Pose<frame::World, frame::Camera> pose = motion.world_from_camera_at_start;
   pose.translation_m.x += motion.speed_mps * time_s;
+  if (!motion.turns.empty()) pose.rotation = world_from_carrier_at(motion.turns, time_s) * pose.rotation;
   return pose;
 }
 

@@ -45,6 +45,9 @@ bool is_held(const Camera&) {
 bool is_held(const cv::Mat&) {
   return false;
 }
+bool is_held(const std::vector<AttitudeAtFrame>&) {
+  return false;
+}
 
 // Things by key, each with the state of its file when it was read; the longest unused ones are let go of.
 template <class Key, class T>
@@ -119,6 +122,7 @@ struct SceneFiles::Shelves {
   Shelf<ModelKey, std::shared_ptr<const Model>> models;
   Shelf<PictureKey, Camera> cameras;
   Shelf<PictureKey, cv::Mat> masks;
+  Shelf<std::string, std::vector<AttitudeAtFrame>> attitudes;
   Shelf<std::uint64_t, std::shared_ptr<const Model>> crosses;
 };
 
@@ -134,6 +138,10 @@ Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::pa
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px) {
   return shelves_->cameras.take(key_of(calibration, footage_size_px), stamp_of(calibration),
                                 [&] { return read_calibration(calibration, footage_size_px); });
+}
+
+Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {
+  return shelves_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
 }
 
 Result<cv::Mat> SceneFiles::own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px) {

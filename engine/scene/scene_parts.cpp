@@ -75,6 +75,16 @@ Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, Scene
   return *std::move(camera);
 }
 
+Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage, SceneFiles& files) {
+  std::vector<CarrierTurn> turns;
+  if (project.camera.attitude_file.empty()) return turns;
+  const Result<std::vector<AttitudeAtFrame>> known = files.attitudes(resolved(project, project.camera.attitude_file));
+  if (!known) return in_field("camera.attitude_file", known.error());
+  for (const AttitudeAtFrame& one : *known)
+    turns.push_back({time_of_frame_s(footage, one.frame), rotation_of(one.attitude)});
+  return turns;
+}
+
 Made<cv::Mat> made_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
   if (project.footage.own_body_mask.empty()) return cv::Mat();
   const Result<cv::Mat> mask = files.own_body_mask(resolved(project, project.footage.own_body_mask), footage_size_px);

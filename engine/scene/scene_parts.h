@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "base/frame_range.h"
 #include "project/validate.h"
@@ -20,11 +21,15 @@ namespace sigs {
 template <class T>
 using Made = tl::expected<T, Problem>;
 
-// What needs no file and cannot fail: motion, light, compositing, footage; no lens yet.
+// What needs no file and cannot fail: motion with the carrier level, light, compositing, footage; no lens yet.
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
 
 [[nodiscard]] Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage);
 [[nodiscard]] Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+
+// Empty where the project names no attitude file.
+[[nodiscard]] Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage,
+                                                        SceneFiles& files);
 
 // Empty where the project names none.
 [[nodiscard]] Made<cv::Mat> made_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);

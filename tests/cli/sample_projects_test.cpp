@@ -3,20 +3,38 @@
 
 #include <filesystem>
 
+#include "base/partial_file.h"
 #include "cli/program.h"
 #include "support/test_data.h"
 
 using namespace sigs::test;
 namespace fs = std::filesystem;
 
-TEST_CASE("every sample project is whole and exports") {
+namespace {
+
+bool is_recipe(const fs::path& file) {
+  const sigs::Result<std::string> text = sigs::read_text(file);
+  return text && text->find("\"sigs_dataset\"") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("every sample project is whole and exports, every sample recipe makes a plan") {
   const TemporaryFolder folder;
   int projects = 0;
+  int recipes = 0;
   for (const auto& entry : fs::directory_iterator(source_dir() / "projects")) {
     if (!entry.is_directory()) continue;
     const fs::path file = entry.path() / (entry.path().filename().string() + ".json");
     REQUIRE_MESSAGE(fs::exists(file), file);
     CHECK_MESSAGE(fs::exists(entry.path() / "README.md"), entry.path());
+    if (is_recipe(file)) {
+      const Run planned = run_sigs("dataset " + file.string() + " --dry-run");
+      CHECK_MESSAGE(planned.status == 0, planned.err);
+      CHECK_MESSAGE(planned.err.empty(), planned.err);
+      ++recipes;
+      continue;
+    }
     const Run checked = run_sigs("check " + file.string());
     CHECK_MESSAGE(checked.status == 0, checked.err);
     const Run exported = run_sigs("export " + file.string() + " --frames 100-103 --out " + folder.path().string());
@@ -25,4 +43,5 @@ TEST_CASE("every sample project is whole and exports") {
     ++projects;
   }
   CHECK(projects >= 3);
+  CHECK(recipes >= 1);
 }

@@ -105,6 +105,7 @@ TEST_CASE("the draft of a project without problems is what open_scene gives") {
     CHECK(draft.scene.camera.size_px == opened.camera.size_px);
     CHECK(same_bits(draft.scene.own_body, opened.own_body));
     CHECK_FALSE(opened.own_body.empty());
+    CHECK(draft.scene.motion.turns.empty());
     CHECK(draft.scene.light.color == opened.light.color);
     CHECK(draft.scene.compositing.blur_px_per_m == opened.compositing.blur_px_per_m);
     CHECK(draft.scene.first_frame == opened.first_frame);
@@ -158,6 +159,27 @@ TEST_CASE("a mask that cannot be used is named and hides nothing") {
   CHECK(problems_of(draft, "footage.own_body_mask") == 1);
   CHECK(draft.scene.own_body.empty());
   CHECK(draft.scene.intruders[0].model->mesh.vertices.size() > 1000);  // all else is there
+}
+
+TEST_CASE("an attitude file that cannot be used is named and the camera stays level") {
+  const TemporaryFolder folder;
+  Project project = sample_project("crossing");
+  project.camera.attitude_file = (folder / "gyro.csv").string();
+  std::string said = "no such file";
+  SUBCASE("missing") {}
+  SUBCASE("wrong in a line") {
+    std::ofstream(folder / "gyro.csv") << "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,0,left,0\n";
+    said = "line 3: pitch_deg";
+  }
+  const DraftScene draft = drafted(project);
+  CHECK(draft.problems.size() == 1);
+  CHECK(problems_of(draft, "camera.attitude_file") == 1);
+  CHECK(draft.scene.motion.turns.empty());
+  CHECK(draft.scene.intruders.size() == 1);
+  const Result<Scene> opened = open_scene(project, sample_footage());
+  REQUIRE_FALSE(opened.has_value());
+  CHECK(opened.error().text().find("crossing.json: camera.attitude_file: ") != std::string::npos);
+  CHECK(opened.error().text().find(said) != std::string::npos);
 }
 
 TEST_CASE("a model that cannot be read becomes a cross of its length") {

@@ -4,11 +4,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <utility>
 
 #include "base/angles.h"
+#include "scene/sample_scenes.h"
 
 using namespace sigs;
+using namespace sigs::test;
 
 namespace {
 
@@ -22,6 +26,14 @@ Scene scene_with(const std::vector<glm::dvec3>& positions_m, const Attitude& cam
   for (const glm::dvec3& position_m : positions_m)
     scene.intruders.push_back({"hovering", nullptr, *Trajectory::make({{0, position_m}}, {})});
   return scene;
+}
+
+CarrierTurn turned(double time_s, const Attitude& attitude) {
+  return {time_s, rotation_of(attitude)};
+}
+
+Attitude attitude_at(const CameraMotion& motion, double time_s) {
+  return attitude_of(camera_at(motion, time_s).rotation);
 }
 
 }  // namespace
@@ -65,4 +77,65 @@ TEST_CASE("ten thousand kilometres from the origin the difference is still exact
 TEST_CASE("the light is given where the camera sees it") {
   const SceneMoment moment = scene_at(scene_with({}, {}, 0), 0);
   CHECK(moment.light_in_camera == glm::dvec3(0, 0, -4000));
+}
+
+TEST_CASE("between two known turns the camera turns evenly, before and after them it stays") {
+  const CameraMotion motion{.turns = {turned(1, {0, 0, rad_of_deg(10)}), turned(3, {0, 0, rad_of_deg(20)}),
+                                      turned(4, {rad_of_deg(-6), 0, rad_of_deg(20)})}};
+  for (const auto& [time_s, yaw_deg] : {std::pair(-5.0, 10.0), {1.0, 10.0}, {1.5, 12.5}, {2.9, 19.5}, {9.0, 20.0}})
+    CHECK(attitude_at(motion, time_s).yaw_rad == doctest::Approx(rad_of_deg(yaw_deg)));
+  CHECK(attitude_at(motion, 3.5).roll_rad == doctest::Approx(rad_of_deg(-3)));
+  CHECK(attitude_at(motion, 1e9).roll_rad == doctest::Approx(rad_of_deg(-6)));
+}
+
+TEST_CASE("from 170 degrees to -170 the camera turns the shorter way") {
+  const CameraMotion motion{.turns = {turned(0, {0, 0, rad_of_deg(170)}), turned(4, {0, 0, rad_of_deg(-170)})}};
+  CHECK(attitude_at(motion, 1).yaw_rad == doctest::Approx(rad_of_deg(175)));
+  CHECK(attitude_at(motion, 3).yaw_rad == doctest::Approx(rad_of_deg(-175)));
+}
+
+TEST_CASE("one known turn holds for ever and none leaves the attitude as it is, bit for bit") {
+  const Attitude mean{0.1, -0.2, 0.3};
+  CameraMotion motion{.world_from_camera_at_start = {rotation_of(mean), {1, 2, 3}}};
+  CHECK(camera_at(motion, 7).rotation == rotation_of(mean));
+  motion.turns = {turned(2, {0, 0, rad_of_deg(30)})};
+  for (const double time_s : {-1e9, 0.0, 2.0, 1e9})
+    CHECK(attitude_at(motion, time_s).yaw_rad == doctest::Approx(0.3 + rad_of_deg(30)));
+}
+
+TEST_CASE("what carries the camera turns it as a whole: about the carrier's axes and not about the camera's") {
+  // A camera that looks 30 degrees down, on a carrier that points to the right.
+  const CameraMotion motion{.world_from_camera_at_start = {rotation_of({0, rad_of_deg(-30), 0}), {}},
+                            .turns = {turned(0, {0, 0, rad_of_deg(90)})}};
+  const glm::dvec3 axis = camera_at(motion, 0).rotation * glm::dvec3(1, 0, 0);
+  CHECK(glm::distance(axis, glm::dvec3(0, std::cos(rad_of_deg(30)), 0.5)) < 1e-12);
+}
+
+TEST_CASE("the carrier's turns move the camera nowhere") {
+  const CameraMotion motion{.world_from_camera_at_start = {{1, 0, 0, 0}, {5, 6, -150}},
+                            .speed_mps = 22,
+                            .turns = {turned(0, {0.3, 0.2, 0.1}), turned(9, {-0.3, 0.1, 1.5})}};
+  CHECK(camera_at(motion, 4).translation_m == glm::dvec3(93, 6, -150));
+}
+
+TEST_CASE("an attitude file's frames have the footage's times, also where its rate varies") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "gyro.csv") << "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,0,0,10\n2,0,0,20\n";
+  Project project = sample_project("crossing");
+  project.camera.attitude_file = (folder / "gyro.csv").string();
+  FootageShape footage = sample_footage();
+  footage.times_s[1] = 0.01;  // comes early: half of the turn is done in a quarter of the time
+  footage.times_s[2] = 0.08;
+  const Scene scene = open_scene(project, footage).value();
+  REQUIRE(scene.motion.turns.size() == 3);
+  CHECK(attitude_of(scene_at(scene, 1).world_from_camera.rotation).yaw_rad == doctest::Approx(rad_of_deg(10)));
+  CHECK(attitude_at(scene.motion, 0.045).yaw_rad == doctest::Approx(rad_of_deg(15)));
+  CHECK(attitude_of(scene_at(scene, 150).world_from_camera.rotation).yaw_rad == doctest::Approx(rad_of_deg(20)));
+}
+
+TEST_CASE("frames that the footage shows at the same time give no number that is none") {
+  const CameraMotion motion{.turns = {turned(1, {}), turned(1, {0, 0, 0.2}), turned(2, {0, 0, 0.4})}};
+  CHECK(attitude_at(motion, 1).yaw_rad == doctest::Approx(0.2));
+  CHECK(attitude_at(motion, 0.5).yaw_rad == doctest::Approx(0));
+  CHECK(attitude_at(motion, 1.5).yaw_rad == doctest::Approx(0.3));
 }

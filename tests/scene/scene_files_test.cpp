@@ -118,6 +118,21 @@ TEST_CASE("a camera is scaled to each footage and a mask belongs to one size") {
   CHECK(files.own_body_mask(mask, {1280, 960}).value().data == files.own_body_mask(mask, {1280, 960}).value().data);
 }
 
+TEST_CASE("an attitude file that was saved again is read again") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "gyro.csv";
+  const std::string header = "frame,roll_deg,pitch_deg,yaw_deg\n";
+  SceneFiles files;
+  CHECK(files.attitudes(file).error().kind == ErrorKind::cannot_read);
+  write_text(file, header + "0,0,0,1\n");
+  CHECK(files.attitudes(file).value().size() == 1);
+  write_text(file, header + "0,0,0,1\n1,0,0,2\n");
+  CHECK(files.attitudes(file).value().size() == 2);
+  write_text(file, header + "0,0,0,x\n1,0,0,2\n");
+  put_clock_forward(file);
+  CHECK(files.attitudes(file).error().kind == ErrorKind::bad_data);
+}
+
 TEST_CASE("a scene that is opened again after a waypoint moved shares everything else") {
   Project project = sample_project("two-intruders");
   SceneFiles files;

@@ -9,6 +9,7 @@
 
 #include "editor/document/field_texts.h"
 #include "editor/views/inspector/inputs.h"
+#include "editor/views/results/results_panel.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 
@@ -160,6 +161,7 @@ void InspectorView::block(const Studio& studio, const char* title, bool opens_fi
 }
 
 void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
+  if (studio.scored != nullptr) block(studio, "Tracker results", true, [&] { draw_results_panel(studio); });
   block(studio, "Inputs", true, [&] { draw_inputs(studio, rows); });
   block(studio, "Own body", false, [&] { draw_own_body(studio, rows); });
   block(studio, "Camera", true, [&] { rows.rows("camera."); });

@@ -27,6 +27,7 @@ namespace {
 
 constexpr double kLeastCurve_px = 29;
 constexpr double kMostCurve_px = 96;
+constexpr float kErrorsShare = 1.7F;  // of a curve's height: several curves, and bars below them
 
 float line_height() {
   return font(Font::small)->FontSize;
@@ -74,19 +75,25 @@ void LaneRows::refresh(std::shared_ptr<const Survey> survey) {
     values_[static_cast<std::size_t>(lane)] = survey_ ? values_of(*survey_, static_cast<Lane>(lane)) : LaneValues();
 }
 
-void LaneRows::draw_chooser() {
+bool LaneRows::shows_errors(const Studio& studio) const {
+  return shows_errors_ && ErrorLane::has_any(studio);
+}
+
+void LaneRows::draw_chooser(const Studio& studio) {
   if (icon_button("lanes", Icon::settings, "choose the lanes below")) ImGui::OpenPopup("choose lanes");
   if (!ImGui::BeginPopup("choose lanes")) return;
+  if (ErrorLane::has_any(studio)) ImGui::Checkbox(ErrorLane::kTitle, &shows_errors_);
   for (int lane = 0; lane < kLanes; ++lane)
     ImGui::Checkbox(style_of(static_cast<Lane>(lane)).title, &shown_[static_cast<std::size_t>(lane)]);
   ImGui::EndPopup();
 }
 
-float LaneRows::curve_height(float room_px) const {
-  const auto curves = std::count(shown_.begin() + 1, shown_.end(), true);
+float LaneRows::curve_height(float room_px, bool with_errors) const {
+  const auto curves = static_cast<float>(std::count(shown_.begin() + 1, shown_.end(), true));
+  const float shares = curves + (with_errors ? kErrorsShare : 0);
   const float for_curves = room_px - (shown_[0] ? strip_height() : 0);
-  if (curves == 0) return 0;
-  return std::floor(std::clamp(for_curves / static_cast<float>(curves), scaled(kLeastCurve_px), scaled(kMostCurve_px)));
+  if (shares == 0) return 0;
+  return std::floor(std::clamp(for_curves / shares, scaled(kLeastCurve_px), scaled(kMostCurve_px)));
 }
 
 void LaneRows::draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) const {
@@ -131,8 +138,14 @@ void LaneRows::draw(const Studio& studio, const TimelineStrip& strip, float room
   const bool known = intruder && index < studio.shown.surveys.size();
   refresh(known ? studio.shown.surveys[index] : nullptr);
   const ImVec2 start = ImGui::GetCursorScreenPos();
-  const float curve = curve_height(room_px);
+  const bool with_errors = shows_errors(studio);
+  const float curve = curve_height(room_px, with_errors);
   float y = start.y;
+  if (with_errors) {
+    const float height = std::floor(curve * kErrorsShare);
+    errors_.draw(studio, strip, y, height, ruler);
+    y += height;
+  }
   for (int i = 0; i < kLanes; ++i) {
     if (!shown_[static_cast<std::size_t>(i)]) continue;
     const auto lane = static_cast<Lane>(i);

@@ -4,18 +4,19 @@
 #include <array>
 #include <memory>
 
+#include "editor/views/timeline/error_lane.h"
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/ruler.h"
 #include "editor/views/timeline/strip.h"
 
 namespace sigs::editor {
 
-// How far the current intruder is, how large it looks, what hides it and how it flies, frame by frame. Pressing or
-// dragging on a lane moves the playhead.
+// How far the current intruder is, how large it looks, what hides it and how it flies, frame by frame; above that how
+// well trackers follow it, where their results are loaded. Pressing or dragging on a lane moves the playhead.
 class LaneRows {
  public:
   // A button for choosing lanes, at the cursor.
-  void draw_chooser();
+  void draw_chooser(const Studio& studio);
 
   // At the cursor; room_px is how much height there is for all of them, which they take if they can use it.
   void draw(const Studio& studio, const TimelineStrip& strip, float room_px, RulerRow& ruler);
@@ -24,10 +25,13 @@ class LaneRows {
   struct Row;
 
   void refresh(std::shared_ptr<const Survey> survey);
-  [[nodiscard]] float curve_height(float room_px) const;
+  [[nodiscard]] bool shows_errors(const Studio& studio) const;
+  [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
   void draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) const;
 
   std::array<bool, kLanes> shown_{true, true, true, true, false, false};
+  bool shows_errors_ = true;  // where there are any
+  ErrorLane errors_;
   std::shared_ptr<const Survey> survey_;     // of the current intruder
   std::array<LaneValues, kLanes> values_{};  // of that survey
 };

@@ -76,7 +76,7 @@ void TimelineView::draw_left_of_ruler(const Studio& studio, const TimelineStrip&
   const float y = low.y + std::floor((RulerRow::height() - ImGui::GetFrameHeight()) / 2);
   const float side = icon_button_width();
   ImGui::SetCursorScreenPos({low.x, y});
-  lanes_.draw_chooser();
+  lanes_.draw_chooser(studio);
   ImGui::SetCursorScreenPos({low.x + side + scaled(1), y});
   if (icon_button("fit", Icon::fit, "show all frames")) ruler_ = whole(studio.document);
   ImGui::SetCursorScreenPos({low.x + 2 * (side + scaled(1)), y});

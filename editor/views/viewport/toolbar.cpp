@@ -36,7 +36,9 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
   OverlayChoice& overlays = switches.overlays;
   const std::vector<ToolbarItem> items{
       switch_of("box", picture_icon::box, "Box",
-                "Boxes of the truth: what is visible solid, the whole silhouette dashed", overlays.box),
+                "Boxes of the truth: what is visible solid, the whole silhouette dashed; and those of trackers, where "
+                "results are loaded",
+                overlays.box),
       switch_of("path", picture_icon::path, "Path", "The way of each intruder, as seen from here through the lens",
                 overlays.path),
       switch_of("waypoints", picture_icon::waypoints, "Waypoints",

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "editor/views/results/result_boxes.h"
 #include "editor/views/viewport/readout.h"
 #include "editor/views/viewport/toolbar.h"
 #include "editor/views/waypoint_actions.h"
@@ -117,7 +118,11 @@ void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canv
   keep_waypoints_free(canvas, studio, marks, labels);
   if (overlays_.horizon && eye != nullptr) draw_horizon(canvas, *eye);
   if (overlays_.path && eye != nullptr) path_.draw(canvas, studio, *eye);
-  if (overlays_.box && picture != nullptr) draw_boxes(canvas, studio, *picture, labels);
+  if (overlays_.box && picture != nullptr) {
+    draw_boxes(canvas, studio, *picture, labels);
+    draw_result_boxes(canvas, studio, picture->frame);
+    draw_result_legend(canvas, studio, picture->frame);
+  }
   if (eye != nullptr) draw_waypoints(canvas, studio, marks, *eye, labels);
 }
 

@@ -157,6 +157,8 @@ WorldMoment world_moment(const Studio& studio) {
   WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(studio.project(), time_s)};
   if (!studio.shown.scene) return moment;
   const DraftScene& draft = studio.shown.scene->draft;
+  moment.world_from_camera.rotation =
+      world_from_carrier_at(draft.scene.motion.turns, time_s) * moment.world_from_camera.rotation;
   const std::size_t count = std::min(draft.intruder_of_project.size(), studio.project().intruders.size());
   for (std::size_t i = 0; i < count; ++i) {
     if (draft.intruder_of_project[i] < 0) continue;

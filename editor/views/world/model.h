@@ -59,7 +59,7 @@ struct WorldMoment {
 };
 [[nodiscard]] WorldMoment world_moment(const Studio& studio);
 
-// By the document's settings.
+// By the document's settings, with what carries the camera level.
 [[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
 
 // Of a frame, by the footage where it is known, else by 25 frames a second.

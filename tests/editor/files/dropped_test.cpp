@@ -86,6 +86,14 @@ TEST_CASE("dropped inputs are named from the project's folder") {
   CHECK(after({DroppedKind::mask, "/a/b/m.png", {}}, {}, project).footage.own_body_mask == "m.png");
 }
 
+TEST_CASE("what a tracker wrote is told from calibrations and projects, and changes no project") {
+  CHECK(kind_of_bytes("frame,x,y,width,height\n0,1,2,3,4\n", "kcf.csv") == DroppedKind::results);
+  CHECK(kind_of_bytes("1,2,3,4\n", "kcf.TXT") == DroppedKind::results);
+  CHECK(kind_of_bytes(" \n[{\"img_name\": \"a.png\", \"detections\": []}]", "kcf.json") == DroppedKind::results);
+  CHECK(kind_of_bytes("{\"K\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}", "lens.json") == DroppedKind::calibration);
+  CHECK_FALSE(change_by({DroppedKind::results, "kcf.csv", {}}, {}));
+}
+
 TEST_CASE("a model goes to the selected intruder, else it is one more, ahead of the camera") {
   Project project;
   project.file = "/a/p.json";

@@ -20,7 +20,8 @@ TEST_CASE("what an export writes is known before, whatever is chosen") {
       for (const bool labels : {false, true}) {
         project.output.codec = codec;
         project.output.masks = masks;
-        project.output.labels = labels ? std::vector<std::string>{"xml"} : std::vector<std::string>{};
+        project.output.labels =
+            labels ? std::vector<std::string>(kLabelNames.begin(), kLabelNames.end()) : std::vector<std::string>{};
         const std::filesystem::path folder = tiny.file("out");
         CHECK(outputs_there(project, folder).empty());
         const Result<ExportReport> report = export_project({.project = project, .folder = folder}, {});

@@ -39,6 +39,7 @@ TEST_CASE("what touches no picture leaves its name alone and what does changes i
       [](Project& p) { p.footage.last_frame = 9; },
       [](Project& p) { p.footage.own_body_mask.clear(); },
       [](Project& p) { p.camera.speed_mps += 1e-9; },
+      [](Project& p) { p.camera.attitude_file = std::string("gyro.csv"); },
       [](Project& p) { p.light.ambient = 0.1; },
       [](Project& p) { p.intruders[0].name += "b"; },  // the truth has it
       [](Project& p) { p.intruders[0].trajectory.waypoints[1].position_m.z += 1; },

@@ -199,6 +199,20 @@ TEST_CASE("a mask that is replaced on disk hides at once, without any edit") {
   viewer.wait([](const Shown& s) { return s.picture_is_current && cv::countNonZero(s.picture->mask) == 0; });
 }
 
+TEST_CASE("an attitude file that is saved again turns the camera at once, without any edit") {
+  const TemporaryFolder folder;
+  const fs::path gyro = folder / "gyro.csv";
+  const std::string header = "frame,roll_deg,pitch_deg,yaw_deg\n";
+  REQUIRE(write_text(gyro, header + "0,0,0,0\n", true));
+  Project project = sample("head-on");
+  project.camera.attitude_file = gyro;
+  Viewer viewer;
+  const Revision same = revision(1, project);
+  REQUIRE(cv::countNonZero(viewer.show(frame_of(same, 100)).picture->mask) > 0);
+  REQUIRE(write_text(gyro, header + "0,0,0,0\n100,0,0,90\n", true));  // looks away
+  viewer.wait([](const Shown& s) { return s.picture_is_current && cv::countNonZero(s.picture->mask) == 0; });
+}
+
 TEST_CASE("other footage is opened aside and the old picture stays until it is there") {
   Viewer viewer;
   Project project = sample("head-on");

@@ -71,6 +71,24 @@ TEST_CASE("the preview is byte for byte what the program writes as a frame") {
     }
 }
 
+TEST_CASE("with the camera's attitude known the preview is still what the program writes as a frame") {
+  const TemporaryFolder folder;
+  REQUIRE(
+      write_text(folder / "gyro.csv", "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n119,2,1,-3\n121,-2,3,-1\n", true));
+  Project project = sample("head-on");
+  project.camera.attitude_file = (folder / "gyro.csv").string();
+  const std::string out = (folder / "out").string();
+  const Run run = run_sigs("frame " + project.file.string() + " --frame " + std::to_string(kFrame) +
+                           " --set camera.attitude_file=" + project.camera.attitude_file + " --out " + out);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
+  Viewer viewer;
+  const Shown shaken = viewer.show(frame_of(revision(1, project), kFrame));
+  CHECK(is_same_picture(shaken.picture->bgr, written));
+  project.camera.attitude_file.clear();
+  CHECK_FALSE(is_same_picture(viewer.show(frame_of(revision(2, project), kFrame)).picture->bgr, written));
+}
+
 TEST_CASE("mask, truth, untouched frame, stages and the other method are those of the engine") {
   const Project project = sample("head-on");
   Engine engine(project);

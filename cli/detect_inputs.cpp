@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "cli/detect_inputs.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "base/partial_file.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+bool is_folder(const fs::path& path) {
+  std::error_code code;
+  return fs::is_directory(path, code);
+}
+
+// A video of an index, where it says what is needed.
+Result<void> add_video(const fs::path& index, const nlohmann::json& video, const std::string& split,
+                       std::vector<FilmFiles>& films) {
+  if (!video.is_object() || !video.contains("name") || !video["name"].is_string())
+    return fail(index.string() + ": videos", "a video without a name");
+  if (!split.empty() && (!video.contains("split") || video["split"] != split)) return {};
+  const std::string name = video["name"];
+  const fs::path labels = index.parent_path() / name / (name + ".xml");
+  if (std::error_code code; !fs::exists(labels, code))
+    return fail(labels.string(), "no such file; the dataset needs xml among its labels", ErrorKind::cannot_read);
+  films.push_back({.name = name, .labels = labels});
+  return {};
+}
+
+Result<std::vector<FilmFiles>> films_of_dataset(const fs::path& folder, const std::string& split) {
+  const fs::path index = folder / "index.json";
+  const Result<std::string> text = read_text(index);
+  if (!text) return fail(text.error());
+  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
+      !json["videos"].is_array())
+    return fail(index.string(), "is no index of a dataset");
+  std::vector<FilmFiles> films;
+  for (const nlohmann::json& video : json["videos"])
+    if (const Result<void> added = add_video(index, video, split, films); !added) return fail(added.error());
+  if (films.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
+  return films;
+}
+
+Result<std::vector<FilmFiles>> films_of(const Paths& inputs, const std::string& split) {
+  if (inputs.size() == 1 && is_folder(inputs.front())) return films_of_dataset(inputs.front(), split);
+  if (!split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
+  std::vector<FilmFiles> films;
+  std::vector<std::string> names;
+  for (const fs::path& labels : inputs) {
+    if (is_folder(labels))
+      return fail(labels.string(), "is a folder; name label files, or one dataset alone", ErrorKind::usage);
+    names.push_back(free_name(labels.stem().string(), names));
+    films.push_back({.name = names.back(), .labels = labels});
+  }
+  return films;
+}
+
+// The one file in a detector's folder that is called like the film.
+Result<fs::path> results_of(const fs::path& folder, const FilmFiles& film) {
+  Paths found;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (entry.is_regular_file(code) && entry.path().stem() == film.name) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  if (found.empty())
+    return fail((folder / film.name).string() + ".csv",
+                "no results for this film; where nothing was detected, they are a file without boxes",
+                ErrorKind::cannot_read);
+  if (found.size() > 1)
+    return fail(folder.string(), "has both " + found[0].filename().string() + " and " + found[1].filename().string());
+  return found.front();
+}
+
+// "runs/yolo/" is called yolo.
+std::string name_of_folder(const fs::path& folder) {
+  const fs::path plain = folder.lexically_normal();
+  const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
+  return name.empty() || name == "." || name == ".." ? "detector" : name.string();
+}
+
+Result<DetectInputs> by_folders(std::vector<FilmFiles> films, const Paths& folders) {
+  DetectInputs inputs{.films = std::move(films)};
+  for (const fs::path& folder : folders) {
+    inputs.detectors.push_back(free_name(name_of_folder(folder), inputs.detectors));
+    for (FilmFiles& film : inputs.films) {
+      if (film.labels.stem() != film.name)
+        return fail(film.labels.string(), "another film is called so too; name their results' files in order",
+                    ErrorKind::usage);
+      const Result<fs::path> file = results_of(folder, film);
+      if (!file) return fail(file.error());
+      film.results.push_back(*file);
+    }
+  }
+  return inputs;
+}
+
+Result<DetectInputs> by_files(std::vector<FilmFiles> films, const Paths& files) {
+  DetectInputs inputs{.films = std::move(films)};
+  if (inputs.films.size() == 1) {
+    for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+    inputs.films.front().results = files;
+    return inputs;
+  }
+  if (files.size() != inputs.films.size())
+    return fail("--results",
+                "there are " + std::to_string(inputs.films.size()) + " films and " + std::to_string(files.size()) +
+                    " files of results; name one for each, in order, or a folder for each detector",
+                ErrorKind::usage);
+  inputs.detectors = {name_of_folder(files.front().parent_path())};
+  for (std::size_t i = 0; i < files.size(); ++i) inputs.films[i].results = {files[i]};
+  return inputs;
+}
+
+}  // namespace
+
+std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
+  std::string free = name;
+  for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
+    free = name + " (" + std::to_string(n) + ")";
+  return free;
+}
+
+Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, const std::string& split) {
+  for (const Paths* const paths : {&inputs, &results})
+    for (const fs::path& path : *paths)
+      if (std::error_code code; !fs::exists(path, code))
+        return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
+  Result<std::vector<FilmFiles>> films = films_of(inputs, split);
+  if (!films) return fail(films.error());
+  const auto folders = std::count_if(results.begin(), results.end(), is_folder);
+  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*films), results);
+  if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
+  return by_files(std::move(*films), results);
+}
+
+}  // namespace sigs::cli

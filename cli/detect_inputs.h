@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace sigs::cli {
+
+// A film's labels and what each detector says of it.
+struct FilmFiles {
+  std::string name;  // no two are alike
+  std::filesystem::path labels;
+  std::vector<std::filesystem::path> results;  // one for each detector
+};
+
+struct DetectInputs {
+  std::vector<std::string> detectors;  // no two are alike
+  std::vector<FilmFiles> films;
+};
+
+// Which results go with which labels.
+//   inputs   label files, or one folder of a dataset
+//   results  a folder for each detector, in which NAME.csv or the like tells of the film NAME; or, for label files, one
+//            file for each in the same order; or, for one label file, a file for each detector
+//   split    only these films of a dataset; empty: all
+// Errors name what is missing or left over.
+[[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,
+                                                 const std::vector<std::filesystem::path>& results,
+                                                 const std::string& split);
+
+// The name, or with a number behind it where it is taken.
+[[nodiscard]] std::string free_name(const std::string& name, const std::vector<std::string>& taken);
+
+}  // namespace sigs::cli

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "cli/evaluate_detect.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/detect_inputs.h"
+#include "cli/evaluation_folder.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "evaluation/detection_score.h"
+#include "evaluation/report.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  sigs evaluate detect out/crossing.xml --results found.csv --out report\n"
+    "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --least-score 0.3\n"
+    "  sigs evaluate detect datasets/mine --split test --results runs/one runs/two --out report";
+
+struct DetectOptions {
+  std::vector<fs::path> inputs;
+  std::vector<fs::path> results;
+  std::string split;
+  std::string format = "auto";
+  DetectionPolicy policy;
+  fs::path folder;
+  bool force = false;
+};
+
+ResultsFormat format_of(const std::string& name) {
+  const auto names = results_format_names();
+  return static_cast<ResultsFormat>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// Everything that is read: truths once, then the results of each detector.
+Result<std::vector<std::vector<DetectedFilm>>> films_by_detector(const DetectInputs& inputs, ResultsFormat format) {
+  std::vector<std::vector<DetectedFilm>> films(inputs.detectors.size());
+  for (const FilmFiles& files : inputs.films) {
+    if (interrupt_flag().load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+    const Result<FilmTruth> truth = read_truth(files.labels);
+    if (!truth) return fail(truth.error());
+    for (std::size_t i = 0; i < films.size(); ++i) {
+      Result<Results> results =
+          read_results(files.results[i], truth->footage, ResultsOptions{.format = format, .may_hold_many = true});
+      if (!results) return fail(results.error());
+      films[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
+    }
+  }
+  return films;
+}
+
+Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
+  const Result<std::vector<std::vector<DetectedFilm>>> films = films_by_detector(inputs, format_of(options.format));
+  if (!films) return fail(films.error());
+  DetectionReport report{.policy = options.policy};
+  for (const FilmFiles& files : inputs.films) report.films.push_back(files.name);
+  for (std::size_t i = 0; i < films->size(); ++i)
+    report.scores.push_back(score_detections(inputs.detectors[i], (*films)[i], options.policy));
+  return report;
+}
+
+// Why there may be fewer encounters than the user looks for.
+void warn_of_too_far(const DetectionReport& report) {
+  const int too_far = report.scores.empty() ? 0 : report.scores.front().encounters_too_far;
+  if (too_far > 0)
+    print_warning({"", std::to_string(too_far) + (too_far == 1 ? " encounter is" : " encounters are") +
+                           " not counted: the intruder comes no nearer than --nearest-range"});
+}
+
+Result<void> write(EvaluationFolder& folder, const DetectionReport& report) {
+  const Result<WrittenReport> written = write_report(folder.part(), report);
+  if (!written) return fail(written.error());
+  for (const Warning& warning : written->warnings) print_warning(warning);
+  const Result<std::vector<fs::path>> kept = folder.keep(written->files);
+  if (!kept) return fail(kept.error());
+  for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());
+  return {};
+}
+
+Result<void> run(const DetectOptions& options) {
+  if (options.policy.false_overlap > options.policy.match_overlap)
+    return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
+  const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split);
+  if (!inputs) return fail(inputs.error());
+  std::optional<EvaluationFolder> folder;
+  if (!options.folder.empty()) {
+    std::vector<fs::path> read = options.inputs;
+    read.insert(read.end(), options.results.begin(), options.results.end());
+    Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, read);
+    if (!reserved) return fail(reserved.error());
+    folder.emplace(std::move(*reserved));
+  }
+  const Result<DetectionReport> report = report_of(options, *inputs);
+  if (!report) return fail(report.error());
+  warn_of_too_far(*report);
+  std::printf("%s", table_text(*report).c_str());
+  return folder ? write(*folder, *report) : Result<void>();
+}
+
+void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
+  struct Number {
+    const char* name;
+    double* value;
+    double largest;
+    const char* unit;
+    const char* help;
+  };
+  constexpr double kLarge = 1e9;
+  for (const Number& number :
+       {Number{"--least-score", &policy.least_score, kLarge, "SCORE", "reports below it are left out"},
+        Number{"--least-area", &policy.least_area_px2, kLarge, "PX2", "smaller true boxes are grown to it"},
+        Number{"--match-overlap", &policy.match_overlap, 1, "SHARE", "extended overlap of a match"},
+        Number{"--false-overlap", &policy.false_overlap, 1, "SHARE", "less with every true box: a false alarm"},
+        Number{"--longest-range", &policy.longest_range_m, kLarge, "M", "an encounter is within it"},
+        Number{"--nearest-range", &policy.nearest_range_m, kLarge, "M", "an encounter that counts comes so near"},
+        Number{"--least-encounter", &policy.least_encounter_s, kLarge, "S", "shorter encounters do not count"},
+        Number{"--longest-gap", &policy.longest_gap_s, kLarge, "S", "longer gaps end an encounter"},
+        Number{"--detect-range", &policy.detect_range_m, kLarge, "M", "detected in time: before it comes nearer"},
+        Number{"--window", &policy.window_s, kLarge, "S", "detected: within a window of this length"},
+        Number{"--window-share", &policy.least_window_share, 1, "SHARE", "... in this share of its frames"}}) {
+    command.add_option(number.name, *number.value, number.help)
+        ->type_name(number.unit)
+        ->check(CLI::Validator(CLI::Range(number.value == &policy.least_score ? -kLarge : 0.0, number.largest))
+                    .description(""))
+        ->capture_default_str();
+  }
+}
+
+}  // namespace
+
+std::function<Result<void>()> add_evaluate_detect(CLI::App& evaluate) {
+  CLI::App* const command =
+      evaluate.add_subcommand("detect", "measure detectors on films: encounters detected, false alarms");
+  const auto options = std::make_shared<DetectOptions>();
+  command->add_option("LABELS", options->inputs, "exported films' NAME.xml, or the folder of a dataset")
+      ->required()
+      ->check(not_empty());
+  command
+      ->add_option("--results", options->results,
+                   "what a detector reports: a file for each film in order, or a folder for each detector")
+      ->option_text("FILES|DIRS ...")
+      ->required()
+      ->check(not_empty());
+  command->add_option("--split", options->split, "only the films of this split of a dataset")->option_text("NAME");
+  std::vector<std::string> formats;
+  for (const std::string_view name : results_format_names()) formats.emplace_back(name);
+  command->add_option("--format", options->format, "of the results: auto, otb, vot, mot, csv or aot")
+      ->option_text("NAME=auto")
+      ->check(CLI::IsMember(formats));
+  add_policy_options(*command, options->policy);
+  command->add_option("--out", options->folder, "folder to be made, with tables, plots and report.html")
+      ->option_text("DIR")
+      ->check(not_empty());
+  command->add_flag("--force", options->force, "replace an evaluation that is there");
+  command->footer(kFooter);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sigs::cli

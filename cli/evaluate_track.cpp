@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "cli/evaluate_track.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "cli/detect_inputs.h"
+#include "cli/evaluation_folder.h"
+#include "cli/track_request.h"
+#include "evaluation/opencv_tracker.h"
+#include "evaluation/report.h"
+#include "evaluation/results_text.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf,mosse --out report\n"
+    "  sigs evaluate track out/crossing.xml --tracker all --least-side 8\n"
+    "  sigs evaluate track out/crossing.xml --results mine.txt --format otb --out report";
+
+struct TrackOptions {
+  TrackRequest request;
+  std::string format = "auto";
+  std::string truth = "visible";
+  std::string frames;
+  int jobs = 0;
+  fs::path folder;
+  bool force = false;
+};
+
+Result<TrackRequest> request_of(const TrackOptions& options) {
+  TrackRequest request = options.request;
+  if (std::find(request.trackers.begin(), request.trackers.end(), "all") != request.trackers.end())
+    request.trackers.assign(tracker_names().begin(), tracker_names().end());
+  if (request.trackers.empty() && request.results.empty())
+    return fail("evaluate track", "name what is to be measured: --tracker or --results", ErrorKind::usage);
+  const auto names = results_format_names();
+  request.format = static_cast<ResultsFormat>(std::find(names.begin(), names.end(), options.format) - names.begin());
+  request.policy.truth = options.truth == "visible" ? TruthBox::visible : TruthBox::silhouette;
+  if (!options.frames.empty()) {
+    const Result<FrameRange> range = frame_range_of(options.frames);
+    if (!range) return fail(range.error());
+    request.frames = *range;
+  }
+  // The trackers take a core of their own.
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
+  for (const fs::path& file : request.results)
+    if (std::error_code code; !fs::exists(file, code))
+      return fail(file.string(), "no such file", ErrorKind::cannot_read);
+  return request;
+}
+
+Result<std::vector<Results>> all_results(const TrackRequest& request, const TrackedFilm& film) {
+  std::vector<Results> all = film.results;
+  std::vector<std::string> names;
+  for (const Results& results : all) names.push_back(results.name);
+  for (const fs::path& file : request.results) {
+    Result<Results> read =
+        read_results(file, film.truth.footage, {.format = request.format, .start_frame = film.policy.from_frame});
+    if (!read) return fail(read.error());
+    read->name = free_name(read->name, names);
+    names.push_back(read->name);
+    all.push_back(std::move(*read));
+  }
+  return all;
+}
+
+TrackReport report_of(const TrackedFilm& film, const std::vector<Results>& all) {
+  const TargetTruth& target = film.truth.targets[static_cast<std::size_t>(film.target)];
+  TrackReport report{.film = film.name,
+                     .footage = film.truth.footage,
+                     .target = "intruder " + std::to_string(target.id) + " (" + target.name + ")",
+                     .policy = film.policy,
+                     .remarks = film.remarks};
+  for (const Results& results : all) report.scores.push_back(score_track(film.truth, target, results, report.policy));
+  return report;
+}
+
+// Where scoring begins, in a line above the table.
+std::string heading_of(const TrackReport& report) {
+  return report.film + ": " + report.target + ", box of " +
+         (report.policy.truth == TruthBox::visible ? "what can be seen" : "the whole") + ", frames " +
+         std::to_string(report.policy.from_frame) + " to " + std::to_string(report.footage.last_frame) + "\n";
+}
+
+// What the trackers that ran said, as results that can be read again.
+Result<std::vector<fs::path>> write_results(const fs::path& folder, const std::vector<Results>& results) {
+  std::error_code code;
+  if (!results.empty()) fs::create_directory(folder, code);
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  std::vector<fs::path> files;
+  for (const Results& one : results) {
+    files.push_back(folder / (one.name + ".csv"));
+    if (const Result<void> written = write_text(files.back(), csv_text(one), true); !written)
+      return fail(written.error());
+  }
+  return files;
+}
+
+Result<void> write(EvaluationFolder& folder, const TrackReport& report, const TrackedFilm& film) {
+  Result<WrittenReport> written = write_report(folder.part(), report);
+  if (!written) return fail(written.error());
+  for (const Warning& warning : written->warnings) print_warning(warning);
+  const Result<std::vector<fs::path>> results = write_results(folder.part() / "results", film.results);
+  if (!results) return fail(results.error());
+  written->files.insert(written->files.end(), results->begin(), results->end());
+  const Result<std::vector<fs::path>> kept = folder.keep(written->files);
+  if (!kept) return fail(kept.error());
+  for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());
+  return {};
+}
+
+Result<void> run(const TrackOptions& options) {
+  const Result<TrackRequest> request = request_of(options);
+  if (!request) return fail(request.error());
+  std::optional<EvaluationFolder> folder;
+  if (!options.folder.empty()) {
+    std::vector<fs::path> inputs = request->results;
+    inputs.push_back(request->input.file);
+    if (!request->video.empty()) inputs.push_back(request->video);
+    Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, inputs);
+    if (!reserved) return fail(reserved.error());
+    folder.emplace(std::move(*reserved));
+  }
+  const Result<TrackedFilm> film = tracked_film(*request);
+  if (!film) return fail(film.error());
+  for (const std::string& remark : film->remarks) print_warning({"", remark});
+  const Result<std::vector<Results>> all = all_results(*request, *film);
+  if (!all) return fail(all.error());
+  const TrackReport report = report_of(*film, *all);
+  std::printf("%s%s", heading_of(report).c_str(), table_text(report).c_str());
+  return folder ? write(*folder, report, *film) : Result<void>();
+}
+
+void add_scoring_options(CLI::App& command, TrackOptions& options) {
+  TrackRequest& request = options.request;
+  command.add_option("--intruder", request.intruder, "which intruder is followed, where there are several")
+      ->option_text("N");
+  command.add_option("--truth", options.truth, "true box: visible, what can be seen; silhouette, the whole")
+      ->option_text("NAME=visible")
+      ->check(CLI::IsMember({"visible", "silhouette"}));
+  command
+      .add_option("--least-visible", request.policy.least_visible_fraction,
+                  "frames in which a smaller share of the intruder can be seen are not scored, 0 to 1")
+      ->option_text("SHARE=0")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--least-side", request.least_side_px,
+                  "trackers start, and scoring begins, where both sides of the true box are at least this long")
+      ->option_text("PX=1")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
+}  // namespace
+
+std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
+  CLI::App* const command = evaluate.add_subcommand("track", "measure trackers on one film: centre error, overlap");
+  const auto options = std::make_shared<TrackOptions>();
+  TrackRequest& request = options->request;
+  command->add_option("PROJECT_OR_LABELS", request.input.file, "a project, or an exported film's NAME.xml")
+      ->required()
+      ->check(not_empty());
+  std::string known = "all";
+  for (const std::string_view name : tracker_names()) known.append(", ").append(name);
+  command->add_option("--tracker", request.trackers, "OpenCV's tracker to run: " + known + "; several by commas")
+      ->option_text("NAMES ...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--results", request.results, "what a tracker has reported; may be repeated")
+      ->option_text("FILE ...")
+      ->check(not_empty())
+      ->allow_extra_args(false);
+  std::vector<std::string> formats;
+  for (const std::string_view name : results_format_names()) formats.emplace_back(name);
+  command->add_option("--format", options->format, "of the results: auto, otb, vot, mot, csv or aot")
+      ->option_text("NAME=auto")
+      ->check(CLI::IsMember(formats));
+  add_scoring_options(*command, *options);
+  command->add_option("--video", request.video, "pictures of the labels; else those beside them")
+      ->option_text("FILE")
+      ->check(not_empty());
+  command->add_option("--out", options->folder, "folder to be made, with tables, plots and report.html")
+      ->option_text("DIR")
+      ->check(not_empty());
+  command->add_flag("--force", options->force, "replace an evaluation that is there");
+  command->add_option("--frames", options->frames, "only these frames of a project's footage")->option_text("A-B");
+  add_set_option(*command, request.input);
+  command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  add_progress_option(*command, request.progress);
+  command->footer(kFooter);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sigs::cli

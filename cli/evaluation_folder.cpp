@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "cli/evaluation_folder.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "evaluation/report.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Error not_free(const fs::path& folder, const std::string& what) {
+  return {folder.string(), what, ErrorKind::cannot_create};
+}
+
+// Links followed, without a slash at the end.
+fs::path place_of(const fs::path& path) {
+  std::error_code code;
+  fs::path place = fs::weakly_canonical(fs::absolute(path, code), code);
+  return place.has_filename() ? place : place.parent_path();
+}
+
+bool lies_at_or_below(const fs::path& place, const fs::path& top) {
+  return std::mismatch(top.begin(), top.end(), place.begin(), place.end()).first == top.end();
+}
+
+// The first thing in the folder that no evaluation writes; empty: there is none.
+std::string strange_in(const fs::path& folder) {
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (is_report_file(name) && entry.is_regular_file(code)) continue;
+    if (name != "results" || !entry.is_directory(code)) return name;
+    for (const fs::directory_entry& result : fs::directory_iterator(entry.path(), code))
+      if (result.path().extension() != ".csv") return "results/" + result.path().filename().string();
+  }
+  return "";
+}
+
+Result<void> check_free(const fs::path& shown, const fs::path& place, bool overwrite) {
+  std::error_code code;
+  if (!fs::exists(place, code)) return {};
+  if (!fs::is_directory(place, code)) return fail(not_free(shown, "is a file; a folder is to be written"));
+  if (fs::equivalent(place, fs::current_path(code), code))
+    return fail(not_free(shown, "is the current folder; name one that is to be made"));
+  if (fs::is_empty(place, code)) return {};
+  if (!overwrite) return fail(not_free(shown, "exists already; --force overwrites it"));
+  if (const std::string strange = strange_in(place); !strange.empty())
+    return fail(not_free(shown, "holds " + strange + ", which no evaluation wrote; choose another folder"));
+  return {};
+}
+
+}  // namespace
+
+Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
+                                                    const std::vector<fs::path>& inputs) {
+  const fs::path place = place_of(folder);
+  for (const fs::path& input : inputs)
+    if (lies_at_or_below(place_of(input), place))
+      return fail(
+          not_free(folder, "holds " + input.string() + ", which is read by this command; choose another folder"));
+  if (const Result<void> free = check_free(folder, place, overwrite); !free) return fail(free.error());
+  MadeFolders above;
+  if (const Result<void> made = above.make(place.parent_path()); !made) return fail(made.error());
+  Result<PartialFile> file = PartialFile::create_folder(place, true);
+  if (!file) return fail(file.error());
+  return EvaluationFolder(folder, std::move(above), std::move(*file));
+}
+
+Result<std::vector<fs::path>> EvaluationFolder::keep(const std::vector<fs::path>& written) {
+  std::vector<fs::path> final_paths;
+  for (const fs::path& path : written) final_paths.push_back(shown_ / path.lexically_relative(file_.part()));
+  if (const Result<void> kept = file_.keep(); !kept) return fail(kept.error());
+  return final_paths;
+}
+
+}  // namespace sigs::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "cli/labelled_pictures.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <system_error>
+#include <vector>
+
+#include "annotation/labels.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string size_text(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+Result<void> check_size(const fs::path& path, cv::Size size, const FootageTruth& footage) {
+  if (size == footage.size_px) return {};
+  return fail(path.string(), "is " + size_text(size) + ", the labels are of " + size_text(footage.size_px));
+}
+
+Result<void> check_count(const fs::path& path, int count, const FilmTruth& film) {
+  if (count == film.frames()) return {};
+  return fail(path.string(),
+              "has " + std::to_string(count) + " frames, the labels have " + std::to_string(film.frames()));
+}
+
+int pictures_in(const fs::path& folder) {
+  int count = 0;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    count += name.starts_with("frame_") && entry.path().extension() == ".png" ? 1 : 0;
+  }
+  return count;
+}
+
+// Empty: it cannot be read.
+cv::Mat picture_in(const fs::path& file) {
+  try {
+    return cv::imread(file.string(), cv::IMREAD_COLOR);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+Result<fs::path> LabelledPictures::beside(const fs::path& labels) {
+  std::vector<fs::path> found;
+  std::error_code code;
+  for (const char* const extension : {".mkv", ".mp4", ".avi", ""})
+    if (const fs::path path = fs::path(labels).replace_extension(extension); fs::exists(path, code))
+      found.push_back(path);
+  if (found.empty())
+    return fail(labels.string(),
+                "has neither " + labels.stem().string() + ".mkv, .mp4, .avi nor a folder " + labels.stem().string() +
+                    " beside it; name its pictures with --video",
+                ErrorKind::cannot_read);
+  if (found.size() > 1)
+    return fail(labels.string(),
+                "has both " + found[0].filename().string() + " and " + found[1].filename().string() +
+                    " beside it; choose with --video",
+                ErrorKind::cannot_read);
+  return found.front();
+}
+
+Result<LabelledPictures> LabelledPictures::open(const fs::path& path, const FilmTruth& film) {
+  LabelledPictures pictures(path, film.footage);
+  std::error_code code;
+  if (fs::is_directory(path, code)) {
+    if (const Result<void> count = check_count(path, pictures_in(path), film); !count) return fail(count.error());
+    if (const Result<cv::Mat> first = pictures.at(film.footage.first_frame); !first) return fail(first.error());
+    return pictures;
+  }
+  Result<FrameSource> video = FrameSource::open(path);
+  if (!video) return fail(video.error());
+  Result<void> fits = check_size(path, video->info().size_px, film.footage);
+  if (fits) fits = check_count(path, video->info().frame_count(), film);
+  if (!fits) return fail(fits.error());
+  pictures.video_ = std::move(*video);
+  return pictures;
+}
+
+Result<cv::Mat> LabelledPictures::at(int frame) {
+  if (video_) {
+    const Result<Frame> picture = video_->read(frame - footage_.first_frame);
+    if (!picture) return fail(picture.error());
+    return bgr_of(*picture);
+  }
+  const fs::path file = path_ / picture_name(frame);
+  std::error_code code;
+  if (!fs::exists(file, code)) return fail(file.string(), "no such file", ErrorKind::cannot_read);
+  const cv::Mat picture = picture_in(file);
+  if (picture.empty()) return fail(file.string(), "cannot be read as a picture");
+  if (const Result<void> fits = check_size(file, picture.size(), footage_); !fits) return fail(fits.error());
+  return picture;
+}
+
+}  // namespace sigs::cli

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/scoring.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "editor/preview/outline_truth.h"
+#include "editor/preview/polite.h"
+#include "evaluation/track_start.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kLeastSide_px = 0;                      // of the first box that a tracker is started with
+constexpr std::chrono::milliseconds kLookAtFiles(1000);  // how often they are looked at for changes from outside
+
+bool is_same(const FootageTruth& a, const FootageTruth& b) {
+  return a.video == b.video && a.size_px == b.size_px && a.first_frame == b.first_frame &&
+         a.last_frame == b.last_frame && a.frame_rate_num == b.frame_rate_num && a.frame_rate_den == b.frame_rate_den;
+}
+
+Result<Results> read_safely(const std::filesystem::path& path, const FootageTruth& footage, std::optional<int> start) {
+  try {
+    return read_results(path, footage, {.start_frame = start});
+  } catch (const std::exception& e) {
+    return fail(path.string(), e.what());
+  }
+}
+
+const TargetTruth* target_in(const FilmTruth& film, int id) {
+  const auto found =
+      std::find_if(film.targets.begin(), film.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
+  return found == film.targets.end() ? nullptr : &*found;
+}
+
+// Number in the scene of the project's intruder; -1: it flies nowhere, or there is none.
+int target_of(const ScoringWanted& wanted) {
+  const std::vector<int>& ids = wanted.scene->draft.intruder_of_project;
+  const auto intruder = static_cast<std::size_t>(wanted.intruder);
+  return wanted.intruder >= 0 && intruder < ids.size() ? ids[intruder] : -1;
+}
+
+// As `sigs evaluate track` measures where nothing else is asked for; none: the target is never seen.
+std::optional<TrackPolicy> policy_for(const FilmTruth* film, int target) {
+  const TargetTruth* const truth = film == nullptr ? nullptr : target_in(*film, target);
+  return truth == nullptr ? std::nullopt : policy_from_start(*film, *truth);
+}
+
+}  // namespace
+
+Scoring::Scoring(std::function<void()> wake, TruthMaker::ShowFilm show)
+    : wake_(std::move(wake)),
+      truth_(
+          [this] {
+            {
+              const std::lock_guard lock(mutex_);
+              news_ = true;
+            }
+            changed_.notify_all();
+          },
+          std::move(show)),
+      thread_([this] { run(); }) {}
+
+Scoring::~Scoring() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Scoring::want(ScoringWanted wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (wanted.files.empty()) {
+      scored_ = nullptr;
+      wanted = {};
+    }
+    if (wanted == wanted_) return;
+    wanted_ = std::move(wanted);
+    news_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::shared_ptr<const Scored> Scoring::scored() const {
+  const std::lock_guard lock(mutex_);
+  return scored_;
+}
+
+void Scoring::put(std::shared_ptr<const Scored> scored) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (wanted_.files.empty() || (scored_ && *scored_ == *scored)) return;
+    scored_ = std::move(scored);
+  }
+  wake_();
+}
+
+ScoringWanted Scoring::next() {
+  std::unique_lock lock(mutex_);
+  const auto is_due = [&] { return stop_ || news_; };
+  if (wanted_.files.empty())
+    changed_.wait(lock, is_due);
+  else
+    changed_.wait_for(lock, kLookAtFiles, is_due);
+  news_ = false;
+  return wanted_;
+}
+
+void Scoring::read(Tracker& tracker, const ResultFile& file, const FootageTruth& footage,
+                   std::optional<int> start) const {
+  const FileStamp stamp = stamp_of(file.path);
+  const FileStamp before = std::exchange(tracker.seen, stamp);
+  const bool is_known = tracker.results || !tracker.problem.empty();
+  const bool is_old = stamp != tracker.stamp && stamp == before;
+  if (is_known && !is_old && is_same(footage, tracker.footage) && start == tracker.start_frame) return;
+  tracker = {.stamp = stamp, .seen = stamp, .footage = footage, .start_frame = start};
+  Result<Results> read = read_safely(file.path, footage, start);
+  if (read)
+    tracker.results = std::make_shared<const Results>(std::move(*read));
+  else
+    tracker.problem = read.error().text();
+}
+
+// What was measured counts for the scene that it belongs to alone; until it is there, the outlines. Those of the scene
+// before stay as long as the surveys are not complete.
+std::shared_ptr<const FilmTruth> Scoring::film_of(const ScoringWanted& wanted, const TruthState& truth) {
+  if (truth.film && truth.scene == wanted.scene) return truth.film;
+  if (outlines_scene_ != wanted.scene || outlines_surveys_ != wanted.surveys) {
+    outlines_scene_ = wanted.scene;
+    outlines_surveys_ = wanted.surveys;
+    if (std::shared_ptr<const FilmTruth> made = outline_truth(*wanted.scene, wanted.surveys))
+      outlines_ = std::move(made);
+  }
+  const bool fits = outlines_ && is_same(outlines_->footage, footage_truth_of(*wanted.scene));
+  return fits ? outlines_ : nullptr;
+}
+
+void Scoring::score(Tracker& tracker, const std::shared_ptr<const FilmTruth>& film, int target,
+                    const std::optional<TrackPolicy>& policy) const {
+  if (!tracker.results || !film || (tracker.scored_by == film && tracker.target == target)) return;
+  tracker.scored_by = film;
+  tracker.target = target;
+  tracker.score = nullptr;
+  if (policy)
+    tracker.score =
+        std::make_shared<const TrackScore>(score_track(*film, *target_in(*film, target), *tracker.results, *policy));
+}
+
+void Scoring::step(const ScoringWanted& wanted) {
+  const FootageTruth footage = footage_truth_of(*wanted.scene);
+  const TruthState truth = truth_.state();
+  const std::shared_ptr<const FilmTruth> film = film_of(wanted, truth);
+  const bool is_of_scene = truth.scene == wanted.scene;
+  const int target = target_of(wanted);
+  const std::optional<TrackPolicy> policy = policy_for(film.get(), target);
+  auto scored = std::make_shared<Scored>(Scored{.intruder = wanted.intruder, .first_frame = footage.first_frame});
+  if (target >= 0) scored->target = wanted.scene->draft.scene.intruders[static_cast<std::size_t>(target)].name;
+  if (film) scored->truth = film == truth.film ? TruthKind::measured : TruthKind::outlines;
+  if (is_of_scene) {
+    scored->truth_done = truth.done;
+    scored->truth_total = truth.total;
+    scored->truth_problem = truth.problem;
+  }
+  std::erase_if(trackers_, [&](const auto& known) {
+    return std::none_of(wanted.files.begin(), wanted.files.end(),
+                        [&](const ResultFile& file) { return file.id == known.first; });
+  });
+  for (const ResultFile& file : wanted.files) {
+    Tracker& tracker = trackers_[file.id];
+    read(tracker, file, footage, policy ? std::optional(policy->from_frame) : std::nullopt);
+    score(tracker, film, target, policy);
+    scored->trackers.push_back({.file = file,
+                                .name = tracker.results ? tracker.results->name : results_name(file.path),
+                                .problem = tracker.problem,
+                                .results = tracker.results,
+                                .score = tracker.score});
+  }
+  put(std::move(scored));
+}
+
+void Scoring::run() {
+  be_polite(kNicenessOfPictures);
+  while (true) {
+    const ScoringWanted wanted = next();
+    {
+      const std::lock_guard lock(mutex_);
+      if (stop_) return;
+    }
+    const bool has_work = !wanted.files.empty() && wanted.scene;
+    truth_.want(has_work ? wanted.scene : nullptr);
+    if (has_work)
+      step(wanted);
+    else
+      trackers_.clear();
+  }
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "editor/document/result_files.h"
+#include "editor/preview/picture_names.h"
+#include "editor/preview/previewer.h"
+#include "editor/preview/truth_maker.h"
+#include "evaluation/results.h"
+#include "evaluation/track_score.h"
+
+namespace sigs::editor {
+
+// What trackers said is measured by: nothing yet, the outlines that are known without drawing, or the measured truth,
+// which gives the figures of `sigs evaluate track`.
+enum class TruthKind { none, outlines, measured };
+
+// One tracker's file, as far as it is known.
+struct ScoredTracker {
+  ResultFile file;
+  std::string name;
+  std::string problem;                      // not empty: the file cannot be used, and why, in one line
+  std::shared_ptr<const Results> results;   // null: not read yet, or a problem
+  std::shared_ptr<const TrackScore> score;  // null: not yet
+
+  [[nodiscard]] bool operator==(const ScoredTracker&) const = default;
+};
+
+// What there is to show of trackers at this moment; never changed behind the reader's back.
+struct Scored {
+  std::vector<ScoredTracker> trackers;  // in the order of the files
+  int intruder = 0;                     // of the project, that they are measured against
+  std::string target;                   // its name
+  int first_frame = 0;                  // of the scores' frames
+  TruthKind truth = TruthKind::none;
+  int truth_done = 0;  // frames of the measured truth, while it is made
+  int truth_total = 0;
+  std::string truth_problem;  // why it cannot be measured
+
+  [[nodiscard]] bool operator==(const Scored&) const = default;
+};
+
+struct ScoringWanted {
+  std::shared_ptr<const OpenedScene> scene;
+  std::vector<std::shared_ptr<const Survey>> surveys;  // one for each of the project's intruders
+  std::vector<ResultFile> files;
+  int intruder = 0;  // of the project
+
+  [[nodiscard]] bool operator==(const ScoringWanted&) const = default;
+};
+
+// Reads result files and scores them in the background, anew whenever a file, the scene or its truth becomes another
+// one. While nothing is loaded, nothing is done.
+class Scoring {
+ public:
+  // wake  called from another thread when scored() is another one
+  explicit Scoring(std::function<void()> wake, TruthMaker::ShowFilm show = film_shown);
+  ~Scoring();
+  Scoring(const Scoring&) = delete;
+  Scoring& operator=(const Scoring&) = delete;
+
+  void want(ScoringWanted wanted);
+  // Null: no files are loaded.
+  [[nodiscard]] std::shared_ptr<const Scored> scored() const;
+
+ private:
+  // A file as it was read last, and its score.
+  struct Tracker {
+    FileStamp stamp;
+    FileStamp seen;  // at the last look: what is being written is read once it has come to rest
+    FootageTruth footage;
+    std::optional<int> start_frame;  // it was taken to be started in this one
+    std::shared_ptr<const Results> results;
+    std::string problem;
+    std::shared_ptr<const FilmTruth> scored_by;
+    int target = -1;
+    std::shared_ptr<const TrackScore> score;
+  };
+
+  void run();
+  [[nodiscard]] ScoringWanted next();  // waits; without files: stop
+  void step(const ScoringWanted& wanted);
+  [[nodiscard]] std::shared_ptr<const FilmTruth> film_of(const ScoringWanted& wanted, const TruthState& truth);
+  void read(Tracker& tracker, const ResultFile& file, const FootageTruth& footage, std::optional<int> start) const;
+  void score(Tracker& tracker, const std::shared_ptr<const FilmTruth>& film, int target,
+             const std::optional<TrackPolicy>& policy) const;
+  void put(std::shared_ptr<const Scored> scored);
+
+  std::function<void()> wake_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stop_ = false;
+  bool news_ = false;
+  ScoringWanted wanted_;
+  std::shared_ptr<const Scored> scored_;
+  TruthMaker truth_;
+
+  // The thread's own.
+  std::map<int, Tracker> trackers_;  // by the file's id
+  std::shared_ptr<const FilmTruth> outlines_;
+  std::shared_ptr<const OpenedScene> outlines_scene_;
+  std::vector<std::shared_ptr<const Survey>> outlines_surveys_;
+  std::thread thread_;
+};
+
+}  // namespace sigs::editor

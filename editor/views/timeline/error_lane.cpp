@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/timeline/error_lane.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "editor/widgets/elided.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kPrecision_px = 20;  // the threshold that precision is usually told at
+constexpr const char* kHelp =
+    "From the middle of the truth's box to that of each tracker's. Gaps: nothing to compare. Bars below: "
+    "the target is lost; thin ones: nothing is reported. The line: 20 px. Small errors take more room than large ones";
+
+// Where the parts of the lane lie.
+struct LaneParts {
+  const TimelineStrip& strip;
+  float top_y = 0;
+  float height = 0;
+  float bar = 0;  // height of one tracker's bars
+  LaneBox curves;
+};
+
+LaneParts parts_of(const TimelineStrip& strip, float top_y, float height, std::size_t trackers) {
+  const auto count = static_cast<float>(std::max<std::size_t>(1, trackers));
+  const float bar = std::floor(std::clamp(height * 0.3F / count, 2.0F, scaled(4)));
+  const float inset = scaled(3);
+  return {.strip = strip,
+          .top_y = top_y,
+          .height = height,
+          .bar = bar,
+          .curves = {.top_y = top_y + inset, .height = std::max(1.0F, height - 2 * inset - bar * count)}};
+}
+
+float y_of(const LaneParts& parts, const LaneScale& scale, double error_px) {
+  return static_cast<float>(parts.curves.top_y + (1 - scale.share_of(error_px)) * parts.curves.height);
+}
+
+void draw_curve(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all, const ErrorCurve& curve) {
+  const ImU32 shade = result_color(curve.color);
+  const float thickness = std::max(1.5F, scaled(1.5));
+  std::vector<ImVec2> points;
+  for (const Polyline& line : curve_of(curve.errors_px, all.first_frame, parts.strip.ruler, all.scale, parts.curves)) {
+    points.clear();
+    for (const glm::vec2 point : line) points.emplace_back(point.x, point.y);
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), shade, ImDrawFlags_None, thickness);
+    if (points.size() == 1) list.AddCircleFilled(points.front(), thickness, shade, 8);
+  }
+}
+
+// Of one tracker, from y down. Nothing reported: a thin line; lost: the whole height.
+void draw_bars(ImDrawList& list, const LaneParts& parts, const ErrorCurve& curve, float y) {
+  const float gap = parts.bar > 2 ? 1 : 0;
+  for (const LostStretch& stretch : curve.lost) {
+    const float low = std::max(parts.strip.left(), parts.strip.edge_x(stretch.first_frame));
+    const float high = std::min(parts.strip.right(), std::max(low + 1, parts.strip.edge_x(stretch.last_frame + 1)));
+    if (high <= low) continue;
+    const bool lost = stretch.moment == TrackerMoment::lost;
+    const float top = lost ? y : std::floor(y + (parts.bar - gap) / 2);
+    list.AddRectFilled({low, top}, {high, lost ? y + parts.bar - gap : top + 1},
+                       faded(result_color(curve.color), lost ? 0.9 : 0.65));
+  }
+}
+
+void draw_curves(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all) {
+  if (kPrecision_px < all.scale.high) {
+    const float y = std::floor(y_of(parts, all.scale, kPrecision_px));
+    list.AddRectFilled({parts.strip.left(), y}, {parts.strip.right(), y + 1}, faded(color::kText, 0.18));
+  }
+  float y = parts.top_y + parts.height - parts.bar * static_cast<float>(all.curves.size());
+  for (const ErrorCurve& curve : all.curves) {
+    draw_bars(list, parts, curve, y);
+    y += parts.bar;
+  }
+  for (const ErrorCurve& curve : all.curves) draw_curve(list, parts, all, curve);
+}
+
+void draw_dots(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all, int frame) {
+  for (const ErrorCurve& curve : all.curves) {
+    const auto index = static_cast<std::size_t>(frame - all.first_frame);
+    if (frame < all.first_frame || index >= curve.errors_px.size() || !std::isfinite(curve.errors_px[index])) continue;
+    const ImVec2 center{parts.strip.moment_x(frame), y_of(parts, all.scale, curve.errors_px[index])};
+    list.AddCircleFilled(center, scaled(3.5), color::kPanel, 10);
+    list.AddCircleFilled(center, scaled(2.5), result_color(curve.color), 10);
+  }
+}
+
+void cell(const std::string& text, ImU32 shade) {
+  ImGui::TableNextColumn();
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0 && ImGui::TableGetColumnIndex() > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(shade), "%s", text.c_str());
+}
+
+void list_tracker(const Scored& scored, const ScoredTracker& tracker, int frame) {
+  const FrameScore* const score = score_at(tracker, scored.first_frame, frame);
+  ImGui::TableNextRow();
+  cell(shown_name(scored, tracker), result_color(tracker.file.color));
+  cell(moment_text(tracker, scored.first_frame, frame), color::kText);
+  const bool has_error = score != nullptr && score->dx_px && score->dy_px;
+  cell(has_error ? signed_text(*score->dx_px) : "-", color::kText);
+  cell(has_error ? signed_text(*score->dy_px) : "-", color::kText);
+  cell(score != nullptr && score->is_scored ? percent_text(score->overlap) : "-", color::kText);
+}
+
+void tooltip_at(const Studio& studio, int frame) {
+  const Scored& scored = *studio.scored;
+  ImGui::BeginTooltip();
+  ImGui::Text("frame %d   %s", frame, time_text_of(studio, frame).c_str());
+  if (ImGui::BeginTable("errors", 5, ImGuiTableFlags_SizingFixedFit)) {
+    ImGui::TableNextRow();
+    for (const char* const title : {"", "error", "dx px", "dy px", "overlap"}) cell(title, color::kQuiet);
+    for (const ScoredTracker& tracker : scored.trackers)
+      if (tracker.file.is_shown && tracker.results) list_tracker(scored, tracker, frame);
+    ImGui::EndTable();
+  }
+  if (scored.truth != TruthKind::measured) ImGui::TextDisabled("about: by its outline, not measured yet");
+  ImGui::EndTooltip();
+}
+
+}  // namespace
+
+void ErrorLane::refresh(const Scored& scored) {
+  std::vector<Drawn> present;
+  for (const ScoredTracker& tracker : scored.trackers) present.push_back({tracker.score, tracker.file});
+  if (present == drawn_ && curves_.first_frame == scored.first_frame) return;
+  drawn_ = std::move(present);
+  curves_ = error_curves(scored);
+}
+
+// The title with the largest error, then as many trackers as have room, each with its error at the playhead.
+void ErrorLane::draw_names(const Scored& scored, const TimelineStrip& strip, float top_y, float height,
+                           int frame) const {
+  ImGui::PushFont(font(Font::small));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float line = ImGui::GetFontSize();
+  const float left = strip.names_x + scaled(2);
+  const float right = strip.names_x + strip.names_width - scaled(8);
+  float y = std::floor(top_y + scaled(4));
+  const auto draw_line = [&](const std::string& name, ImU32 name_color, const std::string& value, ImU32 value_color) {
+    const float width = ImGui::CalcTextSize(value.c_str()).x;
+    list.AddText({left, y}, name_color, elided(name, right - width - left - scaled(6)).c_str());
+    list.AddText({right - width, y}, value_color, value.c_str());
+    y += line;
+  };
+  const std::string most = curves_.most_px > 0 ? "0 .. " + pixels_text(curves_.most_px) : "";
+  draw_line(kTitle, color::kQuiet, most, faded(color::kQuiet, 0.75));
+  for (const ScoredTracker& tracker : scored.trackers) {
+    if (!tracker.file.is_shown || !tracker.results) continue;
+    if (y + line > top_y + height) break;
+    draw_line(shown_name(scored, tracker), result_color(tracker.file.color),
+              moment_text(tracker, scored.first_frame, frame), color::kText);
+  }
+  ImGui::PopFont();
+}
+
+void ErrorLane::draw(const Studio& studio, const TimelineStrip& strip, float top_y, float height, RulerRow& ruler) {
+  const Scored& scored = *studio.scored;
+  refresh(scored);
+  ImGui::PushID("errors");
+  ImGui::SetCursorScreenPos({strip.names_x, top_y});
+  ImGui::Dummy({strip.names_width, height});
+  tooltip_for_item(kHelp);
+  ImGui::SetCursorScreenPos({strip.left(), top_y});
+  ImGui::InvisibleButton("lane", {std::max(1.0F, strip.right() - strip.left()), height});
+  studio.places.note_item(std::string("timeline/lane/") + kTitle);
+  ruler.scrub_on_item(studio, strip);
+  const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
+
+  const int playhead = studio.document.playhead();
+  draw_names(scored, strip, top_y, height, playhead);
+  const LaneParts parts = parts_of(strip, top_y, height - 1, curves_.curves.size());
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect({strip.left(), top_y}, {strip.right(), top_y + height}, true);
+  draw_curves(list, parts, curves_);
+  draw_dots(list, parts, curves_, playhead);
+  if (hovered) {
+    const int frame =
+        strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, 0, std::max(0, studio.document.frame_count() - 1));
+    const float x = std::floor(strip.moment_x(frame));
+    list.AddRectFilled({x, top_y}, {x + 1, top_y + height - 1}, faded(color::kText, 0.5));
+    draw_dots(list, parts, curves_, frame);
+    tooltip_at(studio, frame);
+  }
+  list.PopClipRect();
+  draw_row_line(list, strip, top_y + height - 1);
+  ImGui::PopID();
+}
+
+}  // namespace sigs::editor

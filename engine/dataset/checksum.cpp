@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/checksum.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "base/ensure.h"
+
+extern "C" {
+#include <libavutil/mem.h>
+#include <libavutil/sha.h>
+}
+
+namespace sigs {
+
+namespace {
+
+constexpr int kBits = 256;
+constexpr std::size_t kPieceBytes = 1 << 20;
+
+}  // namespace
+
+struct Checksum::State {
+  AVSHA* sha = av_sha_alloc();
+
+  State() {
+    ENSURE(sha != nullptr);
+    av_sha_init(sha, kBits);
+  }
+  ~State() { av_free(sha); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+};
+
+Checksum::Checksum() : state_(std::make_unique<State>()) {}
+Checksum::Checksum(Checksum&&) noexcept = default;
+Checksum& Checksum::operator=(Checksum&&) noexcept = default;
+Checksum::~Checksum() = default;
+
+void Checksum::add(std::string_view bytes) {
+  av_sha_update(state_->sha, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
+std::string Checksum::text() {
+  std::array<std::uint8_t, kBits / 8> digest{};
+  av_sha_final(state_->sha, digest.data());
+  std::string text;
+  for (const std::uint8_t byte : digest)
+    for (const int nibble : {byte >> 4, byte & 15}) text += "0123456789abcdef"[nibble];
+  return text;
+}
+
+std::string checksum_of_text(std::string_view text) {
+  Checksum checksum;
+  checksum.add(text);
+  return checksum.text();
+}
+
+Result<std::string> checksum_of_file(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
+  std::error_code code;
+  if (std::filesystem::is_directory(file, code))
+    return fail(file.string(), "is a folder, not a file", ErrorKind::cannot_read);
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return fail(file.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read);
+  Checksum checksum;
+  std::vector<char> piece(kPieceBytes);
+  while (in) {
+    if (cancel != nullptr && *cancel) return fail("", "interrupted", ErrorKind::interrupted);
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    checksum.add({piece.data(), static_cast<std::size_t>(in.gcount())});
+  }
+  if (in.bad()) return fail(file.string(), "cannot be read to its end", ErrorKind::cannot_read);
+  return checksum.text();
+}
+
+std::string checksum_line(const std::string& checksum, const std::string& path) {
+  std::string name;
+  for (const char c : path) {
+    if (c == '\\')
+      name += "\\\\";
+    else if (c == '\n')
+      name += "\\n";
+    else if (c == '\r')
+      name += "\\r";
+    else
+      name += c;
+  }
+  return (name == path ? "" : "\\") + checksum + "  " + name + "\n";
+}
+
+}  // namespace sigs

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "base/result.h"
+
+namespace sigs {
+
+// Every part-th video of the plan, parts counted from 1.
+struct Shard {
+  int part = 1;
+  int parts = 1;
+
+  [[nodiscard]] bool has(int video) const { return video % parts == part - 1; }
+};
+
+// Whether a video can be in both, given enough videos.
+[[nodiscard]] bool overlap(const Shard& a, const Shard& b);
+
+// Where videos of a dataset are made before they are whole.
+[[nodiscard]] std::filesystem::path workshop_of(const std::filesystem::path& dataset);
+
+// The right to make these videos of a dataset, held until it goes out of scope or the process ends, however that ends.
+// It is a locked file in the workshop, so it also holds among machines that share the folder, where their file system
+// has locks; where it has none nobody is kept out.
+class Claim {
+ public:
+  // The folder must be there. Error cannot_create: another process makes some of the same videos.
+  [[nodiscard]] static Result<Claim> take(const std::filesystem::path& dataset, const Shard& shard);
+
+  Claim(Claim&& other) noexcept;
+  Claim& operator=(Claim&&) = delete;
+  ~Claim();  // the workshop goes with its last claim, where it is empty
+
+ private:
+  Claim(std::filesystem::path file, int lock);
+  std::filesystem::path file_;
+  int lock_ = -1;
+};
+
+}  // namespace sigs

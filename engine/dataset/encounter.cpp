@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/encounter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/ensure.h"
+#include "dataset/exact_angles.h"
+#include "dataset/short_text.h"
+
+namespace sigs {
+
+namespace {
+
+// Unit vectors in world axes, seen by who looks along `toward`: where the intruder comes from, its right, its above.
+struct View {
+  glm::dvec3 toward{1, 0, 0};
+  glm::dvec3 right{0, 1, 0};
+  glm::dvec3 above{0, 0, -1};
+};
+
+View view_along(double bearing_deg, double elevation_deg) {
+  const CosSin bearing = cos_sin_of_deg(bearing_deg);
+  const CosSin elevation = cos_sin_of_deg(elevation_deg);
+  return {.toward = {elevation.cos * bearing.cos, elevation.cos * bearing.sin, -elevation.sin},
+          .right = {-bearing.sin, bearing.cos, 0},
+          .above = {-elevation.sin * bearing.cos, -elevation.sin * bearing.sin, -elevation.cos}};
+}
+
+std::string metres(double value_m) {
+  return short_text(value_m) + " m";
+}
+
+// The way along the relative path from the first frame to the CPA: Pythagoras.
+tl::expected<double, std::string> way_m(double range_m, double miss_m) {
+  if (range_m < miss_m)
+    return tl::unexpected("range_m: the intruder starts " + metres(range_m) +
+                          " away, nearer than the miss distance of " + metres(miss_m));
+  return std::sqrt((range_m - miss_m) * (range_m + miss_m));
+}
+
+}  // namespace
+
+double nearest_m(const RelativeMotion& motion, double length_s) {
+  const double speed_squared = glm::dot(motion.velocity_mps, motion.velocity_mps);
+  const double lowest_s = speed_squared > 0 ? -glm::dot(motion.start_m, motion.velocity_mps) / speed_squared : 0;
+  return glm::length(motion.at(std::clamp(lowest_s, 0.0, length_s)));
+}
+
+RelativeMotion relative_motion(const Encounter& encounter) {
+  const View view = view_along(encounter.bearing_deg, encounter.elevation_deg);
+  const CosSin side = cos_sin_of_deg(encounter.miss_angle_deg);
+  const glm::dvec3 miss_m = encounter.miss_distance_m * (side.cos * view.right + side.sin * view.above);
+  const double way_m = encounter.closing_speed_mps * encounter.time_of_closest_approach_s;
+  return {.start_m = miss_m + way_m * view.toward, .velocity_mps = -encounter.closing_speed_mps * view.toward};
+}
+
+double first_range_m(const Encounter& encounter) {
+  return glm::length(relative_motion(encounter).start_m);
+}
+
+tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const EncounterTiming& timing) {
+  ENSURE(timing.closing_speed_mps.has_value() + timing.time_of_closest_approach_s.has_value() +
+             timing.range_m.has_value() ==
+         2);
+  encounter.closing_speed_mps = timing.closing_speed_mps.value_or(0);
+  encounter.time_of_closest_approach_s = timing.time_of_closest_approach_s.value_or(0);
+  if (timing.closing_speed_mps && *timing.closing_speed_mps <= 0)
+    return tl::unexpected("closing_speed_mps: " + short_text(*timing.closing_speed_mps) +
+                          " m/s cannot meet the miss distance of " + metres(encounter.miss_distance_m) +
+                          ": the intruder never comes nearer");
+  if (!timing.range_m) return encounter;
+  const tl::expected<double, std::string> way = way_m(*timing.range_m, encounter.miss_distance_m);
+  if (!way) return tl::unexpected(way.error());
+  if (timing.closing_speed_mps) {
+    encounter.time_of_closest_approach_s = *way / *timing.closing_speed_mps;
+    return encounter;
+  }
+  encounter.closing_speed_mps = *way / std::abs(*timing.time_of_closest_approach_s);
+  if (*way == 0 || !std::isfinite(encounter.closing_speed_mps))
+    return tl::unexpected("range_m: no closing speed leads from " + metres(*timing.range_m) +
+                          " to the miss distance of " + metres(encounter.miss_distance_m) + " in " +
+                          short_text(*timing.time_of_closest_approach_s) + " s");
+  return encounter;
+}
+
+}  // namespace sigs

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/entry.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "base/partial_file.h"
+#include "dataset/checksum.h"
+#include "dataset/json_text.h"
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Result<std::vector<std::string>> paths_in(const fs::path& folder, const std::vector<std::string>& left_out) {
+  std::vector<std::string> paths;
+  std::error_code code;
+  for (fs::recursive_directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
+    if (it->is_directory(code)) continue;
+    std::string path = it->path().lexically_relative(folder).generic_string();
+    if (std::find(left_out.begin(), left_out.end(), path) == left_out.end()) paths.push_back(std::move(path));
+  }
+  if (code) return fail(folder.string(), "cannot be looked through: " + code.message(), ErrorKind::cannot_read);
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+VideoEntry entry_of(const Json& json) {
+  VideoEntry entry{.planned = json.at("planned").get<std::string>(), .frames = json.at("frames").get<int>()};
+  for (const Json& file : json.at("files"))
+    entry.files.push_back({.path = file.at("path").get<std::string>(),
+                           .bytes = file.at("bytes").get<std::uintmax_t>(),
+                           .sha256 = file.at("sha256").get<std::string>()});
+  return entry;
+}
+
+}  // namespace
+
+std::string entry_text(const PlannedVideo& video, const VideoEntry& entry) {
+  Json json;
+  json["sigs_dataset_entry"] = 1;
+  json.update(described(video));
+  json["frames"] = entry.frames;
+  json["planned"] = entry.planned;
+  json["files"] = described(entry.files, "");
+  return json_text(json);
+}
+
+Result<VideoEntry> read_entry(const fs::path& file) {
+  const Result<std::string> text = read_text(file);
+  if (!text) return fail(text.error());
+  try {
+    return entry_of(Json::parse(*text));
+  } catch (const Json::exception&) {
+    return fail(file.string(), "is not the entry of a video that sigs dataset made");
+  }
+}
+
+std::optional<KnownFiles::Identity> KnownFiles::identity_of(const fs::path& file) {
+  struct stat state {};
+  if (stat(file.c_str(), &state) != 0) return std::nullopt;
+  return Identity{state.st_dev, state.st_ino};
+}
+
+void KnownFiles::remember(const fs::path& folder, const VideoEntry& entry) {
+  for (const DatasetFile& file : entry.files)
+    if (const std::optional<Identity> identity = identity_of(folder / file.path))
+      checksums_.emplace(*identity, file.sha256);
+}
+
+Result<std::string> KnownFiles::checksum_of(const fs::path& file, const std::atomic<bool>* cancel) {
+  const std::optional<Identity> identity = identity_of(file);
+  if (identity)
+    if (const auto known = checksums_.find(*identity); known != checksums_.end()) return known->second;
+  Result<std::string> checksum = checksum_of_file(file, cancel);
+  if (checksum && identity) checksums_.emplace(*identity, *checksum);
+  return checksum;
+}
+
+Result<std::vector<DatasetFile>> files_in(const fs::path& folder, const std::vector<std::string>& left_out,
+                                          KnownFiles& known, const std::atomic<bool>* cancel) {
+  const Result<std::vector<std::string>> paths = paths_in(folder, left_out);
+  if (!paths) return fail(paths.error());
+  std::vector<DatasetFile> files;
+  for (const std::string& path : *paths) {
+    std::error_code code;
+    const std::uintmax_t bytes = fs::file_size(folder / path, code);
+    if (code) return fail((folder / path).string(), "cannot be read: " + code.message(), ErrorKind::cannot_read);
+    const Result<std::string> checksum = known.checksum_of(folder / path, cancel);
+    if (!checksum) return fail(checksum.error());
+    files.push_back({.path = path, .bytes = bytes, .sha256 = *checksum});
+  }
+  return files;
+}
+
+Result<std::string> damage_of(const fs::path& folder, const VideoEntry& entry, const std::atomic<bool>* cancel) {
+  for (const DatasetFile& file : entry.files) {  // sizes first: they cost nothing
+    std::error_code code;
+    const std::uintmax_t bytes = fs::file_size(folder / file.path, code);
+    if (code) return file.path + " is missing";
+    if (bytes != file.bytes) return file.path + " has another size than when it was made";
+  }
+  KnownFiles known;
+  for (const DatasetFile& file : entry.files) {
+    const Result<std::string> checksum = known.checksum_of(folder / file.path, cancel);
+    if (!checksum && checksum.error().kind == ErrorKind::interrupted) return fail(checksum.error());
+    if (!checksum) return checksum.error().text();
+    if (*checksum != file.sha256) return file.path + " has changed since it was made";
+  }
+  return std::string();
+}
+
+std::optional<std::string> stranger_in(const fs::path& folder, const VideoEntry& entry,
+                                       const std::vector<std::string>& left_out) {
+  const Result<std::vector<std::string>> paths = paths_in(folder, left_out);
+  if (!paths) return std::nullopt;
+  std::set<std::string> ours;
+  for (const DatasetFile& file : entry.files) ours.insert(file.path);
+  for (const std::string& path : *paths)
+    if (!ours.contains(path)) return path;
+  return std::nullopt;
+}
+
+}  // namespace sigs

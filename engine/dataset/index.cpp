@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/index.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "base/partial_file.h"
+#include "dataset/checksum.h"
+#include "dataset/claim.h"
+#include "dataset/flush.h"
+#include "dataset/json_text.h"
+#include "dataset/merge_labels.h"
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kIndex = "index.json";
+constexpr const char* kChecksums = "SHA256SUMS";
+
+Result<void> write_splits(const fs::path& folder, const std::vector<FinishedVideo>& videos) {
+  for (const std::string& split : splits_of(videos)) {
+    std::string list;
+    for (const FinishedVideo& one : videos)
+      if (split_of(*one.video) == split) list += one.video->name + "\n";
+    if (const Result<void> step = write_text(folder / (split + ".txt"), list, false); !step) return step;
+  }
+  return {};
+}
+
+// An empty folder in the workshop that becomes FOLDER/NAME.
+Result<fs::path> begun(const fs::path& dataset, const std::string& name) {
+  const fs::path folder = workshop_of(dataset) / name;
+  std::error_code code;
+  fs::remove_all(folder, code);
+  if (!code) fs::create_directories(folder, code);
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  return folder;
+}
+
+// Replaces FOLDER/NAME, where there is one, by what was made in the workshop; a folder in which there is nothing is not
+// there.
+Result<void> put_in_place(const fs::path& dataset, const std::string& name) {
+  const fs::path made = workshop_of(dataset) / name;
+  if (const Result<void> step = flush_all(made); !step) return step;
+  std::error_code code;
+  fs::remove_all(dataset / name, code);
+  if (!code && fs::is_empty(made, code))
+    fs::remove(made, code);
+  else if (!code)
+    fs::rename(made, dataset / name, code);
+  if (code) return fail((dataset / name).string(), "cannot be written: " + code.message(), ErrorKind::write_failed);
+  return {};
+}
+
+// Files of splits/ and labels/, made and put in their places.
+Result<std::vector<DatasetFile>> shared_files(const Plan& plan, const fs::path& dataset,
+                                              const std::vector<FinishedVideo>& videos,
+                                              const std::atomic<bool>* cancel) {
+  const Result<fs::path> splits = begun(dataset, "splits");
+  if (!splits) return fail(splits.error());
+  const Result<fs::path> labels = begun(dataset, "labels");
+  if (!labels) return fail(labels.error());
+  Result<void> step = write_splits(*splits, videos);
+  if (step) step = merge_labels({.dataset = dataset, .folder = *labels, .name = plan.name, .cancel = cancel}, videos);
+  if (!step) return fail(step.error());
+  KnownFiles known;
+  for (const FinishedVideo& one : videos) known.remember(dataset / one.video->name, one.entry);
+  std::vector<DatasetFile> files;
+  for (const std::string name : {"splits", "labels"}) {
+    Result<std::vector<DatasetFile>> found = files_in(workshop_of(dataset) / name, {}, known, cancel);
+    if (!found) return found;
+    for (DatasetFile& file : *found) {
+      file.path = name + "/" + file.path;
+      files.push_back(std::move(file));
+    }
+    if (const Result<void> put = put_in_place(dataset, name); !put) return fail(put.error());
+  }
+  return files;
+}
+
+std::string checksums_of(const std::vector<FinishedVideo>& videos, const std::vector<DatasetFile>& shared) {
+  std::string text;
+  for (const FinishedVideo& one : videos) {
+    const std::string folder = one.video->name + "/";
+    for (const DatasetFile& file : one.entry.files) text += checksum_line(file.sha256, folder + file.path);
+    text += checksum_line(checksum_of_text(entry_text(*one.video, one.entry)), folder + kEntryName);
+  }
+  for (const DatasetFile& file : shared) text += checksum_line(file.sha256, file.path);
+  return text;
+}
+
+Json described(const DatasetSource& source) {
+  Json json;
+  json["program"] = source.program;
+  json["seed"] = source.seed;
+  json["recipe_sha256"] = checksum_of_text(source.recipe);
+  json["recipe"] = Json::parse(source.recipe, nullptr, false, true);
+  if (json["recipe"].is_discarded()) json["recipe"] = nullptr;
+  json["settings"] = source.settings;
+  return json;
+}
+
+Json index_of(const Plan& plan, const DatasetSource& source, const std::vector<FinishedVideo>& videos) {
+  Json json;
+  json["sigs_dataset_index"] = 1;
+  json["name"] = plan.name;
+  json.update(described(source));
+  int frames = 0;
+  for (const FinishedVideo& one : videos) frames += one.entry.frames;
+  json["frames"] = frames;
+  json["videos"] = Json::array();
+  for (const FinishedVideo& one : videos) {
+    Json video = described(*one.video);
+    video["frames"] = one.entry.frames;
+    video["project"] = one.video->name + "/" + one.video->name + ".json";
+    video["planned"] = one.entry.planned;
+    video["files"] = described(one.entry.files, one.video->name + "/");
+    json["videos"].push_back(std::move(video));
+  }
+  json["impossible"] = Json::array();
+  for (const ImpossibleVideo& one : plan.impossible)
+    json["impossible"].push_back({{"name", one.name}, {"why", one.why}});
+  return json;
+}
+
+}  // namespace
+
+std::string split_of(const PlannedVideo& video) {
+  return video.split.empty() ? "all" : video.split;
+}
+
+std::vector<std::string> splits_of(const std::vector<FinishedVideo>& videos) {
+  std::vector<std::string> splits;
+  for (const FinishedVideo& one : videos)
+    if (const std::string split = split_of(*one.video); std::find(splits.begin(), splits.end(), split) == splits.end())
+      splits.push_back(split);
+  return splits;
+}
+
+Result<void> remove_index(const fs::path& dataset) {
+  for (const char* const name : {kIndex, kChecksums}) {
+    std::error_code code;
+    fs::remove(dataset / name, code);
+    if (code) return fail((dataset / name).string(), "cannot be removed: " + code.message(), ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, const fs::path& dataset,
+                                const std::vector<FinishedVideo>& videos, const std::atomic<bool>* cancel) {
+  if (const Result<void> step = remove_index(dataset); !step) return fail(step.error());
+  const Result<std::vector<DatasetFile>> shared = shared_files(plan, dataset, videos, cancel);
+  if (!shared) return fail(shared.error());
+  const std::string checksums = checksums_of(videos, *shared);
+  Json index = index_of(plan, source, videos);
+  index["shared_files"] = described(*shared, "");
+  index["checksum"] = checksum_of_text(checksums);
+  Result<void> step = write_text(dataset / kChecksums, checksums, true);
+  if (step) step = flush(dataset / kChecksums);
+  if (step) step = write_text(dataset / kIndex, json_text(index), true);
+  if (step) step = flush(dataset / kIndex);
+  if (step) step = flush(dataset);
+  if (!step) return fail(step.error());
+  DatasetIndex made{.written = {dataset / kIndex, dataset / kChecksums}, .checksum = index["checksum"]};
+  std::error_code code;
+  for (const char* const name : {"splits", "labels"})
+    if (fs::exists(dataset / name, code)) made.written.push_back(dataset / name);
+  return made;
+}
+
+}  // namespace sigs

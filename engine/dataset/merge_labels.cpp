@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/merge_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "annotation/label_words.h"
+#include "annotation/labels.h"
+#include "dataset/merge_formats.h"
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has_labels(const PlannedVideo& video, std::string_view format) {
+  const std::vector<std::string>& labels = video.project.output.labels;
+  return std::find(labels.begin(), labels.end(), format) != labels.end();
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+Result<void> check_categories(const Plan& plan) {
+  const PlannedVideo* first = nullptr;
+  for (const PlannedVideo& video : plan.videos) {
+    const auto counts = [&](std::string_view format) { return has_labels(video, format); };
+    constexpr std::array<std::string_view, 3> kCounting{"coco", "yolo", "mot"};
+    if (std::none_of(kCounting.begin(), kCounting.end(), counts)) continue;
+    if (first == nullptr) first = &video;
+    if (categories_of(video.project) != categories_of(first->project))
+      return fail("video \"" + video.name + "\"", "counts other categories (" + listed(categories_of(video.project)) +
+                                                      ") than \"" + first->name + "\" (" +
+                                                      listed(categories_of(first->project)) +
+                                                      "); give all of them the same export.categories");
+  }
+  return {};
+}
+
+// A name as folders and columns of a format have it.
+std::string name_in(std::string_view format, const std::string& name) {
+  return format == "kitti" ? word_name(name) : line_name(name);
+}
+
+Result<void> check_sequence_names(const Plan& plan) {
+  for (const std::string_view format : {"mot", "kitti", "vot"}) {
+    std::map<std::string, const PlannedVideo*> taken;
+    for (const PlannedVideo& video : plan.videos) {
+      if (!has_labels(video, format)) continue;
+      const auto [other, is_new] = taken.emplace(name_in(format, video.name), &video);
+      if (!is_new)
+        return fail("video \"" + video.name + "\"", "is called " + other->first + " in " + std::string(format) +
+                                                        " labels, and so is \"" + other->second->name +
+                                                        "\"; call it otherwise");
+    }
+  }
+  return {};
+}
+
+struct Merger {
+  std::string_view format;
+  std::string_view suffix;  // of one split's file; empty: a folder of all splits
+  Result<void> (*merge)(const SplitLabels& labels, const fs::path& place);
+};
+
+constexpr Merger kMergers[] = {{"coco", ".json", merge_coco}, {"aot", ".json", merge_aot}, {"csv", ".csv", merge_csv},
+                               {"mot", "", merge_mot},        {"kitti", "", merge_kitti},  {"vot", "", merge_vot}};
+
+std::vector<SplitLabels> labels_of(std::string_view format, const MergeRequest& request,
+                                   const std::vector<FinishedVideo>& videos) {
+  std::vector<SplitLabels> sets;
+  for (const std::string& split : splits_of(videos)) {
+    SplitLabels labels{.dataset = request.name, .split = split};
+    for (const FinishedVideo& one : videos) {
+      const PlannedVideo& video = *one.video;
+      if (split_of(video) != split || !has_labels(video, format)) continue;
+      const std::string name = video.project.name + std::string(label_format(format)->suffix);
+      labels.videos.push_back({video.name, request.dataset / video.name / name});
+    }
+    if (!labels.videos.empty()) sets.push_back(std::move(labels));
+  }
+  return sets;
+}
+
+Result<fs::path> made(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  return folder;
+}
+
+}  // namespace
+
+Result<void> check_labels_agree(const Plan& plan) {
+  const Result<void> categories = check_categories(plan);
+  return categories ? check_sequence_names(plan) : categories;
+}
+
+Result<void> merge_labels(const MergeRequest& request, const std::vector<FinishedVideo>& videos) {
+  for (const Merger& merger : kMergers) {
+    for (const SplitLabels& labels : labels_of(merger.format, request, videos)) {
+      if (request.cancel != nullptr && *request.cancel) return fail("", "interrupted", ErrorKind::interrupted);
+      const Result<fs::path> folder = made(request.folder / merger.format);
+      if (!folder) return fail(folder.error());
+      const bool is_file = !merger.suffix.empty();
+      const Result<void> merged =
+          merger.merge(labels, is_file ? *folder / (labels.split + std::string(merger.suffix)) : *folder);
+      if (!merged) return merged;
+    }
+  }
+  const std::vector<SplitLabels> yolo = labels_of("yolo", request, videos);
+  if (yolo.empty()) return {};
+  const Result<fs::path> folder = made(request.folder / "yolo");
+  return folder ? merge_yolo(yolo, *folder, "../../") : fail(folder.error());
+}
+
+}  // namespace sigs

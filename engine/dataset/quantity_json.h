@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+#include "dataset/draw.h"
+#include "project/field_json.h"
+
+namespace sigs {
+
+// A quantity as a recipe writes it: 5, {"uniform": [a, b]}, {"normal": {"mean": m, "deviation": d, "low": a,
+// "high": b}} (bounds may be left out) or {"choice": [a, b, ...]}. Else what is wrong with it.
+[[nodiscard]] tl::expected<Quantity, std::string> quantity_of(const Json& json);
+
+}  // namespace sigs

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/recipe_node.h"
+
+#include <cmath>
+#include <utility>
+
+#include "dataset/short_text.h"
+
+namespace sigs {
+
+namespace {
+
+const Json& no_object() {
+  static const Json empty = Json::object();
+  return empty;
+}
+
+std::string found(const Json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() > 40) text = text.substr(0, 37) + "...";
+  return ", found " + text;
+}
+
+}  // namespace
+
+void RecipeLog::wrong(const std::string& key, const std::string& what, ErrorKind kind) {
+  if (!error) error = Error{key.empty() ? file : file + ": " + key, what, kind};
+}
+
+void RecipeLog::warn(const std::string& key, const std::string& what) {
+  warnings.push_back({file + ": " + key, what});
+}
+
+RecipeNode::RecipeNode(const Json& json, std::string key, RecipeLog& log)
+    : json_(&json), key_(std::move(key)), log_(&log) {
+  if (json.is_object()) return;
+  log.wrong(key_, "expected { ... }" + found(json));
+  json_ = &no_object();
+}
+
+std::string RecipeNode::key_of(std::string_view name) const {
+  return key_.empty() ? std::string(name) : key_ + "." + std::string(name);
+}
+
+const Json* RecipeNode::value(std::string_view name) {
+  known_.emplace(name);
+  const auto place = json_->find(std::string(name));
+  return place == json_->end() ? nullptr : &*place;
+}
+
+std::optional<std::string> RecipeNode::text(std::string_view name) {
+  const Json* const json = value(name);
+  if (json == nullptr) return std::nullopt;
+  if (json->is_string()) return json->get<std::string>();
+  log_->wrong(key_of(name), "expected a text in quotes" + found(*json));
+  return std::nullopt;
+}
+
+std::string RecipeNode::needed_text(std::string_view name) {
+  const std::string given = text(name).value_or("");
+  if (given.empty()) log_->wrong(key_of(name), "is missing or empty; give it a text");
+  return given;
+}
+
+std::optional<int> RecipeNode::whole(std::string_view name, int low, int high) {
+  const Json* const json = value(name);
+  if (json == nullptr) return std::nullopt;
+  const double number = json->is_number() ? json->get<double>() : std::nan("");
+  if (number == std::floor(number) && number >= low && number <= high) return static_cast<int>(number);
+  log_->wrong(key_of(name),
+              "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) + found(*json));
+  return std::nullopt;
+}
+
+std::vector<std::string> RecipeNode::texts(std::string_view name) {
+  const Json* const json = value(name);
+  if (json == nullptr) return {};
+  std::vector<std::string> list;
+  if (json->is_array())
+    for (const Json& item : *json)
+      if (item.is_string()) list.push_back(item.get<std::string>());
+  if (!json->is_array() || json->empty() || list.size() != json->size())
+    log_->wrong(key_of(name), "expected a list of names [\"...\"]" + found(*json));
+  return list;
+}
+
+std::map<std::string, std::string> RecipeNode::text_map(std::string_view name) {
+  const Json* const json = value(name);
+  std::map<std::string, std::string> texts;
+  if (json == nullptr) return texts;
+  if (!json->is_object()) log_->wrong(key_of(name), "expected { ... }" + found(*json));
+  for (const auto& [key, item] : json->items())
+    if (item.is_string())
+      texts[key] = item.get<std::string>();
+    else
+      log_->wrong(key_of(name) + "." + key, "expected a text in quotes" + found(item));
+  return texts;
+}
+
+std::vector<RecipeNode> RecipeNode::nodes(std::string_view name) {
+  const Json* const json = value(name);
+  std::vector<RecipeNode> list;
+  if (json == nullptr || !json->is_array() || json->empty()) {
+    log_->wrong(key_of(name), "expected a list [{ ... }] of at least one" + (json ? found(*json) : ""));
+    return list;
+  }
+  for (std::size_t i = 0; i < json->size(); ++i)
+    list.emplace_back(json->at(i), key_of(name) + "[" + std::to_string(i) + "]", *log_);
+  return list;
+}
+
+void RecipeNode::done() {
+  for (const auto& [key, item] : json_->items())
+    if (!known_.contains(key) && key != "about") log_->warn(key_of(key), "unknown key, not used");
+}
+
+}  // namespace sigs

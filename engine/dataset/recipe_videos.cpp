@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/recipe_videos.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dataset/quantity_json.h"
+#include "dataset/short_text.h"
+#include "dataset/video_name.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kMostVideos = 100'000;
+constexpr int kMostFrames = 1'000'000'000;
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The names that a group picks of those that there are; all where it picks none.
+std::vector<std::string> picked(RecipeNode& group, const char* key, const std::vector<std::string>& there) {
+  std::vector<std::string> names = group.texts(key);
+  if (names.empty()) return there;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string where = group.key_of(key) + "[" + std::to_string(i) + "]";
+    if (!has(there, names[i]))
+      group.log().wrong(where, "no such name: \"" + names[i] + "\"; there are " + listed(there));
+    if (std::count(names.begin(), names.end(), names[i]) > 1)
+      group.log().wrong(where, "stands there twice: \"" + names[i] + "\"");
+  }
+  return names;
+}
+
+std::string kinds() {
+  std::vector<std::string> names;
+  for (const FlightKind kind : all_flight_kinds()) names.emplace_back(name_of(kind));
+  return listed(names);
+}
+
+std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name) {
+  const Json* const json = node.value(name);
+  if (json == nullptr) return std::nullopt;
+  const tl::expected<Quantity, std::string> quantity = quantity_of(*json);
+  if (quantity) return *quantity;
+  node.log().wrong(node.key_of(name), quantity.error());
+  return std::nullopt;
+}
+
+// Any two of the three, or one of the first two alone.
+void check_timing(const FlightPlan& flight, RecipeNode& node) {
+  const bool speed = flight.quantities.contains("closing_speed_mps");
+  const bool range = flight.quantities.contains("range_m");
+  const bool time = flight.quantities.contains("time_of_closest_approach_s");
+  if (!speed && !range) node.log().wrong(node.key_of("closing_speed_mps"), "is missing; give it or range_m");
+  if (speed && range && time)
+    node.log().wrong(node.key_of("range_m"),
+                     "follows from closing_speed_mps and time_of_closest_approach_s; give two of the three");
+}
+
+FlightPlan read_flight(RecipeNode node) {
+  FlightPlan flight;
+  const std::string kind_name = node.needed_text("kind");
+  const std::optional<FlightKind> kind = flight_kind_of(kind_name);
+  if (!kind) {
+    node.log().wrong(node.key_of("kind"), "is \"" + kind_name + "\"; there are " + kinds());
+    return flight;
+  }
+  flight.kind = *kind;
+  flight.name = node.text("name").value_or(kind_name);
+  for (const FlightQuantity& quantity : quantities_of(*kind)) {
+    const std::optional<Quantity> given = read_quantity(node, quantity.name);
+    if (given) flight.quantities[std::string(quantity.name)] = *given;
+    if (!given && quantity.required)
+      node.log().wrong(node.key_of(quantity.name), "is missing: " + std::string(quantity.help));
+  }
+  if (*kind == FlightKind::encounter) check_timing(flight, node);
+  node.done();
+  return flight;
+}
+
+// A flight that is a text is its kind, all else as it comes.
+std::vector<FlightPlan> read_flights(RecipeNode& group) {
+  std::vector<FlightPlan> flights;
+  const Json* const list = group.value("flights");
+  if (list == nullptr || !list->is_array() || list->empty()) {
+    group.log().wrong(group.key_of("flights"), "expected a list of at least one flight");
+    return flights;
+  }
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Json& item = list->at(i);
+    const std::string key = group.key_of("flights") + "[" + std::to_string(i) + "]";
+    const Json named{{"kind", item}};
+    flights.push_back(read_flight(RecipeNode(item.is_string() ? named : item, key, group.log())));
+  }
+  return flights;
+}
+
+void check_split(const std::string& split, RecipeNode& group, const Recipe& recipe) {
+  const std::vector<std::string> there = names_of(recipe.splits);
+  if (const std::string wrong = wrong_with_name(split); !split.empty() && !wrong.empty())
+    group.log().wrong(group.key_of("split"), wrong);
+  if (!split.empty() && !there.empty() && !has(there, split))
+    group.log().wrong(group.key_of("split"), "no such split: \"" + split + "\"; there are " + listed(there));
+}
+
+VideoGroup read_group(RecipeNode node, const Recipe& recipe) {
+  VideoGroup group;
+  group.backgrounds = picked(node, "backgrounds", names_of(recipe.backgrounds));
+  group.aircraft = picked(node, "aircraft", names_of(recipe.aircraft));
+  group.flights = read_flights(node);
+  group.count = node.whole("count", 1, kMostVideos).value_or(1);
+  group.name = node.text("name").value_or(group.count > 1 ? "{background}-{aircraft}-{flight}-{number}"
+                                                          : "{background}-{aircraft}-{flight}");
+  group.frames = node.whole("frames", 1, kMostFrames);
+  group.first_frame = read_quantity(node, "first_frame").value_or(Quantity{});
+  if (span_of(group.first_frame).low < 0) node.log().wrong(node.key_of("first_frame"), "must not be less than 0");
+  group.split = node.text("split").value_or("");
+  group.tags = node.text_map("tags");
+  if (const std::string wrong = wrong_with_pattern(group.name); !wrong.empty())
+    node.log().wrong(node.key_of("name"), wrong);
+  check_split(group.split, node, recipe);
+  check_tags(group.tags, node);
+  node.done();
+  return group;
+}
+
+}  // namespace
+
+void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node) {
+  for (const char* const own : {"background", "aircraft", "flight"})
+    if (tags.contains(own)) node.log().wrong(node.key_of("tags") + "." + own, "is set by itself; choose another name");
+}
+
+std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe) {
+  std::vector<VideoGroup> groups;
+  double videos = 0;
+  for (const RecipeNode& node : recipe_node.nodes("videos")) {
+    groups.push_back(read_group(node, recipe));
+    const VideoGroup& group = groups.back();
+    videos += double(group.count) * double(group.backgrounds.size()) * double(group.aircraft.size()) *
+              double(group.flights.size());
+  }
+  if (videos > kMostVideos)
+    recipe_node.log().wrong("videos",
+                            "make " + short_text(videos) + " videos; a recipe may have " + std::to_string(kMostVideos));
+  return groups;
+}
+
+void read_splits(RecipeNode& recipe_node, Recipe& recipe) {
+  const Json* const json = recipe_node.value("splits");
+  if (json == nullptr) return;
+  RecipeNode node(*json, "splits", recipe_node.log());
+  recipe.keep_together = node.text("keep_together").value_or("");
+  double sum = 0;
+  if (json->is_object())
+    for (const auto& [name, item] : json->items()) {
+      if (name == "keep_together") continue;
+      const double share = item.is_number() ? item.get<double>() : -1;
+      if (!(share >= 0 && share <= 1)) node.log().wrong(node.key_of(name), "expected a share from 0 to 1");
+      if (const std::string wrong = wrong_with_name(name); !wrong.empty()) node.log().wrong(node.key_of(name), wrong);
+      recipe.splits.push_back({name, share});
+      sum += share;
+    }
+  if (std::abs(sum - 1) > 1e-6) node.log().wrong("splits", "have shares that add up to " + short_text(sum) + ", not 1");
+}
+
+}  // namespace sigs

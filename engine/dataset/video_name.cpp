@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/video_name.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace sigs {
+
+namespace {
+
+constexpr std::size_t kLongestName = 200;  // bytes; endings go behind it, and file systems take 255
+constexpr std::array<std::string_view, 4> kParts{"background", "aircraft", "flight", "number"};
+constexpr std::array<std::string_view, 5> kOwnNames{"labels", "splits", "index.json", "sha256sums", "entry"};  // folded
+
+std::string numbered(int number) {
+  const std::string digits = std::to_string(number);
+  return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+}
+
+std::optional<std::string> part_of(std::string_view name, const NameParts& parts) {
+  if (name == kParts[0]) return parts.background;
+  if (name == kParts[1]) return parts.aircraft;
+  if (name == kParts[2]) return parts.flight;
+  if (name == kParts[3]) return numbered(parts.number);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string name_from(const std::string& pattern, const NameParts& parts) {
+  std::string name;
+  for (std::size_t i = 0; i < pattern.size();) {
+    const std::size_t end = pattern[i] == '{' ? pattern.find('}', i) : std::string::npos;
+    const std::optional<std::string> part =
+        end == std::string::npos ? std::nullopt : part_of(std::string_view(pattern).substr(i + 1, end - i - 1), parts);
+    name += part ? *part : std::string(1, pattern[i]);
+    i = part ? end + 1 : i + 1;
+  }
+  return name;
+}
+
+std::string wrong_with_pattern(const std::string& pattern) {
+  if (pattern.empty()) return "is empty; it names the videos";
+  for (std::size_t begin = pattern.find('{'); begin != std::string::npos; begin = pattern.find('{', begin + 1)) {
+    const std::size_t end = pattern.find('}', begin);
+    if (end == std::string::npos) return "has a { without a }";
+    const std::string part = pattern.substr(begin + 1, end - begin - 1);
+    if (std::find(kParts.begin(), kParts.end(), part) == kParts.end())
+      return "has no such part: {" + part + "}; there are {background}, {aircraft}, {flight} and {number}";
+  }
+  return {};
+}
+
+std::string wrong_with_name(const std::string& name) {
+  if (name.empty()) return "is empty; it becomes a file's name";
+  if (name.size() > kLongestName) return "is longer than 200 bytes; it becomes a file's name";
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return c != '/' && c != 0x7f && (c < 0 || static_cast<unsigned char>(c) >= 0x20);
+  });
+  if (name.front() == '.' || !is_plain)
+    return "becomes a file's name: it may hold no / and no control character and not begin with a dot";
+  return {};
+}
+
+std::string wrong_with_video_name(const std::string& name) {
+  if (std::find(kOwnNames.begin(), kOwnNames.end(), folded(name)) != kOwnNames.end())
+    return "is kept for what the dataset has beside its videos; choose another name";
+  return wrong_with_name(name);
+}
+
+std::string folded(const std::string& name) {
+  std::string lower = name;
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+}  // namespace sigs

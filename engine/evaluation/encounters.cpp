@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/encounters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "evaluation/overlap.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kFrameRounding = 1e-3;  // times in files have six digits, so 3 s may be 29.99997 frames
+
+const TargetFrame& frame_at(const TargetTruth& target, int frame) {
+  return target.frames[static_cast<std::size_t>(frame)];
+}
+
+int length_of(const Encounter& encounter) {
+  return encounter.last - encounter.first + 1;
+}
+
+int window_frames(const Encounter& encounter, double rate_hz, const DetectionPolicy& policy) {
+  const double frames = std::clamp(std::round(policy.window_s * rate_hz), 1.0, double(length_of(encounter)));
+  return static_cast<int>(frames);
+}
+
+bool is_confirmed(const TargetTruth& target, std::span<const std::set<int>> tracks, int first, int last,
+                  const DetectionPolicy& policy) {
+  std::map<int, int> frames_of_track;
+  int in_range = 0;
+  int most = 0;
+  for (int frame = first; frame <= last; ++frame) {
+    if (!is_in_range(frame_at(target, frame), policy)) continue;
+    ++in_range;
+    for (const int track : tracks[static_cast<std::size_t>(frame)]) most = std::max(most, ++frames_of_track[track]);
+  }
+  return most > 0 && !exceeds(policy.least_window_share, double(most) / in_range);
+}
+
+}  // namespace
+
+double rate_hz_of(const FilmTruth& film) {
+  if (film.frames() > 1 && film.times_s.back() > film.times_s.front())
+    return (film.frames() - 1) / (film.times_s.back() - film.times_s.front());
+  return double(film.footage.frame_rate_num) / film.footage.frame_rate_den;
+}
+
+bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy) {
+  return frame.visible && frame.distance_m <= policy.longest_range_m;
+}
+
+std::vector<Encounter> encounters_of(const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
+  std::vector<Encounter> found;
+  const double longest_gap = policy.longest_gap_s * rate_hz + kFrameRounding;
+  for (int frame = 0; frame < static_cast<int>(target.frames.size()); ++frame) {
+    if (!is_in_range(frame_at(target, frame), policy)) continue;
+    const bool goes_on = !found.empty() && frame - found.back().last - 1 <= longest_gap;
+    if (goes_on) {
+      found.back().last = frame;
+    } else {
+      found.push_back({frame, frame});
+    }
+  }
+  const double least = policy.least_encounter_s * rate_hz - kFrameRounding;
+  std::erase_if(found, [least](const Encounter& encounter) { return length_of(encounter) < least; });
+  return found;
+}
+
+std::optional<int> confirmed_at(const Encounter& encounter, const TargetTruth& target,
+                                std::span<const std::set<int>> tracks, double rate_hz, const DetectionPolicy& policy) {
+  const int window = window_frames(encounter, rate_hz, policy);
+  for (int last = encounter.first + window - 1; last <= encounter.last; ++last)
+    if (is_confirmed(target, tracks, last - window + 1, last, policy)) return last;
+  return std::nullopt;
+}
+
+int deadline_of(const Encounter& encounter, const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
+  int last_far = encounter.first - 1;
+  while (last_far < encounter.last) {
+    const TargetFrame& next = frame_at(target, last_far + 1);
+    if (is_in_range(next, policy) && next.distance_m < policy.detect_range_m) break;
+    ++last_far;
+  }
+  return std::max(last_far, encounter.first + window_frames(encounter, rate_hz, policy) - 1);
+}
+
+}  // namespace sigs

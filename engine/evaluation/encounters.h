@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "evaluation/detection_score.h"
+
+namespace sigs {
+
+// Frames of a film, from 0, both included, in which one target is visible and in range, but for short gaps.
+struct Encounter {
+  int first = 0;
+  int last = 0;
+};
+
+// Mean frame rate of a film; of a single frame, its nominal one.
+[[nodiscard]] double rate_hz_of(const FilmTruth& film);
+
+// Whether a target's frame belongs to an encounter: something of it is visible, within longest_range_m.
+[[nodiscard]] bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy);
+
+// The stretches long enough, in order, however near they come.
+[[nodiscard]] std::vector<Encounter> encounters_of(const TargetTruth& target, double rate_hz,
+                                                   const DetectionPolicy& policy);
+
+// The last frame of the first window in which one track (boxes without a track together are one) matches the target in
+// least_window_share of the frames in which it is in range. Windows lie within the encounter; one longer than it is
+// the encounter. tracks: of each frame of the film.
+[[nodiscard]] std::optional<int> confirmed_at(const Encounter& encounter, const TargetTruth& target,
+                                              std::span<const std::set<int>> tracks, double rate_hz,
+                                              const DetectionPolicy& policy);
+
+// The last frame at which it must be confirmed to be in time: the one before it first comes nearer than detect_range_m,
+// but not before the first window's end.
+[[nodiscard]] int deadline_of(const Encounter& encounter, const TargetTruth& target, double rate_hz,
+                              const DetectionPolicy& policy);
+
+}  // namespace sigs

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <string_view>
+
+#include "evaluation/report_files.h"
+#include "evaluation/report_numbers.h"
+#include "evaluation/report_table.h"
+
+namespace sigs {
+
+namespace {
+
+// System colours follow the reader's light or dark scheme; the plots have a white ground of their own.
+constexpr std::string_view kStyle = R"(
+:root { color-scheme: light dark; }
+body { margin: 0; background: Canvas; color: CanvasText; font: 16px/1.5 system-ui, sans-serif; }
+main { max-width: 62rem; margin: 0 auto; padding: 1.5rem; }
+h1 { font-size: 1.5rem; margin: 0 0 .25rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.15rem; margin: 2rem 0 .5rem; }
+.table { overflow-x: auto; }
+table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .3rem .6rem; text-align: right; white-space: nowrap; border-bottom: 1px solid color-mix(in srgb, CanvasText 20%, Canvas); }
+th:first-child, td:first-child { text-align: left; }
+th small { display: block; font-weight: normal; }
+td.best { font-weight: bold; }
+figure { margin: 1rem 0; padding: .5rem; background: #ffffff; border-radius: .4rem; }
+svg { display: block; width: 100%; height: auto; }
+footer { margin-top: 2rem; font-size: .85rem; }
+)";
+
+std::string html(const std::string& text) {
+  std::string made;
+  for (const char c : line_text(text)) switch (c) {
+      case '&':
+        made += "&amp;";
+        break;
+      case '<':
+        made += "&lt;";
+        break;
+      case '>':
+        made += "&gt;";
+        break;
+      case '"':
+        made += "&quot;";
+        break;
+      case '\'':
+        made += "&#39;";
+        break;
+      default:
+        made += c;
+    }
+  return made;
+}
+
+std::string element(const std::string& name, const std::string& text) {
+  return "<" + name + ">" + html(text) + "</" + name + ">";
+}
+
+std::string table_html(const std::vector<TableColumn>& columns) {
+  std::string text = "<div class=\"table\"><table>\n<thead><tr>";
+  for (const TableColumn& column : columns)
+    text += "<th scope=\"col\">" + html(column.title) + "<small>" + html(column.unit) + "</small></th>";
+  text += "</tr></thead>\n<tbody>\n";
+  for (std::size_t row = 0; row < columns.front().cells.size(); ++row) {
+    text += "<tr>";
+    for (const TableColumn& column : columns)
+      text += (column.is_best[row] ? "<td class=\"best\">" : "<td>") + html(column.cells[row]) +
+              (column.is_best[row] ? "*</td>" : "</td>");
+    text += "</tr>\n";
+  }
+  return text + "</tbody>\n</table></div>\n<p>* best. Errors have none: who gives up early has small ones.</p>\n";
+}
+
+std::string replaced(std::string text, std::string_view from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// Within a page, names are shared by all pictures; each gets its own.
+std::string inlined(const ReportPicture& picture) {
+  std::string svg = picture.svg.substr(picture.svg.find("<svg"));
+  const std::string own = picture.name + "-";
+  for (const std::string_view before : {" id='", " id=\"", "href='#", "href=\"#", "url(#"})
+    svg = replaced(std::move(svg), before, std::string(before) + own);
+  return "<figure>\n<svg role=\"img\" aria-label=\"" + html(picture.title) + "\"" + svg.substr(4) + "</figure>\n";
+}
+
+std::string list_of(const std::vector<std::string>& lines) {
+  std::string text = "<ul>\n";
+  for (const std::string& line : lines) text += element("li", line) + "\n";
+  return text + "</ul>\n";
+}
+
+std::string pictures_html(const std::vector<ReportPicture>& pictures) {
+  std::string text = element("h2", "Plots") + "\n";
+  if (pictures.empty()) return text + element("p", "None: gnuplot was not at hand.") + "\n";
+  for (const ReportPicture& picture : pictures) text += inlined(picture);
+  return text;
+}
+
+std::string page(const std::string& title, const std::string& body) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
+         element("title", title) + "\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n<main>\n" +
+         element("h1", title) + "\n" + body +
+         "<footer>Written by SIGS. Its page docs/evaluation.md defines every "
+         "figure.</footer>\n</main>\n</body>\n</html>\n";
+}
+
+std::string film_text(const TrackReport& report) {
+  const FootageTruth& footage = report.footage;
+  return footage.video + ", " + std::to_string(footage.size_px.width) + " x " + std::to_string(footage.size_px.height) +
+         " pixels, frames " + std::to_string(footage.first_frame) + " to " + std::to_string(footage.last_frame) + ", " +
+         fixed_text(double(footage.frame_rate_num) / footage.frame_rate_den, 2) +
+         " frames/s. Followed: " + report.target + ", from frame " + std::to_string(report.policy.from_frame) + ".";
+}
+
+}  // namespace
+
+std::string report_html(const TrackReport& report, const std::vector<ReportPicture>& pictures) {
+  std::string body = element("p", film_text(report)) + "\n" + table_html(table_of(report));
+  if (!report.remarks.empty()) body += element("h2", "Remarks") + "\n" + list_of(report.remarks);
+  body += pictures_html(pictures);
+  if (!pictures.empty())
+    body += element("p",
+                    "In the plots over frames a line stops where nothing is reported; where the ground is grey, "
+                    "nothing is scored.") +
+            "\n";
+  return page("Trackers on " + report.film,
+              body + element("h2", "What is counted") + "\n" + list_of(policies_of(report)));
+}
+
+std::string report_html(const DetectionReport& report, const std::vector<ReportPicture>& pictures) {
+  const std::string films = report.films.size() == 1 ? "1 film" : std::to_string(report.films.size()) + " films";
+  return page("Detectors on " + films, table_html(table_of(report)) + pictures_html(pictures) +
+                                           element("h2", "What is counted") + "\n" + list_of(policies_of(report)) +
+                                           element("h2", "Films") + "\n" + list_of(report.films));
+}
+
+}  // namespace sigs

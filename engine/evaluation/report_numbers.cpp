@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/report_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "annotation/xml_text.h"
+
+namespace sigs {
+
+std::string exact_text(double number) {
+  if (!std::isfinite(number)) return "";
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number == 0 ? 0.0 : number);
+  return {buffer.data(), end.ptr};
+}
+
+std::string exact_text(const std::optional<double>& number) {
+  return number ? exact_text(*number) : std::string();
+}
+
+std::string fixed_text(double number, int decimals) {
+  if (!std::isfinite(number)) return "-";
+  std::array<char, 400> buffer{};  // 309 digits before the point at most
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::fixed, decimals);
+  std::string text(buffer.data(), end.ptr);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  if (is_zero && text.starts_with('-')) text.erase(0, 1);
+  return text;
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string line_text(const std::string& text) {
+  std::string line = xml_text(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  return line;
+}
+
+std::vector<bool> best_of(const std::vector<double>& values, bool larger_is_better, int decimals) {
+  std::vector<bool> best(values.size(), false);
+  std::vector<double> finite;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+               [](double value) { return std::isfinite(value); });
+  if (values.size() < 2 || finite.empty()) return best;
+  const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
+  const std::string wanted = fixed_text(larger_is_better ? *most : *least, decimals);
+  for (std::size_t i = 0; i < values.size(); ++i) best[i] = fixed_text(values[i], decimals) == wanted;
+  if (std::all_of(best.begin(), best.end(), [](bool is_best) { return is_best; })) best.assign(values.size(), false);
+  return best;
+}
+
+}  // namespace sigs

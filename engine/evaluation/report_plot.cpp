@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/report_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "evaluation/report_numbers.h"
+
+namespace sigs {
+
+namespace {
+
+// Okabe and Ito, "Color universal design" (2008), without yellow, which is hard to see on white.
+constexpr std::array<std::string_view, 7> kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                  "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array<std::string_view, 5> kDashes{"solid", "(10,4)", "(3,3)", "(12,4,3,4)", "(16,4,3,4,3,4)"};
+constexpr std::array<int, 7> kMarks{7, 5, 9, 13, 11, 2, 3};
+
+// gnuplot runs nothing within single quotes. It reads a doubled quote as one in some places alone, so a quote in a name
+// becomes an apostrophe.
+std::string quoted(const std::string& text) {
+  std::string made = "'";
+  for (const char c : line_text(text)) made += c == '\'' ? std::string("\xE2\x80\x99") : std::string(1, c);
+  return made + "'";
+}
+
+std::string range_text(const PlotSpan& range) {
+  return std::string("[").append(exact_text(range.first)).append(":").append(exact_text(range.last)).append("]");
+}
+
+std::string terminal(const Plot& plot, PictureKind kind) {
+  if (kind == PictureKind::svg)
+    return "set terminal svg noenhanced size 960,500 font 'DejaVu Sans,Verdana,Arial,sans-serif,13' background "
+           "'#ffffff' name " +
+           quoted(plot.name) + "\n";
+  return "if (strstrt(GPVAL_TERMINALS, 'pngcairo')) { set terminal pngcairo noenhanced size 1440,750 fontscale 1.2 "
+         "linewidth 1.5 background '#ffffff' } else { set terminal png noenhanced size 1440,750 }\n";
+}
+
+std::string blocks(const PlotSeries& series, std::size_t number) {
+  std::string lines = "$runs" + std::to_string(number) + " << END\n";
+  std::string lone = "$lone" + std::to_string(number) + " << END\n";
+  for (const std::vector<PlotPoint>& run : series.runs) {
+    const bool is_lone = series.is_loose || run.size() == 1;  // a line needs two
+    for (const PlotPoint& point : run)
+      (is_lone ? lone : lines) += exact_text(point.x) + " " + exact_text(point.y) + "\n";
+    if (!is_lone) lines += "\n";
+  }
+  return lines + "END\n" + lone + "END\n";
+}
+
+bool has_lines(const PlotSeries& series) {
+  return !series.is_loose &&
+         std::any_of(series.runs.begin(), series.runs.end(), [](const auto& r) { return r.size() > 1; });
+}
+
+bool has_lone_points(const PlotSeries& series) {
+  return std::any_of(series.runs.begin(), series.runs.end(),
+                     [&](const auto& run) { return run.size() == 1 || (series.is_loose && !run.empty()); });
+}
+
+// A series and its entry in the key, which is there even where nothing of it is to be seen.
+std::string drawn(const PlotSeries& series, std::size_t number) {
+  const std::string color = " linecolor rgb '" + std::string(kColors[number % kColors.size()]) + "'";
+  const std::size_t dash = (number + number / kColors.size()) % kDashes.size();
+  const std::string line = " with lines linewidth 2 dashtype " + std::string(kDashes[dash]) + color;
+  const int mark = kMarks[(number + number / kColors.size()) % kMarks.size()];
+  const std::string points = " with points pointsize " + std::string(series.is_loose ? "1.4" : "0.4") + " pointtype " +
+                             std::to_string(series.is_loose ? mark : 7) + " linewidth 2" + color;
+  std::string text = ", \\\n  keyentry" + (series.is_loose ? points : line) + " title " + quoted(series.title);
+  const std::string n = std::to_string(number);
+  if (has_lines(series)) text += ", \\\n  $runs" + n + " using 1:2" + line + " notitle";
+  if (has_lone_points(series)) text += ", \\\n  $lone" + n + " using 1:2" + points + " notitle";
+  return text;
+}
+
+std::string axes(const Plot& plot) {
+  std::string text = "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
+                     quoted(plot.y_label) + "\nset xrange " + range_text(plot.x_range) + "\nset yrange " +
+                     range_text(plot.y_range) + "\n";
+  if (plot.y_scale == PlotScale::wide) {
+    text += "set nonlinear y via asinh(y/10.) inverse 10.*sinh(y)\nset ytics (0";
+    for (const double tick : {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}) {
+      if (tick <= plot.y_range.last) text.append(",").append(exact_text(tick));
+      if (-tick >= plot.y_range.first) text.append(",").append(exact_text(-tick));
+    }
+    text += ")\n";
+  }
+  int object = 0;
+  for (const PlotSpan& span : plot.shaded)
+    text += "set object " + std::to_string(++object) + " rectangle from first " + exact_text(span.first) +
+            ", graph 0 to first " + exact_text(span.last) +
+            ", graph 1 fillcolor rgb '#ececec' fillstyle solid noborder behind\n";
+  return text;
+}
+
+}  // namespace
+
+std::string gnuplot_program(const Plot& plot, PictureKind kind) {
+  std::string text = "set encoding utf8\n" + terminal(plot, kind) + axes(plot) +
+                     "set grid linecolor rgb '#d0d0d0' linewidth 1 dashtype solid\nset border linecolor rgb '#404040'\n"
+                     "set key below left Left reverse samplen 4 width 2 spacing 1.2\nset tics nomirror\n";
+  for (std::size_t i = 0; i < plot.series.size(); ++i) text += blocks(plot.series[i], i);
+  text += "plot NaN notitle";
+  for (std::size_t i = 0; i < plot.series.size(); ++i) text += drawn(plot.series[i], i);
+  return text + "\n";
+}
+
+}  // namespace sigs

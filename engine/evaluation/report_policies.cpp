@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/report.h"
+#include "evaluation/report_numbers.h"
+
+namespace sigs {
+
+namespace {
+
+std::string least_seen(const TrackPolicy& policy) {
+  if (policy.least_visible_fraction <= 0) return "";
+  return " and of which at least " + exact_text(100 * policy.least_visible_fraction) + " % can be seen";
+}
+
+}  // namespace
+
+std::vector<std::string> policies_of(const TrackReport& report) {
+  const TrackPolicy& policy = report.policy;
+  const bool is_visible = policy.truth == TruthBox::visible;
+  return {
+      std::string("Truth: the box around ") +
+          (is_visible ? "the intruder's visible pixels." : "the whole intruder, hidden or not."),
+      "Centre: the middle of a box's edges. Errors are reported less true centre, x to the right, y down; CLE is the "
+      "length of (X, Y). The middles x + w/2 and x + (w-1)/2 differ alike in both and give the same errors.",
+      "Scored: frames from " + std::to_string(policy.from_frame) + " to " + std::to_string(report.footage.last_frame) +
+          " in which the intruder has such a box" + least_seen(policy) +
+          ". OpenCV's trackers are given the true box in whole pixels in the first of them, which counts too. "
+          "Frames in which a result file marks its tracker as started anew do not count for it.",
+      "Nothing reported in a scored frame: lost, and past every threshold of precision, success and normalised "
+      "precision. CLE, X and Y are over the frames with a report alone.",
+      "Lost: nothing reported, or no overlap with the truth.",
+      std::string("Intruder absent: such frames are not scored; reports in them are counted as absent reports.") +
+          (is_visible ? " Where the own body hides all of it, it is absent; where it hides a part, the box is around "
+                        "the rest."
+                      : " The own body hides nothing of this box."),
+      "Speed: frames a second of the tracker alone, measured in this run beside whatever else the machine did. It "
+      "differs from run to run; all other figures do not."};
+}
+
+std::vector<std::string> policies_of(const DetectionReport& report) {
+  const DetectionPolicy& policy = report.policy;
+  return {
+      "Match: extended overlap of at least " + exact_text(policy.match_overlap) +
+          ". Where the true box is smaller than " + exact_text(policy.least_area_px2) +
+          " square pixels, it and the reported one are grown to that area about their middles first.",
+      "False alarm: a report with an extended overlap below " + exact_text(policy.false_overlap) +
+          " with every true box; between the two it is neither.",
+      "Reports with a score below " + exact_text(policy.least_score) + " are left out.",
+      "Encounter: at least " + exact_text(policy.least_encounter_s) + " s in which an intruder is within " +
+          exact_text(policy.longest_range_m) + " m, with gaps of at most " + exact_text(policy.longest_gap_s) +
+          " s; it counts where it comes within " + exact_text(policy.nearest_range_m) + " m.",
+      "Detected (EDR): by one track in at least " + exact_text(100 * policy.least_window_share) +
+          " % of the frames of some " + exact_text(policy.window_s) +
+          " s before the intruder first comes nearer than " + exact_text(policy.detect_range_m) +
+          " m, or in the encounter's first " + exact_text(policy.window_s) + " s.",
+      "HFAR: the reporter's tracks that hold a false alarm, for each hour of film. FPPI: false alarms for each frame. "
+      "AFDR: matched among all pairs of a frame and an intruder within range."};
+}
+
+}  // namespace sigs

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/report_table.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "base/ensure.h"
+#include "evaluation/report_numbers.h"
+
+namespace sigs {
+
+namespace {
+
+enum class Best { none, least, most };
+
+template <class Score>
+TableColumn column(const std::vector<Score>& scores, std::string title, std::string unit, int decimals, Best best,
+                   const std::function<double(const Score&)>& value) {
+  TableColumn made{.title = std::move(title), .unit = std::move(unit)};
+  std::vector<double> values;
+  for (const Score& score : scores) values.push_back(value(score));
+  for (const double one : values) made.cells.push_back(fixed_text(one, decimals));
+  made.is_best =
+      best == Best::none ? std::vector<bool>(values.size(), false) : best_of(values, best == Best::most, decimals);
+  return made;
+}
+
+template <class Score>
+TableColumn names_of(const std::vector<Score>& scores, std::string title) {
+  TableColumn names{.title = std::move(title), .is_best = std::vector<bool>(scores.size(), false)};
+  for (const Score& score : scores) names.cells.push_back(line_text(score.name));
+  return names;
+}
+
+TableColumn rates(const std::vector<DetectionScore>& scores, std::string title, DetectionRate DetectionScore::*rate) {
+  TableColumn made = column<DetectionScore>(scores, std::move(title), "EDR", 3, Best::most, [rate](const auto& score) {
+    const DetectionRate& of = score.*rate;
+    return of.encounters > 0 ? of.rate() : std::numeric_limits<double>::quiet_NaN();
+  });
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    made.cells[i] +=
+        " (" + std::to_string((scores[i].*rate).detected) + "/" + std::to_string((scores[i].*rate).encounters) + ")";
+  return made;
+}
+
+// As many columns as a text takes on a terminal, one for each code point.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+// What stands in a column, titles first. Stars take a place of their own, so that points stay below points.
+std::vector<std::string> lines_of(const TableColumn& column) {
+  const bool has_best = std::find(column.is_best.begin(), column.is_best.end(), true) != column.is_best.end();
+  const std::string none = has_best ? " " : "";
+  std::vector<std::string> lines{column.title + none, column.unit + none};
+  for (std::size_t i = 0; i < column.cells.size(); ++i)
+    lines.push_back(column.cells[i] + (column.is_best[i] ? "*" : none));
+  return lines;
+}
+
+std::string padded(const std::string& text, std::size_t width, bool to_left) {
+  const std::string blank(width - width_of(text), ' ');
+  return to_left ? text + blank : blank + text;
+}
+
+std::string without_end(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+}  // namespace
+
+std::vector<TableColumn> table_of(const TrackReport& report) {
+  using Score = TrackScore;
+  const std::vector<Score>& scores = report.scores;
+  // A tracker that gives up early has small errors: those of the frames that it reports. Nothing is best there.
+  return {
+      names_of(scores, "tracker"),
+      column<Score>(scores, "CLE", "mean px", 2, Best::none, [](const Score& s) { return s.mean_center_error_px; }),
+      column<Score>(scores, "CLE", "median", 2, Best::none, [](const Score& s) { return s.median_center_error_px; }),
+      column<Score>(scores, "CLE", "95 %", 2, Best::none, [](const Score& s) { return s.p95_center_error_px; }),
+      column<Score>(scores, "X", "mean px", 2, Best::none, [](const Score& s) { return s.mean_dx_px; }),
+      column<Score>(scores, "Y", "mean px", 2, Best::none, [](const Score& s) { return s.mean_dy_px; }),
+      column<Score>(scores, "prec.", "@20 px", 3, Best::most, [](const Score& s) { return s.precision_at_20; }),
+      column<Score>(scores, "success", "AUC", 3, Best::most, [](const Score& s) { return s.success_auc; }),
+      column<Score>(scores, "norm.pr.", "AUC", 3, Best::most,
+                    [](const Score& s) { return s.normalized_precision_auc; }),
+      column<Score>(scores, "lost", "frames", 0, Best::least, [](const Score& s) { return double(s.lost); }),
+      column<Score>(scores, "scored", "frames", 0, Best::none, [](const Score& s) { return double(s.scored); }),
+      column<Score>(scores, "absent", "reports", 0, Best::none,
+                    [](const Score& s) { return double(s.reported_absent); }),
+      column<Score>(scores, "speed", "frames/s", 1, Best::none,
+                    [](const Score& s) { return s.frames_per_s.value_or(std::numeric_limits<double>::quiet_NaN()); })};
+}
+
+std::vector<TableColumn> table_of(const DetectionReport& report) {
+  using Score = DetectionScore;
+  const std::vector<Score>& scores = report.scores;
+  return {
+      names_of(scores, "detector"),
+      rates(scores, "all", &Score::all),
+      rates(scores, "above", &Score::above_horizon),
+      rates(scores, "on", &Score::on_horizon),
+      rates(scores, "below", &Score::below_horizon),
+      column<Score>(scores, "HFAR", "tracks/h", 2, Best::least, [](const Score& s) { return s.false_alarms_per_hour; }),
+      column<Score>(scores, "FPPI", "boxes", 4, Best::least, [](const Score& s) { return s.false_boxes_per_frame; }),
+      column<Score>(scores, "AFDR", "", 3, Best::most, [](const Score& s) { return s.frame_detection_rate; }),
+      column<Score>(scores, "first seen", "mean m", 0, Best::none, [](const Score& s) { return s.mean_first_range_m; }),
+      column<Score>(scores, "frames", "", 0, Best::none, [](const Score& s) { return double(s.frames); }),
+      column<Score>(scores, "time", "h", 4, Best::none, [](const Score& s) { return s.hours; })};
+}
+
+std::string aligned(const std::vector<TableColumn>& columns) {
+  ENSURE(!columns.empty());
+  std::vector<std::string> rows(columns.front().cells.size() + 2);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const std::vector<std::string> lines = lines_of(columns[c]);
+    ENSURE(lines.size() == rows.size());
+    std::size_t width = 0;
+    for (const std::string& line : lines) width = std::max(width, width_of(line));
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      rows[row] += (c == 0 ? "" : "  ") + padded(lines[row], width, c == 0);
+  }
+  std::string text;
+  for (const std::string& row : rows) text += without_end(row) + "\n";
+  return text;
+}
+
+std::string table_text(const TrackReport& report) {
+  return aligned(table_of(report));
+}
+
+std::string table_text(const DetectionReport& report) {
+  return aligned(table_of(report));
+}
+
+}  // namespace sigs

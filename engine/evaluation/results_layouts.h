@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How results.cpp reads each layout; docs/evaluation.md defines them.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "evaluation/results.h"
+
+namespace sigs {
+
+// One file on its way in.
+struct ResultsFile {
+  std::filesystem::path path;
+  std::string text;
+  FootageTruth film;
+  ResultsOptions options;
+
+  // "scores.txt: line 12: what"
+  [[nodiscard]] tl::unexpected<Error> wrong(int line, const std::string& what) const;
+};
+
+// Where a layout counts pixels from: its x, less this, is the left edge of base/image.h.
+inline constexpr double kEdgeFrom0 = 0.5;  // x is the first column, counted from 0
+inline constexpr double kEdgeFrom1 = 1.5;  // ... from 1
+
+// Takes boxes in and looks at each, whatever the layout.
+class ResultsIntake {
+ public:
+  explicit ResultsIntake(const ResultsFile& file) : file_(file) {}
+
+  // frame: the footage's number.
+  [[nodiscard]] Result<void> add(int frame, const ReportedBox& reported);
+  void given(int frame) { results_.given.insert(frame); }
+
+  [[nodiscard]] Results taken() { return std::move(results_); }
+
+ private:
+  [[nodiscard]] Result<void> check_box(const ReportedBox& reported) const;
+  [[nodiscard]] Result<void> check_place(int frame, const ReportedBox& reported) const;
+
+  const ResultsFile& file_;
+  Results results_;
+};
+
+// "frames 0 to 99"
+[[nodiscard]] std::string frames_text(const FootageTruth& film);
+
+[[nodiscard]] Result<Results> read_otb(const ResultsFile& file);
+[[nodiscard]] Result<Results> read_vot(const ResultsFile& file);
+[[nodiscard]] Result<Results> read_mot(const ResultsFile& file);
+[[nodiscard]] Result<Results> read_csv(const ResultsFile& file);
+[[nodiscard]] Result<Results> read_aot(const ResultsFile& file);
+
+}  // namespace sigs

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/bounded_queue.h"
+#include "base/frame_range.h"
+#include "frame.h"
+#include "pipeline.h"
+#include "scene/scene.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+// Decoding and composing side by side, and beside whoever takes the frames. They come out in order; the first error in
+// order of frames wins.
+class FramePipeline {
+ public:
+  // Scene and source must outlive it; nobody else may read the source. jobs, 1 or more: frames composed side by side.
+  FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs);
+  ~FramePipeline();
+
+  FramePipeline(const FramePipeline&) = delete;
+  FramePipeline& operator=(const FramePipeline&) = delete;
+
+  // The next frame of the range; waits for it. Not to be called after the last one or an error.
+  [[nodiscard]] Result<ComposedFrame> next() { return *finished_.take(); }
+
+  [[nodiscard]] double decode_s() const { return decode_s_; }
+
+  // What Renderer::description says; empty: nothing was drawn so far.
+  [[nodiscard]] std::string drawn_with();
+
+ private:
+  struct DecodedFrame {
+    int number = 0;
+    Frame picture;
+  };
+  void decode();
+  void compose();
+  void remember(std::string description);
+
+  const Scene& scene_;
+  FrameSource& source_;
+  FrameRange range_;
+  BoundedQueue<DecodedFrame> decoded_;
+  InOrder<Result<ComposedFrame>> finished_;
+  std::atomic<double> decode_s_{0};
+  std::mutex mutex_;
+  std::string drawn_with_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace sigs

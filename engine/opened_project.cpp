@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "opened_project.h"
+
+#include <string>
+#include <utility>
+
+#include "export.h"
+#include "project/validate.h"
+
+namespace sigs {
+
+Result<OpenedProject> open_project(const Project& project) {
+  if (const std::vector<Problem> problems = validate(project); !problems.empty())
+    return fail(error_of(project, problems.front()));
+  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+  Result<Scene> scene = open_scene(project, shape_of(source->info()));
+  if (!scene) return fail(scene.error());
+  std::vector<Warning> warnings = warnings_of(source->info());
+  warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());
+  return OpenedProject{std::move(*source), std::move(*scene), std::move(warnings)};
+}
+
+Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for) {
+  const FrameRange range = asked_for.value_or(FrameRange{scene.first_frame, scene.last_frame});
+  const std::string held =
+      "the project has frames " + std::to_string(scene.first_frame) + " to " + std::to_string(scene.last_frame);
+  if (range.first > range.last || range.first < scene.first_frame || range.last > scene.last_frame)
+    return fail("--frames " + std::to_string(range.first) + "-" + std::to_string(range.last), held, ErrorKind::usage);
+  return range;
+}
+
+FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range) {
+  return {.video = footage.path.filename().string(),
+          .size_px = footage.size_px,
+          .first_frame = range.first,
+          .last_frame = range.last,
+          .frame_rate_num = footage.frame_rate_num,
+          .frame_rate_den = footage.frame_rate_den};
+}
+
+}  // namespace sigs

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "annotation/annotation.h"
+#include "base/frame_range.h"
+#include "base/result.h"
+#include "project/project.h"
+#include "scene/scene.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+// A project whose pictures can be made.
+struct OpenedProject {
+  FrameSource source;
+  Scene scene;
+  std::vector<Warning> warnings;  // of the footage, then of the rest
+};
+
+// Checks the project and opens all that it names. Errors name the project file and the field.
+[[nodiscard]] Result<OpenedProject> open_project(const Project& project);
+
+// Which frames are made; none asked for: the scene's own. Error usage: they do not lie in the scene's.
+[[nodiscard]] Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for);
+
+// What labels of these frames say of the footage.
+[[nodiscard]] FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range);
+
+}  // namespace sigs

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "base/partial_file.h"
+#include "cli/tiny_recipe.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a dry run lists the videos and writes nothing") {
+  const TinyRecipe recipe;
+  const Run run = recipe.run("out", "--dry-run");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.out.starts_with("name "));
+  std::istringstream lines(run.out);
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  std::istringstream fields(line);
+  std::vector<std::string> row;
+  for (std::string field; fields >> field;) row.push_back(field);
+  CHECK(std::vector<std::string>(row.begin(), row.begin() + 2) == std::vector<std::string>{"red", "LR"});
+  CHECK(has(run.out, "6 videos, 48 frames, about "));
+  CHECK_FALSE(fs::exists(recipe.out("out")));
+  CHECK(has(recipe.run("out", "--dry-run --shard 2/4").out, "2 videos, 16 frames, about "));
+}
+
+TEST_CASE("a dataset's checksums are what sha256sum finds") {
+  const TinyRecipe recipe;
+  const Run run = recipe.run("out");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(has(run.out, recipe.out("out") + "/index.json\n"));
+  CHECK(has(run.err, "6 videos made, 0 kept; 48 frames in "));
+  const std::string in_folder = "cd " + recipe.out("out") + " && ";
+  CHECK(std::system((in_folder + "sha256sum --check --strict --quiet SHA256SUMS >/dev/null").c_str()) == 0);
+  CHECK(std::system((in_folder + "grep -q $(sha256sum SHA256SUMS | cut -d' ' -f1) index.json").c_str()) == 0);
+  for (const char* const video : {"red LR", "red RL", "red FN", "large LR", "large RL", "large FN"})
+    CHECK(run_sigs("check '" + recipe.out("out") + "/" + video + "/" + video + ".json'").status == 0);
+}
+
+TEST_CASE("jobs side by side and shards put together are the dataset of one run") {
+  const TinyRecipe recipe;
+  CHECK(recipe.run("one", "--jobs 1").status == 0);
+  CHECK(recipe.run("two", "--jobs 2").status == 0);
+  const auto truth = contents_of(recipe.out("one"));
+  CHECK(contents_of(recipe.out("two")) == truth);
+  fs::create_directory(recipe.out("sum"));
+  for (const std::string part : {"3", "1", "2"}) {
+    CHECK(recipe.run("part" + part, "--shard " + part + "/3").status == 0);
+    for (const fs::directory_entry& entry : fs::directory_iterator(recipe.out("part" + part)))
+      fs::rename(entry.path(), recipe.out("sum") / entry.path().filename());
+  }
+  const Run merged = recipe.run("sum", "--merge");
+  CHECK_MESSAGE(merged.status == 0, merged.err);
+  CHECK(contents_of(recipe.out("sum")) == truth);
+}
+
+TEST_CASE("shards of several machines may share a folder while they run") {
+  const TinyRecipe recipe;
+  std::vector<std::thread> machines;
+  for (const std::string part : {"1", "2"})
+    machines.emplace_back([&recipe, part] { static_cast<void>(recipe.run("out", "--resume --shard " + part + "/2")); });
+  for (std::thread& machine : machines) machine.join();
+  CHECK(recipe.run("out", "--merge").status == 0);
+  CHECK(recipe.run("whole").status == 0);
+  CHECK(contents_of(recipe.out("out")) == contents_of(recipe.out("whole")));
+}
+
+TEST_CASE("a merge names what is missing") {
+  const TinyRecipe recipe;
+  CHECK(recipe.run("out", "--shard 1/2").status == 0);
+  const Run run = recipe.run("out", "--merge");
+  CHECK(run.status == 65);
+  CHECK_MESSAGE(has(run.err, "of 6 videos 3 are missing, damaged or not as planned: red RL, large LR, large FN\n"),
+                run.err);
+  CHECK_FALSE(fs::exists(recipe.out("out") + "/index.json"));
+}
+
+TEST_CASE("a recipe that changes makes only those videos anew that it changes") {
+  const TinyRecipe recipe;
+  CHECK(recipe.run("out").status == 0);
+  CHECK(recipe.run("out").status == 73);
+  recipe.change("\"distance_m\": 20", "\"distance_m\": 21");
+  const Run run = recipe.run("out", "--resume");
+  CHECK(run.status == 0);
+  CHECK_MESSAGE(has(run.err, "2 videos made, 4 kept; 16 frames"), run.err);
+  CHECK_MESSAGE(count_of(run.err, "is made anew: was made from other settings") == 1, run.err);  // said once
+}
+
+TEST_CASE("videos that cannot be are named, the others made, and the status says so") {
+  const TinyRecipe recipe;
+  recipe.change("\"from_distance_m\": 60, \"to_distance_m\": 15",
+                "\"from_distance_m\": 60, \"to_distance_m\": 15, \"to_y_percent\": 90, \"from_y_percent\": 90");
+  recipe.change("\"footage\":", "\"camera\": {\"position_m\": [0, 0, -1]}, \"footage\":");
+  const Run run = recipe.run("out");
+  CHECK_MESSAGE(run.status == 65, run.err);
+  CHECK_MESSAGE(has(run.err, "error: red FN: "), run.err);
+  CHECK(fs::exists(recipe.out("out") + "/index.json"));
+  CHECK_FALSE(fs::exists(recipe.out("out") + "/red FN"));
+}
+
+TEST_CASE("a video that fails is listed with its reason, the others are made") {
+  const TinyRecipe recipe;
+  put_text(recipe.file("other.obj"), "v 0 0 0\nf 1 2 3\n");
+  recipe.change("\"cube.obj\", \"scale\"", "\"other.obj\", \"scale\"");
+  const Run run = recipe.run("out");
+  CHECK(run.status == 65);
+  CHECK_MESSAGE(count_of(run.err, "error: large ") == 3, run.err);
+  CHECK_MESSAGE(has(run.err, "other.obj"), run.err);
+  CHECK_MESSAGE(has(run.err, "error: 3 videos failed, so there is no index; --resume tries again\n"), run.err);
+  CHECK(fs::exists(recipe.out("out") + "/red LR/entry.json"));
+  CHECK_FALSE(fs::exists(recipe.out("out") + "/.part"));
+}
+
+TEST_CASE("a full disk and a folder that cannot be made are told as such") {
+  const TinyRecipe recipe(40);
+  const std::string command = "ulimit -f 4; " + (build_dir() / "sigs").string() + " " + recipe.arguments("out") +
+                              " >/dev/null 2>" + recipe.out("err");
+  const int status = std::system(("bash -c '" + command + "'").c_str());
+  CHECK(WEXITSTATUS(status) == 74);
+  CHECK_MESSAGE(has(read_text(recipe.out("err")).value(), "6 videos failed"), read_text(recipe.out("err")).value());
+  CHECK_FALSE(fs::exists(recipe.out("out") + "/.part"));
+  put_text(recipe.file("file"), "");
+  CHECK(recipe.run("file").status == 73);
+  CHECK(recipe.run("file/deeper").status == 73);
+  CHECK(run_sigs("dataset " + recipe.out("recipe.json") + " --out /proc/none").status == 73);
+}
+
+TEST_CASE("a command line that makes no sense ends with 64") {
+  const TinyRecipe recipe;
+  for (const char* const more : {"--shard 0/3", "--shard 4/3", "--shard 1", "--shard 1/3x", "--shard /", "--jobs -1",
+                                 "--merge --resume", "--merge --shard 1/2", "--out ''"})
+    CHECK_MESSAGE(recipe.run("out", more).status == 64, more);
+  CHECK_FALSE(fs::exists(recipe.out("out")));
+  CHECK(run_sigs("dataset").status == 64);
+  CHECK(run_sigs("dataset " + recipe.out("none.json")).status == 66);
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Encounters of 0.4 s count, however far; one frame is seen in time.
+const std::string kPolicy =
+    " --least-encounter 0 --nearest-range 1000 --detect-range 1 --window 0.2 --window-share 0.5";
+const std::string kNothing = "frame,x,y,width,height\n";
+
+// Two exported films, laid out as a dataset, and results.
+struct Place {
+  TinyProject tiny;
+  std::string dataset = tiny.file("set").string();
+
+  Place() {
+    for (const std::string name : {"one", "two"})
+      REQUIRE(
+          run_sigs("export " + tiny.project() + " --set name=" + name + " --masks none --out " + dataset + "/" + name)
+              .status == 0);
+    put("set/index.json", R"({"sigs_dataset_index": 1, "videos": [{"name": "one", "split": "train"},
+                                                                   {"name": "two", "split": "test"}]})");
+  }
+  [[nodiscard]] std::string labels(const std::string& name) const { return dataset + "/" + name + "/" + name + ".xml"; }
+  std::string put(const std::string& name, const std::string& text) const {
+    fs::create_directories(tiny.file(name).parent_path());
+    put_text(tiny.file(name), text);
+    return tiny.file(name).string();
+  }
+  // Every true box of a film, with a false one beside it in the first frame where asked for.
+  [[nodiscard]] std::string right(const std::string& name, bool with_false = false) const {
+    std::string csv = kNothing;
+    const std::string xml = read_text(labels(name)).value();
+    int frame = 0;
+    for (std::size_t at = xml.find("<box "); at != std::string::npos; at = xml.find("<box ", at + 1), ++frame) {
+      int x = 0;
+      int y = 0;
+      int width = 0;
+      int height = 0;
+      REQUIRE(std::sscanf(xml.c_str() + at, "<box x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"", &x, &y, &width,
+                          &height) == 4);
+      csv += std::to_string(frame);
+      for (const int value : {x, y, width, height}) csv.append(",").append(std::to_string(value));
+      csv += "\n";
+      if (frame == 0 && with_false) csv += "0,1,1,4,4\n";
+    }
+    REQUIRE(frame == 10);
+    return csv;
+  }
+  [[nodiscard]] Run detect(const std::string& arguments) const {
+    return run_sigs("evaluate detect " + arguments + kPolicy);
+  }
+  [[nodiscard]] nlohmann::json report() const {
+    return nlohmann::json::parse(read_text(tiny.file("report/evaluation.json")).value());
+  }
+  [[nodiscard]] std::string out() const { return " --force --out " + tiny.file("report").string(); }
+};
+
+}  // namespace
+
+TEST_CASE("a detector that is right detects every encounter, one that says nothing none") {
+  const Place place;
+  const std::string good = place.put("good.csv", place.right("one"));
+  const std::string blind = place.put("blind.csv", kNothing);
+  const Run run = place.detect(place.labels("one") + " --results " + good + " " + blind + place.out());
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(run.out.find("\ngood      1.000 (1/1)*") != std::string::npos, run.out);
+  const nlohmann::json report = place.report();
+  REQUIRE(report["detectors"].size() == 2);
+  CHECK(report["detectors"][0]["frame_detection_rate"] == 1.0);
+  CHECK(report["detectors"][0]["false_alarm_boxes"] == 0);
+  CHECK(report["detectors"][1]["name"] == "blind");
+  CHECK(report["detectors"][1]["frame_detection_rate"] == 0.0);
+  CHECK(report["detectors"][1]["encounter_detection_rate"]["all"]["encounters"] == 1);
+  CHECK(report["detectors"][1]["encounter_detection_rate"]["all"]["detected"] == 0);
+}
+
+TEST_CASE("files go with labels in order, folders by name, and a dataset's index tells the films") {
+  const Place place;
+  const std::string one = place.put("runs/mine/one.csv", place.right("one", true));
+  const std::string two = place.put("runs/mine/two.csv", place.right("two"));
+  const std::string folder = place.tiny.file("runs/mine").string();
+  const std::string both = place.labels("one") + " " + place.labels("two");
+  for (const std::string& arguments : {both + " --results " + one + " " + two, both + " --results " + folder + "/",
+                                       place.dataset + " --results " + folder}) {
+    const Run run = place.detect(arguments + place.out());
+    REQUIRE_MESSAGE(run.status == 0, arguments << run.err);
+    const nlohmann::json report = place.report();
+    CHECK(report["films"] == nlohmann::json({"one", "two"}));
+    REQUIRE(report["detectors"].size() == 1);
+    CHECK(report["detectors"][0]["name"] == "mine");
+    CHECK(report["detectors"][0]["frames"] == 20);
+    CHECK(report["detectors"][0]["false_alarm_boxes"] == 1);
+    CHECK(report["detectors"][0]["encounters"].size() == 2);
+  }
+  REQUIRE(place.detect(place.dataset + " --split test --results " + folder + place.out()).status == 0);
+  CHECK(place.report()["films"] == nlohmann::json({"two"}));
+  CHECK(place.report()["detectors"][0]["false_alarm_boxes"] == 0);
+  fs::remove(one);
+  const Run missing = place.detect(place.dataset + " --results " + folder);
+  CHECK(missing.status == 66);
+  CHECK_MESSAGE(missing.err.find("runs/mine/one.csv: no results for this film") != std::string::npos, missing.err);
+}
+
+TEST_CASE("inputs that do not go together are refused in one line") {
+  const Place place;
+  const std::string file = place.put("a.csv", kNothing);
+  const std::string folder = place.tiny.file("folder").string();
+  fs::create_directories(folder);
+  const auto refused = [&](const std::string& arguments, int status, const std::string& message) {
+    const Run run = place.detect(arguments);
+    CHECK_MESSAGE(run.status == status, arguments << run.err);
+    CHECK_MESSAGE(run.err.find(message) != std::string::npos, run.err);
+    CHECK(run.out.empty());
+  };
+  const std::string one = place.labels("one");
+  refused(one + " " + place.labels("two") + " --results " + file, 64, "there are 2 films and 1 files of results");
+  refused(one + " --results " + file + " " + folder, 64, "are folders and files");
+  refused(one + " --results gone.csv", 66, "gone.csv: no such file or folder");
+  refused("gone.xml --results " + file, 66, "gone.xml: no such file or folder");
+  refused(folder + " --results " + file, 66, "index.json: no such file");
+  refused(one + " --split test --results " + file, 64, "--split: goes with a dataset's folder");
+  refused(place.dataset + " --split none --results " + folder, 65, "has no video of split none");
+  refused(one + " --false-overlap 0.5 --results " + file, 64, "--false-overlap: is more than --match-overlap");
+  place.put("set/index.json", "{\"videos\": 3}");
+  refused(place.dataset + " --results " + folder, 65, "index.json: is no index of a dataset");
+}
+
+TEST_CASE("an encounter that never comes near is not counted, and a warning says why") {
+  const Place place;
+  const std::string file = place.put("a.csv", kNothing);
+  const Run run =
+      run_sigs("evaluate detect " + place.labels("one") + " --least-encounter 0 --nearest-range 5 --results " + file);
+  CHECK(run.status == 0);
+  CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted") != std::string::npos, run.err);
+}
+
+}  // namespace sigs::test

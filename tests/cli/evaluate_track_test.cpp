@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <set>
+#include <string>
+
+#include "annotation/sigs_xml.h"
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "film.h"
+#include "project/json.h"
+#include "video/frame_source.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Place {
+  TinyProject tiny;
+  std::string report = tiny.file("report").string();
+  std::string labels = tiny.file("out/tiny.xml").string();
+
+  // Exported too, so that labels and their video are there.
+  Place() { REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --masks none").status == 0); }
+  [[nodiscard]] Run track(const std::string& input, const std::string& options) const {
+    return run_sigs("evaluate track " + input + " " + options);
+  }
+  [[nodiscard]] std::string text(const std::string& name) const { return read_text(tiny.file(name)).value(); }
+  [[nodiscard]] std::string put(const std::string& name, const std::string& text) const {
+    put_text(tiny.file(name), text);
+    return tiny.file(name).string();
+  }
+  void check_refused(const std::string& input, const std::string& options, int status,
+                     const std::string& message) const {
+    const Run run = track(input, options + " --out " + report);
+    CHECK_MESSAGE(run.status == status, options << ": " << run.err);
+    CHECK_MESSAGE(run.err.find(message) != std::string::npos, options << ": " << run.err);
+    CHECK(run.out.empty());
+    CHECK_FALSE(fs::exists(report));
+    CHECK_FALSE(fs::exists(report + ".part"));
+  }
+};
+
+// Without the measured speed, which differs from run to run.
+nlohmann::json scores_in(const Place& place, const std::string& folder) {
+  nlohmann::json json = nlohmann::json::parse(place.text(folder + "/evaluation.json"));
+  for (nlohmann::json& tracker : json["trackers"]) {
+    tracker.erase("measured_frames_per_s");
+    tracker.erase("name");
+  }
+  return json["trackers"];
+}
+
+}  // namespace
+
+TEST_CASE("trackers say the same of a project and of what was exported of it, and of results read again") {
+  const Place place;
+  const std::string other = place.tiny.file("other").string();
+  const std::string again = place.tiny.file("again").string();
+  const Run project =
+      place.track(place.tiny.project(), "--tracker medianflow,mosse --tracker kcf --out " + place.report);
+  REQUIRE_MESSAGE(project.status == 0, project.err);
+  CHECK(project.out.starts_with("tiny: intruder 0 (cube), box of what can be seen, frames 0 to 9\ntracker "));
+  REQUIRE(place.track(place.labels, "--tracker medianflow,mosse,kcf --out " + other).status == 0);
+  std::string results;
+  for (const std::string name : {"medianflow", "mosse", "kcf"}) {
+    const std::string file = "/results/" + name + ".csv";
+    CHECK(place.text("report" + file) == place.text("other" + file));
+    results += " --results " + other + file;
+  }
+  REQUIRE(place.track(place.labels, results + " --out " + again).status == 0);
+  CHECK(scores_in(place, "report") == scores_in(place, "other"));
+  CHECK(scores_in(place, "report") == scores_in(place, "again"));
+  CHECK(scores_in(place, "report").size() == 3);
+}
+
+TEST_CASE("a film shows what an export writes, and its truth") {
+  const Place place;
+  const Project project = read_project(place.tiny.project()).value().project;
+  Film film = Film::open(project, FrameRange{2, 8}).value();
+  CHECK(film.footage().first_frame == 2);
+  CHECK(film.footage().last_frame == 8);
+  FrameSource video = FrameSource::open(place.tiny.file("out/tiny.mkv")).value();
+  const std::string xml = place.text("out/tiny.xml");
+  int next = 2;
+  const Result<int> damaged = film.show(3, [&](const FilmFrame& frame) -> Result<void> {
+    CHECK(frame.truth.index == next);
+    CHECK(cv::norm(frame.picture, bgr_of(video.read(next).value()), cv::NORM_INF) == 0);
+    CHECK(xml.find(xml_of(frame.truth)) != std::string::npos);
+    ++next;
+    return {};
+  });
+  CHECK(damaged.value() == 0);
+  CHECK(next == 9);
+  int seen = 0;
+  const Result<int> stopped = film.show(2, [&](const FilmFrame&) -> Result<void> {
+    ++seen;
+    return fail("here", "enough");
+  });
+  REQUIRE_FALSE(stopped.has_value());
+  CHECK(stopped.error().text() == "here: enough");
+  CHECK(seen == 1);
+}
+
+TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
+  const Place place;
+  std::string csv = place.text("out/tiny.xml");
+  std::string results = "frame,x,y,width,height\n";
+  for (int frame = 0; frame < 10; ++frame) {
+    const auto number = [&csv](const char* name) {
+      csv.erase(0, csv.find(std::string(name) + "=\""));
+      return std::stoi(csv.substr(std::string(name).size() + 2));
+    };
+    csv.erase(0, csv.find("<box "));
+    const int x = number("x");
+    const int y = number("y");
+    const int width = number("width");
+    const int height = number("height");
+    results += std::to_string(frame);
+    for (const int value : {x + 3, y + 4, width, height}) results.append(",").append(std::to_string(value));
+    results += "\n";
+  }
+  const std::string file = place.put("off.csv", results);
+  for (const std::string& input : {place.labels, place.tiny.project()}) {
+    const Run run = place.track(input, "--results " + file);
+    CHECK_MESSAGE(run.status == 0, run.err);
+    CHECK_MESSAGE(run.out.find("\noff         5.00    5.00  5.00     3.00     4.00") != std::string::npos, run.out);
+  }
+  const Run twice = place.track(place.labels, "--results " + file + " --results " + file);
+  CHECK(twice.out.find("\noff (2) ") != std::string::npos);
+}
+
+TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but its like") {
+  const Place place;
+  const std::string options = "--tracker mosse --out " + place.report;
+  REQUIRE(place.track(place.labels, options).status == 0);
+  const Run refused = place.track(place.labels, options);
+  CHECK(refused.status == 73);
+  CHECK(refused.err == "error: " + place.report + ": exists already; --force overwrites it\n");
+  CHECK(place.track(place.labels, options + "/ --force").status == 0);
+  put_text(place.report + "/thesis.txt", "mine");
+  const Run strange = place.track(place.labels, options + " --force");
+  CHECK(strange.status == 73);
+  CHECK(strange.err ==
+        "error: " + place.report + ": holds thesis.txt, which no evaluation wrote; choose another folder\n");
+  CHECK(read_text(place.report + "/thesis.txt").value() == "mine");
+  fs::remove(place.report + "/thesis.txt");
+  const Run own =
+      place.track(place.labels, "--results " + place.report + "/results/mosse.csv --force --out " + place.report);
+  CHECK(own.status == 73);
+  CHECK_MESSAGE(own.err.find("which is read by this command") != std::string::npos, own.err);
+  fs::create_directories(place.tiny.file("empty"));
+  CHECK(place.track(place.labels, "--tracker mosse --out " + place.tiny.file("empty").string()).status == 0);
+  CHECK(place.track(place.labels, "--tracker mosse --out " + place.tiny.file("deep/er").string()).status == 0);
+  CHECK(fs::exists(place.tiny.file("deep/er/report.html")));
+  CHECK(place.track(place.labels, "--tracker mosse --out " + place.labels).status == 73);
+}
+
+TEST_CASE("what makes no sense is refused in one line, and nothing is left behind") {
+  const Place place;
+  const std::string project = place.tiny.project();
+  place.check_refused(project, "", 64, "name what is to be measured: --tracker or --results");
+  place.check_refused(project, "--tracker goturn", 64, "--tracker goturn: no such tracker; there are csrt, kcf");
+  place.check_refused(project, "--tracker kcf,kcf", 64, "--tracker kcf: is named twice");
+  place.check_refused(project, "--tracker kcf --intruder 1", 64, "--intruder 1: there is none of that number");
+  place.check_refused(project, "--tracker kcf --frames 5-90", 64, "the project has frames 0 to 9");
+  place.check_refused(project, "--tracker kcf --video x.mkv", 64, "--video: goes with labels");
+  place.check_refused(place.labels, "--tracker kcf --frames 0-3", 64, "--frames: goes with a project");
+  place.check_refused(place.labels, "--tracker kcf --set camera.speed_mps=3", 64, "--set: goes with a project");
+  place.check_refused("clip.mkv", "--tracker kcf", 64, "is neither a project (.json) nor labels (.xml)");
+  place.check_refused("gone.xml", "--tracker kcf", 66, "gone.xml: no such file");
+  place.check_refused(project, "--results gone.csv", 66, "gone.csv: no such file");
+  place.check_refused(project, "--tracker kcf --least-side 40", 65, "is in no frame seen with sides of at least 40 px");
+  place.check_refused(project, "--tracker kcf --least-visible 2", 64, "least-visible");
+}
+
+TEST_CASE("results that are wrong are refused before a project's film is made") {
+  const Place place;
+  const std::string nan = place.put("nan.csv", "frame,x,y,width,height\n0,1,2,3,4\n1,nan,2,3,4\n");
+  const std::string late = place.put("late.csv", "frame,x,y,width,height\n0,1,2,3,4\n10,1,2,3,4\n");
+  const std::string many = place.put("many.txt",
+                                     "1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n"
+                                     "1,2,3,4\n1,2,3,4\n1,2,3,4\n");
+  for (const std::string& input : {place.labels, place.tiny.project()}) {
+    place.check_refused(input, "--tracker kcf --results " + nan, 65, "nan.csv: line 3: ");
+    place.check_refused(input, "--tracker kcf --results " + late, 65, "late.csv: line 3: ");
+    place.check_refused(input, "--tracker kcf --format otb --results " + many, 65, "many.txt: ");
+  }
+  const Run early = place.track(place.tiny.project(), "--tracker kcf --progress plain --results " + nan);
+  CHECK(early.err.find("frame 1 of") == std::string::npos);
+}
+
+TEST_CASE("pictures that are not those of the labels are refused with both numbers") {
+  const Place place;
+  TinyProject longer(12);
+  TinyProject larger(10, {80, 48});
+  place.check_refused(place.labels, "--tracker kcf --video " + longer.file("clip.mkv").string(), 65,
+                      "clip.mkv: has 12 frames, the labels have 10");
+  place.check_refused(place.labels, "--tracker kcf --video " + larger.file("clip.mkv").string(), 65,
+                      "clip.mkv: is 80x48, the labels are of 64x48");
+  put_text(place.tiny.file("out/tiny.avi"), "");
+  place.check_refused(place.labels, "--tracker kcf", 66,
+                      "has both tiny.mkv and tiny.avi beside it; choose with --video");
+  fs::remove(place.tiny.file("out/tiny.avi"));
+  fs::remove(place.tiny.file("out/tiny.mkv"));
+  place.check_refused(place.labels, "--tracker kcf", 66, "name its pictures with --video");
+}
+
+TEST_CASE("numbered pictures beside the labels are followed too") {
+  const Place place;
+  const std::string composed = place.tiny.file("composed").string();
+  REQUIRE(place.track(place.tiny.project(), "--tracker medianflow --frames 3-9 --out " + composed).status == 0);
+  const std::string pngs = place.tiny.file("pngs").string();
+  REQUIRE(run_sigs("export " + place.tiny.project() + " --codec png --masks none --frames 3-9 --out " + pngs).status ==
+          0);
+  const std::string from_png = place.tiny.file("from_png").string();
+  const Run run = place.track(pngs + "/tiny.xml", "--tracker medianflow --out " + from_png);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  CHECK(run.out.find("frames 3 to 9\n") != std::string::npos);
+  CHECK(place.text("from_png/results/medianflow.csv") == place.text("composed/results/medianflow.csv"));
+  fs::remove(pngs + "/tiny/frame_000005.png");
+  place.check_refused(pngs + "/tiny.xml", "--tracker kcf --force", 65, "has 6 frames, the labels have 7");
+}
+
+TEST_CASE("of several intruders one must be chosen") {
+  TinyProject tiny;
+  const std::string one = R"({"name": "cube", "model": {"file": "cube.obj"},
+    "trajectory": {"waypoints": [{"frame": 0, "position_m": [20, -3, -150]}, {"frame": 9, "position_m": [20, 3, -150]}]}})";
+  std::string other = one;
+  other.replace(other.find("cube"), 4, "box2");
+  tiny.change(one, one + "," + other);
+  const Run run = run_sigs("evaluate track " + tiny.project() + " --tracker mosse");
+  CHECK(run.status == 64);
+  CHECK_MESSAGE(run.err.find("has 2 intruders; choose with --intruder: 0 cube, 1 box2") != std::string::npos, run.err);
+  CHECK(run_sigs("evaluate track " + tiny.project() + " --tracker mosse --intruder 1")
+            .out.starts_with("tiny: intruder 1 (box2)"));
+}
+
+}  // namespace sigs::test

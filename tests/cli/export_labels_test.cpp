@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+
+#include "base/partial_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAll = "xml,coco,yolo,voc,mot,kitti,cvat,vot,aot,csv";
+
+int lines_of(const fs::path& path) {
+  const std::string text = read_text(path).value();
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+std::string sigs_export(const TinyProject& tiny, const std::string& options) {
+  const Run run = run_sigs("export " + tiny.project() + " --out '" + tiny.out() + "' " + options);
+  CHECK_MESSAGE(run.status == 0, run.err);
+  return run.out;
+}
+
+}  // namespace
+
+TEST_CASE("an export writes every format that is asked for and names what it wrote") {
+  const TinyProject tiny;
+  const std::string out = sigs_export(tiny, std::string("--masks none --labels ") + kAll);
+  std::set<std::string> names;
+  std::istringstream in(out);
+  for (std::string line; std::getline(in, line);) {
+    CHECK(fs::exists(line));
+    names.insert(fs::path(line).filename());
+  }
+  CHECK(names == std::set<std::string>{"tiny.mkv", "tiny.xml", "tiny.coco.json", "tiny.yolo", "tiny.voc", "tiny.mot",
+                                       "tiny.kitti", "tiny.cvat.xml", "tiny.vot", "tiny.aot.json", "tiny.csv"});
+  CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1")));
+}
+
+TEST_CASE("numbered pictures lie in the folders of labels as second names of the same files") {
+  const TinyProject tiny;
+  sigs_export(tiny, "--codec png --masks none --frames 4-6 --labels mot,kitti,vot,voc,yolo");
+  const fs::path picture = tiny.file("out/tiny/frame_000004.png");
+  for (const char* name :
+       {"tiny.mot/tiny/img1/000001.png", "tiny.kitti/image_02/tiny/000000.png", "tiny.vot/tiny/color/00000001.png",
+        "tiny.voc/JPEGImages/frame_000004.png", "tiny.yolo/images/tiny/frame_000004.png"})
+    CHECK_MESSAGE(fs::equivalent(picture, tiny.file("out") / name), name);
+  CHECK(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000003.png")));
+  CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000004.png")));
+}
+
+TEST_CASE("folders of labels are replaced with --force, though not where somebody put a file of his own") {
+  const TinyProject tiny;
+  const std::string labels = "--codec png --masks none --labels yolo,voc,mot,kitti,vot";
+  sigs_export(tiny, labels);
+  sigs_export(tiny, labels + " --force --frames 0-3");
+  CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000005.png")));
+  for (const char* folder : {"tiny.yolo", "tiny.voc", "tiny.mot", "tiny.kitti", "tiny.vot"}) {
+    const fs::path own = tiny.file("out") / folder / "notes.md";
+    put_text(own, "mine");
+    const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --force " + labels);
+    CHECK_MESSAGE(run.status == 73, folder);
+    CHECK_MESSAGE(run.err.find("notes.md") != std::string::npos, run.err);
+    fs::remove(own);
+  }
+}
+
+TEST_CASE("thresholds thin out labels but neither xml nor csv") {
+  const TinyProject tiny;
+  const fs::path mot = tiny.file("out/tiny.mot/tiny/gt/gt.txt");
+  sigs_export(tiny, "--masks none --labels xml,csv,mot");
+  const int all = lines_of(mot);
+  const int rows = lines_of(tiny.file("out/tiny.csv"));
+  const int xml = lines_of(tiny.file("out/tiny.xml"));
+  CHECK(all > 0);
+  sigs_export(tiny, "--masks none --labels xml,csv,mot --force --least-pixels 100000");
+  CHECK(lines_of(mot) == 0);
+  CHECK(lines_of(tiny.file("out/tiny.csv")) == rows);
+  CHECK(lines_of(tiny.file("out/tiny.xml")) == xml);
+  sigs_export(tiny, "--masks none --labels mot --force --least-visible 0");
+  CHECK(lines_of(mot) == all);
+}
+
+TEST_CASE("labels and thresholds that there are not are answered with 64 or 78 and nothing is written") {
+  const TinyProject tiny;
+  for (const auto& [options, status, part] :
+       {std::tuple{"--labels pascal", 78, "export.labels: knows no format \"pascal\""},
+        std::tuple{"--labels mot,mot", 78, "\"mot\" twice"}, std::tuple{"--labels mot,", 78, "knows no format \"\""},
+        std::tuple{"--least-pixels 0", 78, "export.label_least_pixels"},
+        std::tuple{"--least-visible 1.5", 78, "export.label_least_visible_fraction"},
+        std::tuple{"--least-pixels some", 64, "some"}, std::tuple{"--least-visible half", 64, "half"}}) {
+    const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + options);
+    CHECK_MESSAGE(run.status == status, options << ": " << run.err);
+    CHECK_MESSAGE(run.err.find(part) != std::string::npos, options << ": " << run.err);
+    CHECK(tiny.files_out() == 0);
+  }
+}
+
+TEST_CASE("an odd name of a project is that of its labels too") {
+  const std::string name = "it's \\\"a\\\" & <b> \xC3\xBC, 100%";
+  TinyProject odd(3);
+  odd.change("\"name\": \"tiny\"", "\"name\": \"" + name + "\"");
+  sigs_export(odd, std::string("--codec png --masks none --labels ") + kAll);
+  const std::string written = "it's \"a\" & <b> \xC3\xBC, 100%";
+  CHECK(fs::exists(odd.file("out") / (written + ".mot") / written / "gt" / "gt.txt"));
+  CHECK(fs::exists(odd.file("out") / (written + ".vot") / written / "color" / "00000003.png"));
+}

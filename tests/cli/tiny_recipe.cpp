@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "cli/tiny_recipe.h"
+
+#include <stdexcept>
+
+#include "base/partial_file.h"
+
+namespace sigs::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRecipe = R"({
+  "sigs_dataset": 1, "name": "tiny", "seed": 0,
+  "settings": {"export.labels": ["xml", "coco", "mot", "csv"]},
+  "backgrounds": [{"name": "sky", "footage": {"video": "clip.mkv", "calibration": "lens.xml"}}],
+  "aircraft": [{"name": "red", "model": {"file": "cube.obj"}},
+               {"name": "large", "model": {"file": "cube.obj", "scale": 2}}],
+  "videos": [{"name": "{aircraft} {flight}", "aircraft": ["red", "large"],
+    "flights": [{"name": "LR", "kind": "left_right", "distance_m": {"uniform": [15, 25]}},
+                {"name": "RL", "kind": "right_left", "distance_m": 20},
+                {"name": "FN", "kind": "approaching", "from_distance_m": 60, "to_distance_m": 15}]}],
+  "splits": {"train": 0.5, "test": 0.5}
+})";
+
+}  // namespace
+
+TinyRecipe::TinyRecipe(int frames) : tiny_(frames) {
+  put_text(file("recipe.json"), kRecipe);
+}
+
+std::string TinyRecipe::arguments(const std::string& out_name, const std::string& more) const {
+  return "dataset " + file("recipe.json").string() + " --out " + out(out_name) + " " + more;
+}
+
+Run TinyRecipe::run(const std::string& out_name, const std::string& more) const {
+  return run_sigs(arguments(out_name, more));
+}
+
+void TinyRecipe::change(const std::string& from, const std::string& to) const {
+  std::string text = read_text(file("recipe.json")).value();
+  const std::size_t place = text.find(from);
+  if (place == std::string::npos) throw std::runtime_error("not in the recipe: " + from);
+  put_text(file("recipe.json"), text.replace(place, from.size(), to));
+}
+
+std::map<std::string, std::string> contents_of(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const fs::directory_entry& found : fs::recursive_directory_iterator(folder))
+    if (found.is_regular_file())
+      contents[found.path().lexically_relative(folder).string()] = read_text(found.path()).value();
+  return contents;
+}
+
+}  // namespace sigs::test

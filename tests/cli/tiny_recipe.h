@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+
+namespace sigs::test {
+
+// A recipe of six videos of the tiny project's clip: one of two cubes on one of three ways.
+class TinyRecipe {
+ public:
+  explicit TinyRecipe(int frames = 8);
+
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return tiny_.file(name); }
+  [[nodiscard]] std::string out(const std::string& name) const { return tiny_.file(name).string(); }
+
+  // What follows `sigs dataset RECIPE --out OUT `.
+  [[nodiscard]] std::string arguments(const std::string& out, const std::string& more = "") const;
+  [[nodiscard]] Run run(const std::string& out, const std::string& more = "") const;
+
+  // Replaces a piece of the recipe, which must be there.
+  void change(const std::string& from, const std::string& to) const;
+
+ private:
+  TinyProject tiny_;
+};
+
+// Every file under a folder and what it holds.
+[[nodiscard]] std::map<std::string, std::string> contents_of(const std::filesystem::path& folder);
+
+}  // namespace sigs::test

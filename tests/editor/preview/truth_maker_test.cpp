@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/truth_maker.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "camera/lens.h"
+#include "viewer.h"
+
+namespace sigs::test {
+
+using namespace sigs::editor;
+
+namespace {
+
+using Scene = std::shared_ptr<const OpenedScene>;
+constexpr int kFrames = 40;
+
+template <class Condition>
+bool comes_true(Condition condition) {
+  for (int i = 0; i < 6000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
+}
+
+Scene scene_of(const Project& project) {
+  FootageShape shape{.size_px = {1280, 960}, .frame_interval_s = 0.04};
+  for (int i = 0; i < kFrames; ++i) shape.times_s.push_back(0.04 * i);
+  auto footage = std::make_shared<Footage>(Footage{.shape = shape, .video = VideoInfo{}});
+  OpenedScene scene{
+      .project = std::make_shared<const Project>(project),
+      .footage = footage,
+      .draft = {.scene = {.camera = {*Lens::make({LensModel::brown_conrady, 900, 900, 640, 480, {}}), {1280, 960}}}}};
+  scene.draft.scene.footage = shape;
+  scene.draft.scene.last_frame = kFrames - 1;
+  return std::make_shared<const OpenedScene>(std::move(scene));
+}
+
+Project project_at(double height_m) {
+  Project project;
+  project.camera.position_m = {0, 0, -height_m};
+  return project;
+}
+
+// Shows frames in which nothing flies; `holds` keeps it in the midst.
+struct Cinema {
+  std::atomic<bool> holds = false;
+  std::atomic<int> begun = 0;
+  std::atomic<int> ended = 0;
+  TruthMaker maker{[] {}, [this](const Project&, int, const TruthMaker::See& see) { return show(see); },
+                   std::chrono::milliseconds(1)};
+
+  ~Cinema() { holds = false; }
+
+  Result<void> show(const TruthMaker::See& see) {
+    ++begun;
+    Result<void> step;
+    for (int i = 0; i < kFrames && step; ++i) {
+      while (holds && i == kFrames / 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      step = see({.truth = {.index = i, .time_s = 0.04 * i}});
+    }
+    ++ended;
+    return step;
+  }
+
+  bool finds(const Scene& scene) {
+    return comes_true([&] {
+      const TruthState state = maker.state();
+      return state.film != nullptr && state.scene == scene;
+    });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the truth of a scene holds all its frames, and says how many there will be") {
+  Cinema cinema;
+  const Scene scene = scene_of(project_at(100));
+  cinema.maker.want(scene);
+  REQUIRE(cinema.finds(scene));
+  const TruthState state = cinema.maker.state();
+  CHECK(state.film->frames() == kFrames);
+  CHECK(state.done == kFrames);
+  CHECK(state.total == kFrames);
+  CHECK(cinema.begun == 1);
+}
+
+TEST_CASE("undo finds the truth that was measured before, and settings of the export change nothing") {
+  Cinema cinema;
+  const Scene first = scene_of(project_at(100));
+  const Scene second = scene_of(project_at(200));
+  cinema.maker.want(first);
+  REQUIRE(cinema.finds(first));
+  const auto film = cinema.maker.state().film;
+  cinema.maker.want(second);
+  REQUIRE(cinema.finds(second));
+  CHECK(cinema.maker.state().film != film);
+  CHECK(cinema.begun == 2);
+  Project renamed = project_at(100);
+  renamed.name = "another name";
+  renamed.output.crf = 7;
+  const Scene third = scene_of(renamed);
+  cinema.maker.want(third);
+  REQUIRE(cinema.finds(third));
+  CHECK(cinema.maker.state().film == film);
+  CHECK(cinema.begun == 2);
+}
+
+TEST_CASE("what is under way is given up for other pictures, and begun anew when they come back") {
+  Cinema cinema;
+  cinema.holds = true;
+  const Scene first = scene_of(project_at(100));
+  const Scene second = scene_of(project_at(200));
+  cinema.maker.want(first);
+  REQUIRE(comes_true([&] { return cinema.maker.state().done > 0; }));
+  CHECK(cinema.maker.state().film == nullptr);
+  cinema.maker.want(second);
+  cinema.holds = false;
+  REQUIRE(cinema.finds(second));
+  CHECK(cinema.begun == 2);
+  cinema.maker.want(first);
+  REQUIRE(cinema.finds(first));
+  CHECK(cinema.begun == 3);
+}
+
+TEST_CASE("what is under way goes on where the pictures stay the same") {
+  Cinema cinema;
+  cinema.holds = true;
+  const Scene first = scene_of(project_at(100));
+  Project renamed = project_at(100);
+  renamed.name = "another name";
+  const Scene same = scene_of(renamed);
+  cinema.maker.want(first);
+  REQUIRE(comes_true([&] { return cinema.maker.state().done > 0; }));
+  cinema.maker.want(same);
+  cinema.holds = false;
+  REQUIRE(cinema.finds(same));
+  CHECK(cinema.begun == 1);
+}
+
+TEST_CASE("wanting nothing ends it, and so does the end of the program") {
+  Cinema cinema;
+  cinema.holds = true;
+  cinema.maker.want(scene_of(project_at(100)));
+  REQUIRE(comes_true([&] { return cinema.maker.state().done > 0; }));
+  cinema.maker.want(nullptr);
+  cinema.holds = false;
+  REQUIRE(comes_true([&] { return cinema.ended == 1; }));
+  CHECK(cinema.maker.state().scene == nullptr);
+  CHECK(cinema.maker.state().film == nullptr);
+}
+
+TEST_CASE("footage that is missing and problems of the project are why there is no measured truth") {
+  Cinema cinema;
+  const Scene sound = scene_of(project_at(100));
+  OpenedScene greyed = *sound;
+  greyed.footage =
+      std::make_shared<Footage>(Footage{.shape = sound->footage->shape, .problem = "gone.mp4: is not there"});
+  cinema.maker.want(std::make_shared<const OpenedScene>(greyed));
+  REQUIRE(comes_true([&] { return cinema.maker.state().problem == "gone.mp4: is not there"; }));
+  OpenedScene faulty = *sound;
+  faulty.draft.problems.push_back({"camera.speed_mps", "must be finite", ErrorKind::bad_project});
+  cinema.maker.want(std::make_shared<const OpenedScene>(faulty));
+  REQUIRE(comes_true([&] { return cinema.maker.state().problem == "the project has problems"; }));
+  CHECK(cinema.begun == 0);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/detection_score.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "evaluation/detection_match.h"
+#include "evaluation/encounters.h"
+#include "evaluation/films.h"
+
+namespace sigs::test {
+namespace {
+
+constexpr double kRate_hz = 10;  // the published frame counts are of films at this rate
+const Box kBox{599.5, 399.5, 20, 10};
+const Box kElsewhere{99.5, 99.5, 20, 10};
+
+// Comes nearer by 5 m a frame from 600 m on: nearer than 300 m from frame 61 on, 1 m at the end of 120 frames.
+double approaching_m(int frame) {
+  return std::max(600.0 - 5 * frame, 1.0);
+}
+
+FilmTruth approach(int frames = 120) {
+  return film_of(frames, kRate_hz, [](int i) { return visible_at(kBox, approaching_m(i)); });
+}
+
+// The intruder matched in frames first to last.
+Results matched(int first, int last, int track = 0) {
+  Results results{.name = "some"};
+  for (int frame = first; frame <= last; ++frame) report(results, frame, kBox, track);
+  return results;
+}
+
+DetectionScore score_of(const FilmTruth& film, const Results& results, const DetectionPolicy& policy = {}) {
+  return score_detections("some", {{"film", film, results}}, policy);
+}
+
+bool is_detected(const FilmTruth& film, const Results& results) {
+  const DetectionScore score = score_of(film, results);
+  REQUIRE(score.encounters.size() == 1);
+  return score.encounters[0].is_detected;
+}
+
+int encounters(const std::function<TargetFrame(int)>& target, int frames = 120, double rate_hz = kRate_hz) {
+  return score_of(film_of(frames, rate_hz, target), {}).all.encounters;
+}
+
+}  // namespace
+
+TEST_CASE("extended overlap is the plain one where the truth has area enough") {
+  CHECK(extended_overlap({0, 0, 10, 10}, {5, 0, 10, 10}, 100) == doctest::Approx(1.0 / 3).epsilon(1e-12));
+  // A small report on a large truth stays small.
+  CHECK(extended_overlap({0, 0, 20, 10}, {0, 0, 2, 1}, 100) == doctest::Approx(0.01).epsilon(1e-12));
+}
+
+TEST_CASE("extended overlap grows a small truth and the report on it about their middles") {
+  // 2x2 at a distance of 5: grown to 10x10 they share half of each.
+  CHECK(extended_overlap({0, 0, 2, 2}, {5, 0, 2, 2}, 100) == doctest::Approx(50.0 / 150).epsilon(1e-12));
+  // 8x2 grows to 20x5, the shape kept; a report of that very box is all of it.
+  CHECK(extended_overlap({6, 1.5, 8, 2}, {0, 0, 20, 5}, 100) == doctest::Approx(1).epsilon(1e-12));
+  // A report larger than that stays as it is: 10x10 in 20x20.
+  CHECK(extended_overlap({9, 9, 2, 2}, {0, 0, 20, 20}, 100) == doctest::Approx(0.25).epsilon(1e-12));
+  // A line has no shape to keep.
+  CHECK(extended_overlap({5, 2, 0, 6}, {0, 0, 10, 10}, 100) == doctest::Approx(1).epsilon(1e-12));
+  CHECK(extended_overlap({0, 0, 2, 2}, {10.1, 0, 2, 2}, 100) == 0);
+}
+
+TEST_CASE("an encounter followed in good time is detected") {
+  const DetectionScore score = score_of(approach(), matched(30, 60));  // the 31 frames before 300 m is passed
+  REQUIRE(score.encounters.size() == 1);
+  const EncounterScore& encounter = score.encounters[0];
+  CHECK(encounter.film == "film");
+  CHECK(encounter.first_frame == 0);
+  CHECK(encounter.last_frame == 119);
+  CHECK(encounter.is_detected);
+  CHECK(*encounter.first_detection_range_m == 450);
+  CHECK(*encounter.first_detection_time_s == doctest::Approx(3.0).epsilon(1e-9));
+  // Matches in 15 of 30 frames first from 15 to 44.
+  CHECK(*encounter.confirmed_range_m == approaching_m(44));
+  CHECK(*encounter.confirmed_time_s == doctest::Approx(4.4).epsilon(1e-9));
+  CHECK(encounter.frames_visible == 120);
+  CHECK(encounter.frames_matched == 31);
+  CHECK(score.all.detected == 1);
+  CHECK(score.all.rate() == 1);
+  CHECK(score.mean_first_range_m == 450);
+}
+
+TEST_CASE("half the frames of the last window before 300 m are enough, one less is not") {
+  CHECK(is_detected(approach(), matched(46, 60)));
+  CHECK_FALSE(is_detected(approach(), matched(47, 119)));  // too late, for ever so long
+  CHECK_FALSE(is_detected(approach(), matched(46, 59)));
+  // Every other frame will do: 15 of 30.
+  Results half;
+  for (int frame = 31; frame <= 60; frame += 2) report(half, frame, kBox);
+  CHECK(is_detected(approach(), half));
+}
+
+TEST_CASE("what is late has a range and a time all the same") {
+  const DetectionScore score = score_of(approach(), matched(100, 119));
+  CHECK_FALSE(score.encounters[0].is_detected);
+  CHECK(*score.encounters[0].first_detection_range_m == 100);
+  CHECK(score.encounters[0].confirmed_range_m.has_value());
+  CHECK(score.all.rate() == 0);
+}
+
+TEST_CASE("matches of different tracks do not add up to one that is followed") {
+  Results broken;
+  for (int frame = 31; frame <= 60; ++frame) report(broken, frame, kBox, frame);
+  CHECK_FALSE(is_detected(approach(), broken));
+  // A reporter that has no tracks is held to its matches alone.
+  CHECK(is_detected(approach(), matched(31, 60, kNoTrack)));
+  // One that half the time calls it something else still has it in half the frames.
+  Results two = matched(31, 45, 1);
+  for (int frame = 46; frame <= 60; ++frame) report(two, frame, kBox, 2);
+  CHECK(is_detected(approach(), two));
+}
+
+TEST_CASE("an encounter that begins near is detected in its first three seconds, or not at all") {
+  const FilmTruth film = film_of(60, kRate_hz, [](int i) { return visible_at(kBox, 200 - i); });
+  CHECK(is_detected(film, matched(0, 29)));
+  CHECK(is_detected(film, matched(15, 40)));
+  CHECK_FALSE(is_detected(film, matched(16, 59)));
+}
+
+TEST_CASE("an intruder that flies away must be seen before it first is near: in the first window") {
+  const FilmTruth film = film_of(80, kRate_hz, [](int i) { return visible_at(kBox, 200.0 + 5 * i); });
+  CHECK(is_detected(film, matched(10, 40)));
+  CHECK_FALSE(is_detected(film, matched(30, 79)));  // beyond 300 m again by then, but it has been near
+}
+
+TEST_CASE("just 300 m is not nearer than 300 m") {
+  const FilmTruth film = film_of(60, kRate_hz, [](int i) { return visible_at(kBox, i < 59 ? 300 : 299); });
+  CHECK(is_detected(film, matched(29, 58)));
+  CHECK(is_detected(film, matched(44, 58)));
+  CHECK_FALSE(is_detected(film, matched(45, 59)));
+}
+
+TEST_CASE("a gap of three frames lies within an encounter, one of four ends it") {
+  const auto with_gap = [](int length) {
+    return [length](int i) { return i >= 50 && i < 50 + length ? TargetFrame{} : visible_at(kBox, 250); };
+  };
+  CHECK(encounters(with_gap(0)) == 1);
+  CHECK(encounters(with_gap(3)) == 1);
+  CHECK(encounters(with_gap(4)) == 2);
+  // Out of range is a gap as well.
+  const auto far_amid = [](int length) {
+    return [length](int i) { return visible_at(kBox, i >= 50 && i < 50 + length ? 701 : 250); };
+  };
+  CHECK(encounters(far_amid(3)) == 1);
+  CHECK(encounters(far_amid(4)) == 2);
+}
+
+TEST_CASE("frames of a gap are not asked for") {
+  const FilmTruth film = film_of(
+      33, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{.distance_m = 250} : visible_at(kBox, 250); });
+  // The first window, 0 to 29, has 27 frames to be matched in: 14 are enough, 13 are not.
+  CHECK(is_detected(film, matched(16, 29)));
+  CHECK_FALSE(is_detected(film, matched(17, 29)));
+  CHECK(score_of(film, {}).encounters[0].frames_visible == 30);
+}
+
+TEST_CASE("an encounter lasts three seconds or is none") {
+  const auto for_frames = [](int count) {
+    return [count](int i) { return i < count ? visible_at(kBox, 250) : TargetFrame{}; };
+  };
+  CHECK(encounters(for_frames(29)) == 0);
+  CHECK(encounters(for_frames(30)) == 1);
+  CHECK(encounters(for_frames(74), 120, 25) == 0);
+  CHECK(encounters(for_frames(75), 120, 25) == 1);
+  CHECK(encounters(for_frames(89), 120, 30000.0 / 1001) == 0);  // 89.91 frames
+  CHECK(encounters(for_frames(90), 120, 30000.0 / 1001) == 1);
+}
+
+TEST_CASE("times of six digits do not cost an encounter a frame, nor a window") {
+  const auto with_last_time = [](double last_s) {
+    FilmTruth film =
+        film_of(30, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{} : visible_at(kBox, 250); });
+    film.times_s.back() = last_s;
+    return score_of(film, {}).all.encounters;
+  };
+  CHECK(with_last_time(2.9) == 1);
+  CHECK(with_last_time(2.899999) == 1);  // 10.000003 Hz: 3 s would be 30.00001 frames
+  CHECK(with_last_time(2.900001) == 1);  // 9.999997 Hz: 0.3 s would be 2.999999 frames
+  // 30.3 frames are 30: half of them are 15.
+  const FilmTruth film = film_of(60, 10.1, [](int) { return visible_at(kBox, 250); });
+  CHECK(is_detected(film, matched(15, 29)));
+}
+
+TEST_CASE("what never comes near is not asked for, and is counted apart") {
+  const FilmTruth film = film_of(60, kRate_hz, [](int) { return visible_at(kBox, 331); });
+  const DetectionScore score = score_of(film, matched(0, 59));
+  CHECK(score.all.encounters == 0);
+  CHECK(std::isnan(score.all.rate()));
+  CHECK(score.encounters_too_far == 1);
+  CHECK(score.frame_detection_rate == 1);  // but its frames are
+  CHECK(score.false_alarm_boxes == 0);
+  CHECK(score_of(film, {}, {.nearest_range_m = 331}).all.encounters == 1);
+  // Beyond the longest range nothing is asked for, and nothing is false that is there.
+  const DetectionScore far = score_of(film_of(60, kRate_hz, [](int) { return visible_at(kBox, 701); }), matched(0, 59));
+  CHECK(far.encounters_too_far == 0);
+  CHECK(std::isnan(far.frame_detection_rate));
+  CHECK(far.false_alarm_boxes == 0);
+}
+
+TEST_CASE("an encounter's side of the horizon is that of all its frames, or on it") {
+  const auto side = [](HorizonSide first, HorizonSide last) {
+    return score_of(film_of(60, kRate_hz,
+                            [=](int i) {
+                              TargetFrame frame = visible_at(kBox, 250);
+                              frame.horizon = i < 59 ? first : last;
+                              return frame;
+                            }),
+                    matched(0, 59));
+  };
+  const DetectionScore above = side(HorizonSide::above, HorizonSide::above);
+  CHECK(above.above_horizon.detected == 1);
+  CHECK(above.on_horizon.encounters + above.below_horizon.encounters == 0);
+  CHECK(side(HorizonSide::below, HorizonSide::below).below_horizon.detected == 1);
+  CHECK(side(HorizonSide::below, HorizonSide::above).on_horizon.detected == 1);
+  CHECK(side(HorizonSide::above, HorizonSide::on).on_horizon.detected == 1);
+}
+
+TEST_CASE("false alarms are counted by track for the hour and by box for the frame") {
+  Results results = matched(0, 119, 1);
+  for (int frame = 10; frame < 20; ++frame) report(results, frame, kElsewhere, 2);
+  report(results, 50, kElsewhere, 3);
+  report(results, 51, kElsewhere, 1);  // a good track that once is elsewhere
+  report(results, 60, kElsewhere, kNoTrack);
+  report(results, 61, kElsewhere, kNoTrack);
+  report(results, 500, kElsewhere, 9);  // no frames of the film
+  report(results, 120, kElsewhere, 9);
+  report(results, -1, kElsewhere, 9);
+  const DetectionScore score = score_of(approach(), results);
+  CHECK(score.false_alarm_boxes == 14);
+  CHECK(score.false_alarm_tracks == 5);
+  CHECK(score.frames == 120);
+  CHECK(score.hours == doctest::Approx(12.0 / 3600).epsilon(1e-9));
+  CHECK(score.false_alarms_per_hour == doctest::Approx(5 * 300).epsilon(1e-9));
+  CHECK(score.false_boxes_per_frame == doctest::Approx(14.0 / 120).epsilon(1e-12));
+}
+
+TEST_CASE("between a match and a false alarm lies what is neither") {
+  // Boxes 20 wide, shifted by d: overlap (20 - d) / (20 + d).
+  const auto at_overlap = [](double overlap) {
+    Results results;
+    report(results, 0, moved(kBox, 20 * (1 - overlap) / (1 + overlap), 0));
+    return score_of(film_of(1, kRate_hz, [](int) { return visible_at(kBox); }), results);
+  };
+  CHECK(at_overlap(0.2).frame_detection_rate == 1);
+  CHECK(at_overlap(0.199).frame_detection_rate == 0);
+  CHECK(at_overlap(0.199).false_alarm_boxes == 0);
+  CHECK(at_overlap(0.02).false_alarm_boxes == 0);
+  CHECK(at_overlap(0.019).false_alarm_boxes == 1);
+}
+
+TEST_CASE("a report where a hidden intruder is raises no false alarm, and detects nothing") {
+  const FilmTruth film = film_of(40, kRate_hz, [](int) {
+    TargetFrame frame = visible_at(kBox, 250);
+    frame.visible.reset();
+    return frame;
+  });
+  const DetectionScore score = score_of(film, matched(0, 39));
+  CHECK(score.false_alarm_boxes == 0);
+  CHECK(score.all.encounters == 0);
+  CHECK(std::isnan(score.frame_detection_rate));
+}
+
+TEST_CASE("reports of a low score are as if they were not") {
+  Results results = matched(0, 119);
+  for (int frame = 0; frame < 60; ++frame) results.frames[frame][0].score = 0.3;
+  report(results, 70, kElsewhere, 2, 0.3);
+  const DetectionScore strict = score_of(approach(), results, {.least_score = 0.5});
+  CHECK(strict.frame_detection_rate == 0.5);
+  CHECK(strict.false_alarm_boxes == 0);
+  CHECK_FALSE(strict.encounters[0].is_detected);
+  CHECK(score_of(approach(), results, {.least_score = 0.3}).false_alarm_boxes == 1);
+}
+
+TEST_CASE("one report may match two intruders that are close together") {
+  FilmTruth film = approach();
+  add_target(film, [](int i) { return visible_at(moved(kBox, 3, 0), approaching_m(i)); });
+  const DetectionScore score = score_of(film, matched(0, 59));
+  CHECK(score.all.encounters == 2);
+  CHECK(score.all.detected == 2);
+  CHECK(score.encounters[1].target == 1);
+  CHECK(score.frame_detection_rate == 0.5);
+}
+
+TEST_CASE("several films add up, and their tracks are not each other's") {
+  Results noisy = matched(30, 60);
+  report(noisy, 0, kElsewhere, 7);
+  Results silent;
+  report(silent, 0, kElsewhere, 7);
+  const DetectionScore score = score_detections(
+      "some", {{"one", approach(), noisy}, {"two", approach(), silent}, {"three", approach(60), {}}}, {});
+  CHECK(score.frames == 300);
+  CHECK(score.hours == doctest::Approx(30.0 / 3600).epsilon(1e-9));
+  CHECK(score.false_alarm_tracks == 2);
+  // The third ends at 305 m: near enough to count.
+  CHECK(score.all.encounters == 3);
+  CHECK(score.all.detected == 1);
+  CHECK(score.encounters[1].film == "two");
+  CHECK(score.mean_first_range_m == 450);  // of the one that was seen at all
+  CHECK(score.frame_detection_rate == doctest::Approx(31.0 / 300).epsilon(1e-12));
+}
+
+TEST_CASE("nothing has no rates") {
+  for (const std::vector<DetectedFilm>& films :
+       {std::vector<DetectedFilm>{}, std::vector<DetectedFilm>{{"empty", film_of(0, 10, {}), {}}}}) {
+    const DetectionScore score = score_detections("some", films, {});
+    CHECK(score.hours == 0);
+    CHECK(score.frames == 0);
+    CHECK(std::isnan(score.false_alarms_per_hour));
+    CHECK(std::isnan(score.false_boxes_per_frame));
+    CHECK(std::isnan(score.frame_detection_rate));
+    CHECK(std::isnan(score.mean_first_range_m));
+    CHECK(std::isnan(score.all.rate()));
+  }
+}
+
+TEST_CASE("the rate of a film is that of its times, or the nominal one") {
+  FilmTruth film = approach(11);
+  CHECK(rate_hz_of(film) == doctest::Approx(10).epsilon(1e-12));
+  for (double& time_s : film.times_s) time_s *= 2;
+  CHECK(rate_hz_of(film) == doctest::Approx(5).epsilon(1e-12));
+  CHECK(rate_hz_of(approach(1)) == 10);
+  for (double& time_s : film.times_s) time_s = 0;
+  CHECK(rate_hz_of(film) == 10);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/opencv_tracker.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "evaluation/moving_square.h"
+#include "evaluation/tracker_group.h"
+
+namespace sigs::test {
+namespace {
+
+constexpr int kFrames = 6;
+
+std::vector<std::string> all_names() {
+  return {tracker_names().begin(), tracker_names().end()};
+}
+
+// What the trackers say of the moving square, fed in turn.
+std::vector<Results> tracked(const std::vector<std::string>& names) {
+  TrackerGroup group = TrackerGroup::make(names).value();
+  group.start(0, square_picture(0), square_box(0));
+  for (int frame = 1; frame < kFrames; ++frame) group.follow(frame, square_picture(frame));
+  CHECK(group.remarks().empty());
+  return group.results();
+}
+
+void check_equal(const Results& one, const Results& other) {
+  CHECK(one.name == other.name);
+  REQUIRE(one.frames.size() == other.frames.size());
+  for (const auto& [frame, boxes] : one.frames) {
+    REQUIRE(other.frames.contains(frame));
+    CHECK_MESSAGE(boxes.front().box == other.frames.at(frame).front().box, one.name << " frame " << frame);
+  }
+}
+
+double center_distance_px(const Box& a, const Box& b) {
+  return std::hypot(a.x + a.width / 2 - b.x - b.width / 2, a.y + a.height / 2 - b.y - b.height / 2);
+}
+
+OpenCvTracker tracker(const char* name) {
+  return std::move(OpenCvTracker::make(name)).value();
+}
+
+}  // namespace
+
+TEST_CASE("every tracker follows a textured patch over textured ground") {
+  for (const Results& results : tracked(all_names())) {
+    CHECK_MESSAGE(results.frames.size() == kFrames, results.name);
+    // MIL goes where its classifier says, up to 25 px away (its search window) from one frame to the next; TLD changes
+    // its box's size. The others stay within a tenth of the patch.
+    const double most_px = results.name == "mil" ? 25 : results.name == "tld" ? 10 : 4;
+    for (const auto& [frame, boxes] : results.frames)
+      CHECK_MESSAGE(center_distance_px(boxes.front().box, square_box(frame)) < most_px,
+                    results.name << " frame " << frame);
+    REQUIRE(results.frames_per_s.has_value());
+    CHECK(*results.frames_per_s > 0);
+  }
+}
+
+TEST_CASE("a patch that moves by whole pixels is found where it is by trackers that are exact") {
+  for (const Results& results : tracked({"mosse", "medianflow"}))
+    for (const auto& [frame, boxes] : results.frames)
+      CHECK_MESSAGE(center_distance_px(boxes.front().box, square_box(frame)) < 0.5, results.name << " frame " << frame);
+}
+
+TEST_CASE("a tracker says the same again, alone, in other company and on one thread") {
+  const std::vector<Results> together = tracked(all_names());
+  std::vector<std::string> backwards = all_names();
+  std::reverse(backwards.begin(), backwards.end());
+  std::vector<Results> turned = tracked(backwards);
+  std::reverse(turned.begin(), turned.end());
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    check_equal(together[i], turned[i]);
+    cv::theRNG().state = 12345 + i;  // what was drawn before is no matter
+    check_equal(together[i], tracked({together[i].name}).front());
+  }
+  cv::setNumThreads(threads);
+}
+
+TEST_CASE("a tracker's report in its first frame is the box that it was started with, in whole pixels") {
+  OpenCvTracker kcf = tracker("kcf");
+  REQUIRE(kcf.start(7, square_picture(0), {59.6, 49.4, 40, 30}).has_value());
+  const Results& results = kcf.results();
+  REQUIRE(results.frames.size() == 1);
+  CHECK(results.frames.at(7).front().box == Box{59.5, 49.5, 40, 30});
+  CHECK_FALSE(results.frames_per_s.has_value());
+}
+
+TEST_CASE("a box that reaches over the picture's edge is cut there, a box outside it starts nothing") {
+  OpenCvTracker cut = tracker("medianflow");
+  REQUIRE(cut.start(0, square_picture(0), {-10.5, -0.5, 50, 400}).has_value());
+  CHECK(cut.results().frames.at(0).front().box == Box{-0.5, -0.5, 40, 150});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const Box& wrong : {Box{1e7, 10, 20, 20}, Box{-1e7, 10, 20, 20}, Box{-20.5, 10, 20, 20}, Box{10, 149.5, 20, 20},
+                           Box{10, 10, 0, 20}, Box{10, 10, 20, -1}, Box{nan, 10, 20, 20}, Box{10, 10, infinity, 20}}) {
+    OpenCvTracker outside = tracker("kcf");
+    const Result<void> started = outside.start(3, square_picture(0), wrong);
+    REQUIRE_FALSE(started.has_value());
+    CHECK(started.error().text() == "kcf: frame 3: cannot be started with a box outside the picture");
+    CHECK(outside.results().frames.empty());
+  }
+}
+
+TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
+  TrackerGroup group = TrackerGroup::make({"medianflow", "mosse"}).value();
+  group.start(0, square_picture(0), square_box(0));
+  group.follow(1, square_picture(1));
+  group.follow(2, cv::Mat(7, 5, CV_8UC3, cv::Scalar::all(0)));  // MOSSE takes a piece out of whatever it is shown
+  group.follow(3, square_picture(3));
+  REQUIRE(group.remarks().size() == 1);
+  const std::string remark = group.remarks().front();
+  CHECK_MESSAGE(remark.starts_with("medianflow: frame 2: OpenCV cannot follow in it: "), remark);
+  CHECK(remark.ends_with("; it reports nothing from there on"));
+  CHECK(remark.find('\n') == std::string::npos);
+  const std::vector<Results> results = group.results();
+  CHECK(results[0].frames.size() == 2);
+  CHECK_FALSE(results[0].frames.contains(3));
+}
+
+TEST_CASE("a tracker that says that it has lost its target reports nothing") {
+  OpenCvTracker mosse = tracker("mosse");
+  REQUIRE(mosse.start(0, square_picture(0), square_box(0)).has_value());
+  REQUIRE(mosse.follow(1, square_picture(1)).has_value());
+  REQUIRE(mosse.results().frames.contains(1));
+  REQUIRE(mosse.follow(2, bare_picture()).has_value());
+  CHECK_FALSE(mosse.results().frames.contains(2));
+}
+
+TEST_CASE("an unknown tracker is named with those there are, one named twice is refused") {
+  const Result<OpenCvTracker> unknown = OpenCvTracker::make("goturn");
+  REQUIRE_FALSE(unknown.has_value());
+  CHECK(unknown.error().text() ==
+        "goturn: no such tracker; there are csrt, kcf, mil, mosse, medianflow, tld, boosting");
+  CHECK(unknown.error().kind == ErrorKind::usage);
+  const Result<TrackerGroup> twice = TrackerGroup::make({"kcf", "mil", "kcf"});
+  REQUIRE_FALSE(twice.has_value());
+  CHECK(twice.error().text() == "kcf: is named twice");
+}
+
+}  // namespace sigs::test
