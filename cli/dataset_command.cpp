@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct DatasetOptions {
   int jobs = 0;
   bool resume = false;
   std::string shard;
+  std::string only;  // names, separated by commas
   bool merge = false;
   bool dry_run = false;
   std::string progress = "auto";
@@ -77,16 +79,37 @@ class Teller {
   std::set<std::string> said_;
 };
 
+std::set<std::string> names_in(const std::string& comma_separated) {
+  std::set<std::string> names;
+  std::istringstream text(comma_separated);
+  for (std::string name; std::getline(text, name, ',');) names.insert(name);
+  return names;
+}
+
+// Leaves the named videos in the plan. An unknown name is the command line's fault.
+Result<void> keep_only(Plan& plan, const std::set<std::string>& names) {
+  std::set<std::string> unknown = names;
+  for (const PlannedVideo& video : plan.videos) unknown.erase(video.name);
+  for (const ImpossibleVideo& video : plan.impossible) unknown.erase(video.name);
+  if (!unknown.empty())
+    return fail("--only " + *unknown.begin(), "the recipe has no such video; --dry-run lists them", ErrorKind::usage);
+  std::erase_if(plan.videos, [&](const PlannedVideo& video) { return !names.contains(video.name); });
+  std::erase_if(plan.impossible, [&](const ImpossibleVideo& video) { return !names.contains(video.name); });
+  return {};
+}
+
 Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
-  Result<ReadRecipe> read = read_recipe(options.recipe);
+  Result<ReadRecipe> read = read_recipe(options.recipe, options.project.settings);
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
-  if (const Result<void> set = set_all(read->recipe.base, options.project.settings); !set) return fail(set.error());
   source = {.program = std::string("sigs ") + SIGS_VERSION,
             .seed = read->recipe.seed,
             .recipe = read->recipe.text,
             .settings = options.project.settings};
-  return plan_of(read->recipe);
+  Result<Plan> plan = plan_of(read->recipe);
+  if (!plan || options.only.empty()) return plan;
+  if (const Result<void> kept = keep_only(*plan, names_in(options.only)); !kept) return fail(kept.error());
+  return plan;
 }
 
 // Videos that cannot be are the recipe's fault, whatever else has been done.
@@ -113,9 +136,12 @@ Result<void> told(const DatasetReport& report) {
 }
 
 Result<void> run(const DatasetOptions& options) {
-  if (options.merge && (options.resume || !options.shard.empty()))
-    return fail("--merge", "exports nothing, so it goes without --resume and --shard", ErrorKind::usage);
-  DatasetRequest request{.jobs = options.jobs, .resume = options.resume, .merge_only = options.merge};
+  if (options.merge && (options.resume || !options.shard.empty() || !options.only.empty()))
+    return fail("--merge", "exports nothing, so it goes without --resume, --shard and --only", ErrorKind::usage);
+  if (!options.shard.empty() && !options.only.empty())
+    return fail("--only", "names the videos to make, so it goes without --shard", ErrorKind::usage);
+  DatasetRequest request{
+      .jobs = options.jobs, .resume = options.resume, .index = options.only.empty(), .merge_only = options.merge};
   if (!options.shard.empty()) {
     const Result<Shard> shard = shard_of(options.shard);
     if (!shard) return fail(shard.error());
@@ -156,6 +182,9 @@ std::function<Result<void>()> add_dataset_command(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "keep the videos that are complete and as the recipe asks");
   command->add_option("--shard", options->shard, "only part I of N of the videos, and no index")->option_text("I/N");
+  command->add_option("--only", options->only, "only these videos, separated by commas, and no index")
+      ->option_text("NAMES")
+      ->check(not_empty());
   command->add_flag("--merge", options->merge, "export nothing: make the index of videos that are there");
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
   add_set_option(*command, options->project);

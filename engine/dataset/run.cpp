@@ -233,7 +233,8 @@ Result<DatasetReport> Run::all() {
     if (task.error) report.failures.push_back({task.folder.video->name, *task.error});
   Result<void> step = clear_workshop();
   if (is_cancelled()) return fail(interrupted());
-  if (step && !request_.shard && report.failures.empty()) step = write_index(report);
+  const bool is_whole = request_.index && !request_.shard && report.failures.empty();
+  if (step && is_whole) step = write_index(report);
   if (!step && is_cancelled()) return fail(interrupted());
   if (!step) return fail(step.error());
   report.seconds = watch.elapsed_s();

@@ -21,6 +21,7 @@ struct DatasetRequest {
   int jobs = 0;         // videos exported side by side, 0: as the processor asks for; the bytes do not depend on it
   bool resume = false;  // keep videos that are complete and as planned; else the folder must hold no dataset
   std::optional<Shard> shard;  // only these videos, and no index
+  bool index = true;           // false: the plan is only a part of the dataset's; a shard never has one
   bool merge_only = false;     // export nothing: make the index of what is there; a missing video is an error
 };
 
