@@ -98,6 +98,13 @@ cv::Rect pixels_of(const Box& box, cv::Size size) {
   return {left, top, right - left, bottom - top};
 }
 
+// MIL and boosting look for rectangles of 9 px or more that fit into the box, at random and without end where none
+// does: one of 3 by 3, twice beside or below itself, must fit.
+bool is_large_enough(std::string_view name, const cv::Rect& box) {
+  if (name != "mil" && name != "boosting") return true;
+  return std::min(box.width, box.height) >= 4 && std::max(box.width, box.height) >= 8;
+}
+
 bool lies_in(const Box& box, cv::Size size) {
   const bool is_finite =
       std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) && std::isfinite(box.height);
@@ -169,6 +176,10 @@ Result<void> OpenCvTracker::start(int frame, const cv::Mat& picture, const Box& 
   if (!lies_in(box, picture.size()))
     return fail(in.results.name + ": " + frame_text(frame), "cannot be started with a box outside the picture");
   const cv::Rect pixels = pixels_of(box, picture.size());
+  if (!is_large_enough(in.results.name, pixels))
+    return fail(in.results.name + ": " + frame_text(frame),
+                "cannot be started with a box of " + std::to_string(pixels.width) + "x" +
+                    std::to_string(pixels.height) + " px: it takes 8x4 or more");
   return in.guarded(frame, "start on", [&]() -> Result<void> {
     std::unique_ptr<AnyTracker> tracker = made(in.results.name);
     if (!tracker->init(picture, pixels))

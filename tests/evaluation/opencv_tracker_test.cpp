@@ -110,6 +110,19 @@ TEST_CASE("a box that reaches over the picture's edge is cut there, a box outsid
   }
 }
 
+TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or says that it cannot") {
+  const cv::Mat picture = square_picture(0);
+  for (const std::string& name : all_names())
+    for (const cv::Size size :
+         {cv::Size(1, 1), cv::Size(4, 2), cv::Size(3, 30), cv::Size(7, 7), cv::Size(8, 4), cv::Size(4, 8)}) {
+      OpenCvTracker small = OpenCvTracker::make(name).value();
+      const Result<void> started = small.start(0, picture, {69.5, 59.5, double(size.width), double(size.height)});
+      if (started) static_cast<void>(small.follow(1, square_picture(1)));
+      const bool is_refused = (name == "mil" || name == "boosting") && size.width * size.height < 32;
+      if (is_refused) CHECK_MESSAGE(!started.has_value(), name << " " << size);
+    }
+}
+
 TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
   TrackerGroup group = TrackerGroup::make({"medianflow", "mosse"}).value();
   group.start(0, square_picture(0), square_box(0));

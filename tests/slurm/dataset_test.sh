@@ -46,11 +46,12 @@ write_recipe() {
   "name": "cluster",
   "seed": 0,
   "settings": {"export.video.codec": "h264", "export.labels": ["xml", "coco"]},
-  "backgrounds": [{"name": "sample", "video": "$source_dir/assets/footage/sample.mp4",
-    "calibration": "$source_dir/assets/calibrations/sample.xml", "camera": {"speed_mps": 22}}],
+  "backgrounds": [{"name": "sample", "footage": {"video": "$source_dir/assets/footage/sample.mp4",
+    "calibration": "$source_dir/assets/calibrations/sample.xml"}, "camera": {"speed_mps": 22}}],
   "aircraft": [{"name": "airliner", "model": {"file": "$source_dir/assets/models/airliner/airliner.obj"}}],
-  "videos": [{"name": "{trajectory}", "background": "sample", "aircraft": "airliner", "frames": 3,
-    "trajectory": ["left_right", "right_left", "approaching", "moving_away"]}]
+  "videos": [{"name": "{flight}", "frames": 3, "flights": [
+    {"name": "LR", "kind": "left_right"}, {"name": "RL", "kind": "right_left"},
+    {"name": "FN", "kind": "approaching"}, {"name": "NF", "kind": "moving_away"}]}]
 }
 JSON
 }
@@ -69,14 +70,14 @@ diff <(checksums "$folder/one machine") <(checksums "$folder/out") || fail "the 
 [ "$(find "$folder/out/logs" -name 'shard_*.log' | wc -l)" -eq 3 ] || fail "there are not three logs"
 
 # A shard that cannot be written: the merge says so, and the same submitted again goes on.
-rm -r "$folder/out/left_right" "$folder/out/index.json"
-: >"$folder/out/left_right"
+rm -r "$folder/out/LR" "$folder/out/index.json"
+: >"$folder/out/LR"
 jobs=$("$source_dir/scripts/slurm/submit.sh" "$recipe" "$folder/out" 3) || fail "nothing was submitted again"
 await "${jobs% *}"
 await "${jobs#* }"
 [ ! -e "$folder/out/index.json" ] || fail "an index was written although a video is missing"
-grep -q left_right "$folder/out/logs/merge.log" || fail "the merge does not name the video that is missing"
-rm "$folder/out/left_right"
+grep -q LR "$folder/out/logs/merge.log" || fail "the merge does not name the video that is missing"
+rm "$folder/out/LR"
 jobs=$("$source_dir/scripts/slurm/submit.sh" "$recipe" "$folder/out" 3) || fail "nothing was submitted at last"
 await "${jobs% *}"
 await "${jobs#* }"
