@@ -6,8 +6,9 @@
 #include <map>
 #include <set>
 
-#include "annotation/number_text.h"
+#include "base/text_pieces.h"
 #include "dataset/run.h"
+#include "dataset/short_text.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -42,29 +43,17 @@ std::string size_text(double bytes) {
   return text;
 }
 
-std::string short_number(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", number);
-  return text;
-}
-
-// How far a text reaches on a terminal: characters of UTF-8, of which one takes several bytes.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 std::string aligned(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
   }
   std::string text;
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       text += row[i];
-      if (i + 1 < row.size()) text += std::string(widths[i] - width_of(row[i]) + 2, ' ');
+      if (i + 1 < row.size()) text += std::string(widths[i] - columns_of(row[i]) + 2, ' ');
     }
     text += "\n";
   }
@@ -98,7 +87,7 @@ Row row_of(const PlannedVideo& video, int frames, const std::set<std::string>& d
   row.push_back(std::to_string(frames));
   for (const std::string& quantity : drawn) {
     const auto found = video.drawn.find(quantity);
-    row.push_back(found == video.drawn.end() ? "-" : short_number(found->second));
+    row.push_back(found == video.drawn.end() ? "-" : short_text(found->second));
   }
   return row;
 }

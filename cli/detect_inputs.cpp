@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "base/folder_contents.h"
 #include "base/partial_file.h"
 
 namespace sigs::cli {
@@ -13,11 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
-
-bool is_folder(const fs::path& path) {
-  std::error_code code;
-  return fs::is_directory(path, code);
-}
 
 // A video of an index, where it says what is needed.
 Result<void> add_video(const fs::path& index, const nlohmann::json& video, const std::string& split,
@@ -64,11 +60,11 @@ Result<std::vector<FilmFiles>> films_of(const Paths& inputs, const std::string& 
 
 // The one file in a detector's folder that is called like the film.
 Result<fs::path> results_of(const fs::path& folder, const FilmFiles& film) {
+  const Result<Paths> there = folder_contents(folder);
+  if (!there) return fail(there.error());
   Paths found;
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-    if (entry.is_regular_file(code) && entry.path().stem() == film.name) found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
+  for (const fs::path& path : *there)
+    if (std::error_code code; path.stem() == film.name && fs::is_regular_file(path, code)) found.push_back(path);
   if (found.empty())
     return fail((folder / film.name).string() + ".csv",
                 "no results for this film; where nothing was detected, they are a file without boxes",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/folder_contents.h"
 #include "evaluation/report.h"
 
 namespace sigs::cli {
@@ -28,16 +29,19 @@ bool lies_at_or_below(const fs::path& place, const fs::path& top) {
 }
 
 // The first thing in the folder that no evaluation writes; empty: there is none.
-std::string strange_in(const fs::path& folder) {
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-    const std::string name = entry.path().filename().string();
-    if (is_report_file(name) && entry.is_regular_file(code)) continue;
-    if (name != "results" || !entry.is_directory(code)) return name;
-    for (const fs::directory_entry& result : fs::directory_iterator(entry.path(), code))
-      if (result.path().extension() != ".csv") return "results/" + result.path().filename().string();
+Result<std::string> strange_in(const fs::path& folder) {
+  const Result<std::vector<fs::path>> paths = folder_contents(folder);
+  if (!paths) return fail(paths.error());
+  for (const fs::path& path : *paths) {
+    const std::string name = path.filename().string();
+    if (std::error_code code; is_report_file(name) && fs::is_regular_file(path, code)) continue;
+    if (name != "results" || !is_folder(path)) return name;
+    const Result<std::vector<fs::path>> results = folder_contents(path);
+    if (!results) return fail(results.error());
+    for (const fs::path& result : *results)
+      if (result.extension() != ".csv") return "results/" + result.filename().string();
   }
-  return "";
+  return std::string();
 }
 
 Result<void> check_free(const fs::path& shown, const fs::path& place, bool overwrite) {
@@ -48,8 +52,10 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
     return fail(not_free(shown, "is the current folder; name one that is to be made"));
   if (fs::is_empty(place, code)) return {};
   if (!overwrite) return fail(not_free(shown, "exists already; --force overwrites it"));
-  if (const std::string strange = strange_in(place); !strange.empty())
-    return fail(not_free(shown, "holds " + strange + ", which no evaluation wrote; choose another folder"));
+  const Result<std::string> strange = strange_in(place);
+  if (!strange) return fail(strange.error());
+  if (!strange->empty())
+    return fail(not_free(shown, "holds " + *strange + ", which no evaluation wrote; choose another folder"));
   return {};
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "cli/labelled_pictures.h"
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 #include <vector>
 
 #include "annotation/labels.h"
+#include "base/folder_contents.h"
 
 namespace sigs::cli {
 
@@ -28,14 +30,12 @@ Result<void> check_count(const fs::path& path, int count, const FilmTruth& film)
               "has " + std::to_string(count) + " frames, the labels have " + std::to_string(film.frames()));
 }
 
-int pictures_in(const fs::path& folder) {
-  int count = 0;
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-    const std::string name = entry.path().filename().string();
-    count += name.starts_with("frame_") && entry.path().extension() == ".png" ? 1 : 0;
-  }
-  return count;
+Result<int> pictures_in(const fs::path& folder) {
+  const Result<std::vector<fs::path>> paths = folder_contents(folder);
+  if (!paths) return fail(paths.error());
+  return static_cast<int>(std::count_if(paths->begin(), paths->end(), [](const fs::path& path) {
+    return path.filename().string().starts_with("frame_") && path.extension() == ".png";
+  }));
 }
 
 // Empty: it cannot be read.
@@ -70,9 +70,10 @@ Result<fs::path> LabelledPictures::beside(const fs::path& labels) {
 
 Result<LabelledPictures> LabelledPictures::open(const fs::path& path, const FilmTruth& film) {
   LabelledPictures pictures(path, film.footage);
-  std::error_code code;
-  if (fs::is_directory(path, code)) {
-    if (const Result<void> count = check_count(path, pictures_in(path), film); !count) return fail(count.error());
+  if (is_folder(path)) {
+    const Result<int> count = pictures_in(path);
+    if (!count) return fail(count.error());
+    if (const Result<void> fits = check_count(path, *count, film); !fits) return fail(fits.error());
     if (const Result<cv::Mat> first = pictures.at(film.footage.first_frame); !first) return fail(first.error());
     return pictures;
   }

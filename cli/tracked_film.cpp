@@ -5,6 +5,7 @@
 
 #include "annotation/number_text.h"
 #include "base/partial_file.h"
+#include "base/text_pieces.h"
 #include "cli/interrupt.h"
 #include "cli/labelled_pictures.h"
 #include "cli/progress.h"
@@ -90,7 +91,10 @@ Result<void> check_results(const TrackRequest& request, const FootageTruth& foot
     if (!text) return fail(text.error());
     std::istringstream lines(*text);
     int filled = 0;
-    for (std::string line; std::getline(lines, line);) filled += line.find_first_not_of(" \t\r") != std::string::npos;
+    for (std::string line; std::getline(lines, line);) {
+      const std::string_view words = trimmed(line);
+      filled += !words.empty() && !words.starts_with('#');
+    }
     const int start = std::max(footage.first_frame, footage.last_frame - filled + 1);
     const Result<Results> read = read_results(file, footage, {.format = request.format, .start_frame = start});
     if (!read) return fail(read.error());

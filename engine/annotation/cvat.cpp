@@ -9,6 +9,7 @@
 #include "annotation/hidden_part.h"
 #include "annotation/label_words.h"
 #include "annotation/text_file.h"
+#include "annotation/xml_elements.h"
 #include "annotation/xml_text.h"
 
 namespace sigs {
@@ -22,44 +23,36 @@ struct TrackBox {
   cv::Rect box;
 };
 
-void add(pugi::xml_node node, const char* name, const std::string& text) {
-  node.append_child(name).text() = xml_text(text).c_str();
-}
-
-void add(pugi::xml_node node, const char* name, int number) {
-  add(node, name, std::to_string(number));
-}
-
 std::string head_of(const LabelSequence& sequence) {
   const FootageTruth& footage = sequence.footage;
   const int last = footage.last_frame - footage.first_frame;
   pugi::xml_document document;
   pugi::xml_node meta = document.append_child("meta");
   pugi::xml_node task = meta.append_child("task");
-  add(task, "id", 0);
-  add(task, "name", sequence.name);
-  add(task, "size", last + 1);
-  add(task, "mode", "interpolation");
-  add(task, "overlap", 0);
-  add(task, "bugtracker", "");
-  add(task, "flipped", "False");
-  add(task, "start_frame", 0);
-  add(task, "stop_frame", last);
-  add(task, "frame_filter", "");
+  add_element(task, "id", 0);
+  add_element(task, "name", sequence.name);
+  add_element(task, "size", last + 1);
+  add_element(task, "mode", "interpolation");
+  add_element(task, "overlap", 0);
+  add_element(task, "bugtracker", "");
+  add_element(task, "flipped", "False");
+  add_element(task, "start_frame", 0);
+  add_element(task, "stop_frame", last);
+  add_element(task, "frame_filter", "");
   pugi::xml_node labels = task.append_child("labels");
   for (const std::string& category : sequence.categories) {
     pugi::xml_node label = labels.append_child("label");
-    add(label, "name", category);
+    add_element(label, "name", category);
     label.append_child("attributes");
   }
   pugi::xml_node segment = task.append_child("segments").append_child("segment");
-  add(segment, "id", 0);
-  add(segment, "start", 0);
-  add(segment, "stop", last);
+  add_element(segment, "id", 0);
+  add_element(segment, "start", 0);
+  add_element(segment, "stop", last);
   pugi::xml_node size = task.append_child("original_size");
-  add(size, "width", footage.size_px.width);
-  add(size, "height", footage.size_px.height);
-  add(meta, "source", sequence.video.empty() ? sequence.pictures : sequence.video);
+  add_element(size, "width", footage.size_px.width);
+  add_element(size, "height", footage.size_px.height);
+  add_element(meta, "source", sequence.video.empty() ? sequence.pictures : sequence.video);
   std::ostringstream text;
   text << "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n  <version>1.1</version>\n";
   meta.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);

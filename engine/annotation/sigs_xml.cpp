@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "annotation/sigs_xml.h"
 
-#include <cerrno>
-#include <cstring>
 #include <pugixml.hpp>
 #include <sstream>
 #include <string>
@@ -101,36 +99,20 @@ std::string xml_of(const FrameTruth& truth) {
   return text.str();
 }
 
-SigsXmlWriter::SigsXmlWriter(std::filesystem::path path, std::ofstream out)
-    : path_(std::move(path)), out_(std::move(out)) {}
-
 Result<SigsXmlWriter> SigsXmlWriter::open(const std::filesystem::path& path, const FootageTruth& footage) {
-  std::ofstream out(path, std::ios::binary);
-  if (!out)
-    return fail(path.string(), std::string("cannot be created: ") + std::strerror(errno), ErrorKind::cannot_create);
-  SigsXmlWriter writer(path, std::move(out));
-  const Result<void> head = writer.put(head_of(footage));
-  if (!head) return fail(head.error());
-  return writer;
+  Result<TextFile> file = TextFile::create(path);
+  if (!file) return fail(file.error());
+  if (const Result<void> head = file->put(head_of(footage)); !head) return fail(head.error());
+  return SigsXmlWriter(std::move(*file));
 }
 
 Result<void> SigsXmlWriter::write(const FrameTruth& truth) {
-  return put(xml_of(truth));
+  return file_.put(xml_of(truth));
 }
 
 Result<void> SigsXmlWriter::finish() {
-  const Result<void> end = put("</sigs>\n");
-  if (!end) return end;
-  out_.close();
-  if (!out_) return fail(path_.string(), "could not be written to its end", ErrorKind::write_failed);
-  return {};
-}
-
-Result<void> SigsXmlWriter::put(const std::string& text) {
-  out_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!out_)
-    return fail(path_.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
-  return {};
+  if (const Result<void> end = file_.put("</sigs>\n"); !end) return end;
+  return file_.close();
 }
 
 namespace {

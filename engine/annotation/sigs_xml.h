@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "annotation/annotation.h"
 #include "annotation/labels.h"
+#include "annotation/text_file.h"
 #include "base/result.h"
 
 namespace sigs {
@@ -27,11 +28,9 @@ class SigsXmlWriter {
   [[nodiscard]] Result<void> finish();
 
  private:
-  SigsXmlWriter(std::filesystem::path path, std::ofstream out);
-  [[nodiscard]] Result<void> put(const std::string& text);
+  explicit SigsXmlWriter(TextFile file) : file_(std::move(file)) {}
 
-  std::filesystem::path path_;
-  std::ofstream out_;
+  TextFile file_;
 };
 
 // The same as one of the label formats.

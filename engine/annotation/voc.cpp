@@ -10,7 +10,7 @@
 #include "annotation/label_words.h"
 #include "annotation/picture_links.h"
 #include "annotation/text_file.h"
-#include "annotation/xml_text.h"
+#include "annotation/xml_elements.h"
 
 namespace sigs {
 
@@ -25,43 +25,35 @@ bool is_difficult(const IntruderTruth& truth) {
   return truth.visible_fraction < kDifficult;
 }
 
-void add(pugi::xml_node node, const char* name, const std::string& text) {
-  node.append_child(name).text() = xml_text(text).c_str();
-}
-
-void add(pugi::xml_node node, const char* name, int number) {
-  add(node, name, std::to_string(number));
-}
-
 void add_object(pugi::xml_node annotation, const IntruderTruth& truth, const std::string& category) {
   pugi::xml_node object = annotation.append_child("object");
-  add(object, "name", category);
-  add(object, "pose", "Unspecified");
-  add(object, "truncated", truth.inside_fraction < 1 - kTruncated ? 1 : 0);
-  add(object, "occluded", is_occluded(truth) ? 1 : 0);
-  add(object, "difficult", is_difficult(truth) ? 1 : 0);
-  add(object, "trackid", truth.id);
+  add_element(object, "name", category);
+  add_element(object, "pose", "Unspecified");
+  add_element(object, "truncated", truth.inside_fraction < 1 - kTruncated ? 1 : 0);
+  add_element(object, "occluded", is_occluded(truth) ? 1 : 0);
+  add_element(object, "difficult", is_difficult(truth) ? 1 : 0);
+  add_element(object, "trackid", truth.id);
   pugi::xml_node box = object.append_child("bndbox");
-  add(box, "xmin", truth.box->x + 1);
-  add(box, "ymin", truth.box->y + 1);
-  add(box, "xmax", truth.box->x + truth.box->width);
-  add(box, "ymax", truth.box->y + truth.box->height);
+  add_element(box, "xmin", truth.box->x + 1);
+  add_element(box, "ymin", truth.box->y + 1);
+  add_element(box, "xmax", truth.box->x + truth.box->width);
+  add_element(box, "ymax", truth.box->y + truth.box->height);
 }
 
 std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence) {
   pugi::xml_document document;
   pugi::xml_node annotation = document.append_child("annotation");
-  add(annotation, "folder", sequence.name + ".voc");
-  add(annotation, "filename", picture_name(truth.index));
+  add_element(annotation, "folder", sequence.name + ".voc");
+  add_element(annotation, "filename", picture_name(truth.index));
   pugi::xml_node source = annotation.append_child("source");
-  add(source, "database", "SIGS");
-  add(source, "annotation", sequence.name);
-  add(source, "image", sequence.footage.video);
+  add_element(source, "database", "SIGS");
+  add_element(source, "annotation", sequence.name);
+  add_element(source, "image", sequence.footage.video);
   pugi::xml_node size = annotation.append_child("size");
-  add(size, "width", sequence.footage.size_px.width);
-  add(size, "height", sequence.footage.size_px.height);
-  add(size, "depth", sequence.channels);
-  add(annotation, "segmented", 0);
+  add_element(size, "width", sequence.footage.size_px.width);
+  add_element(size, "height", sequence.footage.size_px.height);
+  add_element(size, "depth", sequence.channels);
+  add_element(annotation, "segmented", 0);
   for (const IntruderTruth& intruder : truth.intruders)
     if (is_labelled(intruder, sequence.thresholds))
       add_object(annotation, intruder,

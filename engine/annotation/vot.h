@@ -18,8 +18,8 @@ inline constexpr std::array<std::string_view, 8> kVotFiles{
 // NAME, or NAME-0, NAME-1, ... where there are several. docs/label-formats.md.
 //   list.txt                  those in which the intruder appears
 //   NAME/sequence             lines key=value
-//   NAME/groundtruth.txt      a line for each frame: x,y,width,height from 0, or nan,nan,nan,nan where there is no
-//   label NAME/*.tag, *.value       a line for each frame: absence, occlusion; distance_m, visible_fraction
+//   NAME/groundtruth.txt      a line for each frame: x,y,width,height from 0; nan,nan,nan,nan: no label
+//   NAME/*.tag, *.value       a line for each frame: absence, occlusion; distance_m, visible_fraction
 //   NAME/color/00000001.png   where pictures are written
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_vot(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);

@@ -4,37 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "annotation/label_words.h"
 #include "annotation/number_text.h"
 #include "annotation/picture_links.h"
 #include "annotation/text_file.h"
-#include "annotation/xml_text.h"
+#include "annotation/yaml_text.h"
 
 namespace sigs {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// YAML's double-quoted scalars take JSON's escapes. Raw, YAML forbids what XML does, and DEL and the C1 controls too.
-std::string yaml_text(std::string_view text) {
-  const std::string quoted = nlohmann::json(xml_text(text)).dump();
-  std::string out;
-  for (std::size_t i = 0; i < quoted.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(quoted[i]);
-    const bool is_c1 = byte == 0xC2 && static_cast<unsigned char>(quoted[i + 1]) < 0xA0;
-    const unsigned code = is_c1 ? static_cast<unsigned char>(quoted[++i]) : byte;
-    constexpr std::string_view kHex = "0123456789abcdef";
-    if (is_c1 || code == 0x7F)
-      out += std::string("\\x") + kHex[code >> 4U] + kHex[code & 0xFU];
-    else
-      out += quoted[i];
-  }
-  return out;
-}
 
 // Readers put labels/ in the place of the path's last images/, so none may follow.
 std::string folder_name_of(const std::string& name) {

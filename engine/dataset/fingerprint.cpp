@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/partial_file.h"
+#include "base/text_pieces.h"
 #include "dataset/checksum.h"
-#include "mesh/text.h"
 #include "mesh/textures.h"
 #include "project/fields.h"
 #include "project/json.h"

@@ -4,7 +4,7 @@
 
 #include "annotation/text_file.h"
 #include "dataset/merge_formats.h"
-#include "dataset/text_lines.h"
+#include "dataset/written_lines.h"
 
 namespace sigs {
 
@@ -69,14 +69,14 @@ struct Head {
   Json tracks;
 };
 
-Json parsed(const std::string& text, TextLines& lines) {
+Json parsed(const std::string& text, WrittenLines& lines) {
   Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) lines.blame();
   return json;
 }
 
 // The head of one video's file, up to its annotations.
-Head read_head(TextLines& lines) {
+Head read_head(WrittenLines& lines) {
   Head head;
   static_cast<void>(lines.between("{", ""));
   head.info = parsed(lines.between("\"info\": ", ","), lines);
@@ -91,7 +91,7 @@ Head read_head(TextLines& lines) {
 
 // Calls put(item) for each line of the list that begins here. Returns how many there were.
 template <class Put>
-Result<std::int64_t> each_item(TextLines& lines, const std::string& begin, const Put& put) {
+Result<std::int64_t> each_item(WrittenLines& lines, const std::string& begin, const Put& put) {
   static_cast<void>(lines.between(begin, ""));
   std::int64_t count = 0;
   for (;; ++count) {
@@ -125,7 +125,7 @@ class CocoMerge {
     Json info;
     Json categories;
     for (const VideoLabels& video : labels_.videos) {
-      TextLines lines(video.path);
+      WrittenLines lines(video.path);
       Head head = read_head(lines);
       if (const Result<void> state = lines.state(); !state) return state;
       const Offsets offsets{.video = static_cast<std::int64_t>(videos.size()),
@@ -160,7 +160,7 @@ class CocoMerge {
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
       offsets_[i].annotation = so_far.annotation;
       offsets_[i].image = so_far.image;
-      TextLines lines(labels_.videos[i].path);
+      WrittenLines lines(labels_.videos[i].path);
       static_cast<void>(read_head(lines));
       const Result<std::int64_t> annotations = each_item(lines, "\"annotations\": [", [&](Json annotation) {
         renumber_annotation(annotation, offsets_[i]);
@@ -180,7 +180,7 @@ class CocoMerge {
     List list(out_);
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
       const VideoLabels& video = labels_.videos[i];
-      TextLines lines(video.path);
+      WrittenLines lines(video.path);
       static_cast<void>(read_head(lines));
       const Result<std::int64_t> annotations =
           each_item(lines, "\"annotations\": [", [](const Json&) { return Result<void>(); });

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <nlohmann/json.hpp>
-#include <system_error>
+#include <vector>
 
 #include "annotation/label_words.h"
 #include "annotation/picture_links.h"
 #include "annotation/text_file.h"
+#include "annotation/yaml_text.h"
+#include "base/folder_contents.h"
 #include "base/partial_file.h"
 #include "dataset/merge_formats.h"
 
@@ -15,35 +15,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Result<void> make_folders(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  return {};
-}
-
 // Every file under `from` gets a second name under `to`.
 Result<void> link_tree(const fs::path& from, const fs::path& to) {
-  if (const Result<void> step = make_folders(to); !step) return step;
-  std::error_code code;
-  for (fs::recursive_directory_iterator it(from, code), end; !code && it != end; it.increment(code)) {
-    const fs::path place = to / it->path().lexically_relative(from);
-    const Result<void> step = it->is_directory() ? make_folders(place) : link_or_copy(it->path(), place);
+  if (const Result<void> step = make_inner_folder(to); !step) return step;
+  const Result<std::vector<fs::path>> paths = folder_contents(from);
+  if (!paths) return fail(paths.error());
+  for (const fs::path& path : *paths) {
+    const fs::path place = to / path.filename();
+    const Result<void> step = is_folder(path) ? link_tree(path, place) : link_or_copy(path, place);
     if (!step) return step;
   }
-  if (code) return fail(from.string(), "cannot be read: " + code.message(), ErrorKind::cannot_read);
   return {};
 }
 
 // Every folder right under `from`, but for the one called so.
 Result<void> link_folders(const fs::path& from, const fs::path& to, const std::string& but) {
-  if (const Result<void> step = make_folders(to); !step) return step;
-  std::error_code code;
-  for (fs::directory_iterator it(from, code), end; !code && it != end; it.increment(code)) {
-    if (!it->is_directory() || it->path().filename() == but) continue;
-    if (const Result<void> step = link_tree(it->path(), to / it->path().filename()); !step) return step;
+  if (const Result<void> step = make_inner_folder(to); !step) return step;
+  const Result<std::vector<fs::path>> paths = folder_contents(from);
+  if (!paths) return fail(paths.error());
+  for (const fs::path& path : *paths) {
+    if (!is_folder(path) || path.filename() == but) continue;
+    if (const Result<void> step = link_tree(path, to / path.filename()); !step) return step;
   }
-  if (code) return fail(from.string(), "cannot be read: " + code.message(), ErrorKind::cannot_read);
   return {};
 }
 
@@ -58,22 +51,17 @@ std::string from_line(const std::string& text, const std::string& begin) {
   return place == std::string::npos ? std::string() : text.substr(place + 1);
 }
 
-// YAML takes JSON's quoted texts.
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-}
-
-std::string yolo_list(const SplitLabels& labels, const std::string& from) {
+// The pictures of a split, a folder for each video, as seen from where `from` leads to the dataset.
+Result<std::string> yolo_list(const SplitLabels& labels, const std::string& from) {
   std::string list;
   for (const VideoLabels& video : labels.videos) {
     // As labels/yolo's writer lays them: one folder in labels/, and in images/ where there are pictures.
-    std::error_code code;
-    for (const fs::directory_entry& folder : fs::directory_iterator(video.path / "labels", code)) {
-      if (!folder.is_directory()) continue;  // readers leave caches there
-      list += "  - " +
-              quoted(from + video.video + "/" + video.path.filename().string() + "/images/" +
-                     folder.path().filename().string()) +
-              "\n";
+    const Result<std::vector<fs::path>> folders = folder_contents(video.path / "labels");
+    if (!folders) return fail(folders.error());
+    for (const fs::path& folder : *folders) {
+      if (!is_folder(folder)) continue;  // readers leave caches there
+      const fs::path pictures = fs::path(from) / video.video / video.path.filename() / "images" / folder.filename();
+      list += "  - " + yaml_text(pictures.string()) + "\n";
     }
   }
   return list;
@@ -99,7 +87,7 @@ Result<void> merge_mot(const SplitLabels& labels, const fs::path& folder) {
     map += without_first_line(*sequence);
     if (const Result<void> linked = link_folders(video.path, folder / name, "seqmaps"); !linked) return linked;
   }
-  if (const Result<void> step = make_folders(folder / "seqmaps"); !step) return step;
+  if (const Result<void> step = make_inner_folder(folder / "seqmaps"); !step) return step;
   return write_text_file(folder / "seqmaps" / (name + ".txt"), map);
 }
 
@@ -133,14 +121,21 @@ Result<void> merge_yolo(const std::vector<SplitLabels>& splits, const fs::path& 
   if (classes.empty())
     return fail((splits.front().videos.front().path / "data.yaml").string(), "has no line \"nc: \"; make it anew");
   std::string text;
+  const auto add = [&](const std::string& key, const SplitLabels& labels) -> Result<void> {
+    const Result<std::string> list = yolo_list(labels, from);
+    if (!list) return fail(list.error());
+    text += key + ":\n" + *list;
+    return {};
+  };
   for (const char* const name : {"train", "val"}) {
     const SplitLabels& labels = stand_in(splits, name);
-    if (labels.split != name) text += "# There is no split of this name: " + quoted(labels.split) + " stands for it.\n";
-    text += std::string(name) + ":\n" + yolo_list(labels, from);
+    if (labels.split != name)
+      text += "# There is no split of this name: " + yaml_text(labels.split) + " stands for it.\n";
+    if (const Result<void> step = add(name, labels); !step) return step;
   }
   for (const SplitLabels& labels : splits)
     if (labels.split != "train" && labels.split != "val")
-      text += quoted(labels.split) + ":\n" + yolo_list(labels, from);
+      if (const Result<void> step = add(yaml_text(labels.split), labels); !step) return step;
   return write_text_file(folder / "data.yaml", text + classes);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "annotation/text_file.h"
 #include "dataset/merge_formats.h"
-#include "dataset/text_lines.h"
+#include "dataset/written_lines.h"
 
 namespace sigs {
 
@@ -12,7 +12,7 @@ Result<void> merge_csv(const SplitLabels& labels, const fs::path& file) {
   if (!out) return fail(out.error());
   std::optional<std::string> header;
   for (const VideoLabels& video : labels.videos) {
-    TextLines lines(video.path);
+    WrittenLines lines(video.path);
     const std::optional<std::string> first = lines.next();
     if (!first || (header && *first != *header)) lines.blame();
     if (!header && first)
@@ -38,7 +38,7 @@ Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
   if (!out) return fail(out.error());
   std::string before;
   for (const VideoLabels& video : labels.videos) {
-    TextLines lines(video.path);
+    WrittenLines lines(video.path);
     const std::string metadata = lines.between("{\"metadata\": ", ",");
     const std::string sample = lines.between(kSamples, "");
     before += before.empty() ? "{\"metadata\": " + metadata + ",\n" + std::string(kSamples) : ",\n";

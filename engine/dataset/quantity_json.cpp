@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "project/json_reading.h"
+
 namespace sigs {
 
 namespace {
@@ -15,11 +17,6 @@ constexpr double kFarthestBound = 8;  // deviations from the mean at which hardl
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Read = tl::expected<Quantity, std::string>;
-
-std::string shown(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return text.size() > 40 ? text.substr(0, 37) + "..." : text;
-}
 
 std::optional<double> number_of(const Json& json) {
   if (!json.is_number()) return std::nullopt;

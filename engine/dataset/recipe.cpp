@@ -4,28 +4,18 @@
 #include <algorithm>
 
 #include "base/partial_file.h"
-#include "base/text_place.h"
 #include "dataset/quantity_json.h"
 #include "dataset/recipe_node.h"
 #include "dataset/recipe_sections.h"
 #include "dataset/recipe_videos.h"
 #include "dataset/video_name.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
 namespace {
 
 constexpr int kRecipeVersion = 1;
-
-Result<Json> parsed(const std::string& text, const std::string& file) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    return fail(file, "is not JSON: unexpected text at " + place_of(text, error.byte));
-  } catch (const Json::exception&) {
-    return fail(file, "holds a number that is too large");
-  }
-}
 
 Result<void> check_version(const Json& json, const std::string& file) {
   const std::string key = file + ": sigs_dataset";
@@ -34,7 +24,7 @@ Result<void> check_version(const Json& json, const std::string& file) {
   const auto version = json.find("sigs_dataset");
   if (version == json.end()) return fail(key, "missing; a recipe begins with \"sigs_dataset\": 1");
   if (!version->is_number_integer() || *version != kRecipeVersion)
-    return fail(key, "version " + version->dump() + " is not known; this program reads version 1");
+    return fail(key, "version " + shown(*version) + " is not known; this program reads version 1");
   return {};
 }
 
@@ -43,7 +33,7 @@ std::uint64_t read_seed(RecipeNode& node) {
   if (json == nullptr) return 0;
   if (json->is_number_unsigned()) return json->get<std::uint64_t>();
   node.log().wrong(node.key_of("seed"),
-                   "expected a whole number from 0 to 18446744073709551615, found " + json->dump());
+                   "expected a whole number from 0 to 18446744073709551615, found " + shown(*json));
   return 0;
 }
 
@@ -75,7 +65,7 @@ std::optional<Span> read_speed_limits(RecipeNode& node) {
   const bool is_pair = json->is_array() && json->size() == 2 && json->at(0).is_number() && json->at(1).is_number();
   const Span limits = is_pair ? Span{json->at(0).get<double>(), json->at(1).get<double>()} : Span{1, 0};
   if (limits.low < 0 || limits.low > limits.high)
-    node.log().wrong(node.key_of("speed_limits_mps"), "expected [lowest, highest], found " + json->dump());
+    node.log().wrong(node.key_of("speed_limits_mps"), "expected [lowest, highest], found " + shown(*json));
   return limits;
 }
 
@@ -123,7 +113,7 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
 Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::path& path,
                                 const std::vector<std::string>& settings) {
   const std::string file = path.string();
-  const Result<Json> json = parsed(text, file);
+  const Result<Json> json = parsed_json(text, file, ErrorKind::bad_data);
   if (!json) return fail(json.error());
   if (const Result<void> checked = check_version(*json, file); !checked) return fail(checked.error());
   RecipeLog log{.file = file};

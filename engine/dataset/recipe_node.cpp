@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "dataset/short_text.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -16,9 +16,7 @@ const Json& no_object() {
 }
 
 std::string found(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() > 40) text = text.substr(0, 37) + "...";
-  return ", found " + text;
+  return ", found " + shown(json);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "dataset/merge_labels.h"
 #include "dataset/side_by_side.h"
 #include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -242,14 +243,14 @@ Result<DatasetReport> Run::all() {
 }
 
 Result<void> check_names(const Plan& plan) {
-  if (const std::string wrong = wrong_name(plan.name); !wrong.empty())
+  if (const std::string wrong = wrong_with_name(plan.name); !wrong.empty())
     return fail("dataset \"" + plan.name + "\"", wrong);
   std::set<std::string> names;
   for (const PlannedVideo& video : plan.videos) {
-    if (const std::string wrong = wrong_name(video.name); !wrong.empty())
+    if (const std::string wrong = wrong_with_video_name(video.name); !wrong.empty())
       return fail("video \"" + video.name + "\"", wrong);
     if (!names.insert(video.name).second) return fail("video \"" + video.name + "\"", "is planned twice");
-    if (const std::string wrong = wrong_name(split_of(video)); !wrong.empty())
+    if (const std::string wrong = wrong_with_name(split_of(video)); !wrong.empty())
       return fail("split \"" + video.split + "\"", wrong);
   }
   return {};

@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kTaken{"index.json", "SHA256SUMS", "labels", "splits"};
-
 std::string project_name(const PlannedVideo& video) {
   return video.name + ".json";
 }
@@ -110,16 +108,6 @@ Result<void> put_in_place(const fs::path& part, const VideoFolder& folder) {
 
 std::vector<std::string> uncounted(const PlannedVideo& video) {
   return {kEntryName, project_name(video)};
-}
-
-std::string wrong_name(const std::string& name) {
-  if (name.empty()) return "is empty";
-  if (name.find('/') != std::string::npos || name.starts_with('.'))
-    return "names a folder: it may hold no / and not begin with a dot";
-  if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end())
-    return "is what the dataset calls a file of its own; choose another name";
-  if (name == "entry") return "would call its project entry.json, as the dataset calls its own; choose another name";
-  return "";
 }
 
 std::string project_text(const VideoFolder& folder) {

@@ -32,9 +32,6 @@ struct VideoExport {
 // Names of what does not count among the files of a video's folder: the entry and the project.
 [[nodiscard]] std::vector<std::string> uncounted(const PlannedVideo& video);
 
-// A name that can be a folder's beside the dataset's own files. What is wrong with it; empty: nothing.
-[[nodiscard]] std::string wrong_name(const std::string& name);
-
 // The project as it stands in the video's folder: paths from there, so that both can move together. It says where its
 // inputs are on this machine, so its bytes are the same only where the dataset lies at the same place beside them.
 [[nodiscard]] std::string project_text(const VideoFolder& folder);

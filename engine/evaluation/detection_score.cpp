@@ -25,7 +25,7 @@ struct Followed {
 };
 
 template <class Visit>
-void for_frames_in_range(const Followed& followed, const Encounter& encounter, const DetectionPolicy& policy,
+void for_frames_in_range(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy,
                          Visit&& visit) {
   for (int frame = encounter.first; frame <= encounter.last; ++frame) {
     const TargetFrame& truth = followed.target.frames[static_cast<std::size_t>(frame)];
@@ -34,13 +34,13 @@ void for_frames_in_range(const Followed& followed, const Encounter& encounter, c
 }
 
 // Above or below in all its frames, else on.
-HorizonSide horizon_of(const Followed& followed, const Encounter& encounter, const DetectionPolicy& policy) {
+HorizonSide horizon_of(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy) {
   std::set<HorizonSide> sides;
   for_frames_in_range(followed, encounter, policy, [&](int, const TargetFrame& truth) { sides.insert(truth.horizon); });
   return sides.size() == 1 ? *sides.begin() : HorizonSide::on;
 }
 
-EncounterScore score_of(const Followed& followed, const Encounter& encounter, const DetectionPolicy& policy) {
+EncounterScore score_of(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy) {
   const FilmTruth& film = followed.film.truth;
   const auto time_in_s = [&](int frame) {
     return film.times_s[static_cast<std::size_t>(frame)] - film.times_s[static_cast<std::size_t>(encounter.first)];
@@ -102,7 +102,7 @@ void take_film(DetectionScore& sum, Pairs& pairs, const DetectedFilm& film, cons
   sum.false_alarm_tracks += static_cast<int>(matches.false_tracks.size()) + matches.untracked_false_boxes;
   for (std::size_t i = 0; i < film.truth.targets.size(); ++i) {
     const Followed followed{film, film.truth.targets[i], matches.tracks[i], rate_hz};
-    for (const Encounter& encounter : encounters_of(followed.target, rate_hz, policy))
+    for (const EncounterSpan& encounter : encounters_of(followed.target, rate_hz, policy))
       take_encounter(sum, score_of(followed, encounter, policy), policy);
     for_frames_in_range(followed, {0, film.truth.frames() - 1}, policy, [&](int frame, const TargetFrame&) {
       ++pairs.all;

@@ -17,11 +17,11 @@ const TargetFrame& frame_at(const TargetTruth& target, int frame) {
   return target.frames[static_cast<std::size_t>(frame)];
 }
 
-int length_of(const Encounter& encounter) {
+int length_of(const EncounterSpan& encounter) {
   return encounter.last - encounter.first + 1;
 }
 
-int window_frames(const Encounter& encounter, double rate_hz, const DetectionPolicy& policy) {
+int window_frames(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
   const double frames = std::clamp(std::round(policy.window_s * rate_hz), 1.0, double(length_of(encounter)));
   return static_cast<int>(frames);
 }
@@ -42,8 +42,8 @@ bool is_confirmed(const TargetTruth& target, std::span<const std::set<int>> trac
 }  // namespace
 
 double rate_hz_of(const FilmTruth& film) {
-  if (film.frames() > 1 && film.times_s.back() > film.times_s.front())
-    return (film.frames() - 1) / (film.times_s.back() - film.times_s.front());
+  const double length_s = film.frames() > 1 ? film.times_s.back() - film.times_s.front() : 0;
+  if (length_s > 0 && std::isfinite(length_s)) return (film.frames() - 1) / length_s;
   return double(film.footage.frame_rate_num) / film.footage.frame_rate_den;
 }
 
@@ -51,8 +51,8 @@ bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy) {
   return frame.visible && frame.distance_m <= policy.longest_range_m;
 }
 
-std::vector<Encounter> encounters_of(const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
-  std::vector<Encounter> found;
+std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
+  std::vector<EncounterSpan> found;
   const double longest_gap = policy.longest_gap_s * rate_hz + kFrameRounding;
   for (int frame = 0; frame < static_cast<int>(target.frames.size()); ++frame) {
     if (!is_in_range(frame_at(target, frame), policy)) continue;
@@ -64,11 +64,11 @@ std::vector<Encounter> encounters_of(const TargetTruth& target, double rate_hz, 
     }
   }
   const double least = policy.least_encounter_s * rate_hz - kFrameRounding;
-  std::erase_if(found, [least](const Encounter& encounter) { return length_of(encounter) < least; });
+  std::erase_if(found, [least](const EncounterSpan& encounter) { return length_of(encounter) < least; });
   return found;
 }
 
-std::optional<int> confirmed_at(const Encounter& encounter, const TargetTruth& target,
+std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,
                                 std::span<const std::set<int>> tracks, double rate_hz, const DetectionPolicy& policy) {
   const int window = window_frames(encounter, rate_hz, policy);
   for (int last = encounter.first + window - 1; last <= encounter.last; ++last)
@@ -76,7 +76,8 @@ std::optional<int> confirmed_at(const Encounter& encounter, const TargetTruth& t
   return std::nullopt;
 }
 
-int deadline_of(const Encounter& encounter, const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
+int deadline_of(const EncounterSpan& encounter, const TargetTruth& target, double rate_hz,
+                const DetectionPolicy& policy) {
   int last_far = encounter.first - 1;
   while (last_far < encounter.last) {
     const TargetFrame& next = frame_at(target, last_far + 1);

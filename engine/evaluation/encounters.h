@@ -11,7 +11,7 @@
 namespace sigs {
 
 // Frames of a film, from 0, both included, in which one target is visible and in range, but for short gaps.
-struct Encounter {
+struct EncounterSpan {
   int first = 0;
   int last = 0;
 };
@@ -23,19 +23,19 @@ struct Encounter {
 [[nodiscard]] bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy);
 
 // The stretches long enough, in order, however near they come.
-[[nodiscard]] std::vector<Encounter> encounters_of(const TargetTruth& target, double rate_hz,
-                                                   const DetectionPolicy& policy);
+[[nodiscard]] std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_hz,
+                                                       const DetectionPolicy& policy);
 
 // The last frame of the first window in which one track (boxes without a track together are one) matches the target in
 // least_window_share of the frames in which it is in range. Windows lie within the encounter; one longer than it is
 // the encounter. tracks: of each frame of the film.
-[[nodiscard]] std::optional<int> confirmed_at(const Encounter& encounter, const TargetTruth& target,
+[[nodiscard]] std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,
                                               std::span<const std::set<int>> tracks, double rate_hz,
                                               const DetectionPolicy& policy);
 
 // The last frame at which it must be confirmed to be in time: the one before it first comes nearer than detect_range_m,
 // but not before the first window's end.
-[[nodiscard]] int deadline_of(const Encounter& encounter, const TargetTruth& target, double rate_hz,
+[[nodiscard]] int deadline_of(const EncounterSpan& encounter, const TargetTruth& target, double rate_hz,
                               const DetectionPolicy& policy);
 
 }  // namespace sigs

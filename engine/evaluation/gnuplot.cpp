@@ -25,8 +25,9 @@ class ScratchFolder {
  public:
   ScratchFolder() {
     std::error_code code;
-    std::string name = (fs::temp_directory_path(code) / "sigs-plot-XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) path_ = name;
+    const fs::path all = fs::temp_directory_path(code);
+    std::string name = (all / "sigs-plot-XXXXXX").string();
+    if (!code && mkdtemp(name.data()) != nullptr) path_ = name;
   }
   ~ScratchFolder() {
     std::error_code code;

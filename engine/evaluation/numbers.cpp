@@ -27,13 +27,6 @@ std::optional<int> integer_of(std::string_view text) {
   return number ? integer_of(*number) : std::nullopt;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 32;
   std::string shown(text.substr(0, kLongest));

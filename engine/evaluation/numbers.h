@@ -15,9 +15,6 @@ namespace sigs {
 [[nodiscard]] std::optional<int> integer_of(std::string_view text);
 [[nodiscard]] std::optional<int> integer_of(double number);
 
-// Without blanks, tabs and carriage returns at its ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-
 // For messages: what stands in a file, in single quotes, at most some thirty characters of it, control characters as
 // '?', so that an error stays one line.
 [[nodiscard]] std::string in_quotes(std::string_view text);

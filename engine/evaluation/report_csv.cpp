@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <initializer_list>
 
+#include "annotation/label_words.h"
 #include "evaluation/report_files.h"
 #include "evaluation/report_numbers.h"
 

@@ -78,7 +78,9 @@ std::string replaced(std::string text, std::string_view from, const std::string&
 
 // Within a page, names are shared by all pictures; each gets its own.
 std::string inlined(const ReportPicture& picture) {
-  std::string svg = picture.svg.substr(picture.svg.find("<svg"));
+  const std::size_t begin = picture.svg.find("<svg");
+  if (begin == std::string::npos) return "";
+  std::string svg = picture.svg.substr(begin);
   const std::string own = picture.name + "-";
   for (const std::string_view before : {" id='", " id=\"", "href='#", "href=\"#", "url(#"})
     svg = replaced(std::move(svg), before, std::string(before) + own);

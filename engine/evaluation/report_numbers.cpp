@@ -32,13 +32,6 @@ std::string fixed_text(double number, int decimals) {
   return text;
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string line_text(const std::string& text) {
   std::string line = xml_text(text);
   std::replace_if(

@@ -16,9 +16,6 @@ namespace sigs {
 // As many decimals as asked for, zeros included, as columns of a table want them; "-" for NaN and infinity.
 [[nodiscard]] std::string fixed_text(double number, int decimals);
 
-// A field of a CSV file: in quotes where it holds what separates fields or lines (RFC 4180).
-[[nodiscard]] std::string csv_field(const std::string& text);
-
 // A name on one line of valid UTF-8: control characters become spaces, what is no UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string line_text(const std::string& text);
 

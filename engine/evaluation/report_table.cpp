@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/ensure.h"
+#include "base/text_pieces.h"
 #include "evaluation/report_numbers.h"
 
 namespace sigs {
@@ -44,12 +45,6 @@ TableColumn rates(const std::vector<DetectionScore>& scores, std::string title, 
   return made;
 }
 
-// As many columns as a text takes on a terminal, one for each code point.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 // What stands in a column, titles first. Stars take a place of their own, so that points stay below points.
 std::vector<std::string> lines_of(const TableColumn& column) {
   const bool has_best = std::find(column.is_best.begin(), column.is_best.end(), true) != column.is_best.end();
@@ -61,7 +56,7 @@ std::vector<std::string> lines_of(const TableColumn& column) {
 }
 
 std::string padded(const std::string& text, std::size_t width, bool to_left) {
-  const std::string blank(width - width_of(text), ' ');
+  const std::string blank(width - columns_of(text), ' ');
   return to_left ? text + blank : blank + text;
 }
 
@@ -119,7 +114,7 @@ std::string aligned(const std::vector<TableColumn>& columns) {
     const std::vector<std::string> lines = lines_of(columns[c]);
     ENSURE(lines.size() == rows.size());
     std::size_t width = 0;
-    for (const std::string& line : lines) width = std::max(width, width_of(line));
+    for (const std::string& line : lines) width = std::max(width, columns_of(line));
     for (std::size_t row = 0; row < rows.size(); ++row)
       rows[row] += (c == 0 ? "" : "  ") + padded(lines[row], width, c == 0);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/partial_file.h"
+#include "base/text_pieces.h"
 #include "evaluation/numbers.h"
 #include "evaluation/truth.h"
 

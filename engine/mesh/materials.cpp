@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "base/partial_file.h"
-#include "mesh/text.h"
+#include "base/text_pieces.h"
 #include "mesh/textures.h"
 
 namespace sigs {

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "mesh/text.h"
+#include "base/text_pieces.h"
 #include "mesh/triangulate.h"
 
 namespace sigs {

@@ -3,14 +3,14 @@
 
 #include <cmath>
 
+#include "project/json_reading.h"
+
 namespace sigs {
 
 namespace {
 
 std::string mismatch(const char* wanted, const Json& found) {
-  std::string text = found.dump();
-  if (text.size() > 40) text = text.substr(0, 37) + "...";
-  return std::string("expected ") + wanted + ", found " + text;
+  return std::string("expected ") + wanted + ", found " + shown(found);
 }
 
 std::string put(const Json& json, double* value) {

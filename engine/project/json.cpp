@@ -4,8 +4,7 @@
 #include <sstream>
 
 #include "base/partial_file.h"
-#include "base/text_place.h"
-#include "project/field_json.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -93,16 +92,6 @@ Json parsed_or_empty(const std::string& text) {
   return text.empty() ? Json::object() : Json::parse(text);
 }
 
-Result<Json> parsed(const std::string& text, const std::string& file) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    return fail(file, "is not JSON: unexpected text at " + place_of(text, error.byte), ErrorKind::bad_project);
-  } catch (const Json::exception&) {
-    return fail(file, "holds a number that is too large", ErrorKind::bad_project);
-  }
-}
-
 Result<void> check_version(const Json& json, const std::string& file) {
   if (!json.is_object()) return fail(file, "is not a SIGS project: expected { ... }", ErrorKind::bad_project);
   const auto version = json.find("sigs");
@@ -143,7 +132,7 @@ Result<void> check_sections(const Json& json, const std::string& file, Project& 
 
 Result<ReadProject> parse_project(const std::string& text, const std::filesystem::path& path) {
   const std::string file = path.string();
-  const Result<Json> json = parsed(text, file);
+  const Result<Json> json = parsed_json(text, file, ErrorKind::bad_project);
   if (!json) return fail(json.error());
   ReadProject read;
   read.project.file = path;
@@ -177,7 +166,7 @@ std::string text_of(const Project& project) {
     json["intruders"].push_back(std::move(item));
   }
   for (const Field& field : fields_of(copy)) json[pointer_of(field.key)] = json_of(field);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths may be no UTF-8
 }
 
 Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite) {

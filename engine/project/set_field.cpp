@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "project/field_json.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -35,6 +35,7 @@ std::string nearest_key(const std::vector<Field>& fields, const std::string& key
 }
 
 Json json_or_text(const std::string& text) {
+  if (json_depth(text) > kDeepestJson) return text;
   Json json = Json::parse(text, nullptr, false);
   return json.is_discarded() ? Json(text) : json;
 }

@@ -11,6 +11,7 @@
 
 #include "base/angles.h"
 #include "base/partial_file.h"
+#include "base/text_pieces.h"
 
 namespace sigs {
 
@@ -21,13 +22,6 @@ constexpr std::string_view kHeader = "frame,roll_deg,pitch_deg,yaw_deg";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr double kLastFrame = 1e9;
 constexpr double kLargest_deg = 360;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 // Takes the part before the next separator, and the separator, off the text.
 std::string_view taken_until(char separator, std::string_view& text) {

@@ -8,6 +8,7 @@
 #include "base/partial_file.h"
 #include "dataset/merge_formats.h"
 #include "dataset/tiny_plan.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -217,4 +218,35 @@ TEST_CASE("labels that are not as the program writes them are named, with their 
     CHECK_MESSAGE(merged.error().where.starts_with(path.string() + ": line "), merged.error().text());
     put_text(path, text);
   }
+}
+
+// YAML readers take "\ud83d\ude00" for two halves of a letter; so do PyYAML and all that build on it.
+TEST_CASE("names with letters beyond the basic plane stand in YOLO's data.yaml as they are") {
+  const TemporaryFolder folder;
+  const std::string name = "clip \xF0\x9F\x98\x80 \"\xC3\xA9\"";
+  fs::create_directories(folder / name / "v.yolo/labels/v");
+  fs::create_directories(folder / "merged");
+  CHECK(write_text(folder / name / "v.yolo/data.yaml", "train: images/v\nnc: 0\nnames: {}\n", false));
+  const std::vector<SplitLabels> splits{
+      {.dataset = "d", .split = "\xF0\x9F\x98\x80", .videos = {{name, folder / name / "v.yolo"}}}};
+  REQUIRE(merge_yolo(splits, folder / "merged", "../"));
+  const std::string path = R"(  - "../clip )"
+                           "\xF0\x9F\x98\x80"
+                           R"( \")"
+                           "\xC3\xA9"
+                           R"(\"/v.yolo/images/v")";
+  CHECK(text_of(folder / "merged/data.yaml").find("\n\"\xF0\x9F\x98\x80\":\n" + path + "\nnc: 0\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("labels that cannot be read to their end are an error, not the end of a list") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "v1.csv");  // opens as a file does, but gives no byte
+  CHECK(write_text(folder / "v0.csv", "frame\r\n0\r\n", false));
+  const SplitLabels labels{
+      .dataset = "d", .split = "all", .videos = {{"v0", folder / "v0.csv"}, {"v1", folder / "v1.csv"}}};
+  const Result<void> merged = merge_csv(labels, folder / "all.csv");
+  REQUIRE_FALSE(merged);
+  CHECK(merged.error().kind == ErrorKind::cannot_read);
+  CHECK(merged.error().where == (folder / "v1.csv").string());
 }

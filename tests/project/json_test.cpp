@@ -5,6 +5,7 @@
 
 #include "base/partial_file.h"
 #include "project/fields.h"
+#include "project/json_reading.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -166,4 +167,30 @@ TEST_CASE("paths are relative to the project file's folder and absolute ones sta
   CHECK(resolved(p, "a.mkv") == "dir/a.mkv");
   CHECK(resolved(p, "/x/a.mkv") == "/x/a.mkv");
   CHECK(resolved(p, "").empty());
+}
+
+TEST_CASE("brackets within brackets are refused before they take all of the stack") {
+  const auto nested = [](int depth) {
+    return R"({"sigs": 1, "about": ")" + std::string(500, '[') + R"(\" [", "more": )" + std::string(depth, '[') +
+           std::string(depth, ']') + "}";
+  };
+  CHECK(parse_project(nested(kDeepestJson - 1), "p.json").has_value());
+  for (const int depth : {kDeepestJson, 300'000}) {
+    const Result<ReadProject> read = parse_project(nested(depth), "p.json");
+    REQUIRE_FALSE(read);
+    CHECK(read.error().kind == ErrorKind::bad_project);
+    CHECK(read.error().text() == "p.json: has more than 100 brackets within one another");
+  }
+}
+
+TEST_CASE("a value in a message is cut between letters, and bytes that are no letters do no harm") {
+  CHECK(shown(Json("short")) == "\"short\"");
+  CHECK(shown(Json("\xff")) == "\"\xEF\xBF\xBD\"");
+  std::string text;
+  for (int i = 0; i < 30; ++i) text += "\xC3\xA9";
+  for (const std::string before : {"", "a"}) {
+    const std::string cut = shown(Json(before + text));
+    CHECK(cut.size() <= 40);
+    CHECK(cut.ends_with("\xC3\xA9..."));
+  }
 }

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "project/json.h"
+
 using namespace sigs;
 
 namespace {
@@ -59,4 +61,14 @@ TEST_CASE("an assignment without key or sign or with a wrong type is refused") {
   CHECK(refusal("=5").find("expected key=value") != std::string::npos);
   CHECK(refusal("camera.speed_mps=fast").find("expected a number, found \"fast\"") != std::string::npos);
   CHECK(refusal("camera.speed_mps=").find("expected a number") != std::string::npos);
+  CHECK(refusal("camera.speed_mps=\xff").find("expected a number") != std::string::npos);
+  CHECK(refusal("export.labels=" + std::string(50'000, '[') + std::string(50'000, ']')).find("expected a list") !=
+        std::string::npos);
+}
+
+TEST_CASE("a text that is no UTF-8 can be set, and the project still written") {
+  Project p = with_one_intruder();
+  REQUIRE(set_field(p, "footage.video=caf\xe9.mkv").has_value());
+  CHECK(p.footage.video == "caf\xe9.mkv");
+  CHECK(text_of(p).find("caf\xEF\xBF\xBD.mkv") != std::string::npos);
 }

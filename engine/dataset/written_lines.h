@@ -16,9 +16,9 @@ namespace sigs {
 
 // The lines of a text that this program wrote, one after the other. An error stays, and says what is wrong with which
 // file; lines are empty from then on.
-class TextLines {
+class WrittenLines {
  public:
-  explicit TextLines(std::filesystem::path file) : file_(std::move(file)), in_(file_, std::ios::binary) {
+  explicit WrittenLines(std::filesystem::path file) : file_(std::move(file)), in_(file_, std::ios::binary) {
     if (!in_)
       problem_ = Error{file_.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read};
   }
@@ -26,9 +26,13 @@ class TextLines {
   // The next line without its end; none at the end of the text.
   [[nodiscard]] std::optional<std::string> next() {
     std::string line;
-    if (problem_ || !std::getline(in_, line)) return std::nullopt;
-    ++number_;
-    return line;
+    if (problem_) return std::nullopt;
+    if (std::getline(in_, line)) {
+      ++number_;
+      return line;
+    }
+    if (in_.bad()) problem_ = Error{file_.string(), "cannot be read to its end", ErrorKind::cannot_read};
+    return std::nullopt;
   }
 
   // The next line, of which the program wrote the beginning and the end; what stands between.

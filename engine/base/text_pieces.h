@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 namespace sigs {
 
-// Pieces of OBJ and MTL text. White space is blank, tab and carriage return.
+// Pieces of a text made of lines and words. White space is blank, tab and carriage return.
 
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r";
@@ -31,6 +32,12 @@ namespace sigs {
   const std::string_view token = line.substr(0, end);
   line.remove_prefix(token.size());
   return token;
+}
+
+// How many columns a line of UTF-8 takes on a terminal: one for each code point.
+[[nodiscard]] inline std::size_t columns_of(std::string_view line) {
+  return static_cast<std::size_t>(
+      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 }  // namespace sigs
