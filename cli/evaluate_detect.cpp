@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/detect_inputs.h"
+#include "cli/evaluate_options.h"
 #include "cli/evaluation_folder.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -30,16 +31,11 @@ struct DetectOptions {
   std::vector<fs::path> inputs;
   std::vector<fs::path> results;
   std::string split;
-  std::string format = "auto";
+  ResultsFormat format = ResultsFormat::automatic;
   DetectionPolicy policy;
   fs::path folder;
   bool force = false;
 };
-
-ResultsFormat format_of(const std::string& name) {
-  const auto names = results_format_names();
-  return static_cast<ResultsFormat>(std::find(names.begin(), names.end(), name) - names.begin());
-}
 
 // Everything that is read: truths once, then the results of each detector.
 Result<std::vector<std::vector<DetectedFilm>>> films_by_detector(const DetectInputs& inputs, ResultsFormat format) {
@@ -59,7 +55,7 @@ Result<std::vector<std::vector<DetectedFilm>>> films_by_detector(const DetectInp
 }
 
 Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
-  const Result<std::vector<std::vector<DetectedFilm>>> films = films_by_detector(inputs, format_of(options.format));
+  const Result<std::vector<std::vector<DetectedFilm>>> films = films_by_detector(inputs, options.format);
   if (!films) return fail(films.error());
   DetectionReport report{.policy = options.policy};
   for (const FilmFiles& files : inputs.films) report.films.push_back(files.name);
@@ -129,8 +125,7 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
         Number{"--window-share", &policy.least_window_share, 1, "SHARE", "... in this share of its frames"}}) {
     command.add_option(number.name, *number.value, number.help)
         ->type_name(number.unit)
-        ->check(CLI::Validator(CLI::Range(number.value == &policy.least_score ? -kLarge : 0.0, number.largest))
-                    .description(""))
+        ->check(from_to(number.value == &policy.least_score ? -kLarge : 0.0, number.largest))
         ->capture_default_str();
   }
 }
@@ -151,16 +146,9 @@ std::function<Result<void>()> add_evaluate_detect(CLI::App& evaluate) {
       ->required()
       ->check(not_empty());
   command->add_option("--split", options->split, "only the films of this split of a dataset")->option_text("NAME");
-  std::vector<std::string> formats;
-  for (const std::string_view name : results_format_names()) formats.emplace_back(name);
-  command->add_option("--format", options->format, "of the results: auto, otb, vot, mot, csv or aot")
-      ->option_text("NAME=auto")
-      ->check(CLI::IsMember(formats));
+  add_format_option(*command, options->format);
   add_policy_options(*command, options->policy);
-  command->add_option("--out", options->folder, "folder to be made, with tables, plots and report.html")
-      ->option_text("DIR")
-      ->check(not_empty());
-  command->add_flag("--force", options->force, "replace an evaluation that is there");
+  add_report_options(*command, options->folder, options->force);
   command->footer(kFooter);
   return [options] { return run(*options); };
 }

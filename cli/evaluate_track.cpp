@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/detect_inputs.h"
+#include "cli/evaluate_options.h"
 #include "cli/evaluation_folder.h"
 #include "cli/track_request.h"
 #include "evaluation/opencv_tracker.h"
@@ -28,7 +29,6 @@ constexpr const char* kFooter =
 
 struct TrackOptions {
   TrackRequest request;
-  std::string format = "auto";
   std::string truth = "visible";
   std::string frames;
   int jobs = 0;
@@ -42,8 +42,6 @@ Result<TrackRequest> request_of(const TrackOptions& options) {
     request.trackers.assign(tracker_names().begin(), tracker_names().end());
   if (request.trackers.empty() && request.results.empty())
     return fail("evaluate track", "name what is to be measured: --tracker or --results", ErrorKind::usage);
-  const auto names = results_format_names();
-  request.format = static_cast<ResultsFormat>(std::find(names.begin(), names.end(), options.format) - names.begin());
   request.policy.truth = options.truth == "visible" ? TruthBox::visible : TruthBox::silhouette;
   if (!options.frames.empty()) {
     const Result<FrameRange> range = frame_range_of(options.frames);
@@ -152,12 +150,12 @@ void add_scoring_options(CLI::App& command, TrackOptions& options) {
       .add_option("--least-visible", request.policy.least_visible_fraction,
                   "frames in which a smaller share of the intruder can be seen are not scored, 0 to 1")
       ->option_text("SHARE=0")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(from_to(0, 1));
   command
       .add_option("--least-side", request.least_side_px,
                   "trackers start, and scoring begins, where both sides of the true box are at least this long")
       ->option_text("PX=1")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(from_to(0, 1e6));
 }
 
 }  // namespace
@@ -179,19 +177,12 @@ std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
       ->option_text("FILE ...")
       ->check(not_empty())
       ->allow_extra_args(false);
-  std::vector<std::string> formats;
-  for (const std::string_view name : results_format_names()) formats.emplace_back(name);
-  command->add_option("--format", options->format, "of the results: auto, otb, vot, mot, csv or aot")
-      ->option_text("NAME=auto")
-      ->check(CLI::IsMember(formats));
+  add_format_option(*command, request.format);
   add_scoring_options(*command, *options);
   command->add_option("--video", request.video, "pictures of the labels; else those beside them")
       ->option_text("FILE")
       ->check(not_empty());
-  command->add_option("--out", options->folder, "folder to be made, with tables, plots and report.html")
-      ->option_text("DIR")
-      ->check(not_empty());
-  command->add_flag("--force", options->force, "replace an evaluation that is there");
+  add_report_options(*command, options->folder, options->force);
   command->add_option("--frames", options->frames, "only these frames of a project's footage")->option_text("A-B");
   add_set_option(*command, request.input);
   command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "annotation/number_text.h"
 #include "base/ensure.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -121,6 +122,16 @@ void add_setting_option(CLI::App& command, const SettingOption& option, GivenSet
 
 CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
+}
+
+CLI::Validator from_to(double low, double high) {
+  const auto wrong = [low, high](const std::string& text) -> std::string {
+    double number = 0;
+    const bool is_number = CLI::detail::lexical_cast(text, number);
+    if (is_number && number >= low && number <= high) return {};
+    return "must lie between " + number_text(low, 3) + " and " + number_text(high, 3) + ", not " + text;
+  };
+  return {wrong, ""};
 }
 
 void add_progress_option(CLI::App& command, std::string& style) {

@@ -46,6 +46,9 @@ void add_setting_option(CLI::App& command, const SettingOption& option, GivenSet
 // For paths: an option or argument that is given says something.
 [[nodiscard]] CLI::Validator not_empty();
 
+// A number of this range. CLI::Range lets NaN through.
+[[nodiscard]] CLI::Validator from_to(double low, double high);
+
 // --progress, as progress_style() takes it.
 void add_progress_option(CLI::App& command, std::string& style);
 

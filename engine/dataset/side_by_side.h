@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -16,7 +17,10 @@ void side_by_side(int count, int threads, const Work& work) {
     for (int i = next++; i < count; i = next++) work(i);
   };
   std::vector<std::thread> others;
-  for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(run);
+  try {
+    for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(run);
+  } catch (const std::system_error&) {  // the system gives no more of them: fewer do the same
+  }
   run();
   for (std::thread& other : others) other.join();
 }

@@ -80,7 +80,8 @@ std::string complaint(const fs::path& err) {
 Result<std::string> gnuplot_output(const std::string& program) {
   const ScratchFolder scratch;
   if (scratch.path().empty())
-    return fail("gnuplot", "no temporary folder can be made: set TMPDIR to one", ErrorKind::cannot_create);
+    return fail("gnuplot", "no temporary folder can be made, no plots are drawn: set TMPDIR to one",
+                ErrorKind::unavailable);
   const fs::path file = scratch.path() / "plot.gp";
   if (const Result<void> written = write_text(file, program, true); !written) return fail(written.error());
   const int status = run(file, scratch.path() / "picture", scratch.path() / "messages");

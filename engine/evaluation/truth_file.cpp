@@ -59,7 +59,8 @@ class Reading {
 };
 
 constexpr int kLeastInt = std::numeric_limits<int>::min();
-constexpr int kMostPixels = 1 << 20;  // a side of a picture; keeps sums of a box within an int
+constexpr int kMostPixels = 1 << 20;    // a side of a picture; keeps sums of a box within an int
+constexpr double kFarthest_px = 1e100;  // of a silhouette; keeps areas finite
 
 HorizonSide horizon_of(Reading& reading, pugi::xml_node intruder) {
   if (!intruder.attribute("horizon")) return HorizonSide::on;  // files of before there was one
@@ -82,6 +83,8 @@ std::optional<Box> silhouette_of(Reading& reading, pugi::xml_node node) {
   const Box box{reading.number(node, "x"), reading.number(node, "y"), reading.number(node, "width"),
                 reading.number(node, "height")};
   if (box.width < 0 || box.height < 0) reading.wrong(node, "silhouette width and height must not be negative");
+  for (const double number : {box.x, box.y, box.width, box.height})
+    if (std::abs(number) > kFarthest_px) reading.wrong(node, "silhouette reaches beyond 1e100 pixels");
   return box;
 }
 

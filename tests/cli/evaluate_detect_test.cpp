@@ -133,6 +133,9 @@ TEST_CASE("inputs that do not go together are refused in one line") {
   refused(folder + " --results " + file, 66, "index.json: no such file");
   refused(one + " --split test --results " + file, 64, "--split: goes with a dataset's folder");
   refused(place.dataset + " --split none --results " + folder, 65, "has no video of split none");
+  for (const std::string option : {"--window", "--least-score", "--match-overlap"})
+    for (const std::string value : {"nan", "2e9", "fast"})
+      refused(one + " " + option + " " + value + " --results " + file, 64, option);
   refused(one + " --false-overlap 0.5 --results " + file, 64, "--false-overlap: is more than --match-overlap");
   place.put("set/index.json", "{\"videos\": 3}");
   refused(place.dataset + " --results " + folder, 65, "index.json: is no index of a dataset");

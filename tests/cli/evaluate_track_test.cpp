@@ -177,6 +177,8 @@ TEST_CASE("what makes no sense is refused in one line, and nothing is left behin
   place.check_refused(project, "--results gone.csv", 66, "gone.csv: no such file");
   place.check_refused(project, "--tracker kcf --least-side 40", 65, "is in no frame seen with sides of at least 40 px");
   place.check_refused(project, "--tracker kcf --least-visible 2", 64, "least-visible");
+  place.check_refused(project, "--tracker kcf --least-visible nan", 64, "least-visible");
+  place.check_refused(project, "--tracker kcf --least-side nan", 64, "least-side");
 }
 
 TEST_CASE("results that are wrong are refused before a project's film is made") {

@@ -329,4 +329,13 @@ TEST_CASE("the rate of a film is that of its times, or the nominal one") {
   CHECK(rate_hz_of(film) == 10);
 }
 
+TEST_CASE("a film whose length in seconds is beyond a double counts by its nominal rate") {
+  FilmTruth film = approach();
+  film.footage.frame_rate_num = 10;
+  film.footage.frame_rate_den = 1;
+  film.times_s.front() = -1.7e308;
+  film.times_s.back() = 1.7e308;
+  CHECK(rate_hz_of(film) == 10);
+}
+
 }  // namespace sigs::test

@@ -148,6 +148,7 @@ TEST_CASE("an annotation file that is not what it should be is refused with its 
       {"x=\"70\"", "x=\"70.5\"", "line 10", "box x: '70.5' is no whole number"},
       {"x=\"70\"", "x=\"9999999999999\"", "line 10", "box x: '9999999999999' is no whole number"},
       {"width=\"32.5\"", "width=\"-1\"", "line 11", "silhouette width and height must not be negative"},
+      {"width=\"32.5\"", "width=\"1e200\"", "line 11", "silhouette reaches beyond 1e100 pixels"},
       {"horizon=\"below\"", "horizon=\"under\"", "line 6", "intruder horizon: 'under' is not above, on or below"},
       {"<distance m", "<distanz m", "line 6", "intruder has no element distance"},
       {"intruder id=\"1\"", "intruder id=\"0\"", "line 4", "intruder 0 stands behind intruder 0"},
