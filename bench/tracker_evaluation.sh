@@ -24,7 +24,8 @@ evaluate() {
   awk -F, -f bench/tracker_evaluation.awk "$folder/$name/summary.csv" >"$folder/$name.md"
 }
 for video in "$calm" "$shaken"; do evaluate "$video" "$folder/videos/$video/$video.xml"; done
-evaluate "$shaken-still" "$folder/videos/$shaken/$shaken.json" --set camera.attitude_file=
+"$build/sigs" export "$folder/videos/$shaken/$shaken.json" --set camera.attitude_file= --out "$folder/still" --force >/dev/null
+evaluate "$shaken-still" "$folder/still/$shaken.xml"
 awk -F, -f bench/tracker_jitter.awk "$folder"/{"$calm","$shaken","$shaken-still"}/frames.csv >"$folder/jitter.md"
 echo "reports: $folder/*/report.html"
 

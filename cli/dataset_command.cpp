@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -19,10 +20,19 @@
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
 #include "dataset/run.h"
+#include "dataset/video_view.h"
 
 namespace sigs::cli {
 
 namespace {
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  sigs dataset projects/table1/table1.json --dry-run\n"
+    "  sigs dataset projects/table1/table1.json --out table1\n"
+    "  sigs dataset projects/table1/table1.json --out table1 --resume --set export.video.codec=h264\n"
+    "  sigs dataset projects/table1/table1.json --out table1 --resume --shard 2/8\n"
+    "  sigs dataset projects/table1/table1.json --out table1 --merge";
 
 struct DatasetOptions {
   std::filesystem::path recipe;
@@ -91,10 +101,12 @@ Result<void> keep_only(Plan& plan, const std::set<std::string>& names) {
   std::set<std::string> unknown = names;
   for (const PlannedVideo& video : plan.videos) unknown.erase(video.name);
   for (const ImpossibleVideo& video : plan.impossible) unknown.erase(video.name);
+  for (const UnopenedVideo& video : plan.unopened) unknown.erase(video.name);
   if (!unknown.empty())
     return fail("--only " + *unknown.begin(), "the recipe has no such video; --dry-run lists them", ErrorKind::usage);
   std::erase_if(plan.videos, [&](const PlannedVideo& video) { return !names.contains(video.name); });
   std::erase_if(plan.impossible, [&](const ImpossibleVideo& video) { return !names.contains(video.name); });
+  std::erase_if(plan.unopened, [&](const UnopenedVideo& video) { return !names.contains(video.name); });
   return {};
 }
 
@@ -117,8 +129,39 @@ Result<void> judged(const Plan& plan, const std::filesystem::path& recipe) {
   for (const ImpossibleVideo& video : plan.impossible)
     print_error({video.name, video.why + "; nothing is generated for it", ErrorKind::bad_data});
   if (plan.impossible.empty()) return {};
-  return fail(recipe.string(), count_text(plan.impossible.size(), "video") + " cannot be; the others are planned",
+  const bool is_all = plan.videos.empty() && plan.unopened.empty();
+  return fail(recipe.string(),
+              is_all ? "none of its videos can be; nothing is made"
+                     : count_text(plan.impossible.size(), "video") + " cannot be; the others are planned",
               ErrorKind::bad_data);
+}
+
+constexpr int kFramesLookedAt = 20;  // of a video, for how its intruder is seen
+
+void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
+                    const std::vector<std::optional<VideoView>>& views) {
+  constexpr std::size_t kNamed = 20;
+  std::size_t count = 0;
+  std::string names;
+  for (std::size_t i = 0; i < videos.size(); ++i)
+    if (views[i] && views[i]->in_view == 0 && ++count <= kNamed) names += (count > 1 ? ", " : "") + videos[i]->name;
+  if (count > 0)
+    print_warning({"", "the intruder is never in the picture in " + count_text(count, "video") + ": " + names +
+                           (count > kNamed ? ", ..." : "")});
+}
+
+// The table, and what is wrong with what is asked for.
+Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& videos,
+                  const std::vector<std::optional<VideoView>>& views, const std::filesystem::path& recipe) {
+  const Result<std::string> table = table_of(videos, views);
+  if (!table) return fail(table.error());
+  std::fputs(table->c_str(), stdout);
+  if (std::fflush(stdout) != 0) return fail("stdout", "could not be written", ErrorKind::write_failed);
+  warn_of_unseen(videos, views);
+  const Result<void> possible = judged(plan, recipe);
+  if (plan.unopened.empty()) return possible;
+  for (const UnopenedVideo& video : plan.unopened) print_error({video.name, video.error.text(), video.error.kind});
+  return fail("", count_text(plan.unopened.size(), "video") + " cannot be made", plan.unopened.front().error.kind);
 }
 
 Result<void> told(const DatasetReport& report) {
@@ -149,12 +192,15 @@ Result<void> run(const DatasetOptions& options) {
   }
   const Result<Plan> plan = planned(options, request.source);
   if (!plan) return fail(plan.error());
+  const std::vector<const PlannedVideo*> videos = videos_of(*plan, request.shard.value_or(Shard{}));
+  std::vector<std::optional<VideoView>> views;
+  if (!options.merge) views = views_of(videos, kFramesLookedAt, &interrupt_flag());
   if (options.dry_run) {
-    const Result<std::string> table = table_of(*plan, request.shard.value_or(Shard{}));
-    if (!table) return fail(table.error());
-    std::fputs(table->c_str(), stdout);
-    return judged(*plan, options.recipe);
+    if (options.merge) views.resize(videos.size());
+    return list(*plan, videos, views, options.recipe);
   }
+  if (plan->videos.empty() && plan->unopened.empty()) return judged(*plan, options.recipe);
+  if (!options.merge) warn_of_unseen(videos, views);
   request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
   keep_freed_memory();
   Teller teller(progress_style(options.progress));
@@ -187,6 +233,7 @@ std::function<Result<void>()> add_dataset_command(CLI::App& program) {
       ->check(not_empty());
   command->add_flag("--merge", options->merge, "export nothing: make the index of videos that are there");
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
+  command->footer(kFooter);
   add_set_option(*command, options->project);
   add_progress_option(*command, options->progress);
   return [options] { return run(*options); };

@@ -2,6 +2,7 @@
 #include "cli/dataset_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -43,21 +44,54 @@ std::string size_text(double bytes) {
   return text;
 }
 
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
+struct Column {
+  std::string title;
+  bool is_number = false;
+  Row cells;
+};
+
+bool is_constant(const Column& column) {
+  return std::all_of(column.cells.begin(), column.cells.end(),
+                     [&](const std::string& cell) { return cell == column.cells.front(); });
+}
+
+std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
+  const std::string blanks(width - std::min(width, columns_of(text)), ' ');
+  return to_the_right ? blanks + text : text + blanks;
+}
+
+std::string aligned(const std::vector<Column>& columns) {
+  std::vector<std::string> lines(columns.front().cells.size() + 1);
+  for (const Column& column : columns) {
+    std::size_t width = columns_of(column.title);
+    for (const std::string& cell : column.cells) width = std::max(width, columns_of(cell));
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      lines[i] += padded(i == 0 ? column.title : column.cells[i - 1], width, column.is_number) + "  ";
   }
   std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      text += row[i];
-      if (i + 1 < row.size()) text += std::string(widths[i] - columns_of(row[i]) + 2, ' ');
-    }
-    text += "\n";
-  }
+  for (std::string& line : lines) text += line.erase(line.find_last_not_of(' ') + 1) + "\n";
   return text;
+}
+
+// Columns that tell videos apart, and a line of what they share.
+std::string table_text(const std::vector<Column>& columns) {
+  std::vector<Column> told;
+  std::string shared;
+  for (const Column& column : columns) {
+    if (&column == &columns.front() || !is_constant(column))
+      told.push_back(column);
+    else if (column.cells.front() != "-")
+      shared += (shared.empty() ? "all: " : ", ") + column.title + " " + column.cells.front();
+  }
+  return aligned(told) + (shared.empty() ? "" : shared + "\n") + "\n";
+}
+
+// Four digits that count, none of them lost before the point.
+std::string rounded_text(double value) {
+  if (value == 0 || !std::isfinite(value)) return short_text(value);
+  const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  const double rounded = step < 1 ? std::round(value / step) * step : std::round(value);
+  return short_text(rounded);
 }
 
 // Sizes of pictures, each footage opened once.
@@ -81,16 +115,68 @@ std::string or_dash(const std::map<std::string, std::string>& tags, const char* 
   return found == tags.end() || found->second.empty() ? "-" : found->second;
 }
 
-Row row_of(const PlannedVideo& video, int frames, const std::set<std::string>& drawn) {
-  Row row{video.name, video.split.empty() ? "-" : video.split};
-  for (const char* const tag : {"background", "aircraft", "flight"}) row.push_back(or_dash(video.tags, tag));
-  row.push_back(std::to_string(frames));
-  for (const std::string& quantity : drawn) {
-    const auto found = video.drawn.find(quantity);
-    row.push_back(found == video.drawn.end() ? "-" : short_text(found->second));
-  }
-  return row;
+std::string view_text(const std::optional<VideoView>& view) {
+  if (!view) return "?";
+  const std::string share = std::to_string(view->in_view) + "/" + std::to_string(view->looked_at);
+  return view->in_view > 0 ? share : "never";
 }
+
+std::string size_range_text(const std::optional<VideoView>& view) {
+  if (!view || view->in_view == 0) return "-";
+  const std::string low = rounded_text(std::round(view->smallest_px * 10) / 10);
+  const std::string high = rounded_text(std::round(view->largest_px * 10) / 10);
+  return low == high ? low : low + ".." + high;
+}
+
+// One table's videos: those of the same quantities.
+struct Block {
+  std::set<std::string> quantities;
+  std::vector<std::size_t> videos;
+};
+
+std::vector<Block> blocks_of(const std::vector<const PlannedVideo*>& videos) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < videos.size(); ++i) {
+    std::set<std::string> quantities;
+    for (const auto& [quantity, value] : videos[i]->drawn) quantities.insert(quantity);
+    auto block =
+        std::find_if(blocks.begin(), blocks.end(), [&](const Block& one) { return one.quantities == quantities; });
+    if (block == blocks.end()) block = blocks.insert(block, {quantities, {}});
+    block->videos.push_back(i);
+  }
+  return blocks;
+}
+
+struct Measured {
+  const std::vector<const PlannedVideo*>& videos;
+  const std::vector<std::optional<VideoView>>& views;
+  std::vector<int> frames;
+};
+
+std::vector<Column> columns_of(const Block& block, const Measured& all) {
+  std::vector<Column> columns{{.title = "name"},
+                              {.title = "split"},
+                              {.title = "background"},
+                              {.title = "aircraft"},
+                              {.title = "flight"},
+                              {.title = "frames", .is_number = true},
+                              {.title = "in_view", .is_number = true},
+                              {.title = "size_px", .is_number = true}};
+  const std::size_t fixed = columns.size();
+  for (const std::string& quantity : block.quantities) columns.push_back({.title = quantity, .is_number = true});
+  for (const std::size_t i : block.videos) {
+    const PlannedVideo& video = *all.videos[i];
+    Row row{video.name, video.split.empty() ? "-" : video.split};
+    for (const char* const tag : {"background", "aircraft", "flight"}) row.push_back(or_dash(video.tags, tag));
+    row.insert(row.end(), {std::to_string(all.frames[i]), view_text(all.views[i]), size_range_text(all.views[i])});
+    for (std::size_t c = 0; c < fixed; ++c) columns[c].cells.push_back(row[c]);
+    std::size_t c = fixed;
+    for (const auto& [quantity, value] : video.drawn) columns[c++].cells.push_back(rounded_text(value));
+  }
+  return columns;
+}
+
+}  // namespace
 
 std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard) {
   std::vector<const PlannedVideo*> videos;
@@ -99,15 +185,9 @@ std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard)
   return videos;
 }
 
-}  // namespace
-
-Result<std::string> table_of(const Plan& plan, const Shard& shard) {
-  const std::vector<const PlannedVideo*> videos = videos_of(plan, shard);
-  std::set<std::string> drawn;
-  for (const PlannedVideo* const video : videos)
-    for (const auto& [quantity, value] : video->drawn) drawn.insert(quantity);
-  std::vector<Row> rows{{"name", "split", "background", "aircraft", "flight", "frames"}};
-  rows.front().insert(rows.front().end(), drawn.begin(), drawn.end());
+Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
+                             const std::vector<std::optional<VideoView>>& views) {
+  Measured all{.videos = videos, .views = views, .frames = {}};
   PictureSizes sizes;
   long long frames = 0;
   double bytes = 0;
@@ -116,12 +196,14 @@ Result<std::string> table_of(const Plan& plan, const Shard& shard) {
     if (!count) return fail(video->name, count.error().text(), count.error().kind);
     const Result<double> pixels = sizes.pixels_of(video->project);
     if (!pixels) return fail(video->name, pixels.error().text(), pixels.error().kind);
-    rows.push_back(row_of(*video, *count, drawn));
+    all.frames.push_back(*count);
     frames += *count;
     bytes += *pixels * *count * bytes_a_pixel(video->project.output);
   }
-  return aligned(rows) + std::to_string(videos.size()) + " videos, " + std::to_string(frames) + " frames, about " +
-         size_text(bytes) + "\n";
+  std::string text;
+  for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));
+  return text + std::to_string(videos.size()) + (videos.size() == 1 ? " video, " : " videos, ") +
+         std::to_string(frames) + (frames == 1 ? " frame, about " : " frames, about ") + size_text(bytes) + "\n";
 }
 
 }  // namespace sigs::cli

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "dataset/claim.h"
 #include "dataset/plan.h"
+#include "dataset/video_view.h"
 
 namespace sigs::cli {
 
-// What a plan would make, a line a video, columns aligned: name, split, background, aircraft, flight, frames, and what
-// was drawn for any of them; the last line is the sum.
-[[nodiscard]] Result<std::string> table_of(const Plan& plan, const Shard& shard);
+// The plan's videos that are this shard's.
+[[nodiscard]] std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard);
+
+// What would be made, a line a video, columns aligned: name, split, background, aircraft, flight, frames, frames in
+// view, the silhouette's size, and what was drawn, to four digits. Videos of other quantities have a table of their
+// own. What all videos of a table share stands in one line below it. The last line is the sum. views: one a video.
+[[nodiscard]] Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
+                                           const std::vector<std::optional<VideoView>>& views);
 
 }  // namespace sigs::cli

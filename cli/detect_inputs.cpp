@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 
 #include "base/folder_contents.h"
 #include "base/partial_file.h"
+#include "cli/options.h"
 
 namespace sigs::cli {
 
@@ -31,6 +33,12 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
 
 Result<std::vector<FilmFiles>> films_of_dataset(const fs::path& folder, const std::string& split) {
   const fs::path index = folder / "index.json";
+  if (std::error_code code; !fs::exists(index, code))
+    return fail(
+        index.string(),
+        "no such file; a dataset has it when it is whole: sigs dataset RECIPE --out DIR with --resume makes what "
+        "is missing, with --merge the index of what shards made",
+        ErrorKind::cannot_read);
   const Result<std::string> text = read_text(index);
   if (!text) return fail(text.error());
   const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
@@ -44,6 +52,15 @@ Result<std::vector<FilmFiles>> films_of_dataset(const fs::path& folder, const st
   return films;
 }
 
+Result<void> check_labels(const fs::path& labels, const std::vector<FilmFiles>& before) {
+  if (labels.extension() == ".json")
+    return fail(labels.string(), "is not labels (.xml); of a project sigs export makes them", ErrorKind::usage);
+  for (const FilmFiles& film : before)
+    if (std::error_code code; fs::equivalent(film.labels, labels, code))
+      return fail(labels.string(), "is named twice; each film counts once", ErrorKind::usage);
+  return {};
+}
+
 Result<std::vector<FilmFiles>> films_of(const Paths& inputs, const std::string& split) {
   if (inputs.size() == 1 && is_folder(inputs.front())) return films_of_dataset(inputs.front(), split);
   if (!split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
@@ -52,10 +69,20 @@ Result<std::vector<FilmFiles>> films_of(const Paths& inputs, const std::string& 
   for (const fs::path& labels : inputs) {
     if (is_folder(labels))
       return fail(labels.string(), "is a folder; name label files, or one dataset alone", ErrorKind::usage);
+    if (const Result<void> good = check_labels(labels, films); !good) return fail(good.error());
     names.push_back(free_name(labels.stem().string(), names));
     films.push_back({.name = names.back(), .labels = labels});
   }
   return films;
+}
+
+// What a missing file would end with: as those that are there.
+std::string endings_in(const Paths& there) {
+  std::set<std::string> endings;
+  for (const fs::path& path : there)
+    if (const std::string ending = path.extension().string(); ending == ".csv" || ending == ".json" || ending == ".txt")
+      endings.insert(ending);
+  return endings.size() == 1 ? *endings.begin() : ".csv, .json or .txt";
 }
 
 // The one file in a detector's folder that is called like the film.
@@ -66,7 +93,7 @@ Result<fs::path> results_of(const fs::path& folder, const FilmFiles& film) {
   for (const fs::path& path : *there)
     if (std::error_code code; path.stem() == film.name && fs::is_regular_file(path, code)) found.push_back(path);
   if (found.empty())
-    return fail((folder / film.name).string() + ".csv",
+    return fail((folder / film.name).string() + endings_in(*there),
                 "no results for this film; where nothing was detected, they are a file without boxes",
                 ErrorKind::cannot_read);
   if (found.size() > 1)
@@ -107,7 +134,8 @@ Result<DetectInputs> by_files(std::vector<FilmFiles> films, const Paths& files) 
   if (files.size() != inputs.films.size())
     return fail("--results",
                 "there are " + std::to_string(inputs.films.size()) + " films and " + std::to_string(files.size()) +
-                    " files of results; name one for each, in order, or a folder for each detector",
+                    (files.size() == 1 ? " file" : " files") +
+                    " of results; name one for each, in order, or a folder for each detector",
                 ErrorKind::usage);
   inputs.detectors = {name_of_folder(files.front().parent_path())};
   for (std::size_t i = 0; i < files.size(); ++i) inputs.films[i].results = {files[i]};
@@ -115,6 +143,12 @@ Result<DetectInputs> by_files(std::vector<FilmFiles> films, const Paths& files) 
 }
 
 }  // namespace
+
+void warn_of_other_film(const Results& results, const fs::path& file, const std::string& film) {
+  if (!results.film.empty() && results.film != film)
+    print_warning(
+        {file.string(), "its img_name is of " + results.film + ", the film is " + film + ": are these its results?"});
+}
 
 std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
   std::string free = name;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "evaluation/results.h"
 
 namespace sigs::cli {
 
@@ -30,6 +31,9 @@ struct DetectInputs {
 [[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,
                                                  const std::vector<std::filesystem::path>& results,
                                                  const std::string& split);
+
+// A warning where results name a film of another name. Layouts that name none say nothing.
+void warn_of_other_film(const Results& results, const std::filesystem::path& file, const std::string& film);
 
 // The name, or with a number behind it where it is taken.
 [[nodiscard]] std::string free_name(const std::string& name, const std::vector<std::string>& taken);

@@ -48,6 +48,7 @@ Result<std::vector<std::vector<DetectedFilm>>> films_by_detector(const DetectInp
       Result<Results> results =
           read_results(files.results[i], truth->footage, ResultsOptions{.format = format, .may_hold_many = true});
       if (!results) return fail(results.error());
+      warn_of_other_film(*results, files.results[i], files.labels.stem().string());
       films[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
     }
   }
@@ -64,12 +65,11 @@ Result<DetectionReport> report_of(const DetectOptions& options, const DetectInpu
   return report;
 }
 
-// Why there may be fewer encounters than the user looks for.
-void warn_of_too_far(const DetectionReport& report) {
-  const int too_far = report.scores.empty() ? 0 : report.scores.front().encounters_too_far;
-  if (too_far > 0)
-    print_warning({"", std::to_string(too_far) + (too_far == 1 ? " encounter is" : " encounters are") +
-                           " not counted: the intruder comes no nearer than --nearest-range"});
+// Below the table, where the user wonders at few encounters.
+void print(const DetectionReport& report) {
+  std::printf("%s", table_text(report).c_str());
+  std::fflush(stdout);
+  for (const std::string& reason : uncounted_in(report)) print_warning({"", reason});
 }
 
 Result<void> write(EvaluationFolder& folder, const DetectionReport& report) {
@@ -97,8 +97,7 @@ Result<void> run(const DetectOptions& options) {
   }
   const Result<DetectionReport> report = report_of(options, *inputs);
   if (!report) return fail(report.error());
-  warn_of_too_far(*report);
-  std::printf("%s", table_text(*report).c_str());
+  print(*report);
   return folder ? write(*folder, *report) : Result<void>();
 }
 

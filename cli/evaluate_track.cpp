@@ -65,6 +65,7 @@ Result<std::vector<Results>> all_results(const TrackRequest& request, const Trac
     Result<Results> read =
         read_results(file, film.truth.footage, {.format = request.format, .start_frame = film.policy.from_frame});
     if (!read) return fail(read.error());
+    warn_of_other_film(*read, file, film.name);
     read->name = free_name(read->name, names);
     names.push_back(read->name);
     all.push_back(std::move(*read));
@@ -173,10 +174,9 @@ std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
       ->option_text("NAMES ...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--results", request.results, "what a tracker has reported; may be repeated")
-      ->option_text("FILE ...")
-      ->check(not_empty())
-      ->allow_extra_args(false);
+  command->add_option("--results", request.results, "what trackers have reported, a file for each; may be repeated")
+      ->option_text("FILES ...")
+      ->check(not_empty());
   add_format_option(*command, request.format);
   add_scoring_options(*command, *options);
   command->add_option("--video", request.video, "pictures of the labels; else those beside them")

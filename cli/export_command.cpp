@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "annotation/labels.h"
@@ -14,6 +16,7 @@
 #include "cli/progress.h"
 #include "export.h"
 #include "project/set_field.h"
+#include "project/validate.h"
 
 namespace sigs::cli {
 
@@ -67,6 +70,31 @@ std::string given(const ExportOptions& options, const std::string& key) {
   return setting == options.settings.end() ? std::string() : setting->second;
 }
 
+// What is wrong with a setting that an option gave is said of the option: the project may be without fault.
+Result<void> set_options(Project& project, const ExportOptions& options) {
+  std::map<std::string, std::string> option_of_key;
+  for (const SettingText& setting : kSettings) {
+    const std::string value = given(options, setting.key);
+    if (value.empty()) continue;
+    const std::string option = std::string(setting.option) + " " + value;
+    const bool depends_on_codec = std::string_view(setting.key) == "export.video.container";
+    if (!depends_on_codec) option_of_key[setting.key] = option;
+    if (const Result<void> set = set_field(project, std::string(setting.key) + "=" + value); !set)
+      return fail(option, set.error().what, ErrorKind::usage);
+  }
+  if (!options.labels.empty()) {
+    const std::string option = "--labels " + options.labels;
+    option_of_key["export.labels"] = option;
+    const std::string list = options.labels == "none" ? "[]" : json_list(options.labels);
+    if (const Result<void> set = set_field(project, "export.labels=" + list); !set)
+      return fail(option, set.error().what, ErrorKind::usage);
+  }
+  for (const Problem& problem : validate(project))
+    if (const auto option = option_of_key.find(problem.field); option != option_of_key.end())
+      return fail(option->second, problem.what, ErrorKind::usage);
+  return {};
+}
+
 Result<ExportRequest> request_of(const ExportOptions& options) {
   Result<Project> project = project_of(options.project);
   if (!project) return fail(project.error());
@@ -74,11 +102,7 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   const bool codec_alone =
       !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
   if (codec_alone) project->output.container = ContainerChoice::automatic;
-  if (const Result<void> set = set_given(*project, options.settings); !set) return fail(set.error());
-  if (!options.labels.empty()) {
-    const std::string list = options.labels == "none" ? "[]" : json_list(options.labels);
-    if (const Result<void> set = set_field(*project, "export.labels=" + list); !set) return fail(set.error());
-  }
+  if (const Result<void> set = set_options(*project, options); !set) return fail(set.error());
   ExportRequest request{.project = std::move(*project), .folder = options.folder, .overwrite = options.force};
   // Decoding and writing take a core of their own.
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/check_command.h"
@@ -36,6 +38,10 @@ struct Command {
   std::function<sigs::Result<void>()> run;
 };
 
+bool is_no_evaluation(std::string_view word) {
+  return !word.starts_with('-') && word != "track" && word != "detect";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -54,6 +60,11 @@ int main(int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
     print_error({argv[1], "no such command; there are export, frame, mask, dataset, evaluate, check and info",
                  sigs::ErrorKind::usage});
+    return static_cast<int>(sigs::ErrorKind::usage);
+  }
+  if (argc > 2 && argv[1] == std::string_view("evaluate") && is_no_evaluation(argv[2])) {
+    print_error(
+        {std::string("evaluate ") + argv[2], "no such command; there are track and detect", sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
   }
   try {

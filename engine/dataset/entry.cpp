@@ -21,7 +21,7 @@ Result<std::vector<std::string>> paths_in(const fs::path& folder, const std::vec
   std::vector<std::string> paths;
   std::error_code code;
   for (fs::recursive_directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
-    if (it->is_directory(code)) continue;
+    if (it->is_directory(code) && !it->is_symlink(code)) continue;
     std::string path = it->path().lexically_relative(folder).generic_string();
     if (std::find(left_out.begin(), left_out.end(), path) == left_out.end()) paths.push_back(std::move(path));
   }

@@ -112,11 +112,21 @@ void add_facts(const Encounter& encounter, std::map<std::string, double>& facts)
   facts["range_m"] = first_range_m(encounter);
 }
 
-Possible<void> check_speed(double speed_mps, const FlightStage& stage) {
+// What decides how fast the intruder flies.
+std::string ways_out(FlightKind kind, const Values& values) {
+  if (kind == FlightKind::encounter)
+    return values.contains("closing_speed_mps") ? "closing_speed_mps or bearing_deg"
+                                                : "range_m, time_of_closest_approach_s or bearing_deg";
+  if (values.contains("speed_mps")) return "speed_mps";
+  return is_crossing(kind) ? "distance_m or frames" : "from_distance_m, to_distance_m or frames";
+}
+
+Possible<void> check_speed(FlightKind kind, const Values& values, double speed_mps, const FlightStage& stage) {
   const std::optional<Span>& limits = stage.speed_limits_mps;
   if (!limits || (speed_mps >= limits->low && speed_mps <= limits->high)) return {};
   return tl::unexpected("speed_mps: the intruder would have to fly " + short_text(speed_mps) +
-                        " m/s; its aircraft flies " + short_text(limits->low) + " to " + short_text(limits->high));
+                        " m/s; its aircraft flies " + short_text(limits->low) + " to " + short_text(limits->high) +
+                        "; change " + ways_out(kind, values) + ", or the aircraft's speed_limits_mps");
 }
 
 Possible<void> check_waypoint(FlightKind kind, const WaypointSettings& waypoint) {
@@ -151,7 +161,8 @@ Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, co
   const Possible<RelativeMotion> motion = motion_of(kind, values, stage, flight.facts);
   if (!motion) return tl::unexpected(motion.error());
   const double speed_mps = glm::length(motion->velocity_mps + camera_velocity_mps(stage));
-  if (const Possible<void> checked = check_speed(speed_mps, stage); !checked) return tl::unexpected(checked.error());
+  if (const Possible<void> checked = check_speed(kind, values, speed_mps, stage); !checked)
+    return tl::unexpected(checked.error());
   for (const auto& [frame, since_s] : {std::pair{ends.frames.first, 0.0}, std::pair{ends.frames.last, ends.length_s}}) {
     flight.waypoints.push_back(
         {.frame = frame, .position_m = camera_position_m(stage, ends.first_s + since_s) + motion->at(since_s)});

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "export.h"
+#include "scene/attitude_file.h"
+#include "scene/own_body_mask.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -19,22 +21,39 @@ class Book {
  public:
   explicit Book(const Recipe& recipe) : recipe_(recipe) {}
 
-  [[nodiscard]] Result<OpenedBackground> opened(std::size_t i) {
-    const FootageSettings& settings = recipe_.backgrounds[i].footage;
-    const std::string where = recipe_.file.string() + ": backgrounds[" + std::to_string(i) + "].footage.";
-    const Result<FootageShape> shape = shape_of_file(settings.video);
-    if (!shape) return fail_at(where + "video", shape.error());
-    Result<Camera> lens = read_calibration(settings.calibration, shape->size_px);
+  // Error: the clip cannot be opened.
+  [[nodiscard]] Result<FootageShape> shape(std::size_t i) {
+    const std::string& path = recipe_.backgrounds[i].footage.video;
+    Result<FootageShape> shape = shape_of_file(path);
+    if (!shape) return fail_at(key_of(i) + "footage.video", shape.error());
+    return shape;
+  }
+
+  [[nodiscard]] Result<OpenedBackground> opened(std::size_t i, const FootageShape& shape) const {
+    const Background& background = recipe_.backgrounds[i];
+    const FootageSettings& settings = background.footage;
+    const std::string where = key_of(i) + "footage.";
+    Result<Camera> lens = read_calibration(settings.calibration, shape.size_px);
     if (!lens) return fail_at(where + "calibration", lens.error());
-    const int last = static_cast<int>(shape->times_s.size()) - 1;
+    if (const std::string& mask = settings.own_body_mask; !mask.empty())
+      if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
+        return fail_at(where + "own_body_mask", read.error());
+    if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
+      if (const auto read = read_attitude_file(attitude); !read)
+        return fail_at(key_of(i) + "camera.attitude_file", read.error());
+    const int last = static_cast<int>(shape.times_s.size()) - 1;
     const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};
     if (frames.last > last || frames.first > frames.last)
       return fail(where + (frames.last > last ? "last_frame" : "first_frame"),
                   "the footage has frames 0 to " + std::to_string(last));
-    return OpenedBackground{*shape, *std::move(lens), frames};
+    return OpenedBackground{shape, *std::move(lens), frames};
   }
 
  private:
+  [[nodiscard]] std::string key_of(std::size_t i) const {
+    return recipe_.file.string() + ": backgrounds[" + std::to_string(i) + "].";
+  }
+
   Result<FootageShape> shape_of_file(const std::string& path) {
     if (const auto known = shapes_.find(path); known != shapes_.end()) return known->second;
     const Result<FrameSource> source = FrameSource::open(path);
@@ -48,14 +67,22 @@ class Book {
 
 }  // namespace
 
-Result<std::vector<OpenedBackground>> opened_backgrounds(const Recipe& recipe) {
+Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe) {
   Book book(recipe);
-  std::vector<OpenedBackground> backgrounds;
+  std::vector<Result<OpenedBackground>> backgrounds;
+  bool has_any = false;
   for (std::size_t i = 0; i < recipe.backgrounds.size(); ++i) {
-    Result<OpenedBackground> opened = book.opened(i);
+    const Result<FootageShape> shape = book.shape(i);
+    if (!shape) {
+      backgrounds.emplace_back(tl::unexpect, shape.error());
+      continue;
+    }
+    Result<OpenedBackground> opened = book.opened(i, *shape);
     if (!opened) return fail(opened.error());
-    backgrounds.push_back(*std::move(opened));
+    backgrounds.push_back(std::move(opened));
+    has_any = true;
   }
+  if (!has_any && !backgrounds.empty()) return fail(backgrounds.front().error());
   return backgrounds;
 }
 

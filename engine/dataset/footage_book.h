@@ -18,7 +18,8 @@ struct OpenedBackground {
   FrameRange frames;
 };
 
-// Opens the footage and calibration of each background, each file once. Errors name recipe and key.
-[[nodiscard]] Result<std::vector<OpenedBackground>> opened_backgrounds(const Recipe& recipe);
+// Opens what each background names, each clip once. Errors name recipe and key; a clip that cannot be opened is the
+// error of its background alone, as long as there is another one.
+[[nodiscard]] Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe);
 
 }  // namespace sigs

@@ -10,15 +10,13 @@
 #include "dataset/flush.h"
 #include "dataset/json_text.h"
 #include "dataset/merge_labels.h"
+#include "dataset/shared_files.h"
 
 namespace sigs {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kIndex = "index.json";
-constexpr const char* kChecksums = "SHA256SUMS";
 
 Result<void> write_splits(const fs::path& folder, const std::vector<FinishedVideo>& videos) {
   for (const std::string& split : splits_of(videos)) {
@@ -40,14 +38,12 @@ Result<fs::path> begun(const fs::path& dataset, const std::string& name) {
   return folder;
 }
 
-// Replaces FOLDER/NAME, where there is one, by what was made in the workshop; a folder in which there is nothing is not
-// there.
+// Gives what was made in the workshop its place, which is free; a folder in which there is nothing is not there.
 Result<void> put_in_place(const fs::path& dataset, const std::string& name) {
   const fs::path made = workshop_of(dataset) / name;
   if (const Result<void> step = flush_all(made); !step) return step;
   std::error_code code;
-  fs::remove_all(dataset / name, code);
-  if (!code && fs::is_empty(made, code))
+  if (fs::is_empty(made, code))
     fs::remove(made, code);
   else if (!code)
     fs::rename(made, dataset / name, code);
@@ -55,7 +51,7 @@ Result<void> put_in_place(const fs::path& dataset, const std::string& name) {
   return {};
 }
 
-// Files of splits/ and labels/, made and put in their places.
+// Files of splits/ and labels/, made in the workshop.
 Result<std::vector<DatasetFile>> shared_files(const Plan& plan, const fs::path& dataset,
                                               const std::vector<FinishedVideo>& videos,
                                               const std::atomic<bool>* cancel) {
@@ -69,14 +65,13 @@ Result<std::vector<DatasetFile>> shared_files(const Plan& plan, const fs::path& 
   KnownFiles known;
   for (const FinishedVideo& one : videos) known.remember(dataset / one.video->name, one.entry);
   std::vector<DatasetFile> files;
-  for (const std::string name : {"splits", "labels"}) {
+  for (const std::string name : kSharedFolders) {
     Result<std::vector<DatasetFile>> found = files_in(workshop_of(dataset) / name, {}, known, cancel);
     if (!found) return found;
     for (DatasetFile& file : *found) {
       file.path = name + "/" + file.path;
       files.push_back(std::move(file));
     }
-    if (const Result<void> put = put_in_place(dataset, name); !put) return fail(put.error());
   }
   return files;
 }
@@ -140,15 +135,6 @@ std::vector<std::string> splits_of(const std::vector<FinishedVideo>& videos) {
   return splits;
 }
 
-Result<void> remove_index(const fs::path& dataset) {
-  for (const char* const name : {kIndex, kChecksums}) {
-    std::error_code code;
-    fs::remove(dataset / name, code);
-    if (code) return fail((dataset / name).string(), "cannot be removed: " + code.message(), ErrorKind::cannot_create);
-  }
-  return {};
-}
-
 Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, const fs::path& dataset,
                                 const std::vector<FinishedVideo>& videos, const std::atomic<bool>* cancel) {
   if (const Result<void> step = remove_index(dataset); !step) return fail(step.error());
@@ -158,15 +144,18 @@ Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, c
   Json index = index_of(plan, source, videos);
   index["shared_files"] = described(*shared, "");
   index["checksum"] = checksum_of_text(checksums);
-  Result<void> step = write_text(dataset / kChecksums, checksums, true);
-  if (step) step = flush(dataset / kChecksums);
-  if (step) step = write_text(dataset / kIndex, json_text(index), true);
-  if (step) step = flush(dataset / kIndex);
+  Result<void> step = check_shared_files(dataset);  // making them took its time
+  if (step) step = write_text(dataset / kChecksumsName, checksums, true);
+  if (step) step = flush(dataset / kChecksumsName);
+  for (const char* const name : kSharedFolders)
+    if (step) step = put_in_place(dataset, name);
+  if (step) step = write_text(dataset / kIndexName, json_text(index), true);
+  if (step) step = flush(dataset / kIndexName);
   if (step) step = flush(dataset);
   if (!step) return fail(step.error());
-  DatasetIndex made{.written = {dataset / kIndex, dataset / kChecksums}, .checksum = index["checksum"]};
+  DatasetIndex made{.written = {dataset / kIndexName, dataset / kChecksumsName}, .checksum = index["checksum"]};
   std::error_code code;
-  for (const char* const name : {"splits", "labels"})
+  for (const char* const name : kSharedFolders)
     if (fs::exists(dataset / name, code)) made.written.push_back(dataset / name);
   return made;
 }

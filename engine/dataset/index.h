@@ -37,9 +37,6 @@ struct DatasetIndex {
   std::string checksum;  // of SHA256SUMS: the same for the same dataset
 };
 
-// Takes index and checksums away: what follows changes the dataset. The folder may hold none.
-[[nodiscard]] Result<void> remove_index(const std::filesystem::path& dataset);
-
 // Writes FOLDER/splits/, FOLDER/labels/, FOLDER/SHA256SUMS and, when all else is on the disk, FOLDER/index.json. The
 // same videos give the same bytes. All videos of the plan are there, in its order.
 [[nodiscard]] Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source,

@@ -176,11 +176,16 @@ Result<void> split_up(const Recipe& recipe, Plan& plan) {
 Result<Plan> plan_of(const Recipe& recipe) {
   const Result<std::vector<Cast>> casts = all_casts(recipe);
   if (!casts) return fail(casts.error());
-  const Result<std::vector<OpenedBackground>> backgrounds = opened_backgrounds(recipe);
+  const Result<std::vector<Result<OpenedBackground>>> backgrounds = opened_backgrounds(recipe);
   if (!backgrounds) return fail(backgrounds.error());
   Plan plan{.name = recipe.name};
   for (const Cast& cast : *casts) {
-    tl::expected<PlannedVideo, std::string> video = planned(recipe, cast, backgrounds->at(cast.background));
+    const Result<OpenedBackground>& background = backgrounds->at(cast.background);
+    if (!background) {
+      plan.unopened.push_back({cast.name, background.error()});
+      continue;
+    }
+    tl::expected<PlannedVideo, std::string> video = planned(recipe, cast, *background);
     if (video)
       plan.videos.push_back(*std::move(video));
     else

@@ -26,14 +26,23 @@ struct ImpossibleVideo {
   std::string why;  // one line that names the quantity
 };
 
+// A video whose background cannot be opened; once that is mended it can be.
+struct UnopenedVideo {
+  std::string name;
+  Error error;  // names recipe and key
+};
+
 struct Plan {
   std::string name;                  // the dataset's
   std::vector<PlannedVideo> videos;  // in the recipe's order
   std::vector<ImpossibleVideo> impossible;
+  std::vector<UnopenedVideo> unopened;
 };
 
 // Expands a recipe. Draws depend on seed, video and quantity alone: not on order, nor on how many videos there are.
-// Opens the footage that the recipe names, to know its length. Errors: what is wrong with the recipe as a whole.
+// Opens the footage that the recipe names, to know its length; where a
+// clip cannot be opened its videos are `unopened`, where none can it is an error. Errors: what is wrong with the
+// recipe as a whole.
 [[nodiscard]] Result<Plan> plan_of(const Recipe& recipe);
 
 }  // namespace sigs

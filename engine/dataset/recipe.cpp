@@ -45,12 +45,13 @@ void check_names(const std::vector<Named>& all, const std::string& key, RecipeLo
         log.wrong(key + "[" + std::to_string(i) + "].name", "stands there twice: \"" + all[i].name + "\"");
 }
 
-Background read_background(RecipeNode node, const Project& base) {
+Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings) {
   Project project = base;
   Background background{.name = node.needed_text("name"), .tags = node.text_map("tags")};
   read_section(node, "footage", "footage", project);
   read_section(node, "camera", "camera", project);
   read_section(node, "light", "light", project);
+  put_over(settings, project);
   background.footage = project.footage;
   background.camera = project.camera;
   background.light = project.light;
@@ -98,9 +99,10 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
   recipe.settings = read_settings(node, recipe.base);
   add_settings(settings, recipe.settings, recipe.base, node.log());
   for (const RecipeNode& background : node.nodes("backgrounds"))
-    recipe.backgrounds.push_back(read_background(background, recipe.base));
+    recipe.backgrounds.push_back(read_background(background, recipe.base, settings));
   for (const RecipeNode& aircraft : node.nodes("aircraft"))
     recipe.aircraft.push_back(read_aircraft(aircraft, recipe.base));
+  warn_of_overruled(node);
   check_names(recipe.backgrounds, "backgrounds", node.log());
   check_names(recipe.aircraft, "aircraft", node.log());
   read_splits(node, recipe);

@@ -74,9 +74,10 @@ struct Recipe {
 // business. Errors name the file and the key: cannot_read where a file is not there, else bad_data.
 struct ReadRecipe {
   Recipe recipe;
-  std::vector<Warning> warnings;  // unknown keys
+  std::vector<Warning> warnings;  // unknown keys, settings without effect
 };
-// settings: KEY=VALUE that go before the recipe's own, as --set gives them; what is wrong with them is kind usage.
+// settings: KEY=VALUE that win over all that the recipe says, as --set gives them; what is wrong with them is kind
+// usage.
 [[nodiscard]] Result<ReadRecipe> read_recipe(const std::filesystem::path& path,
                                              const std::vector<std::string>& settings = {});
 

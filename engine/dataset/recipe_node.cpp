@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "project/json_reading.h"
+#include "project/near_key.h"
 
 namespace sigs {
 
@@ -108,8 +109,10 @@ std::vector<RecipeNode> RecipeNode::nodes(std::string_view name) {
 }
 
 void RecipeNode::done() {
+  const std::vector<std::string> known(known_.begin(), known_.end());
   for (const auto& [key, item] : json_->items())
-    if (!known_.contains(key) && key != "about") log_->warn(key_of(key), "unknown key, not used");
+    if (!known_.contains(key) && key != "about")
+      log_->warn(key_of(key), "unknown key, not used" + suggestion(known, key));
 }
 
 }  // namespace sigs

@@ -121,4 +121,23 @@ void add_settings(const std::vector<std::string>& more, std::vector<std::string>
   }
 }
 
+void put_over(const std::vector<std::string>& settings, Project& project) {
+  for (const std::string& setting : settings)
+    if (!set_field(project, setting)) return;  // add_settings() has told of it
+  make_paths_absolute(project);
+}
+
+void warn_of_overruled(RecipeNode& recipe) {
+  const Json* const settings = recipe.value("settings");
+  const Json* const backgrounds = recipe.value("backgrounds");
+  if (settings == nullptr || !settings->is_object() || backgrounds == nullptr || !backgrounds->is_array()) return;
+  for (const auto& [key, item] : settings->items()) {
+    if (!key.starts_with("camera.") && !key.starts_with("light.")) continue;
+    const Json::json_pointer place = pointer_of(key);
+    const auto says = [&](const Json& background) { return background.contains(place); };
+    if (std::all_of(backgrounds->begin(), backgrounds->end(), says))
+      recipe.log().warn("settings." + key, "has no effect: every background says its own " + key);
+  }
+}
+
 }  // namespace sigs

@@ -20,4 +20,10 @@ void read_section(RecipeNode& node, const std::string& name, const std::string& 
 void add_settings(const std::vector<std::string>& more, std::vector<std::string>& settings, Project& base,
                   RecipeLog& log);
 
+// Puts KEY=VALUE that add_settings() has taken over what a background says of itself.
+void put_over(const std::vector<std::string>& settings, Project& project);
+
+// Warns of the recipe's settings of camera and light that each of its backgrounds says otherwise.
+void warn_of_overruled(RecipeNode& recipe);
+
 }  // namespace sigs

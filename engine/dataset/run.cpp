@@ -2,6 +2,7 @@
 #include "dataset/run.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <set>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "dataset/fingerprint.h"
 #include "dataset/merge_labels.h"
+#include "dataset/shared_files.h"
 #include "dataset/side_by_side.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
@@ -21,6 +23,9 @@ namespace sigs {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kListed = 20;                 // videos that a message names
+constexpr std::size_t kLongestList = 2000;  // bytes
 
 int cores() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -41,7 +46,13 @@ struct Task {
   int frames = 0;  // to be exported
   int done = 0;    // of these
 
+  std::string why_not;  // what is there is not kept
+
   [[nodiscard]] bool is_to_do() const { return !entry && !error; }
+  [[nodiscard]] std::string unusable() const {
+    if (error) return error->text();
+    return why_not.empty() ? "missing" : why_not;
+  }
 };
 
 class Run {
@@ -94,7 +105,8 @@ void Run::warn(const Warning& warning) {
 
 // Why a video that is there is not kept; empty: it is.
 std::string Run::outdated(const Task& task, const VideoEntry& entry) {
-  if (entry.planned != task.planned) return "was made from other settings, inputs or with another program";
+  if (entry.planned != task.planned)
+    return "was made from other settings (recipe or --set), inputs or with another program";
   const Result<std::string> damage = damage_of(task.folder.path(), entry, control_.cancel);
   return damage ? *damage : damage.error().text();
 }
@@ -111,6 +123,7 @@ void Run::look_at(Task& task) {
   if (request_.resume || request_.merge_only) {
     Result<VideoEntry> entry = read_entry(task.folder.path() / kEntryName);
     const std::string why = entry ? outdated(task, *entry) : std::string();
+    task.why_not = why;
     if (entry && why.empty()) task.entry = std::move(*entry);
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
@@ -123,14 +136,24 @@ void Run::look_at(Task& task) {
 }
 
 Result<void> Run::check_all_there() const {
-  std::string list;
+  std::map<std::string, std::string> names_of_reason;
   int missing = 0;
-  for (const Task& task : tasks_)
-    if (!task.entry && ++missing <= 20) list += (missing > 1 ? ", " : "") + task.folder.video->name;
+  for (const Task& task : tasks_) {
+    if (task.entry || ++missing > kListed) continue;
+    std::string& names = names_of_reason[task.unusable()];
+    names += (names.empty() ? "" : ", ") + task.folder.video->name;
+  }
+  missing += static_cast<int>(plan_.unopened.size());
   if (missing == 0) return {};
-  if (missing > 20) list += ", ...";
-  return fail(dataset_.string(), "of " + std::to_string(tasks_.size()) + " videos " + std::to_string(missing) +
-                                     " are missing, damaged or not as planned: " + list);
+  std::string list;
+  for (const auto& [reason, names] : names_of_reason) list += (list.empty() ? "" : "; ") + names + ": " + reason;
+  for (const UnopenedVideo& video : plan_.unopened) {
+    if (list.size() > kLongestList) break;
+    list += (list.empty() ? "" : "; ") + video.name + ": " + video.error.text();
+  }
+  return fail(dataset_.string(),
+              "of " + std::to_string(tasks_.size() + plan_.unopened.size()) + " videos " + std::to_string(missing) +
+                  " cannot go into the index; --resume makes them: " + list + (missing > kListed ? "; ..." : ""));
 }
 
 void Run::advance(Task& task, int done) {
@@ -232,6 +255,7 @@ Result<DatasetReport> Run::all() {
   if (const Result<void> step = make_missing(report); !step) return fail(step.error());
   for (const Task& task : tasks_)
     if (task.error) report.failures.push_back({task.folder.video->name, *task.error});
+  for (const UnopenedVideo& video : plan_.unopened) report.failures.push_back({video.name, video.error});
   Result<void> step = clear_workshop();
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();
@@ -291,14 +315,23 @@ Result<void> check_free(const Plan& plan, const DatasetRequest& request, const f
   if (!goes_on && video)
     return fail(dataset.string(), "holds " + *video + " already; --resume goes on with it, or choose another --out",
                 ErrorKind::cannot_create);
-  if (has_index(dataset) || video || request.shard) return {};
-  for (const char* const name : {"labels", "splits"}) {
-    std::error_code code;
-    if (fs::exists(dataset / name, code))
-      return fail(dataset.string(), std::string("holds ") + name + ", but no dataset; choose another --out",
-                  ErrorKind::cannot_create);
+  if (!has_index(dataset) && !video && !request.shard) {
+    for (const char* const name : kSharedFolders) {
+      std::error_code code;
+      if (fs::is_empty(dataset / name, code))
+        return fail(dataset.string(), std::string("holds ") + name + ", but no dataset; choose another --out",
+                    ErrorKind::cannot_create);
+    }
   }
-  return {};
+  return check_shared_files(dataset);
+}
+
+Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const DatasetRequest& request,
+                              const DatasetControl& control) {
+  if (const Result<void> free = check_free(plan, request, dataset); !free) return fail(free.error());
+  const Result<Claim> claim = Claim::take(dataset, request.shard.value_or(Shard{}));
+  if (!claim) return fail(claim.error());
+  return Run(plan, request, control, dataset).all();
 }
 
 }  // namespace
@@ -313,12 +346,16 @@ Result<int> frames_of(const Project& project) {
 Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request, const DatasetControl& control) {
   if (const Result<void> names = check_names(plan); !names) return fail(names.error());
   if (const Result<void> labels = check_labels_agree(plan); !labels) return fail(labels.error());
+  std::error_code code;
+  const bool was_there = fs::exists(request.folder, code);
+  if (request.merge_only && !was_there)
+    return fail(request.folder.string(), "no such folder; --merge makes the index of videos that are there",
+                ErrorKind::cannot_read);
   const Result<fs::path> dataset = made_folder(request.folder);
   if (!dataset) return fail(dataset.error());
-  if (const Result<void> free = check_free(plan, request, *dataset); !free) return fail(free.error());
-  const Result<Claim> claim = Claim::take(*dataset, request.shard.value_or(Shard{}));
-  if (!claim) return fail(claim.error());
-  return Run(plan, request, control, *dataset).all();
+  Result<DatasetReport> report = made_in(*dataset, plan, request, control);
+  if (!was_there) fs::remove(*dataset, code);  // where it is still empty
+  return report;
 }
 
 }  // namespace sigs

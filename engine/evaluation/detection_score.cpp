@@ -102,8 +102,12 @@ void take_film(DetectionScore& sum, Pairs& pairs, const DetectedFilm& film, cons
   sum.false_alarm_tracks += static_cast<int>(matches.false_tracks.size()) + matches.untracked_false_boxes;
   for (std::size_t i = 0; i < film.truth.targets.size(); ++i) {
     const Followed followed{film, film.truth.targets[i], matches.tracks[i], rate_hz};
-    for (const EncounterSpan& encounter : encounters_of(followed.target, rate_hz, policy))
-      take_encounter(sum, score_of(followed, encounter, policy), policy);
+    for (const EncounterSpan& encounter : encounters_of(followed.target, rate_hz, policy)) {
+      if (is_long_enough(encounter, rate_hz, policy))
+        take_encounter(sum, score_of(followed, encounter, policy), policy);
+      else
+        ++sum.encounters_too_short;
+    }
     for_frames_in_range(followed, {0, film.truth.frames() - 1}, policy, [&](int frame, const TargetFrame&) {
       ++pairs.all;
       pairs.matched += !followed.tracks[static_cast<std::size_t>(frame)].empty();

@@ -62,7 +62,8 @@ struct DetectionScore {
   DetectionRate above_horizon;
   DetectionRate on_horizon;
   DetectionRate below_horizon;
-  int encounters_too_far = 0;  // that never come within nearest_range_m: not counted, not listed
+  int encounters_too_short = 0;  // shorter than least_encounter_s, however near: not counted, not listed
+  int encounters_too_far = 0;    // of the others, those that never come within nearest_range_m: nor are these
   int frames = 0;
   double hours = 0;
   int false_alarm_tracks = 0;  // tracks of the reporter with at least one false alarm; a box without one is its own

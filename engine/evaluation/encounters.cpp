@@ -63,9 +63,11 @@ std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_
       found.push_back({frame, frame});
     }
   }
-  const double least = policy.least_encounter_s * rate_hz - kFrameRounding;
-  std::erase_if(found, [least](const EncounterSpan& encounter) { return length_of(encounter) < least; });
   return found;
+}
+
+bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
+  return length_of(encounter) >= policy.least_encounter_s * rate_hz - kFrameRounding;
 }
 
 std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,

@@ -22,9 +22,11 @@ struct EncounterSpan {
 // Whether a target's frame belongs to an encounter: something of it is visible, within longest_range_m.
 [[nodiscard]] bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy);
 
-// The stretches long enough, in order, however near they come.
+// All such stretches, in order, however short and however near they come.
 [[nodiscard]] std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_hz,
                                                        const DetectionPolicy& policy);
+
+[[nodiscard]] bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy);
 
 // The last frame of the first window in which one track (boxes without a track together are one) matches the target in
 // least_window_share of the frames in which it is in range. Windows lie within the encounter; one longer than it is

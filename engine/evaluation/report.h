@@ -36,6 +36,9 @@ struct DetectionReport {
 [[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);
 
+// Why fewer encounters count than a reader may look for, one sentence for each reason; empty: all count.
+[[nodiscard]] std::vector<std::string> uncounted_in(const DetectionReport& report);
+
 struct WrittenReport {
   std::vector<std::filesystem::path> files;
   std::vector<Warning> warnings;  // gnuplot is missing: no plots

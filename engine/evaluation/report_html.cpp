@@ -63,11 +63,13 @@ std::string table_html(const std::vector<TableColumn>& columns) {
   for (std::size_t row = 0; row < columns.front().cells.size(); ++row) {
     text += "<tr>";
     for (const TableColumn& column : columns)
-      text += (column.is_best[row] ? "<td class=\"best\">" : "<td>") + html(column.cells[row]) +
-              (column.is_best[row] ? "*</td>" : "</td>");
+      text += (column.is_best[row] ? "<td class=\"best\">" : "<td>") + html(column.cells[row] + mark_of(column, row)) +
+              "</td>";
     text += "</tr>\n";
   }
-  return text + "</tbody>\n</table></div>\n<p>* best. Errors have none: who gives up early has small ones.</p>\n";
+  text += "</tbody>\n</table></div>\n";
+  for (const std::string& note : notes_on(columns)) text += element("p", note) + "\n";
+  return text;
 }
 
 std::string replaced(std::string text, std::string_view from, const std::string& to) {
@@ -134,9 +136,13 @@ std::string report_html(const TrackReport& report, const std::vector<ReportPictu
 
 std::string report_html(const DetectionReport& report, const std::vector<ReportPicture>& pictures) {
   const std::string films = report.films.size() == 1 ? "1 film" : std::to_string(report.films.size()) + " films";
-  return page("Detectors on " + films, table_html(table_of(report)) + pictures_html(pictures) +
-                                           element("h2", "What is counted") + "\n" + list_of(policies_of(report)) +
-                                           element("h2", "Films") + "\n" + list_of(report.films));
+  std::string body = table_html(table_of(report));
+  for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
+  if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())
+    body += element("h2", "Encounters") + "\n" + table_html(encounters);
+  return page("Detectors on " + films, body + pictures_html(pictures) + element("h2", "What is counted") + "\n" +
+                                           list_of(policies_of(report)) + element("h2", "Films") + "\n" +
+                                           list_of(report.films));
 }
 
 }  // namespace sigs

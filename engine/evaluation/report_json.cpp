@@ -98,6 +98,7 @@ Json json_of(const DetectionScore& score) {
             {"above_horizon", json_of(score.above_horizon)},
             {"on_horizon", json_of(score.on_horizon)},
             {"below_horizon", json_of(score.below_horizon)}}},
+          {"encounters_too_short", score.encounters_too_short},
           {"encounters_too_far", score.encounters_too_far},
           {"false_alarm_tracks", score.false_alarm_tracks},
           {"false_alarms_per_hour", score.false_alarms_per_hour},

@@ -76,16 +76,29 @@ std::string drawn(const PlotSeries& series, std::size_t number) {
   return text;
 }
 
+// Beside 0, from it outwards; those too near the one before for both labels to be read are left out.
+std::vector<double> wide_ticks(const PlotSpan& range) {
+  constexpr double kLeastGap = 0.035;  // of the axis; about a label's height
+  const auto place = [](double value) { return std::asinh(value / 10); };
+  const double gap = kLeastGap * (place(range.last) - place(range.first));
+  std::vector<double> ticks;
+  double last = 0;
+  for (const double tick : {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}) {
+    if (place(tick) - last < gap) continue;
+    last = place(tick);
+    if (tick <= range.last) ticks.push_back(tick);
+    if (-tick >= range.first) ticks.push_back(-tick);
+  }
+  return ticks;
+}
+
 std::string axes(const Plot& plot) {
   std::string text = "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
                      quoted(plot.y_label) + "\nset xrange " + range_text(plot.x_range) + "\nset yrange " +
                      range_text(plot.y_range) + "\n";
   if (plot.y_scale == PlotScale::wide) {
     text += "set nonlinear y via asinh(y/10.) inverse 10.*sinh(y)\nset ytics (0";
-    for (const double tick : {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}) {
-      if (tick <= plot.y_range.last) text.append(",").append(exact_text(tick));
-      if (-tick >= plot.y_range.first) text.append(",").append(exact_text(-tick));
-    }
+    for (const double tick : wide_ticks(plot.y_range)) text.append(",").append(exact_text(tick));
     text += ")\n";
   }
   int object = 0;

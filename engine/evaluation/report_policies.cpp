@@ -11,7 +11,28 @@ std::string least_seen(const TrackPolicy& policy) {
   return " and of which at least " + exact_text(100 * policy.least_visible_fraction) + " % can be seen";
 }
 
+std::string not_counted(int encounters) {
+  return std::to_string(encounters) + (encounters == 1 ? " encounter is" : " encounters are") + " not counted: ";
+}
+
 }  // namespace
+
+std::vector<std::string> uncounted_in(const DetectionReport& report) {
+  std::vector<std::string> reasons;
+  if (report.scores.empty()) return reasons;
+  const DetectionPolicy& policy = report.policy;
+  const DetectionScore& score = report.scores.front();  // the truth is the same for all
+  if (score.encounters_too_short > 0)
+    reasons.push_back(not_counted(score.encounters_too_short) + "shorter than " + exact_text(policy.least_encounter_s) +
+                      " s (--least-encounter)");
+  if (score.encounters_too_far > 0)
+    reasons.push_back(not_counted(score.encounters_too_far) + "the intruder comes no nearer than " +
+                      exact_text(policy.nearest_range_m) + " m (--nearest-range)");
+  if (score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
+    reasons.push_back("there is no encounter: no intruder is seen within " + exact_text(policy.longest_range_m) +
+                      " m (--longest-range)");
+  return reasons;
+}
 
 std::vector<std::string> policies_of(const TrackReport& report) {
   const TrackPolicy& policy = report.policy;

@@ -45,14 +45,43 @@ TableColumn rates(const std::vector<DetectionScore>& scores, std::string title, 
   return made;
 }
 
-// What stands in a column, titles first. Stars take a place of their own, so that points stay below points.
+bool any_of(const std::vector<bool>& flags) {
+  return std::find(flags.begin(), flags.end(), true) != flags.end();
+}
+
+// What stands in a column, titles first. Marks take a place of their own, so that points stay below points.
 std::vector<std::string> lines_of(const TableColumn& column) {
-  const bool has_best = std::find(column.is_best.begin(), column.is_best.end(), true) != column.is_best.end();
-  const std::string none = has_best ? " " : "";
+  const std::string none = any_of(column.is_best) || any_of(column.is_partial) ? " " : "";
   std::vector<std::string> lines{column.title + none, column.unit + none};
-  for (std::size_t i = 0; i < column.cells.size(); ++i)
-    lines.push_back(column.cells[i] + (column.is_best[i] ? "*" : none));
+  for (std::size_t i = 0; i < column.cells.size(); ++i) {
+    const std::string mark = mark_of(column, i);
+    lines.push_back(column.cells[i] + (mark.empty() ? none : mark));
+  }
   return lines;
+}
+
+std::string noted(const std::vector<TableColumn>& columns) {
+  std::string text = aligned(columns);
+  for (const std::string& note : notes_on(columns)) text += note + "\n";
+  return text;
+}
+
+// An error is the mean of those frames that have a report; of few frames it says little.
+TableColumn error_column(const std::vector<TrackScore>& scores, std::string title, std::string unit,
+                         double TrackScore::*error) {
+  TableColumn made = column<TrackScore>(scores, std::move(title), std::move(unit), 2, Best::none,
+                                        [error](const TrackScore& score) { return score.*error; });
+  for (const TrackScore& score : scores)
+    made.is_partial.push_back(score.reported > 0 && 2 * score.reported < score.scored);
+  return made;
+}
+
+TableColumn text_column(std::string title, std::string unit) {
+  return {.title = std::move(title), .unit = std::move(unit)};
+}
+
+std::string frames_text(const EncounterScore& encounter) {
+  return std::to_string(encounter.first_frame) + " to " + std::to_string(encounter.last_frame);
 }
 
 std::string padded(const std::string& text, std::size_t width, bool to_left) {
@@ -71,23 +100,24 @@ std::vector<TableColumn> table_of(const TrackReport& report) {
   using Score = TrackScore;
   const std::vector<Score>& scores = report.scores;
   // A tracker that gives up early has small errors: those of the frames that it reports. Nothing is best there.
-  return {
-      names_of(scores, "tracker"),
-      column<Score>(scores, "CLE", "mean px", 2, Best::none, [](const Score& s) { return s.mean_center_error_px; }),
-      column<Score>(scores, "CLE", "median", 2, Best::none, [](const Score& s) { return s.median_center_error_px; }),
-      column<Score>(scores, "CLE", "95 %", 2, Best::none, [](const Score& s) { return s.p95_center_error_px; }),
-      column<Score>(scores, "X", "mean px", 2, Best::none, [](const Score& s) { return s.mean_dx_px; }),
-      column<Score>(scores, "Y", "mean px", 2, Best::none, [](const Score& s) { return s.mean_dy_px; }),
-      column<Score>(scores, "prec.", "@20 px", 3, Best::most, [](const Score& s) { return s.precision_at_20; }),
-      column<Score>(scores, "success", "AUC", 3, Best::most, [](const Score& s) { return s.success_auc; }),
-      column<Score>(scores, "norm.pr.", "AUC", 3, Best::most,
-                    [](const Score& s) { return s.normalized_precision_auc; }),
-      column<Score>(scores, "lost", "frames", 0, Best::least, [](const Score& s) { return double(s.lost); }),
-      column<Score>(scores, "scored", "frames", 0, Best::none, [](const Score& s) { return double(s.scored); }),
-      column<Score>(scores, "absent", "reports", 0, Best::none,
-                    [](const Score& s) { return double(s.reported_absent); }),
-      column<Score>(scores, "speed", "frames/s", 1, Best::none,
-                    [](const Score& s) { return s.frames_per_s.value_or(std::numeric_limits<double>::quiet_NaN()); })};
+  return {names_of(scores, "tracker"),
+          error_column(scores, "CLE", "mean px", &Score::mean_center_error_px),
+          error_column(scores, "CLE", "median", &Score::median_center_error_px),
+          error_column(scores, "CLE", "95 %", &Score::p95_center_error_px),
+          error_column(scores, "X", "mean px", &Score::mean_dx_px),
+          error_column(scores, "Y", "mean px", &Score::mean_dy_px),
+          column<Score>(scores, "reported", "frames", 0, Best::none, [](const Score& s) { return double(s.reported); }),
+          column<Score>(scores, "prec.", "@20 px", 3, Best::most, [](const Score& s) { return s.precision_at_20; }),
+          column<Score>(scores, "success", "AUC", 3, Best::most, [](const Score& s) { return s.success_auc; }),
+          column<Score>(scores, "norm.pr.", "AUC", 3, Best::most,
+                        [](const Score& s) { return s.normalized_precision_auc; }),
+          column<Score>(scores, "lost", "frames", 0, Best::least, [](const Score& s) { return double(s.lost); }),
+          column<Score>(scores, "scored", "frames", 0, Best::none, [](const Score& s) { return double(s.scored); }),
+          column<Score>(scores, "absent", "reports", 0, Best::none,
+                        [](const Score& s) { return double(s.reported_absent); }),
+          column<Score>(scores, "speed", "frames/s", 1, Best::none, [](const Score& s) {
+            return s.frames_per_s.value_or(std::numeric_limits<double>::quiet_NaN());
+          })};
 }
 
 std::vector<TableColumn> table_of(const DetectionReport& report) {
@@ -107,6 +137,49 @@ std::vector<TableColumn> table_of(const DetectionReport& report) {
       column<Score>(scores, "time", "h", 4, Best::none, [](const Score& s) { return s.hours; })};
 }
 
+std::vector<TableColumn> encounters_of(const DetectionReport& report) {
+  std::vector<TableColumn> columns{
+      text_column("detector", ""),        text_column("film", ""),          text_column("intruder", ""),
+      text_column("frames", ""),          text_column("horizon", ""),       text_column("nearest", "m"),
+      text_column("detected", "in time"), text_column("first seen", "m"),   text_column("first seen", "after s"),
+      text_column("matched", "frames"),   text_column("in range", "frames")};
+  for (const DetectionScore& score : report.scores)
+    for (const EncounterScore& encounter : score.encounters) {
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      const std::vector<std::string> cells{line_text(score.name),
+                                           line_text(encounter.film),
+                                           std::to_string(encounter.target),
+                                           frames_text(encounter),
+                                           std::string(name_of(encounter.horizon)),
+                                           fixed_text(encounter.nearest_m, 0),
+                                           encounter.is_detected ? "yes" : "no",
+                                           fixed_text(encounter.first_detection_range_m.value_or(none), 0),
+                                           fixed_text(encounter.first_detection_time_s.value_or(none), 2),
+                                           std::to_string(encounter.frames_matched),
+                                           std::to_string(encounter.frames_visible)};
+      ENSURE(cells.size() == columns.size());
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        columns[i].cells.push_back(cells[i]);
+        columns[i].is_best.push_back(false);
+      }
+    }
+  return columns;
+}
+
+std::string mark_of(const TableColumn& column, std::size_t row) {
+  if (column.is_best[row]) return "*";
+  return !column.is_partial.empty() && column.is_partial[row] ? "?" : "";
+}
+
+std::vector<std::string> notes_on(const std::vector<TableColumn>& columns) {
+  std::vector<std::string> notes;
+  if (std::any_of(columns.begin(), columns.end(), [](const TableColumn& c) { return any_of(c.is_best); }))
+    notes.emplace_back("* best of its column");
+  if (std::any_of(columns.begin(), columns.end(), [](const TableColumn& c) { return any_of(c.is_partial); }))
+    notes.emplace_back("? of fewer than half of the frames scored: nothing was reported in the others, see lost");
+  return notes;
+}
+
 std::string aligned(const std::vector<TableColumn>& columns) {
   ENSURE(!columns.empty());
   std::vector<std::string> rows(columns.front().cells.size() + 2);
@@ -124,11 +197,11 @@ std::string aligned(const std::vector<TableColumn>& columns) {
 }
 
 std::string table_text(const TrackReport& report) {
-  return aligned(table_of(report));
+  return noted(table_of(report));
 }
 
 std::string table_text(const DetectionReport& report) {
-  return aligned(table_of(report));
+  return noted(table_of(report));
 }
 
 }  // namespace sigs

@@ -63,7 +63,8 @@ Result<ResultsFormat> told_format(const ResultsFile& file) {
     return lower_case(file.path.filename().string()) == "groundtruth.txt" ? ResultsFormat::vot : ResultsFormat::otb;
   if (fields.size() >= 6) return ResultsFormat::mot;
   return file.wrong(first.number, "is of no known layout: " + std::to_string(fields.size()) +
-                                      " numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot");
+                                      " numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot; "
+                                      "csv begins with the line frame,x,y,width,height");
 }
 
 Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {

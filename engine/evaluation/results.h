@@ -32,6 +32,7 @@ struct Results {
   std::string name;                                // of the tracker, for tables and plots
   std::map<int, std::vector<ReportedBox>> frames;  // by the footage's frame number; absent: nothing reported there
   std::set<int> given;                             // frames in which it was given the truth (VOT's 1): not scored
+  std::string film;                                // that an aot file names, as folder of its pictures; empty: not said
   std::optional<double> frames_per_s;              // of the tracker alone, where it is known
 
   [[nodiscard]] const ReportedBox* best_at(int frame) const;  // highest score, first of equals; nullptr: none

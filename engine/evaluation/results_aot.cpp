@@ -52,6 +52,13 @@ std::optional<int> frame_of(std::string_view picture) {
   return digits.empty() ? std::nullopt : integer_of(digits);
 }
 
+// The folder that a picture lies in: of "flights/one/frame_000123.png" it is "one"; empty: it says none.
+std::string folder_of(const std::string& picture) {
+  std::string folder = picture.substr(0, picture.find_last_of("/\\") + 1);  // npos + 1 is 0
+  if (!folder.empty()) folder.pop_back();
+  return folder.substr(folder.find_last_of("/\\") + 1);
+}
+
 enum Field { x_field, y_field, w_field, h_field, score_field, track_field, kFields };
 constexpr const char* kFieldNames[kFields] = {"x", "y", "w", "h", "s", "track_id"};
 
@@ -72,7 +79,11 @@ class AotHandler : public nlohmann::json_sax<nlohmann::json> {
  public:
   AotHandler(const ResultsFile& file, const int& line) : file_(file), line_(line), intake_(file) {}
 
-  [[nodiscard]] Results taken() { return intake_.taken(); }
+  [[nodiscard]] Results taken() {
+    Results results = intake_.taken();
+    results.film = film_;
+    return results;
+  }
   [[nodiscard]] const Error& error() const { return error_; }
 
   bool null() override { return other_value("null"); }
@@ -97,6 +108,7 @@ class AotHandler : public nlohmann::json_sax<nlohmann::json> {
 
   bool fails(int line, const std::string& what) {
     error_ = file_.wrong(line, what).value();
+    if (is_one_line_) error_.where += entry_text(static_cast<int>(picture_.detections.size()) - 1);
     return false;
   }
   [[nodiscard]] std::optional<Field> field() const;
@@ -105,8 +117,18 @@ class AotHandler : public nlohmann::json_sax<nlohmann::json> {
   bool take_picture();
   bool take_detection(int frame, const Detection& detection);
 
+  // ", [17].detections[0]": where a line number tells nothing.
+  [[nodiscard]] std::string entry_text(int detection) const {
+    if (pictures_ == 0 || place_ == Place::list || place_ == Place::outside) return "";
+    const std::string picture = ", [" + std::to_string(pictures_ - 1) + "]";
+    return detection < 0 ? picture : picture + ".detections[" + std::to_string(detection) + "]";
+  }
+
   const ResultsFile& file_;
   const int& line_;
+  bool is_one_line_ = file_.text.find('\n') >= file_.text.find_last_not_of(" \r\n");
+  int pictures_ = 0;
+  std::string film_;
   ResultsIntake intake_;
   Error error_;
   Place place_ = Place::outside;
@@ -158,6 +180,7 @@ bool AotHandler::start_object(std::size_t) {
   }
   if (place_ == Place::list) {
     picture_ = {.line = line_};
+    ++pictures_;
     place_ = Place::picture;
     key_.clear();
     return true;
@@ -180,8 +203,9 @@ bool AotHandler::end_object() {
     place_ = Place::detections;
     return true;
   }
+  const bool taken = take_picture();
   place_ = Place::list;
-  return take_picture();
+  return taken;
 }
 
 bool AotHandler::start_array(std::size_t) {
@@ -222,8 +246,12 @@ bool AotHandler::take_picture() {
   if (!is_first)
     return fails(picture_.line,
                  "frame " + std::to_string(*frame) + " a second time, first in line " + std::to_string(there->second));
-  for (const Detection& detection : picture_.detections)
-    if (!take_detection(*frame, detection)) return false;
+  if (film_.empty()) film_ = folder_of(*picture_.name);
+  for (std::size_t i = 0; i < picture_.detections.size(); ++i) {
+    if (take_detection(*frame, picture_.detections[i])) continue;
+    if (is_one_line_) error_.where = file_.wrong(picture_.line, "").value().where + entry_text(static_cast<int>(i));
+    return false;
+  }
   return true;
 }
 

@@ -37,6 +37,13 @@ Result<void> ResultsIntake::add(int frame, const ReportedBox& reported) {
   return {};
 }
 
+std::string ResultsIntake::frame_text(int frame) const {
+  const std::string of_footage = std::to_string(frame);
+  return first_number_ == file_.film.first_frame
+             ? of_footage
+             : std::to_string(frame - file_.film.first_frame + first_number_) + " (" + of_footage + " of the footage)";
+}
+
 Result<void> ResultsIntake::check_box(const ReportedBox& reported) const {
   const Box& box = reported.box;
   const std::pair<const char*, double> numbers[] = {
@@ -46,7 +53,9 @@ Result<void> ResultsIntake::check_box(const ReportedBox& reported) const {
   if (!std::isfinite(reported.score)) return wrong_number(file_, reported.line, "score", reported.score);
   if (box.width > 0 && box.height > 0) return {};
   return file_.wrong(reported.line, "the box is " + number_text(box.width, 6) + " wide and " +
-                                        number_text(box.height, 6) + " high: both must be more than 0");
+                                        number_text(box.height, 6) +
+                                        " high: both must be more than 0; where nothing is reported, leave out the "
+                                        "frame (mot, csv, aot) or write nan alone on its line (vot)");
 }
 
 Result<void> ResultsIntake::check_place(int frame, const ReportedBox& reported) const {
@@ -58,12 +67,12 @@ Result<void> ResultsIntake::check_place(int frame, const ReportedBox& reported) 
   if (found == results_.frames.end()) return {};
   const std::vector<ReportedBox>& there = found->second;
   if (!file_.options.may_hold_many)
-    return file_.wrong(reported.line, "a second box for frame " + std::to_string(frame) + ", first in line " +
+    return file_.wrong(reported.line, "a second box for frame " + frame_text(frame) + ", first in line " +
                                           std::to_string(there.front().line) + ": a tracker reports one a frame");
   const auto twin = std::ranges::find(there, reported.track, &ReportedBox::track);
   if (reported.track == kNoTrack || twin == there.end()) return {};
   return file_.wrong(reported.line, "id " + std::to_string(reported.track) + " a second time in frame " +
-                                        std::to_string(frame) + ", first in line " + std::to_string(twin->line));
+                                        frame_text(frame) + ", first in line " + std::to_string(twin->line));
 }
 
 }  // namespace sigs

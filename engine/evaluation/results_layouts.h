@@ -31,7 +31,9 @@ inline constexpr double kEdgeFrom1 = 1.5;  // ... from 1
 // Takes boxes in and looks at each, whatever the layout.
 class ResultsIntake {
  public:
-  explicit ResultsIntake(const ResultsFile& file) : file_(file) {}
+  explicit ResultsIntake(const ResultsFile& file) : ResultsIntake(file, file.film.first_frame) {}
+  // first_number: what the file calls the film's first frame, for messages.
+  ResultsIntake(const ResultsFile& file, int first_number) : file_(file), first_number_(first_number) {}
 
   // frame: the footage's number.
   [[nodiscard]] Result<void> add(int frame, const ReportedBox& reported);
@@ -43,7 +45,10 @@ class ResultsIntake {
   [[nodiscard]] Result<void> check_box(const ReportedBox& reported) const;
   [[nodiscard]] Result<void> check_place(int frame, const ReportedBox& reported) const;
 
+  [[nodiscard]] std::string frame_text(int frame) const;
+
   const ResultsFile& file_;
+  int first_number_ = 0;
   Results results_;
 };
 

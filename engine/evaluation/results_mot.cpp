@@ -44,7 +44,7 @@ Result<void> take_line(const ResultsFile& file, const TextLine& line, const std:
 }  // namespace
 
 Result<Results> read_mot(const ResultsFile& file) {
-  ResultsIntake intake(file);
+  ResultsIntake intake(file, 1);
   TextLines lines(file.text);
   std::vector<std::string_view> fields;
   std::size_t expected = 0;  // fields in each line

@@ -2,36 +2,19 @@
 #include "project/set_field.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "project/json_reading.h"
+#include "project/near_key.h"
 
 namespace sigs {
 
 namespace {
 
-// Levenshtein's distance: how many letters to change, add or leave out.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest_key(const std::vector<Field>& fields, const std::string& key) {
-  const auto nearer = [&key](const Field& a, const Field& b) {
-    return edit_distance(a.key, key) < edit_distance(b.key, key);
-  };
-  return std::min_element(fields.begin(), fields.end(), nearer)->key;
+std::vector<std::string> keys_of(const std::vector<Field>& fields) {
+  std::vector<std::string> keys;
+  for (const Field& field : fields) keys.push_back(field.key);
+  return keys;
 }
 
 Json json_or_text(const std::string& text) {
@@ -55,8 +38,7 @@ Result<void> set_field(Project& project, const std::string& assignment) {
     return f.key.starts_with(key + ".") || f.key.starts_with(key + "[");
   });
   if (is_group) return fail(where, "is a group of settings; set one of its members by its key", ErrorKind::usage);
-  if (field == fields.end())
-    return fail(where, "no such setting; did you mean " + nearest_key(fields, key) + "?", ErrorKind::usage);
+  if (field == fields.end()) return fail(where, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
   const bool takes_text = std::holds_alternative<std::string*>(field->value) && !(field->is_path && text == "null");
   const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
   if (!wrong.empty()) return fail(where, wrong, ErrorKind::usage);

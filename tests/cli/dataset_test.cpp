@@ -92,9 +92,88 @@ TEST_CASE("a merge names what is missing") {
   CHECK(recipe.run("out", "--shard 1/2").status == 0);
   const Run run = recipe.run("out", "--merge");
   CHECK(run.status == 65);
-  CHECK_MESSAGE(has(run.err, "of 6 videos 3 are missing, damaged or not as planned: red RL, large LR, large FN\n"),
-                run.err);
+  CHECK_MESSAGE(
+      has(run.err,
+          "of 6 videos 3 cannot go into the index; --resume makes them: red RL, large LR, large FN: missing\n"),
+      run.err);
   CHECK_FALSE(fs::exists(recipe.out("out") + "/index.json"));
+}
+
+TEST_CASE("--set wins over what a background says, whose own value wins over the recipe's settings") {
+  const TinyRecipe recipe;
+  recipe.change("\"settings\": {", "\"settings\": {\"camera.speed_mps\": 5, ");
+  recipe.change("\"footage\":", "\"camera\": {\"speed_mps\": 7}, \"footage\":");
+  const Run own = recipe.run("own", "--only 'red LR'");
+  CHECK_MESSAGE(has(own.err, "settings.camera.speed_mps: has no effect: every background says its own"), own.err);
+  CHECK(has(read_text(recipe.out("own") + "/red LR/red LR.json").value(), "\"speed_mps\": 7"));
+  CHECK(recipe.run("set", "--only 'red LR' --set camera.speed_mps=9").status == 0);
+  CHECK(has(read_text(recipe.out("set") + "/red LR/red LR.json").value(), "\"speed_mps\": 9"));
+}
+
+TEST_CASE("an intruder that is never in the picture is told of, before a run and in the dry one") {
+  const TinyRecipe recipe;
+  CHECK_FALSE(has(recipe.run("out", "--dry-run").err, "never"));
+  recipe.change("\"distance_m\": 20", "\"distance_m\": 20, \"from_x_percent\": 150, \"to_x_percent\": 140");
+  const std::string told = "warning: the intruder is never in the picture in 2 videos: red RL, large RL\n";
+  const Run dry = recipe.run("out", "--dry-run");
+  CHECK(count_of(dry.out, " never ") == 2);
+  CHECK_MESSAGE(has(dry.err, told), dry.err);
+  CHECK(has(recipe.run("out", "--only 'red RL,large RL'").err, told));
+}
+
+TEST_CASE("a clip that cannot be opened fails its videos alone") {
+  const TinyRecipe recipe;
+  put_text(recipe.file("cut.mkv"), "no clip");
+  recipe.change("\"backgrounds\": [",
+                "\"backgrounds\": [{\"name\": \"cut\", \"footage\": {\"video\": \"cut.mkv\", "
+                "\"calibration\": \"lens.xml\"}}, ");
+  recipe.change("{aircraft} {flight}", "{background} {aircraft} {flight}");
+  for (const char* const more : {"--dry-run", ""}) {
+    const Run run = recipe.run("out", more);
+    CHECK_MESSAGE((run.status == 65 || run.status == 66), run.err);
+    CHECK_MESSAGE(count_of(run.err, "backgrounds[0].footage.video: ") == 6, run.err);
+  }
+  CHECK(fs::exists(recipe.out("out") + "/sky red LR/entry.json"));
+  CHECK_FALSE(fs::exists(recipe.out("out") + "/index.json"));
+}
+
+TEST_CASE("a mask of another size than the clip is one error of the recipe, before anything starts") {
+  const TinyRecipe recipe;
+  put_text(recipe.file("mask.pgm"), "P5\n3 2\n255\naaaaaa");
+  recipe.change("\"calibration\": \"lens.xml\"", "\"calibration\": \"lens.xml\", \"own_body_mask\": \"mask.pgm\"");
+  for (const char* const more : {"--dry-run", ""}) {
+    const Run run = recipe.run("out", more);
+    CHECK(run.status == 65);
+    CHECK_MESSAGE(count_of(run.err, "recipe.json: backgrounds[0].footage.own_body_mask: ") == 1, run.err);
+    CHECK(count_of(run.err, "\n") == 1);
+  }
+  CHECK_FALSE(fs::exists(recipe.out("out")));
+}
+
+TEST_CASE("a dry run that cannot be printed says so, also of impossible videos") {
+  const TinyRecipe recipe;
+  recipe.change("\"name\": \"red\",", "\"name\": \"red\", \"speed_limits_mps\": [900, 901],");
+  const std::string command =
+      (build_dir() / "sigs").string() + " " + recipe.arguments("out") + " --dry-run >/dev/full 2>/dev/null";
+  CHECK(WEXITSTATUS(std::system(command.c_str())) == 74);
+}
+
+TEST_CASE("a recipe of which nothing can be makes nothing") {
+  const TinyRecipe recipe;
+  recipe.change("\"name\": \"red\",", "\"name\": \"red\", \"speed_limits_mps\": [900, 901],");
+  recipe.change("\"name\": \"large\",", "\"name\": \"large\", \"speed_limits_mps\": [900, 901],");
+  const Run run = recipe.run("out");
+  CHECK(run.status == 65);
+  CHECK_MESSAGE(has(run.err, "none of its videos can be; nothing is made"), run.err);
+  CHECK_MESSAGE(has(run.err, "; change distance_m or frames, or the aircraft's speed_limits_mps"), run.err);
+  CHECK_FALSE(fs::exists(recipe.out("out")));
+}
+
+TEST_CASE("a misspelt key is told of with what was meant") {
+  const TinyRecipe recipe;
+  recipe.change("\"seed\"", "\"sede\"");
+  const Run run = recipe.run("out", "--dry-run");
+  CHECK_MESSAGE(has(run.err, "sede: unknown key, not used; did you mean seed?"), run.err);
 }
 
 TEST_CASE("a recipe that changes makes only those videos anew that it changes") {

@@ -112,6 +112,12 @@ TEST_CASE("files go with labels in order, folders by name, and a dataset's index
   const Run missing = place.detect(place.dataset + " --results " + folder);
   CHECK(missing.status == 66);
   CHECK_MESSAGE(missing.err.find("runs/mine/one.csv: no results for this film") != std::string::npos, missing.err);
+  fs::rename(two, place.tiny.file("runs/mine/two.json"));
+  const Run other = place.detect(place.dataset + " --results " + folder);
+  CHECK_MESSAGE(other.err.find("runs/mine/one.json: no results for this film") != std::string::npos, other.err);
+  fs::remove(place.tiny.file("runs/mine/two.json"));
+  const Run empty = place.detect(place.dataset + " --results " + folder);
+  CHECK_MESSAGE(empty.err.find("runs/mine/one.csv, .json or .txt: no results") != std::string::npos, empty.err);
 }
 
 TEST_CASE("inputs that do not go together are refused in one line") {
@@ -126,11 +132,16 @@ TEST_CASE("inputs that do not go together are refused in one line") {
     CHECK(run.out.empty());
   };
   const std::string one = place.labels("one");
-  refused(one + " " + place.labels("two") + " --results " + file, 64, "there are 2 films and 1 files of results");
+  refused(one + " " + place.labels("two") + " --results " + file, 64, "there are 2 films and 1 file of results");
   refused(one + " --results " + file + " " + folder, 64, "are folders and files");
   refused(one + " --results gone.csv", 66, "gone.csv: no such file or folder");
   refused("gone.xml --results " + file, 66, "gone.xml: no such file or folder");
-  refused(folder + " --results " + file, 66, "index.json: no such file");
+  refused(folder + " --results " + file, 66, "index.json: no such file; a dataset has it when it is whole");
+  refused(place.tiny.project() + " --results " + file, 64, "p.json: is not labels (.xml); of a project sigs export");
+  refused(one + " " + one + " --results " + file + " " + file, 64, "one.xml: is named twice");
+  fs::create_symlink(one, place.tiny.file("link.xml"));
+  refused(one + " " + place.tiny.file("link.xml").string() + " --results " + file + " " + file, 64,
+          "link.xml: is named");
   refused(one + " --split test --results " + file, 64, "--split: goes with a dataset's folder");
   refused(place.dataset + " --split none --results " + folder, 65, "has no video of split none");
   for (const std::string option : {"--window", "--least-score", "--match-overlap"})
@@ -139,6 +150,29 @@ TEST_CASE("inputs that do not go together are refused in one line") {
   refused(one + " --false-overlap 0.5 --results " + file, 64, "--false-overlap: is more than --match-overlap");
   place.put("set/index.json", "{\"videos\": 3}");
   refused(place.dataset + " --results " + folder, 65, "index.json: is no index of a dataset");
+}
+
+TEST_CASE("results whose pictures are another film's are scored with a warning") {
+  const Place place;
+  const auto text = [&](const std::string& folder) {
+    const std::string picture = folder + "frame_000003.png";
+    const std::string file = place.put("a.json", "[{\"img_name\": \"" + picture + "\", \"detections\": []}]");
+    const Run run = place.detect(place.labels("one") + " --results " + file);
+    CHECK(run.status == 0);
+    return run.err;
+  };
+  CHECK(text("").empty());
+  CHECK(text("set/one/").empty());
+  CHECK(text("two/").find("a.json: its img_name is of two, the film is one") != std::string::npos);
+}
+
+TEST_CASE("an encounter that is too short is not counted, and a warning says why") {
+  const Place place;
+  const std::string file = place.put("a.csv", kNothing);
+  const Run run = run_sigs("evaluate detect " + place.labels("one") + " --results " + file);
+  CHECK(run.status == 0);
+  CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted: shorter than 3 s (--least-encounter)") == 0,
+                run.err);
 }
 
 TEST_CASE("an encounter that never comes near is not counted, and a warning says why") {

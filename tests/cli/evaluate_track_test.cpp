@@ -133,6 +133,8 @@ TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
   }
   const Run twice = place.track(place.labels, "--results " + file + " --results " + file);
   CHECK(twice.out.find("\noff (2) ") != std::string::npos);
+  const Run listed = place.track(place.labels, "--results " + file + " " + file + " " + file);
+  CHECK_MESSAGE(listed.out.find("\noff (3) ") != std::string::npos, listed.err);
 }
 
 TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but its like") {

@@ -92,14 +92,20 @@ TEST_CASE("thresholds thin out labels but neither xml nor csv") {
   CHECK(lines_of(mot) == all);
 }
 
-TEST_CASE("labels and thresholds that there are not are answered with 64 or 78 and nothing is written") {
+TEST_CASE("labels and thresholds that there are not are answered with 64 and the option, and nothing is written") {
   const TinyProject tiny;
   for (const auto& [options, status, part] :
-       {std::tuple{"--labels pascal", 78, "export.labels: knows no format \"pascal\""},
-        std::tuple{"--labels mot,mot", 78, "\"mot\" twice"}, std::tuple{"--labels mot,", 78, "knows no format \"\""},
-        std::tuple{"--least-pixels 0", 78, "export.label_least_pixels"},
-        std::tuple{"--least-visible 1.5", 78, "export.label_least_visible_fraction"},
-        std::tuple{"--least-pixels some", 64, "some"}, std::tuple{"--least-visible half", 64, "half"}}) {
+       {std::tuple{"--labels pascal", 64, "error: --labels pascal: knows no format \"pascal\""},
+        std::tuple{"--labels mot,mot", 64, "error: --labels mot,mot: "},
+        std::tuple{"--labels mot,", 64, "knows no format \"\""},
+        std::tuple{"--labels none,xml", 64, "error: --labels none,xml: knows no format \"none\""},
+        std::tuple{"--least-pixels 0", 64, "error: --least-pixels 0: "},
+        std::tuple{"--least-pixels -1", 64, "error: --least-pixels -1: "},
+        std::tuple{"--least-pixels nan", 64, "error: --least-pixels nan: expected a whole number"},
+        std::tuple{"--least-visible 1.5", 64, "error: --least-visible 1.5: "},
+        std::tuple{"--codec vp9", 64, "error: --codec vp9: "}, std::tuple{"--crf 99", 64, "error: --crf 99: "},
+        std::tuple{"--least-pixels some", 64, "some"}, std::tuple{"--least-visible half", 64, "half"},
+        std::tuple{"--set 'export.labels=[\"pascal\"]'", 78, "export.labels: knows no format \"pascal\""}}) {
     const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + options);
     CHECK_MESSAGE(run.status == status, options << ": " << run.err);
     CHECK_MESSAGE(run.err.find(part) != std::string::npos, options << ": " << run.err);

@@ -28,7 +28,12 @@ bool has(const std::string& text, const std::string& part) {
 TEST_CASE("a command that is none is answered with those that are") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);
-  CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, check and info\n");
+  CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, dataset, evaluate, check and info\n");
+  const Run inner = run_sigs("evaluate trck film.xml");
+  CHECK(inner.status == 64);
+  CHECK(inner.err == "error: evaluate trck: no such command; there are track and detect\n");
+  CHECK(run_sigs("evaluate --help").status == 0);
+  CHECK(run_sigs("evaluate").status == 64);
 }
 
 TEST_CASE("a second export of the same name is refused while the first one writes") {

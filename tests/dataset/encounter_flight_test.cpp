@@ -177,9 +177,11 @@ TEST_CASE("encounters that cannot be are told apart") {
             .find("farther than 1e8 m") != std::string::npos);
   stage.speed_limits_mps = Span{25, 84};
   CHECK(reason({{"miss_distance_m", 100}, {"closing_speed_mps", 120}}, stage) ==
-        "speed_mps: the intruder would have to fly 98 m/s; its aircraft flies 25 to 84");
+        "speed_mps: the intruder would have to fly 98 m/s; its aircraft flies 25 to 84; change closing_speed_mps or "
+        "bearing_deg, or the aircraft's speed_limits_mps");
   CHECK(reason({{"miss_distance_m", 100}, {"closing_speed_mps", 30}}, stage) ==
-        "speed_mps: the intruder would have to fly 8 m/s; its aircraft flies 25 to 84");
+        "speed_mps: the intruder would have to fly 8 m/s; its aircraft flies 25 to 84; change closing_speed_mps or "
+        "bearing_deg, or the aircraft's speed_limits_mps");
 }
 
 TEST_CASE("an intruder may touch the ground in its lowest frame and not go below") {

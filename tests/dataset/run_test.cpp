@@ -202,7 +202,7 @@ TEST_CASE("shards made apart and put together are the dataset that one run makes
       const Result<DatasetReport> early = make_dataset(tiny.plan, merge, {});
       REQUIRE_FALSE(early);
       CHECK(early.error().kind == ErrorKind::bad_data);
-      CHECK_MESSAGE(early.error().what.ends_with(": v2"), early.error().what);
+      CHECK_MESSAGE(early.error().what.ends_with("--resume makes them: v2: missing"), early.error().what);
     }
     const fs::path from = tiny.out("far/away/part" + std::to_string(part));
     for (const std::string& name : names_in(from)) fs::rename(from / name, merge.folder / name);
@@ -232,6 +232,43 @@ TEST_CASE("what somebody else has put there is not taken away") {
 
   fs::create_directories(tiny.out("own/labels"));
   CHECK(make_dataset(tiny.plan, resumed(tiny.out("own")), {}).error().kind == ErrorKind::cannot_create);
+}
+
+TEST_CASE("files among splits, labels and index that no dataset wrote are named and stay, and so does the dataset") {
+  TinyPlan tiny(2, 3);
+  for (PlannedVideo& video : tiny.plan.videos) video.project.output.labels = {"xml", "coco"};
+  CHECK(made(tiny.plan, into(tiny.out())).exported == 2);
+  const auto whole = contents_of(tiny.out());
+  DatasetRequest merge = into(tiny.out());
+  merge.merge_only = true;
+  for (const char* const mine : {"splits/fold1.txt", "labels/mine/a", "labels/coco/b", "index.json", "SHA256SUMS"}) {
+    CAPTURE(mine);
+    fs::create_directories((tiny.out() / mine).parent_path());
+    put_text(tiny.out() / mine, R"({"foo":1})");
+    if (std::string(mine) == "SHA256SUMS") fs::remove(tiny.out() / "index.json");
+    for (const DatasetRequest& request : {resumed(tiny.out()), merge}) {
+      const Result<DatasetReport> report = make_dataset(tiny.plan, request, {});
+      REQUIRE_FALSE(report);
+      CHECK(report.error().kind == ErrorKind::cannot_create);
+      CHECK_MESSAGE(report.error().where.ends_with(mine), report.error().where);
+    }
+    CHECK(read_text(tiny.out() / mine).value() == R"({"foo":1})");
+    fs::remove(tiny.out() / mine);
+    if (std::string(mine) == "SHA256SUMS")  // nothing tells any more who wrote these
+      for (const char* const name : {"splits", "labels"}) fs::remove_all(tiny.out() / name);
+    CHECK(made(tiny.plan, resumed(tiny.out())).kept == 2);
+    CHECK(contents_of(tiny.out()) == whole);
+  }
+}
+
+TEST_CASE("a merge of no folder makes none, and of a failed run no empty folder stays") {
+  TinyPlan tiny(1, 3);
+  DatasetRequest merge = into(tiny.out());
+  merge.merge_only = true;
+  CHECK(make_dataset(tiny.plan, merge, {}).error().kind == ErrorKind::cannot_read);
+  tiny.plan.videos[0].project.intruders[0].model.file = tiny.inputs().file("none.obj").string();
+  CHECK(made(tiny.plan, into(tiny.out())).failures.size() == 1);
+  CHECK_FALSE(fs::exists(tiny.out()));
 }
 
 TEST_CASE("a video that the plan has no more stays, is told of and not in the index") {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "evaluation/report.h"
+
 #include <cmath>
 
 #include "evaluation/detection_match.h"
@@ -327,6 +329,19 @@ TEST_CASE("the rate of a film is that of its times, or the nominal one") {
   CHECK(rate_hz_of(approach(1)) == 10);
   for (double& time_s : film.times_s) time_s = 0;
   CHECK(rate_hz_of(film) == 10);
+}
+
+TEST_CASE("an encounter that is too short is counted by itself, and said in words with its option") {
+  const FilmTruth film = approach();
+  DetectionPolicy policy;
+  policy.least_encounter_s = 1000;
+  const DetectionScore score = score_detections("blind", {{.name = "one", .truth = film}}, policy);
+  CHECK(score.all.encounters == 0);
+  CHECK(score.encounters_too_short == 1);
+  CHECK(score.encounters_too_far == 0);
+  const std::vector<std::string> reasons = uncounted_in({.films = {"one"}, .policy = policy, .scores = {score}});
+  REQUIRE(reasons.size() == 1);
+  CHECK(reasons.front() == "1 encounter is not counted: shorter than 1000 s (--least-encounter)");
 }
 
 TEST_CASE("a film whose length in seconds is beyond a double counts by its nominal rate") {

@@ -125,15 +125,16 @@ TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in C
   std::string line;
   for (int i = 0; i < 3; ++i) std::getline(table, line);
   const std::vector<std::string> cells = words(line);
-  REQUIRE(cells.size() == 13);
+  REQUIRE(cells.size() == 14);
   CHECK(cells[0] == "off");
   CHECK(std::vector<std::string>(cells.begin() + 1, cells.begin() + 6) ==
         std::vector<std::string>{"5.00", "5.00", "5.00", "3.00", "4.00"});
-  CHECK(cells[6] == "1.000*");
-  CHECK(cells[9] == "0*");
-  CHECK(cells[10] == "25");  // hidden in five of the thirty
-  CHECK(cells[11] == "5");
-  CHECK(cells[12] == "12.5");
+  CHECK(cells[6] == "25");
+  CHECK(cells[7] == "1.000*");
+  CHECK(cells[10] == "0*");
+  CHECK(cells[11] == "25");  // hidden in five of the thirty
+  CHECK(cells[12] == "5");
+  CHECK(cells[13] == "12.5");
 
   const Written written(report);
   const Row summary = rows_of(written.text("summary.csv")).front();
@@ -256,6 +257,17 @@ TEST_CASE("the best of a column is marked where there is one, and errors have no
   CHECK(table_text(report).find('*') == std::string::npos);
 }
 
+TEST_CASE("an error over fewer than half of the frames is marked, and the marks are explained") {
+  TrackReport report = made_track_report();
+  report.scores[1].reported = 3;  // of 25
+  const std::string text = table_text(report);
+  CHECK(text.find("0.00?") != std::string::npos);
+  CHECK(text.find("5.00?") == std::string::npos);
+  CHECK(text.find("\n* best of its column\n? of fewer than half of the frames scored") != std::string::npos);
+  report.scores[1].reported = 13;
+  CHECK(table_text(report).find('?') == std::string::npos);
+}
+
 TEST_CASE("a table's columns end below each other, whatever the letters of the names") {
   const TrackReport report = made_track_report();
   std::istringstream table(table_text(report));
@@ -292,6 +304,7 @@ TEST_CASE("a report of detectors says the same in the table, in CSV and in JSON"
   CHECK(json["detectors"][1]["encounters"][0]["is_detected"] == false);
   const pugi::xml_document page = parsed(written.text("report.html"));
   check_self_contained(page.document_element());
+  CHECK(page.select_nodes("//table[2]/tbody/tr | //div[2]/table/tbody/tr").size() == 2);
   if (has_gnuplot()) CHECK(page.select_nodes("//figure/svg").size() == 2);
 }
 

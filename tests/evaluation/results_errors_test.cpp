@@ -76,8 +76,8 @@ TEST_CASE("boxes that are none are refused with the line") {
   check_refused({"a.txt", "1\nnan,1,2,2\n1,1,2,2\n", "line 2: ", "x is NaN"});
   check_refused({"a.txt", "1\n1,2,3,4,nan,6,7,8\n1,1,2,2\n", "line 2: ", "x is NaN"});
   check_refused({"a.txt", "1,1,2,2\n1,1,inf,2\n1,1,2,2\n", "line 2: ", "width is infinite"});
-  check_refused(
-      {"a.txt", "1,1,2,2\n1,1,2,0\n1,1,2,2\n", "line 2: ", "the box is 2 wide and 0 high: both must be more than 0"});
+  check_refused({"a.txt", "1,1,2,2\n1,1,2,0\n1,1,2,2\n", "line 2: ",
+                 "the box is 2 wide and 0 high: both must be more than 0; where nothing is reported, leave out"});
   check_refused({"a.txt", "1,1,2,2\n1,1,-2,2\n1,1,2,2\n", "line 2: ", "-2 wide"});
   check_refused({"a.txt", "1,1,2,2\n0,0,0,0\n1,1,2,2\n", "line 2: ", "0 wide"});
   check_refused({"a.txt", "1\n5,5,5,5,5,5,5,5\n0\n", "line 2: ", "0 wide"});
@@ -96,13 +96,23 @@ TEST_CASE("boxes that are none are refused with the line") {
   check_refused({"a.json", aot("{\"x\": 1, \"y\": null, \"w\": 1, \"h\": 2}"), "line 4: ", "y is null, not a number"});
   check_refused({"a.json", aot("{\"x\": 1, \"y\": \"1\", \"w\": 1, \"h\": 2}"), "line 4: ", "y is text, not a number"});
   check_refused({"a.json", aot("{\"x\": 1, \"y\": 1, \"h\": 2}"), "line 4: ", "has no w"});
+  // A file of one line says which entry.
+  const std::string good = "{\"x\": 1, \"y\": 1, \"w\": 2, \"h\": 2}";
+  const std::string start = "[{\"img_name\": \"100\"}, {\"img_name\": \"101\", \"detections\": [" + good + ", ";
+  check_refused(
+      {"a.json", start + "{\"x\": 1, \"y\": 1, \"h\": 2}]}]\n", "line 1, [1].detections[1]: ", "has no w", true});
+  check_refused(
+      {"a.json", start + "{\"x\": 1, \"y\": 1, \"w\": 0, \"h\": 2}]}]", "line 1, [1].detections[1]: ", "0 wide", true});
+  check_refused({"a.json", start + "{\"x\": \"1\"}]}]", "line 1, [1].detections[1]: ", "x is text", true});
+  check_refused({"a.json", "[{\"img_name\": \"100\"}, {}]", "line 1, [1]: ", "has no img_name"});
 }
 
 TEST_CASE("the same id twice in a frame, or a second box of a tracker, is refused with both lines") {
   const std::string twice = "1,7,1,1,2,2\n1,8,1,1,2,2\n2,7,1,1,2,2\n1,7,1,1,2,2\n";
-  check_refused({"a.txt", twice, "line 4: ", "id 7 a second time in frame 100, first in line 1", true});
   check_refused(
-      {"a.txt", twice, "line 2: ", "a second box for frame 100, first in line 1: a tracker reports one a frame"});
+      {"a.txt", twice, "line 4: ", "id 7 a second time in frame 1 (100 of the footage), first in line 1", true});
+  check_refused({"a.txt", twice, "line 2: ",
+                 "a second box for frame 1 (100 of the footage), first in line 1: a tracker reports one a frame"});
   check_refused({"a.csv", "frame,x,y,width,height,track\n100,1,1,2,2,3\n100,1,1,2,2,3\n",
                  "line 3: ", "id 3 a second time", true});
   check_refused({"a.json",

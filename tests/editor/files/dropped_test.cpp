@@ -69,8 +69,8 @@ TEST_CASE("the name decides where the bytes say nothing") {
 
 TEST_CASE("what is nothing says why") {
   const TemporaryFolder folder;
-  std::ofstream(folder / "letter.txt") << "Dear Sir";
-  for (const fs::path& path : {folder / "letter.txt", folder / "nowhere.mp4", folder.path(), fs::path()}) {
+  std::ofstream(folder / "letter.doc") << "Dear Sir";
+  for (const fs::path& path : {folder / "letter.doc", folder / "nowhere.mp4", folder.path(), fs::path()}) {
     const Dropped dropped = what_was_dropped(path);
     CHECK(dropped.kind == DroppedKind::nothing);
     CHECK_FALSE(dropped.problem.empty());

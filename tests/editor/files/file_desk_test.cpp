@@ -252,9 +252,9 @@ TEST_CASE("dropped files open projects or change the one that is there") {
   d.document.apply(edits.take_edits());
   REQUIRE(d.document.project().intruders.size() == 1);
   CHECK(d.document.project().intruders[0].model.file == "m.obj");
-  std::ofstream(d.folder / "letter.txt") << "Dear Sir";
-  d.desk.take_dropped(d.folder / "letter.txt", edits);
-  CHECK(d.errors().find("letter.txt") != std::string::npos);
+  std::ofstream(d.folder / "letter.doc") << "Dear Sir";
+  d.desk.take_dropped(d.folder / "letter.doc", edits);
+  CHECK(d.errors().find("letter.doc") != std::string::npos);
 }
 
 TEST_CASE("requests that belong to others are left to them") {
