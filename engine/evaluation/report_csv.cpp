@@ -9,10 +9,23 @@ namespace sigs {
 
 namespace {
 
-std::string row(std::initializer_list<std::string> fields) {
+std::string cells(std::initializer_list<std::string> fields) {
   std::string line;
   for (const std::string& field : fields) line.append(line.empty() ? "" : ",").append(csv_field(field));
-  return line + "\n";
+  return line;
+}
+
+std::string row(std::initializer_list<std::string> fields) {
+  return cells(fields) + "\n";
+}
+
+// As the csv layout of results has it: x is the first column covered, counted from 0. Empty where there is no box.
+std::string box_cells(const std::optional<Box>& box) {
+  if (!box) return ",,,,";
+  std::string text;
+  for (const double number : {box->x + 0.5, box->y + 0.5, box->width, box->height})
+    text.append(",").append(exact_text(number));
+  return text;
 }
 
 std::string flag(bool is_so) {
@@ -39,13 +52,16 @@ std::string summary_csv(const TrackReport& report) {
 std::string frames_csv(const TrackReport& report) {
   std::string text =
       "tracker,frame,time_s,is_scored,is_reported,x_error_px,y_error_px,center_error_px,normalized_error,overlap,"
-      "is_lost\n";
+      "is_lost,distance_m,true_x_px,true_y_px,true_width_px,true_height_px,reported_x_px,reported_y_px,"
+      "reported_width_px,reported_height_px\n";
   for (const TrackScore& score : report.scores)
     for (const FrameScore& frame : score.frames)
-      text += row({line_text(score.name), std::to_string(frame.frame), exact_text(frame.time_s), flag(frame.is_scored),
-                   flag(frame.is_reported), exact_text(frame.dx_px), exact_text(frame.dy_px),
-                   exact_text(frame.center_error_px), exact_text(frame.normalized_error),
-                   frame.is_scored ? exact_text(frame.overlap) : "", flag(frame.is_lost)});
+      text +=
+          cells({line_text(score.name), std::to_string(frame.frame), exact_text(frame.time_s), flag(frame.is_scored),
+                 flag(frame.is_reported), exact_text(frame.dx_px), exact_text(frame.dy_px),
+                 exact_text(frame.center_error_px), exact_text(frame.normalized_error),
+                 frame.is_scored ? exact_text(frame.overlap) : "", flag(frame.is_lost), exact_text(frame.distance_m)}) +
+          box_cells(frame.truth) + box_cells(frame.reported) + "\n";
   return text;
 }
 

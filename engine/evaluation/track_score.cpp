@@ -46,11 +46,12 @@ void compare(FrameScore& score, const Box& truth, const Box& reported) {
 
 FrameScore frame_score(int frame, double time_s, const TargetFrame& truth, const Results& results,
                        const TrackPolicy& policy) {
-  FrameScore score{.frame = frame, .time_s = time_s};
+  FrameScore score{.frame = frame, .time_s = time_s, .truth = true_box(truth, policy), .distance_m = truth.distance_m};
   const ReportedBox* reported = results.best_at(frame);
   const std::optional<Box>& box = true_box(truth, policy);
   score.is_scored = is_counted(frame, truth, policy) && !results.given.contains(frame);
   score.is_reported = reported != nullptr;
+  if (reported) score.reported = reported->box;
   if (box && reported) compare(score, *box, reported->box);
   score.is_lost = score.is_scored && !exceeds(score.overlap, 0);
   return score;

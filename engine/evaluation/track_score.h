@@ -34,6 +34,9 @@ struct FrameScore {
   std::optional<double> center_error_px;   // CLE: length of (dx, dy)
   std::optional<double> normalized_error;  // length of (dx / true width, dy / true height)
   double overlap = 0;                      // intersection over union; 0 where nothing is reported
+  std::optional<Box> truth;                // the box that it is measured against
+  std::optional<Box> reported;             // the tracker's
+  double distance_m = 0;                   // of the intruder
   bool is_lost = false;                    // scored, and nothing reported or no overlap
 };
 

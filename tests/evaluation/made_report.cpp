@@ -21,6 +21,7 @@ Box truth_in(int frame) {
 TrackReport made_track_report() {
   const FilmTruth film = film_of(30, 25, [](int frame) {
     TargetFrame target = visible_at(truth_in(frame));
+    target.distance_m = 800 - 10 * frame;
     if (frame >= 20 && frame < 25) target.visible.reset();
     return target;
   });

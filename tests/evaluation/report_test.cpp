@@ -148,6 +148,15 @@ TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in C
     if (row.at("tracker") != "off" || row.at("is_scored") != "1") continue;
     ++scored;
     CHECK(number(row.at("center_error_px")) == doctest::Approx(5).epsilon(1e-12));
+    const auto middle = [&](const std::string& whose, const char* place, const char* extent) {
+      return number(row.at(whose + place)) + number(row.at(whose + extent)) / 2;
+    };
+    CHECK(middle("reported", "_x_px", "_width_px") - middle("true", "_x_px", "_width_px") == doctest::Approx(3));
+    CHECK(middle("reported", "_y_px", "_height_px") - middle("true", "_y_px", "_height_px") == doctest::Approx(4));
+    // By hand: the left edge lies at 100.5 px + 2 px a frame, so its first column is the next half pixel.
+    CHECK(number(row.at("true_x_px")) == doctest::Approx(101 + 2 * number(row.at("frame"))));
+    CHECK(number(row.at("true_width_px")) == 40);
+    CHECK(number(row.at("distance_m")) == 800 - 10 * number(row.at("frame")));
   }
   CHECK(scored == 25);
   const nlohmann::json json = nlohmann::json::parse(written.text("evaluation.json"));
