@@ -19,10 +19,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json json_of(const fs::path& file) {
-  return Json::parse(read_text(file).value());
-}
-
 std::string text_of(const fs::path& file) {
   return read_text(file).value();
 }

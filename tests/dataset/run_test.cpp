@@ -23,10 +23,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json json_of(const fs::path& file) {
-  return Json::parse(read_text(file).value());
-}
-
 DatasetRequest into(const fs::path& folder) {
   return {.folder = folder, .source = made_by(), .jobs = 1};
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/tiny_project.h"
@@ -29,6 +30,8 @@ class TinyPlan {
 
 // Runs it; throws what went wrong as std::runtime_error.
 [[nodiscard]] DatasetReport made(const Plan& plan, const DatasetRequest& request);
+
+[[nodiscard]] nlohmann::json json_of(const std::filesystem::path& file);
 
 // Every file under a folder and what it holds.
 [[nodiscard]] std::map<std::string, std::string> contents_of(const std::filesystem::path& folder);
