@@ -27,7 +27,11 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
   const fs::path labels = index.parent_path() / name / (name + ".xml");
   if (std::error_code code; !fs::exists(labels, code))
     return fail(labels.string(), "no such file; the dataset needs xml among its labels", ErrorKind::cannot_read);
-  films.push_back({.name = name, .labels = labels});
+  films.push_back(
+      {.name = name,
+       .labels = labels,
+       .split = video.value("split", nlohmann::json()).is_string() ? video["split"] : nlohmann::json(""),
+       .frames = video.value("frames", nlohmann::json()).is_number_integer() ? video["frames"].get<int>() : 0});
   return {};
 }
 
@@ -124,6 +128,27 @@ Result<DetectInputs> by_folders(std::vector<FilmFiles> films, const Paths& folde
   return inputs;
 }
 
+// Each detector's file tells of all films: its image_id are those of the labels of all videos of the split together.
+Result<DetectInputs> by_shared_files(std::vector<FilmFiles> films, const Paths& files) {
+  DetectInputs inputs{.films = std::move(films)};
+  int images = 0;
+  for (FilmFiles& film : inputs.films) {
+    if (film.split != inputs.films.front().split)
+      return fail("--results",
+                  "one file for all films is in COCO's layout with the image_id of one split; choose it with --split",
+                  ErrorKind::usage);
+    if (std::error_code code; !fs::exists(fs::path(film.labels).replace_extension(".coco.json"), code))
+      return fail(film.labels.string(),
+                  "has no coco labels beside it, so no image_id tells of it; name a file for each film");
+    film.results = files;
+    film.first_image_id = images + 1;
+    images += film.frames;
+  }
+  for (FilmFiles& film : inputs.films) film.last_image_id = images;
+  for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+  return inputs;
+}
+
 Result<DetectInputs> by_files(std::vector<FilmFiles> films, const Paths& files) {
   DetectInputs inputs{.films = std::move(films)};
   if (inputs.films.size() == 1) {
@@ -131,6 +156,9 @@ Result<DetectInputs> by_files(std::vector<FilmFiles> films, const Paths& files) 
     inputs.films.front().results = files;
     return inputs;
   }
+  const bool is_json = std::ranges::all_of(files, [](const fs::path& file) { return file.extension() == ".json"; });
+  if (files.size() != inputs.films.size() && inputs.films.front().frames > 0 && is_json)
+    return by_shared_files(std::move(inputs.films), files);
   if (files.size() != inputs.films.size())
     return fail("--results",
                 "there are " + std::to_string(inputs.films.size()) + " films and " + std::to_string(files.size()) +

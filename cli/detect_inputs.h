@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct FilmFiles {
   std::string name;  // no two are alike
   std::filesystem::path labels;
   std::vector<std::filesystem::path> results;  // one for each detector
+  std::string split;                           // of a dataset's film
+  int frames = 0;                              // of a dataset's film; 0: not known
+  int first_image_id = 1;                      // see ResultsOptions, as the next
+  std::optional<int> last_image_id;
 };
 
 struct DetectInputs {
@@ -25,7 +30,8 @@ struct DetectInputs {
 // Which results go with which labels.
 //   inputs   label files, or one folder of a dataset
 //   results  a folder for each detector, in which NAME.csv or the like tells of the film NAME; or, for label files, one
-//            file for each in the same order; or, for one label file, a file for each detector
+//            file for each in the same order; or, for one label file, a file for each detector; or, for one split of a
+//            dataset, a file in COCO's layout for each detector, with the image_id of the split's coco labels
 //   split    only these films of a dataset; empty: all
 // Errors name what is missing or left over.
 [[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,

@@ -25,7 +25,8 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  sigs evaluate detect out/crossing.xml --results found.csv --out report\n"
     "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --least-score 0.3\n"
-    "  sigs evaluate detect datasets/mine --split test --results runs/one runs/two --out report";
+    "  sigs evaluate detect datasets/mine --split test --results runs/one runs/two --out report\n"
+    "  sigs evaluate detect datasets/mine --split test --results coco_results.json";
 
 struct DetectOptions {
   std::vector<fs::path> inputs;
@@ -45,8 +46,11 @@ Result<std::vector<std::vector<DetectedFilm>>> films_by_detector(const DetectInp
     const Result<FilmTruth> truth = read_truth(files.labels);
     if (!truth) return fail(truth.error());
     for (std::size_t i = 0; i < films.size(); ++i) {
-      Result<Results> results =
-          read_results(files.results[i], truth->footage, ResultsOptions{.format = format, .may_hold_many = true});
+      Result<Results> results = read_results(files.results[i], truth->footage,
+                                             ResultsOptions{.format = format,
+                                                            .may_hold_many = true,
+                                                            .first_image_id = files.first_image_id,
+                                                            .last_image_id = files.last_image_id});
       if (!results) return fail(results.error());
       warn_of_other_film(*results, files.results[i], files.labels.stem().string());
       films[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
@@ -140,7 +144,8 @@ std::function<Result<void>()> add_evaluate_detect(CLI::App& evaluate) {
       ->check(not_empty());
   command
       ->add_option("--results", options->results,
-                   "what a detector reports: a file for each film in order, or a folder for each detector")
+                   "what a detector reports: a file for each film in order, a folder for each detector, or one file in "
+                   "COCO's layout for all films of a split")
       ->option_text("FILES|DIRS ...")
       ->required()
       ->check(not_empty());

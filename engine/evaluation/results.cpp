@@ -14,7 +14,7 @@ namespace sigs {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kFormatNames = {"auto", "otb", "vot", "mot", "csv", "aot"};
+constexpr std::array<std::string_view, 7> kFormatNames = {"auto", "otb", "vot", "mot", "csv", "aot", "coco"};
 
 std::string lower_case(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -39,7 +39,7 @@ Result<void> check_text(const ResultsFile& file) {
     return file.wrong(line_at(text, zero), "is not text");
   if (!first_line(text))
     return fail(file.path.string(),
-                "is empty; a detector that saw nothing writes the header alone (csv) or an empty list [] (aot)");
+                "is empty; a detector that saw nothing writes the header alone (csv) or an empty list [] (aot, coco)");
   return {};
 }
 
@@ -47,7 +47,7 @@ Result<ResultsFormat> told_format(const ResultsFile& file) {
   const TextLine first = *first_line(file.text);  // check_text has seen that there is one
   if (lower_case(file.path.extension().string()) == ".json" || first.text.starts_with('[') ||
       first.text.starts_with('{'))
-    return ResultsFormat::aot;
+    return json_layout(file);
   std::vector<std::string_view> fields;
   split_values(first.text, fields);
   if (std::ranges::find(fields, "frame") != fields.end()) return ResultsFormat::csv;
@@ -64,7 +64,7 @@ Result<ResultsFormat> told_format(const ResultsFile& file) {
   if (fields.size() >= 6) return ResultsFormat::mot;
   return file.wrong(first.number, "is of no known layout: " + std::to_string(fields.size()) +
                                       " numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot; "
-                                      "csv begins with the line frame,x,y,width,height");
+                                      "csv begins with the line frame,x,y,width,height, aot and coco with [");
 }
 
 Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {
@@ -77,6 +77,8 @@ Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {
       return read_mot(file);
     case ResultsFormat::csv:
       return read_csv(file);
+    case ResultsFormat::coco:
+      return read_coco(file);
     default:
       return read_aot(file);
   }
@@ -106,6 +108,8 @@ Result<Results> read_results(const std::filesystem::path& path, const FootageTru
     if (!told) return fail(told.error());
     format = *told;
   }
+  if (options.last_image_id && format != ResultsFormat::coco)
+    return fail(path.string(), "tells of several films and is not in the layout coco; name a file for each film");
   Result<Results> results = read_as(format, file);
   if (results) results->name = results_name(path);
   return results;

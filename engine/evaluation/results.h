@@ -40,7 +40,7 @@ struct Results {
 
 // Layouts of result files (docs/evaluation.md): which frame a line belongs to, where pixels and frames are counted
 // from.
-enum class ResultsFormat { automatic, otb, vot, mot, csv, aot };
+enum class ResultsFormat { automatic, otb, vot, mot, csv, aot, coco };
 [[nodiscard]] std::span<const std::string_view> results_format_names();  // in the order of the enum
 
 struct ResultsOptions {
@@ -49,6 +49,11 @@ struct ResultsOptions {
   // Layouts with a line a frame (otb, vot) tell no frame numbers. They must have a line for each of the film's frames,
   // or for each from this one on (the footage's number), the one the tracker was started in.
   std::optional<int> start_frame;
+  // Layout coco: the image_id of the film's first frame.
+  int first_image_id = 1;
+  // Layout coco, one file for several films: the last image_id of all of them. Boxes of the other films are passed
+  // over. Any other layout is an error then.
+  std::optional<int> last_image_id;
 };
 
 // Errors bad_data name file and line: a number of frames that is not the film's, frames past its end, NaN or infinite

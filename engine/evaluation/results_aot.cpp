@@ -1,63 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Results of the Airborne Object Tracking challenge: [{"img_name": ..., "detections": [{"x": ...}, ...]}, ...].
 #include <algorithm>
-#include <cctype>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "evaluation/counting_iterator.h"
 #include "evaluation/numbers.h"
 #include "evaluation/results_layouts.h"
 
 namespace sigs {
 
 namespace {
-
-// Reads a text and counts its lines into a number that outlives it: the parser tells no lines.
-class CountingIterator {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  CountingIterator(const char* at, int* line) : at_(at), line_(line) {}
-  reference operator*() const { return *at_; }
-  CountingIterator& operator++() {
-    if (*at_++ == '\n') ++*line_;
-    return *this;
-  }
-  CountingIterator operator++(int) {
-    CountingIterator before = *this;
-    ++*this;
-    return before;
-  }
-  bool operator==(const CountingIterator& other) const { return at_ == other.at_; }
-
- private:
-  const char* at_;
-  int* line_;
-};
-
-// Frame number at the end of a picture's name without extension: "flight/frame_000123.png" is 123.
-std::optional<int> frame_of(std::string_view picture) {
-  std::string_view name = picture.substr(picture.find_last_of("/\\") + 1);  // npos + 1 is 0
-  name = name.substr(0, name.find_last_of('.'));
-  const auto is_digit = [](char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; };
-  const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_digit).base();
-  const std::string_view digits = name.substr(static_cast<std::size_t>(begin - name.begin()));
-  return digits.empty() ? std::nullopt : integer_of(digits);
-}
-
-// The folder that a picture lies in: of "flights/one/frame_000123.png" it is "one"; empty: it says none.
-std::string folder_of(const std::string& picture) {
-  std::string folder = picture.substr(0, picture.find_last_of("/\\") + 1);  // npos + 1 is 0
-  if (!folder.empty()) folder.pop_back();
-  return folder.substr(folder.find_last_of("/\\") + 1);
-}
 
 enum Field { x_field, y_field, w_field, h_field, score_field, track_field, kFields };
 constexpr const char* kFieldNames[kFields] = {"x", "y", "w", "h", "s", "track_id"};
@@ -161,7 +116,10 @@ bool AotHandler::other_value(const char* what) {
   if (place_ == Place::picture && key_ == "detections")
     return fails(line_, std::string("detections is ") + what + ", not a list");
   if (place_ == Place::picture || place_ == Place::detection) return true;
-  return fails(line_, std::string("is ") + what + "; results are [{\"img_name\": ..., \"detections\": [{...}]}, ...]");
+  return fails(line_,
+               std::string("is ") + what +
+                   "; results are [{\"img_name\": ..., \"detections\": [{...}]}, ...] (aot) or [{\"image_id\": ..., "
+                   "\"bbox\": [x, y, w, h], \"score\": ...}, ...] (coco)");
 }
 
 bool AotHandler::string(string_t& text) {
@@ -238,7 +196,7 @@ bool AotHandler::parse_error(std::size_t position, const std::string& token, con
 
 bool AotHandler::take_picture() {
   if (!picture_.name) return fails(picture_.line, "has no img_name");
-  const std::optional<int> frame = frame_of(*picture_.name);
+  const std::optional<int> frame = frame_of_picture(*picture_.name);
   if (!frame)
     return fails(picture_.line, "img_name " + in_quotes(*picture_.name) +
                                     " does not end with a frame number, as frame_000123.png does");
@@ -246,7 +204,7 @@ bool AotHandler::take_picture() {
   if (!is_first)
     return fails(picture_.line,
                  "frame " + std::to_string(*frame) + " a second time, first in line " + std::to_string(there->second));
-  if (film_.empty()) film_ = folder_of(*picture_.name);
+  if (film_.empty()) film_ = folder_of_picture(*picture_.name);
   for (std::size_t i = 0; i < picture_.detections.size(); ++i) {
     if (take_detection(*frame, picture_.detections[i])) continue;
     if (is_one_line_) error_.where = file_.wrong(picture_.line, "").value().where + entry_text(static_cast<int>(i));

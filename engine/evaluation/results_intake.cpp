@@ -14,7 +14,7 @@ constexpr double kFarthest_px = 1e9;  // beyond it areas lose their last pixels
 Result<void> wrong_number(const ResultsFile& file, int line, const char* name, double number) {
   if (std::isnan(number))
     return file.wrong(line, std::string(name) +
-                                " is NaN: leave out a frame without a box (mot, csv, aot), or write nan "
+                                " is NaN: leave out a frame without a box (mot, csv, aot, coco), or write nan "
                                 "alone on its line (vot)");
   if (std::isinf(number)) return file.wrong(line, std::string(name) + " is infinite");
   return file.wrong(line, std::string(name) + " is beyond a billion pixels");
@@ -55,7 +55,7 @@ Result<void> ResultsIntake::check_box(const ReportedBox& reported) const {
   return file_.wrong(reported.line, "the box is " + number_text(box.width, 6) + " wide and " +
                                         number_text(box.height, 6) +
                                         " high: both must be more than 0; where nothing is reported, leave out the "
-                                        "frame (mot, csv, aot) or write nan alone on its line (vot)");
+                                        "frame (mot, csv, aot, coco) or write nan alone on its line (vot)");
 }
 
 Result<void> ResultsIntake::check_place(int frame, const ReportedBox& reported) const {

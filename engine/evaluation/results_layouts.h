@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,10 +56,21 @@ class ResultsIntake {
 // "frames 0 to 99"
 [[nodiscard]] std::string frames_text(const FootageTruth& film);
 
+// Frame number at the end of a picture's name without extension: "flight/frame_000123.png" is 123.
+[[nodiscard]] std::optional<int> frame_of_picture(std::string_view picture);
+
+// The folder that a picture lies in: of "flights/one/frame_000123.png" it is "one"; empty: it says none.
+[[nodiscard]] std::string folder_of_picture(const std::string& picture);
+
+// Which of the layouts in JSON a text has: told by the first entry's keys. An empty list is both; aot is said.
+// Error bad_data: its entries have the keys of neither.
+[[nodiscard]] Result<ResultsFormat> json_layout(const ResultsFile& file);
+
 [[nodiscard]] Result<Results> read_otb(const ResultsFile& file);
 [[nodiscard]] Result<Results> read_vot(const ResultsFile& file);
 [[nodiscard]] Result<Results> read_mot(const ResultsFile& file);
 [[nodiscard]] Result<Results> read_csv(const ResultsFile& file);
 [[nodiscard]] Result<Results> read_aot(const ResultsFile& file);
+[[nodiscard]] Result<Results> read_coco(const ResultsFile& file);
 
 }  // namespace sigs

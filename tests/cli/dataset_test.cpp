@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -234,4 +235,28 @@ TEST_CASE("a command line that makes no sense ends with 64") {
   CHECK_FALSE(fs::exists(recipe.out("out")));
   CHECK(run_sigs("dataset").status == 64);
   CHECK(run_sigs("dataset " + recipe.out("none.json")).status == 66);
+}
+
+TEST_CASE("one file of COCO results, numbered as a split's coco labels, is scored against all its films") {
+  const TinyRecipe recipe;
+  REQUIRE(recipe.run("out").status == 0);
+  // The labels themselves as results: every box is right, so every frame with a label is matched and nothing is false.
+  const auto labels = nlohmann::json::parse(read_text(recipe.file("out/labels/coco/test.json")).value());
+  nlohmann::json results = nlohmann::json::array();
+  for (const nlohmann::json& box : labels["annotations"])
+    results.push_back({{"image_id", box["image_id"]}, {"category_id", 1}, {"bbox", box["bbox"]}, {"score", 0.5}});
+  put_text(recipe.file("found.json"), results.dump());
+  const std::string report = recipe.out("report");
+  const std::string detect = "evaluate detect " + recipe.out("out") + " --results " + recipe.out("found.json");
+  const Run run = run_sigs(detect + " --split test --longest-range 1e6 --out " + report);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  const auto scores = nlohmann::json::parse(read_text(fs::path(report) / "evaluation.json").value())["detectors"][0];
+  CHECK(scores["name"] == "found");
+  CHECK(scores["frames"] == labels["images"].size());
+  CHECK(scores["frame_detection_rate"] == 1.0);
+  CHECK(scores["false_alarm_boxes"] == 0);
+
+  const Run whole = run_sigs(detect);
+  CHECK(whole.status == 64);
+  CHECK_MESSAGE(has(whole.err, "--split"), whole.err);
 }

@@ -139,7 +139,7 @@ TEST_CASE("lines of another layout than the first are refused") {
 }
 
 TEST_CASE("what is no result file is refused") {
-  check_refused({"a.txt", "", "is empty", "header alone (csv) or an empty list [] (aot)"});
+  check_refused({"a.txt", "", "is empty", "an empty list [] (aot, coco)"});
   check_refused({"a.txt", "\xEF\xBB\xBF\r\n \n# nothing\n", "is empty", ""});
   check_refused({"a.txt", "hello there\n", "line 1: ", "is of no known layout: 'hello' is neither a number nor"});
   check_refused({"a.txt", "1,2,3\n", "line 1: ", "is of no known layout: 3 numbers"});
@@ -169,6 +169,36 @@ TEST_CASE("what is no result file is refused") {
 
 TEST_CASE("a file that is not there cannot be read") {
   CHECK(read_results("/nowhere/a.txt", three_frames()).error().kind == ErrorKind::cannot_read);
+}
+
+TEST_CASE("what coco results may not be is refused with the line, and the entry where all are in one line") {
+  const std::string good = R"({"image_id": 1, "bbox": [1, 1, 2, 2]})";
+  const auto second = [&](const std::string& entry) { return "[" + good + ",\n" + entry + "]\n"; };
+  check_refused({"a.json", second(R"({"bbox": [1, 1, 2, 2]})"), "line 2: ", "has no image_id"});
+  check_refused({"a.json", second(R"({"image_id": 2})"), "line 2: ", "has no bbox"});
+  check_refused({"a.json", second(R"({"image_id": 2, "bbox": [1, 1, 2]})"), "line 2: ", "4 numbers"});
+  check_refused({"a.json", second(R"({"image_id": 2, "bbox": [1, 1, 2, 2, 5, 6, 7]})"), "line 2: ", "4 numbers"});
+  check_refused({"a.json", second(R"({"image_id": 2, "bbox": 7})"), "line 2: ", "bbox is a number"});
+  check_refused({"a.json", second(R"({"image_id": 2, "bbox": [1, 1, null, 2]})"), "line 2: ", "bbox holds null"});
+  check_refused({"a.json", second(R"({"image_id": 2, "bbox": [1, 1, 0, 2]})"), "line 2: ", "0 wide"});
+  check_refused({"a.json", second(R"({"image_id": 2, "bbox": [1, 1, 2, 2], "score": "high"})"), "line 2: ", "score"});
+  check_refused({"a.json", second(R"({"image_id": 0, "bbox": [1, 1, 2, 2]})"), "line 2: ", "from 1"});
+  check_refused({"a.json", second(R"({"image_id": 1.5, "bbox": [1, 1, 2, 2]})"), "line 2: ", "from 1"});
+  check_refused({"a.json", second(R"({"image_id": 4, "bbox": [1, 1, 2, 2]})"), "line 2: ", "not of this film"});
+  check_refused(
+      {"a.json", second(R"({"image_id": 2147483647, "bbox": [1, 1, 2, 2]})"), "line 2: ", "not of this film"});
+  check_refused({"a.json", second(R"({"image_id": "sky", "bbox": [1, 1, 2, 2]})"), "line 2: ", "frame_000123"});
+  check_refused({"a.json", second("7"), "line 2: ", "is a number"});
+  check_refused({"a.json", second("[]"), "line 2: ", "is a list"});
+  check_refused({"a.json", "[" + good + "," + good, "line", "is not JSON from here on", true});
+  check_refused({"a.json", "[" + good + R"(, {"image_id": 2}])", "line 1, [1]: ", "has no bbox"});
+  check_refused({"a.json", "[" + good + "," + good + "]", "line 1, [1]: ", "a second box for frame"});
+}
+
+TEST_CASE("a JSON file of neither layout names those that are known") {
+  check_refused({"a.json", R"([{"file": "100.png", "boxes": [[1, 1, 2, 2]]}])", "line 1: ", "(aot)"});
+  check_refused({"a.json", R"([{"file": "100.png", "boxes": [[1, 1, 2, 2]]}])", "line 1: ", "(coco)"});
+  check_refused({"a.json", R"({"images": [], "annotations": []})", "line 1: ", "(coco)"});
 }
 
 }  // namespace sigs::test

@@ -69,6 +69,15 @@ TEST_CASE("each layout's way to say columns 10 to 19 and rows 20 to 24 gives the
        "{\"img_name\": \"102.jpg\", \"more\": [1, {\"x\": 3}], \"detections\": [{\"k\": {\"x\": [7]}, \"n\": "
        "\"airborne\","
        " \"track_id\": 3, \"x\": 15, \"y\": 22.5, \"w\": 10.0, \"h\": 5e0, \"s\": 0.25}]}]"},
+      {"coco.json",
+       R"([{"image_id": 1, "category_id": 1, "bbox": [10, 20, 10, 5], "score": 0.5},
+           {"segmentation": {"size": [960, 1280], "counts": "x", "more": [{"bbox": 3}]}, "bbox": [10.0, 2e1, 10, 5],
+            "score": 1, "image_id": 2, "area": null, "id": "a"},
+           {"image_id": 3, "bbox": [10, 20, 10, 5]}])"},
+      {"ultralytics.json",
+       R"([{"image_id": "frame_000100", "category_id": 1, "bbox": [10, 20, 10, 5], "score": 0.5},
+           {"image_id": "film/frame_000101.png", "bbox": [10, 20, 10, 5], "score": 0.5},
+           {"image_id": "102", "bbox": [10, 20, 10, 5], "score": 0.5}])"},
   };
   for (const auto& file : files) {
     CAPTURE(std::string(file.name));
@@ -150,6 +159,25 @@ TEST_CASE("a file with a line a frame may begin where the tracker was started") 
         "ends here with 7 lines, one a frame; it must have 10 (frames 10 to 19), or 6 (from frame 14 on)");
 }
 
+TEST_CASE("one coco file tells of several films by the number of their first picture") {
+  const std::string text = R"([{"image_id": 3, "bbox": [1, 1, 1, 1]}, {"image_id": 4, "bbox": [10, 20, 10, 5]},
+      {"image_id": 4, "bbox": [40, 20, 10, 5], "score": 0.5}, {"image_id": 6, "bbox": [10, 20, 10, 5]},
+      {"image_id": 7, "bbox": [1, 1, 1, 1]}])";
+  const ResultsOptions second{.may_hold_many = true, .first_image_id = 4, .last_image_id = 9};
+  const Results results = good(text, "a.json", second);
+  CHECK(results.frames.size() == 2);
+  CHECK(results.frames.at(100).size() == 2);
+  CHECK(box_at(results, 100) == kBox);
+  CHECK(box_at(results, 102) == kBox);
+
+  const Result<Results> beyond = read(text, "a.json", {.may_hold_many = true, .first_image_id = 4, .last_image_id = 6});
+  REQUIRE_FALSE(beyond);
+  CHECK(beyond.error().text().find("image_id 7 is past the last one, 6") != std::string::npos);
+  const Result<Results> other = read("[{\"img_name\": \"100\"}]", "a.json", second);
+  REQUIRE_FALSE(other);
+  CHECK(other.error().text().find("coco") != std::string::npos);
+}
+
 TEST_CASE("what a detector says when it sees nothing is no error") {
   CHECK(good("frame,x,y,width,height\n", "none.csv").frames.empty());
   CHECK(good("[]", "none.json").frames.empty());
@@ -164,8 +192,9 @@ TEST_CASE("a stated format is believed") {
   const ResultsOptions csv{.format = ResultsFormat::csv};
   CHECK(box_at(good("frame,x,y,width,height\n100,10,20,10,5\n", "a.txt", csv), 100) == kBox);
   CHECK_FALSE(read("10,20,10,5\n", "a.csv", csv));
-  CHECK(results_format_names().size() == 6);
+  CHECK(results_format_names().size() == 7);
   CHECK(results_format_names()[static_cast<std::size_t>(ResultsFormat::aot)] == "aot");
+  CHECK(results_format_names()[static_cast<std::size_t>(ResultsFormat::coco)] == "coco");
   CHECK(results_format_names()[static_cast<std::size_t>(ResultsFormat::automatic)] == "auto");
 }
 
