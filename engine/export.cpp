@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "annotation/labels.h"
 #include "base/stopwatch.h"
 #include "export_files.h"
 #include "frame.h"
@@ -50,6 +51,19 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, Expo
   return {};
 }
 
+// Labels that name a picture for each frame, where a video is written and no pictures.
+void warn_of_missing_pictures(const ExportSettings& output, const ExportControl& control, ExportReport& report) {
+  if (output.codec == CodecChoice::png) return;
+  std::string names;
+  for (const std::string& label : output.labels)
+    if (label_format(label)->names_pictures) names.append(names.empty() ? "" : ", ").append(label);
+  if (!names.empty())
+    say(control, report,
+        {"", "labels " + names +
+                 " name pictures (frame_000000.png ...) that are not written beside a video; set export.video.codec to "
+                 "png, or make them with FFmpeg as docs/label-formats.md says"});
+}
+
 }  // namespace
 
 std::vector<Warning> warnings_of(const VideoInfo& video) {
@@ -89,6 +103,7 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   report.times.encode_s = files->spent_s();
   report.written = std::move(*written);
   report.times.wall_s = watch.elapsed_s();
+  warn_of_missing_pictures(project.output, control, report);
   if (report.damaged_frames > 0)
     say(control, report,
         {video.path.string(), std::to_string(report.damaged_frames) + " of " + std::to_string(report.frames) +

@@ -21,17 +21,17 @@ namespace sigs {
 namespace {
 
 constexpr LabelFormat kFormats[] = {
-    {"xml", ".xml", false, "SIGS annotations: everything, docs/annotation-format.md", open_sigs_xml},
+    {"xml", ".xml", false, "SIGS annotations: everything, docs/annotation-format.md", open_sigs_xml, {}, false},
     {"coco", ".coco.json", false,
      "COCO instances JSON: run-length masks, video and track ids, own body as crowd region", open_coco},
     {"yolo", ".yolo", true, "YOLO folder: one text file a picture, data.yaml", open_yolo, kYoloFiles},
     {"voc", ".voc", true, "Pascal VOC folder: one XML file a picture", open_voc, kVocFiles},
     {"mot", ".mot", true, "MOTChallenge folder: gt.txt, seqinfo.ini, seqmaps", open_mot, kMotFiles},
     {"kitti", ".kitti", true, "KITTI tracking folder: label_02, calib", open_kitti, kKittiFiles},
-    {"cvat", ".cvat.xml", false, "CVAT for video XML 1.1: a track for each intruder", open_cvat},
+    {"cvat", ".cvat.xml", false, "CVAT for video XML 1.1: a track for each intruder", open_cvat, {}, false},
     {"vot", ".vot", true, "VOT folder: sequence, groundtruth.txt, list.txt", open_vot, kVotFiles},
     {"aot", ".aot.json", false, "Airborne Object Tracking ground truth JSON: range, side of the horizon", open_aot},
-    {"csv", ".csv", false, "one row for each intruder and frame", open_csv},
+    {"csv", ".csv", false, "one row for each intruder and frame", open_csv, {}, false},
 };
 
 }  // namespace

@@ -76,6 +76,8 @@ struct LabelFormat {
   // What its folder may hold: relative paths, * any part of a name, # a number. A later export replaces a folder of
   // these, and none that holds anything else.
   std::span<const std::string_view> files{};
+
+  bool names_pictures = true;  // whether its readers look for numbered pictures, one a frame
 };
 
 // All of them, in the order in which help lists them.

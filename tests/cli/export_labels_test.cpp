@@ -48,6 +48,21 @@ TEST_CASE("an export writes every format that is asked for and names what it wro
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1")));
 }
 
+TEST_CASE("labels that name pictures which a video's export does not write are warned of") {
+  const TinyProject tiny;
+  const auto warning = [&](const std::string& options) {
+    const Run run =
+        run_sigs("export " + tiny.project() + " --out '" + tiny.out() + "' --force --masks none " + options);
+    CHECK_MESSAGE(run.status == 0, run.err);
+    return run.err;
+  };
+  const std::string video = warning("--codec h264 --labels coco,xml,voc");
+  CHECK_MESSAGE(video.find("coco, voc") != std::string::npos, video);
+  CHECK_MESSAGE(video.find("png") != std::string::npos, video);
+  CHECK(warning("--codec h264 --labels xml,csv,cvat").empty());
+  CHECK(warning("--codec png --labels coco,voc").empty());
+}
+
 TEST_CASE("numbered pictures lie in the folders of labels as second names of the same files") {
   const TinyProject tiny;
   sigs_export(tiny, "--codec png --masks none --frames 4-6 --labels mot,kitti,vot,voc,yolo");
