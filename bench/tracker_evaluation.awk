@@ -5,7 +5,10 @@ NR == 1 {
   print "|---|---|---|---|---|---|---|---|---|---|---|"
   next
 }
-function pixels(name) { return $column[name] == "" ? "" : sprintf("%.1f", $column[name]) }
+# No mean where fewer than half of the frames have a report.
+function pixels(name) {
+  return $column[name] == "" || 2 * $column["reported_frames"] < $column["scored_frames"] ? "-" : sprintf("%.1f", $column[name])
+}
 function share(name) { return sprintf("%.3f", $column[name]) }
 {
   printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %d | %d |\n", $1, pixels("mean_center_error_px"),

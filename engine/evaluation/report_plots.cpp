@@ -55,11 +55,13 @@ PlotSpan range_around(const std::vector<PlotSeries>& series) {
   return {range.first < 0 ? range.first - room : 0.0, range.last + room};
 }
 
-// A mean over a part of the frames alone says so.
+// A mean over a part of the frames alone says so; of fewer than half there is none.
 std::string title_of(const TrackScore& score, double mean_px) {
   const std::string mean = score.name + ", mean " + fixed_text(mean_px, 2) + " px";
   if (score.reported == score.scored) return mean;
-  return mean + " (in " + std::to_string(score.reported) + " of " + std::to_string(score.scored) + " frames)";
+  const std::string frames =
+      " (in " + std::to_string(score.reported) + " of " + std::to_string(score.scored) + " frames)";
+  return 2 * score.reported < score.scored ? score.name + frames : mean + frames;
 }
 
 struct ErrorPlot {

@@ -66,13 +66,20 @@ std::string noted(const std::vector<TableColumn>& columns) {
   return text;
 }
 
-// An error is the mean of those frames that have a report; of few frames it says little.
+// Fewer than half of the frames scored have a report.
+bool is_of_few(const TrackScore& score) {
+  return score.reported > 0 && 2 * score.reported < score.scored;
+}
+
+// An error is the mean of those frames that have a report. Of few frames none is shown: a tracker that follows for one
+// frame and gives up would look best.
 TableColumn error_column(const std::vector<TrackScore>& scores, std::string title, std::string unit,
                          double TrackScore::*error) {
-  TableColumn made = column<TrackScore>(scores, std::move(title), std::move(unit), 2, Best::none,
-                                        [error](const TrackScore& score) { return score.*error; });
-  for (const TrackScore& score : scores)
-    made.is_partial.push_back(score.reported > 0 && 2 * score.reported < score.scored);
+  TableColumn made =
+      column<TrackScore>(scores, std::move(title), std::move(unit), 2, Best::none, [error](const TrackScore& score) {
+        return is_of_few(score) ? std::numeric_limits<double>::quiet_NaN() : score.*error;
+      });
+  for (const TrackScore& score : scores) made.is_partial.push_back(is_of_few(score));
   return made;
 }
 
@@ -176,7 +183,7 @@ std::vector<std::string> notes_on(const std::vector<TableColumn>& columns) {
   if (std::any_of(columns.begin(), columns.end(), [](const TableColumn& c) { return any_of(c.is_best); }))
     notes.emplace_back("* best of its column");
   if (std::any_of(columns.begin(), columns.end(), [](const TableColumn& c) { return any_of(c.is_partial); }))
-    notes.emplace_back("? of fewer than half of the frames scored: nothing was reported in the others, see lost");
+    notes.emplace_back("? no figure: fewer than half of the frames scored have a report, see lost");
   return notes;
 }
 

@@ -14,7 +14,7 @@ struct TableColumn {
   std::string unit;  // "" where it has none
   std::vector<std::string> cells;
   std::vector<bool> is_best;
-  std::vector<bool> is_partial = {};  // a mean over few of the frames; empty: none is
+  std::vector<bool> is_partial = {};  // no mean, as few frames have a report; empty: none is so
 };
 
 // The first column holds the names.
