@@ -222,7 +222,7 @@ std::function<Result<void>()> add_dataset_command(CLI::App& program) {
   command->add_option("RECIPE", options->recipe, "the recipe, a JSON file")->required();
   command->add_option("--out", options->folder, "folder to write into; not given: the dataset's name")
       ->option_text("DIR")
-      ->check(not_empty());
+      ->check(output_path());
   command->add_option("--jobs", options->jobs, "videos exported side by side; 0: one for every four processor cores")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();

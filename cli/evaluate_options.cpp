@@ -17,7 +17,7 @@ void add_format_option(CLI::App& command, ResultsFormat& format) {
           [&format, names](const std::string& name) {
             format = static_cast<ResultsFormat>(std::find(names.begin(), names.end(), name) - names.begin());
           },
-          "of the results: auto, otb, vot, mot, csv or aot")
+          "of the results: auto, otb, vot, mot, csv, aot or coco")
       ->option_text("NAME=auto")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
 }
@@ -25,7 +25,7 @@ void add_format_option(CLI::App& command, ResultsFormat& format) {
 void add_report_options(CLI::App& command, std::filesystem::path& folder, bool& force) {
   command.add_option("--out", folder, "folder to be made, with tables, plots and report.html")
       ->option_text("DIR")
-      ->check(not_empty());
+      ->check(output_path());
   command.add_flag("--force", force, "replace an evaluation that is there");
 }
 

@@ -155,7 +155,8 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
   const auto options = std::make_shared<ExportOptions>();
   add_project_options(*command, options->project);
   command->add_option("--out", options->folder, "folder to write into; made where it is not there")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(output_path());
   command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
   for (const SettingText& setting : kSettings)
     command->add_option(setting.option, options->settings[setting.key], setting.help)->option_text(setting.value);

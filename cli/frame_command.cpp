@@ -80,7 +80,8 @@ std::function<Result<void>()> add_frame_command(CLI::App& program) {
       ->required()
       ->option_text("N");
   command->add_option("--out", options->folder, "folder to write into; made where it is not there")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(output_path());
   command->add_flag("--stages", options->stages, "write every intermediate picture too");
   command->add_flag("--force", options->force, "overwrite what is there");
   return [options] { return run(*options); };

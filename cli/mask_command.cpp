@@ -183,7 +183,7 @@ std::function<Result<void>()> add_mask_command(CLI::App& program) {
       ->check(not_empty());
   add_set_option(*command, options->project);
   const auto add_path = [command](const char* name, fs::path& path, const char* value, const char* help) {
-    command->add_option(name, path, help)->option_text(value)->check(not_empty());
+    command->add_option(name, path, help)->option_text(value)->check(output_path());
   };
   add_path("--out", options->paths.mask, "FILE",
            "the mask, a PNG; without it VIDEO.own-body.png in the current folder");

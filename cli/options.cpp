@@ -124,6 +124,16 @@ CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
 }
 
+CLI::Validator output_path() {
+  return {[](const std::string& text) -> std::string {
+            if (text.empty()) return "is empty";
+            return text == "-" ? "would be standard output, which is not written to; name a file or folder "
+                                 "(./- for one of that name)"
+                               : "";
+          },
+          ""};
+}
+
 CLI::Validator from_to(double low, double high) {
   const auto wrong = [low, high](const std::string& text) -> std::string {
     double number = 0;

@@ -46,6 +46,9 @@ void add_setting_option(CLI::App& command, const SettingOption& option, GivenSet
 // For paths: an option or argument that is given says something.
 [[nodiscard]] CLI::Validator not_empty();
 
+// For what is written: the same, and not "-", which stands for standard output elsewhere.
+[[nodiscard]] CLI::Validator output_path();
+
 // A number of this range. CLI::Range lets NaN through.
 [[nodiscard]] CLI::Validator from_to(double low, double high);
 

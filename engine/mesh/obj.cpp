@@ -207,6 +207,9 @@ Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) 
   if (!file) return fail(file.error());
 
   MaterialSet set = read_materials(file->material_names, file->libraries, path);
+  if (file->colored_vertices > 0)
+    set.warnings.push_back({name, "the colours of " + std::to_string(file->colored_vertices) +
+                                      " vertices are not used; materials (MTL, textures) give the colours"});
   leave_out_invisible(*file, set, name);
   if (file->triangles.empty()) return fail(name, "has no faces with an area");
   std::vector<Triangle> triangles = triangles_in_body(*file, *rotation);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <map>
 #include <optional>
@@ -113,21 +114,55 @@ bool is_finite_number(std::string_view token) {
   return code == std::errc{} && end == token.data() + token.size() && std::isfinite(value);
 }
 
-bool are_coordinates(std::string_view line) {
-  for (int i = 0; i < 3; ++i)
-    if (!is_finite_number(next_token(line))) return false;
-  return true;
+// How many numbers the line begins with, as far as `most`.
+int count_numbers(std::string_view line, int most) {
+  int count = 0;
+  while (count < most && is_finite_number(next_token(line))) ++count;
+  return count;
 }
 
-// tinyobj takes what it cannot read, "nan" among it, as 0. So positions are looked at before.
-Result<void> check_positions(const std::string& text, const std::string& name) {
+// tinyobj takes what it cannot read, "nan" among it, as 0. So positions are looked at before. Returns how many vertices
+// carry a colour: v x y z red green blue.
+Result<int> check_positions(const std::string& text, const std::string& name) {
+  int colored = 0;
   std::string_view rest = text;
   for (int line_number = 1; !rest.empty(); ++line_number) {
     std::string_view line = next_line(rest);
-    if (next_token(line) == "v" && !are_coordinates(line))
+    if (next_token(line) != "v") continue;
+    const int numbers = count_numbers(line, 6);
+    if (numbers < 3)
       return fail(name + ": line " + std::to_string(line_number),
                   "expected three finite coordinates, found \"" + std::string(trimmed(line)) + "\"");
+    if (numbers == 6) ++colored;
   }
+  return colored;
+}
+
+// What a file is that begins so and is no OBJ; empty: nothing is known against it.
+std::string_view other_format(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16 text; save it as UTF-8";
+  if (text.starts_with("glTF")) return "binary glTF";
+  if (text.starts_with("ply")) return "PLY";
+  if (text.starts_with("Kaydara FBX")) return "FBX";
+  if (text.starts_with("BLENDER")) return "a Blender file";
+  if (text.starts_with("\x1F\x8B") || text.starts_with("PK")) return "a packed file; unpack it first";
+  if (text.starts_with("<?xml") || text.starts_with("<COLLADA")) return "XML (COLLADA?)";
+  if (text.starts_with("solid") && text.find("facet") != std::string_view::npos) return "STL";
+  // Binary STL: 80 bytes of anything, how many triangles, 50 bytes for each.
+  constexpr std::size_t kHeader = 84;
+  constexpr std::size_t kTriangle = 50;
+  if (text.size() < kHeader) return "";
+  std::uint32_t triangles = 0;
+  for (std::size_t i = 0; i < 4; ++i) triangles |= std::uint32_t{static_cast<unsigned char>(text[80 + i])} << (8 * i);
+  return triangles > 0 && text.size() == kHeader + kTriangle * triangles ? "STL" : "";
+}
+
+Result<void> check_is_obj(std::string_view text, const std::string& name) {
+  const std::string_view other = other_format(text);
+  if (!other.empty())
+    return fail(name, "is " + std::string(other) +
+                          (other.find(';') == std::string_view::npos ? ", not OBJ; convert it to OBJ" : ""));
+  if (text.find('\0') != std::string_view::npos) return fail(name, "is not text, so no OBJ; export the model as OBJ");
   return {};
 }
 
@@ -168,8 +203,11 @@ void append_triangles(ObjFile& file, const Polygon& polygon) {
 }  // namespace
 
 Result<ObjFile> parse_obj(std::string text, const std::string& name) {
+  if (const auto checked = check_is_obj(text, name); !checked) return fail(checked.error());
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // the mark of UTF-8
   join_continued_lines(text);
-  if (const auto checked = check_positions(text, name); !checked) return fail(checked.error());
+  const Result<int> colored = check_positions(text, name);
+  if (!colored) return fail(colored.error());
   auto reading = read_with_tinyobj(text, name);
   if (!reading) return fail(reading.error());
   if (reading->polygons.empty()) return fail(name, "has no faces");
@@ -180,6 +218,7 @@ Result<ObjFile> parse_obj(std::string text, const std::string& name) {
     if (!std::isfinite(position.x + position.y + position.z)) return fail(name, "a coordinate is too large");
   for (const Polygon& polygon : reading->polygons) append_triangles(reading->file, polygon);
   reading->file.libraries = libraries_of(text);
+  reading->file.colored_vertices = *colored;
   return std::move(reading->file);
 }
 

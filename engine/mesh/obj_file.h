@@ -29,10 +29,11 @@ struct ObjFile {
   std::vector<ObjTriangle> triangles;
   std::vector<std::string> material_names;  // in the order of their first use; "" for faces before any usemtl
   std::vector<std::string> libraries;       // each mtllib line as written; may hold several names
+  int colored_vertices = 0;                 // vertices that carry a colour of their own, which is not kept
 };
 
 // text: the whole file; name: for errors. Errors (bad_data): coordinates that are no finite numbers, indices out of
-// range (it says how many faces), no faces.
+// range (it says how many faces), no faces, a file of another format (UTF-16, STL, PLY, glTF ...: it says which).
 [[nodiscard]] Result<ObjFile> parse_obj(std::string text, const std::string& name);
 
 }  // namespace sigs

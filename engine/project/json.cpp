@@ -5,6 +5,7 @@
 
 #include "base/partial_file.h"
 #include "project/json_reading.h"
+#include "project/near_key.h"
 
 namespace sigs {
 
@@ -55,17 +56,47 @@ void remove_empty_objects(Json& json) {
   }
 }
 
-void warn_of(const Json& unknown, const std::string& where, std::vector<Warning>& warnings) {
-  for (const auto& [key, value] : unknown.items())
-    if (value.is_object())
-      warn_of(value, where + key + ".", warnings);
-    else
-      warnings.push_back({where + key, "unknown key, kept but not used"});
+// Keys of a project with one intruder and one waypoint that begin with `prefix`, without it; of the whole project (no
+// prefix) those outside of lists.
+std::vector<std::string> known_keys(std::string_view prefix) {
+  Project sample;
+  sample.intruders.resize(1);
+  sample.intruders[0].trajectory.waypoints.resize(1);
+  std::vector<std::string> keys;
+  for (const Field& field : fields_of(sample)) {
+    if (!field.key.starts_with(prefix)) continue;
+    std::string key = field.key.substr(prefix.size());
+    if (key.find('[') == std::string::npos) keys.push_back(std::move(key));
+  }
+  return keys;
 }
 
-std::string kept(Json unknown, const std::string& where, std::vector<Warning>& warnings) {
+// A part of a project file in which keys are looked for: where it stands, and which keys it may have.
+struct KeyPlace {
+  std::string where;  // "p.json: intruders[0]."
+  const std::vector<std::string>& known;
+};
+
+// What may have been meant is said of the first unknown keys: looking for it takes a comparison with each known key.
+std::string meant(const KeyPlace& place, const std::string& key, std::size_t warnings_so_far) {
+  constexpr std::size_t kLongestKey = 100;
+  constexpr std::size_t kMostSuggestions = 20;
+  return warnings_so_far < kMostSuggestions && key.size() <= kLongestKey ? suggestion(place.known, key) : "";
+}
+
+void warn_of(const Json& unknown, const KeyPlace& place, const std::string& path, std::vector<Warning>& warnings) {
+  for (const auto& [name, value] : unknown.items()) {
+    const std::string key = path + name;
+    if (value.is_object())
+      warn_of(value, place, key + ".", warnings);
+    else
+      warnings.push_back({place.where + key, "unknown key, kept but not used" + meant(place, key, warnings.size())});
+  }
+}
+
+std::string kept(Json unknown, const KeyPlace& place, std::vector<Warning>& warnings) {
   remove_empty_objects(unknown);
-  warn_of(unknown, where, warnings);
+  warn_of(unknown, place, "", warnings);
   return unknown.empty() ? std::string() : unknown.dump();
 }
 
@@ -74,17 +105,22 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
   Json intruders = rest.value("intruders", Json::array());
   rest.erase("sigs");
   rest.erase("intruders");
-  project.unknown_json = kept(std::move(rest), file + ": ", warnings);
+  std::vector<std::string> of_project = known_keys("");
+  of_project.emplace_back("intruders");
+  std::vector<std::string> of_intruder = known_keys("intruders[0].");
+  of_intruder.emplace_back("trajectory.waypoints");
+  const std::vector<std::string> of_waypoint = known_keys("intruders[0].trajectory.waypoints[0].");
+  project.unknown_json = kept(std::move(rest), {file + ": ", of_project}, warnings);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const std::string where = file + ": intruders[" + std::to_string(i) + "].";
     IntruderSettings& intruder = project.intruders[i];
     Json& json = intruders.at(i);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j)
       intruder.trajectory.waypoints[j].unknown_json =
-          kept(json.at("trajectory").at("waypoints").at(j), where + "trajectory.waypoints[" + std::to_string(j) + "].",
-               warnings);
+          kept(json.at("trajectory").at("waypoints").at(j),
+               {where + "trajectory.waypoints[" + std::to_string(j) + "].", of_waypoint}, warnings);
     if (json.contains("trajectory")) json.at("trajectory").erase("waypoints");
-    intruder.unknown_json = kept(std::move(json), where, warnings);
+    intruder.unknown_json = kept(std::move(json), {where, of_intruder}, warnings);
   }
 }
 

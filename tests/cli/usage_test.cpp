@@ -36,6 +36,30 @@ TEST_CASE("a command that is none is answered with those that are") {
   CHECK(run_sigs("evaluate").status == 64);
 }
 
+TEST_CASE("standard output is no place to write to, and no folder called - is made") {
+  const TinyProject tiny;
+  const std::string here = "cd '" + tiny.file("").string() + "' && ";
+  const std::string sigs = (build_dir() / "sigs").string();
+  for (const char* command : {" export p.json", " frame p.json --frame 2", " mask clip.mkv"}) {
+    CAPTURE(command);
+    CHECK(std::system((here + sigs + command + " --out - 2>err.txt").c_str()) == 64 * 256);
+    CHECK(has(read_text(tiny.file("err.txt")).value(), "standard output"));
+    CHECK_FALSE(std::filesystem::exists(tiny.file("-")));
+  }
+}
+
+TEST_CASE("one picture of a sequence is a film of one frame, and that is said") {
+  const TinyProject tiny;
+  const std::string make =
+      "ffmpeg -v error -i '" + tiny.file("clip.mkv").string() + "' '" + tiny.file("shot_%04d.png").string() + "'";
+  REQUIRE(std::system(make.c_str()) == 0);
+  const Run run = run_sigs("info '" + tiny.file("shot_0003.png").string() + "'");
+  CHECK(run.status == 0);
+  const std::string said = run.out + run.err;
+  CHECK_MESSAGE(has(said, "one picture"), said);
+  CHECK_MESSAGE(has(said, "shot_%04d.png"), said);
+}
+
 TEST_CASE("a second export of the same name is refused while the first one writes") {
   const TinyProject tiny(3000);
   const std::string first = (build_dir() / "sigs").string() + " export " + tiny.project() + " --method classic --out " +

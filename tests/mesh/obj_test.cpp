@@ -50,6 +50,34 @@ constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 }  // namespace
 
+TEST_CASE("a file of another format is told by its name") {
+  const auto utf16 = [](const std::string& text) {
+    std::string wide = "\xFF\xFE";
+    for (const char c : text) wide.append(1, c).append(1, '\0');
+    return wide;
+  };
+  const std::string obj = std::string(kTriangle) + "f 1 2 3\n";
+  refused(utf16(obj), "UTF-16");
+  refused(utf16(obj).substr(2), "not text");
+  refused("solid cube\n facet normal 0 0 1\n  outer loop\n  vertex 0 0 0\nendsolid\n", "STL");
+  std::string stl(80, ' ');
+  stl += std::string("\2\0\0\0", 4) + std::string(100, '\0');
+  refused(stl, "STL");
+  refused("ply\nformat ascii 1.0\n", "PLY");
+  refused("glTF\2", "glTF");
+  CHECK(mesh_of("\xEF\xBB\xBF" + obj));  // the mark of UTF-8 before the first vertex
+}
+
+TEST_CASE("colours of vertices are not used, and that is said") {
+  const Result<Mesh> colored = mesh_of("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 1\nf 1 2 3\n");
+  REQUIRE(colored);
+  REQUIRE(colored->warnings.size() == 1);
+  CHECK(colored->warnings[0].text().find("colours of 2 vertices") != std::string::npos);
+  const Result<Mesh> weighted = mesh_of("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n");
+  REQUIRE(weighted);
+  CHECK(weighted->warnings.empty());
+}
+
 TEST_CASE("a box becomes twelve triangles with its area and volume and four vertices a side") {
   const Result<Mesh> mesh = mesh_of(test::box_obj());
   REQUIRE(mesh);

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
+
 #include "base/partial_file.h"
 #include "project/fields.h"
 #include "project/json_reading.h"
@@ -89,6 +91,24 @@ TEST_CASE("unknown keys are warned of by their whole name and kept on save") {
   const std::string saved = text_of(read.project);
   for (const char* const kept : {"somebody", "\"lens\": 7", "\"note\": \"start\"", "color_of_pilot"})
     CHECK_MESSAGE(saved.find(kept) != std::string::npos, kept);
+}
+
+TEST_CASE("an unknown key that is nearly a known one says which") {
+  const Result<ReadProject> read = parse_project(R"({"sigs": 1, "footage": {"vidoe": "a.mkv"}, "intruder": [],
+      "cammera": {"position_m": [0, 0, 0]}, "colour_of_hangar": 1,
+      "intruders": [{"modle": {"file": "a.obj"}, "trajectory": {"waypoint": [],
+                     "waypoints": [{"position_m": [1, 2, 3], "fram": 3}]}}]})",
+                                                 "x.json");
+  REQUIRE(read);
+  std::map<std::string, std::string> said;
+  for (const Warning& warning : read->warnings) said[warning.where] = warning.what;
+  CHECK(said.at("x.json: footage.vidoe").find("did you mean footage.video?") != std::string::npos);
+  CHECK(said.at("x.json: intruder").find("did you mean intruders?") != std::string::npos);
+  CHECK(said.at("x.json: cammera.position_m").find("did you mean camera.position_m?") != std::string::npos);
+  CHECK(said.at("x.json: intruders[0].modle.file").find("did you mean model.file?") != std::string::npos);
+  CHECK(said.at("x.json: intruders[0].trajectory.waypoint").find("trajectory.waypoints?") != std::string::npos);
+  CHECK(said.at("x.json: intruders[0].trajectory.waypoints[0].fram").find("did you mean frame?") != std::string::npos);
+  CHECK(said.at("x.json: colour_of_hangar").find("did you mean") == std::string::npos);
 }
 
 TEST_CASE("unknown keys of an intruder go with it when others are removed") {

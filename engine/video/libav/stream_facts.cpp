@@ -9,6 +9,7 @@ extern "C" {
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 #include "video/libav/color_tags.h"
 #include "video/libav/planes.h"
@@ -61,6 +62,20 @@ double missing_s(const VideoInfo& info, const AVFormatContext& format) {
 
 constexpr double kMissingWorthTelling_s = 0.1;
 
+// FFmpeg opens single pictures with a demuxer of their own: "png_pipe", "image2".
+bool is_picture(const Demuxer& demuxer) {
+  const std::string_view name = demuxer.format().iformat->name;
+  return name.starts_with("image2") || name.ends_with("_pipe");
+}
+
+// "frame_%03d.png" of "frame_017.png", as FFmpeg names a sequence.
+std::string sequence_pattern(const std::filesystem::path& path) {
+  const std::string stem = path.stem().string();
+  const std::size_t digits = stem.size() - (stem.find_last_not_of("0123456789") + 1);  // npos + 1 is 0
+  return stem.substr(0, stem.size() - digits) + "%0" + std::to_string(std::max<std::size_t>(digits, 1)) + "d" +
+         path.extension().string();
+}
+
 void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& table, const PictureOrder& order) {
   const auto warn = [&](std::string what) { info.warnings.push_back({info.path.string(), std::move(what)}); };
   if (info.declared_frames > 0 && info.declared_frames != table.size() && info.declared_frames != info.frame_count())
@@ -70,6 +85,9 @@ void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& ta
   if (table.any_corrupt()) warn("some packets are damaged");
   if (order.times_are_nominal)
     warn("the container tells no usable times; frames are spaced evenly at the nominal rate");
+  if (is_picture(demuxer) && info.frame_count() == 1)
+    warn("is one picture, so the film has one frame; of a sequence make a video first: ffmpeg -framerate 25 -i " +
+         sequence_pattern(info.path.filename()) + " -c:v ffv1 sequence.mkv");
   if (is_turned(demuxer.stream()))
     warn("the file asks players to rotate or mirror the picture; it is used as it is stored");
 }
