@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/folder_contents.h"
+#include "base/nesting.h"
 #include "base/partial_file.h"
 #include "cli/options.h"
 
@@ -45,6 +46,7 @@ Result<std::vector<FilmFiles>> films_of_dataset(const fs::path& folder, const st
         ErrorKind::cannot_read);
   const Result<std::string> text = read_text(index);
   if (!text) return fail(text.error());
+  if (json_depth(*text) > kDeepestNesting) return fail(index.string(), "is no index of a dataset");
   const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
   if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
       !json["videos"].is_array())

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/angles.h"
-#include "camera/camera.h"
+#include "camera/calibration_file.h"
 #include "cli/options.h"
 #include "mesh/mesh.h"
 #include "project/json.h"
@@ -119,9 +119,10 @@ Result<void> info_of_calibration(const std::filesystem::path& path, const std::s
     size = *given;
   }
   if (read_project(path)) return fail(path.string(), "is a SIGS project; `sigs check` looks at it", ErrorKind::usage);
-  const Result<Camera> camera = read_calibration(path, size);
-  if (!camera) return fail(camera.error());
-  print_camera(*camera);
+  const Result<CalibrationFile> file = read_calibration_file(path, size);
+  if (!file) return fail(file.error());
+  print_camera(file->camera);
+  for (const Warning& warning : file->warnings) print_warning(warning);
   return {};
 }
 

@@ -14,13 +14,13 @@
 #include <utility>
 
 #include "base/partial_file.h"
+#include "project/json_reading.h"
 
 namespace sigs::editor {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 
@@ -70,7 +70,8 @@ struct RecoveryContent {
 Result<RecoveryContent> read_recovery(const fs::path& file) {
   const Result<std::string> text = read_text(file);
   if (!text) return fail(text.error());
-  const Json json = Json::parse(*text, nullptr, false);
+  const Result<Json> parsed = parsed_json(*text, file.string(), ErrorKind::bad_data);
+  const Json json = parsed ? *parsed : Json();
   const auto text_at = [&](const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/partial_file.h"
+#include "project/json_reading.h"
 
 namespace sigs::editor {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostRecent = 12;
 
@@ -44,7 +44,8 @@ Settings settings_of(const Json& json) {
     settings.last_folder = folder->get<std::string>();
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
     for (const Json& path : *recent)
-      if (path.is_string() && settings.recent.size() < kMostRecent) settings.recent.emplace_back(path.get<std::string>());
+      if (path.is_string() && settings.recent.size() < kMostRecent)
+        settings.recent.emplace_back(path.get<std::string>());
   return settings;
 }
 
@@ -60,8 +61,8 @@ fs::path settings_file() {
 Settings read_settings(const fs::path& file) {
   const Result<std::string> text = read_text(file);
   if (!text) return {};
-  const Json json = Json::parse(*text, nullptr, false);
-  return json.is_object() ? settings_of(json) : Settings();
+  const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
+  return json && json->is_object() ? settings_of(*json) : Settings();
 }
 
 Result<void> write_settings(const Settings& settings, const fs::path& file) {

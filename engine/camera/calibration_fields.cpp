@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/nesting.h"
 #include "camera/scaled_calibration.h"
 
 namespace sigs::calibration {
@@ -150,11 +151,27 @@ Result<std::optional<cv::Size>> Reader::size() const {
   return cv::Size(*width_px, *height_px);
 }
 
+cv::Size divided(cv::Size size_px, const cv::Point2d& by) {
+  return {cvRound(size_px.width / by.x), cvRound(size_px.height / by.y)};
+}
+
+// The camera has kept this share of each side, around the middle, and enlarged it to the whole.
+void crop(LensParameters& lens, cv::Size size_px, double kept_share) {
+  lens.fx /= kept_share;
+  lens.fy /= kept_share;
+  lens.cx = (lens.cx + 0.5 - size_px.width / 2.0) / kept_share + size_px.width / 2.0 - 0.5;
+  lens.cy = (lens.cy + 0.5 - size_px.height / 2.0) / kept_share + size_px.height / 2.0 - 0.5;
+}
+
 std::string size_names() {
   return joined(kSizeNames) + "; " + joined(kWidthNames) + " with " + joined(kHeightNames);
 }
 
 }  // namespace
+
+Error too_deep(const std::string& file_name) {
+  return {file_name, "has more than " + std::to_string(kDeepestNesting) + " lists, keys or tags within one another"};
+}
 
 std::string text_of(double number) {
   if (std::isnan(number)) return "nan";  // whose sign says nothing
@@ -163,8 +180,8 @@ std::string text_of(double number) {
   return {digits.data(), end};
 }
 
-Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
-                           std::optional<cv::Size> footage_size_px) {
+Result<CalibrationFile> camera_from(const Fields& fields, const std::string& file_name,
+                                    std::optional<cv::Size> footage_size_px) {
   constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
   const Reader reader{fields, file_name};
   if (const Field* mirror = found(fields, kMirrorNames))
@@ -179,14 +196,20 @@ Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
   if (!own_size_px) return fail(own_size_px.error());
   if (!*own_size_px && !footage_size_px)
     return fail(file_name, "no image size, and no footage to take it from; looked for " + size_names());
-  const cv::Size from_px = own_size_px->value_or(footage_size_px.value_or(cv::Size{}));
-  const cv::Size to_px = footage_size_px.value_or(from_px);
-  Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, to_px, file_name);
+  const cv::Point2d stretch = fields.stretch;
+  const cv::Size from_px =
+      own_size_px->value_or(divided(footage_size_px.value_or(cv::Size{}), {1 / stretch.x, 1 / stretch.y}));
+  const cv::Size to_px = footage_size_px.value_or(divided(from_px, stretch));
+  if (fields.kept_share != 1) crop(lens, from_px, fields.kept_share);
+  CalibrationFile file{.camera = {.lens = *Lens::make({}), .size_px = to_px}, .warnings = fields.warnings};
+  Result<LensParameters> scaled =
+      scaled_calibration(std::move(lens), from_px, to_px, stretch, file_name, file.warnings);
   if (!scaled) return fail(scaled.error());
   Result<Lens> made = Lens::make(*std::move(scaled));
   // The matrix is in order by now: what is left to be wrong are the coefficients.
   if (!made) return fail(reader.where(*found(fields, kCoefficientNames)), made.error().what);
-  return Camera{.lens = *std::move(made), .size_px = to_px};
+  file.camera.lens = *std::move(made);
+  return file;
 }
 
 }  // namespace sigs::calibration

@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
-#include "camera/camera.h"
+#include "camera/calibration_file.h"
 
 namespace sigs::calibration {
 
@@ -24,13 +25,21 @@ struct Field {
 };
 
 // By key. A reader for a flavour with keys of its own files them under those of OpenCV.
-using Fields = std::map<std::string, Field, std::less<>>;
+struct Fields : std::map<std::string, Field, std::less<>> {
+  // What Gyroflow's profiles say besides.
+  double kept_share = 1;      // of each side of the picture, by the camera's stabilisation
+  cv::Point2d stretch{1, 1};  // how much wider and higher than the footage the calibration's pictures are
+  std::vector<Warning> warnings{};
+};
+
+// The error of a file that nests deeper than kDeepestNesting.
+[[nodiscard]] Error too_deep(const std::string& file_name);
 
 // Shortest text that reads back as the number.
 [[nodiscard]] std::string text_of(double number);
 
 // Makes sense of the fields: docs/calibration-files.md lists the keys. file_name is for messages.
-[[nodiscard]] Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
-                                         std::optional<cv::Size> footage_size_px);
+[[nodiscard]] Result<CalibrationFile> camera_from(const Fields& fields, const std::string& file_name,
+                                                  std::optional<cv::Size> footage_size_px);
 
 }  // namespace sigs::calibration

@@ -3,9 +3,11 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/partial_file.h"
 #include "camera/calibration_fields.h"
+#include "camera/calibration_file.h"
 #include "camera/gyroflow.h"
 #include "camera/opencv_storage.h"
 #include "camera/plain_yaml.h"
@@ -14,6 +16,8 @@ namespace sigs {
 namespace {
 
 using calibration::Fields;
+
+constexpr std::size_t kMostMegabytes = 16;  // a hundred times the views of the largest calibration board
 
 // Without a byte order mark and leading blanks, which the parsers stumble over.
 std::string trimmed(std::string text) {
@@ -25,6 +29,8 @@ std::string trimmed(std::string text) {
 
 Result<Fields> fields_in(const std::string& text, const std::string& file_name) {
   if (text.empty()) return fail(file_name, "is empty");
+  if (text.size() > kMostMegabytes << 20)
+    return fail(file_name, "is larger than " + std::to_string(kMostMegabytes) + " MB; no calibration is");
   if (text.find('\0') != std::string::npos) return fail(file_name, "is not a text file");
   // "%YAML:1.0" is OpenCV's own header; the YAML standard has a space in the colon's place.
   if (text.starts_with('<') || text.starts_with("%YAML:")) return calibration::opencv_storage_fields(text, file_name);
@@ -35,6 +41,13 @@ Result<Fields> fields_in(const std::string& text, const std::string& file_name) 
 }  // namespace
 
 Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px) {
+  Result<CalibrationFile> file = read_calibration_file(path, footage_size_px);
+  if (!file) return fail(file.error());
+  return std::move(file->camera);
+}
+
+Result<CalibrationFile> read_calibration_file(const std::filesystem::path& path,
+                                              std::optional<cv::Size> footage_size_px) {
   const std::string file_name = path.filename().string();
   Result<std::string> text = read_text(path);
   if (!text) return fail(text.error());

@@ -2,9 +2,14 @@
 #include "camera/opencv_storage.h"
 
 #include <algorithm>
+#include <cctype>
 #include <exception>
 #include <opencv2/core.hpp>
+#include <string_view>
 #include <utility>
+
+#include "base/nesting.h"
+#include "base/text_pieces.h"
 
 namespace sigs::calibration {
 namespace {
@@ -52,11 +57,38 @@ std::string reason(const cv::Exception& error) {
   return text;
 }
 
+// YAML up to the end of its first document; a calibration is nothing else.
+std::string first_document(const std::string& text) {
+  const std::size_t end = text.find("\n...");
+  return end == std::string::npos ? text : text.substr(0, end + 1);
+}
+
+// Of the first line that is neither empty nor a comment, a directive or the document's beginning.
+std::string_view first_line(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = next_line(text);
+    if (!line.empty() && line.front() != '%' && line.front() != '#' && trimmed(line) != "---" && !trimmed(line).empty())
+      return line;
+  }
+  return {};
+}
+
+bool begins_with_key(std::string_view line) {
+  return !line.empty() && (std::isalnum(static_cast<unsigned char>(line.front())) != 0 || line.front() == '_');
+}
+
 }  // namespace
 
 Result<Fields> opencv_storage_fields(const std::string& text, const std::string& file_name) {
+  const bool is_xml = text.starts_with('<');
+  const int depth = is_xml ? xml_depth(text) : opencv_yaml_depth(text);
+  if (depth > kDeepestNesting) return fail(too_deep(file_name));  // the storage calls itself for each level
+  // With anything else the storage of OpenCV 4.6 may never come back.
+  if (!is_xml && !begins_with_key(first_line(text)))
+    return fail(file_name, "not a calibration: expected keys at the beginning of its lines");
   try {
-    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    const cv::FileStorage storage(is_xml ? text : first_document(text),
+                                  cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (!storage.isOpened()) return fail(file_name, "not an OpenCV calibration file");
     return fields_of(storage.root());
   } catch (const cv::Exception& error) {

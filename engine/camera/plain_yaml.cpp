@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "camera/plain_yaml.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <exception>
+#include <sstream>
 #include <utility>
+
+#include "base/nesting.h"
 
 namespace sigs::calibration {
 namespace {
@@ -38,10 +42,44 @@ Field field_of(std::string name, const YAML::Node& node) {
   return field;
 }
 
+// Told of one element after the other, before nodes are made of them: stops at what nodes cannot safely be made of.
+// Nodes that hold themselves have no end, and aliases of aliases grow without bound.
+class Guard : public YAML::EventHandler {
+ public:
+  explicit Guard(const std::string& file_name) : file_name_(file_name) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw YAML::ParserException(mark, "an alias (*name) is not read; write the value itself");
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    enter(mark);
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    enter(mark);
+  }
+  void OnMapEnd() override { --depth_; }
+
+ private:
+  void enter(const YAML::Mark& mark) {
+    if (++depth_ > kDeepestNesting) throw YAML::ParserException(mark, too_deep(file_name_).what);
+  }
+
+  const std::string& file_name_;
+  int depth_ = 0;
+};
+
 }  // namespace
 
 Result<Fields> plain_yaml_fields(const std::string& text, const std::string& file_name) {
   try {
+    Guard guard(file_name);
+    std::istringstream stream(text);
+    YAML::Parser(stream).HandleNextDocument(guard);
     const YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) return fail(file_name, "not a calibration: expected XML, or YAML or JSON with keys");
     Fields fields;

@@ -3,15 +3,20 @@
 
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "camera/lens.h"
 
 namespace sigs::calibration {
 
-// The lens that a calibration for pictures of one size describes once they are resized to another. Shapes count as the
-// same where one size follows from the other within half a pixel of rounding; else an error names both.
+// The lens that a calibration for pictures of one size describes once they are resized to another, each side by its own
+// scale. Shapes count as the same where they differ by 1 % at most, as of encoders that want sides of whole blocks
+// (848x480 of 853.3x480); else an error names both. Where they differ by more than half a pixel of rounding, a warning
+// says both scales, and how far off the picture's edges are if the camera has cut them instead.
+//   stretch  how much wider and higher the calibration's pictures are than the footage (Gyroflow's anamorphic lenses)
 [[nodiscard]] Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px, cv::Size to_px,
-                                                        const std::string& file_name);
+                                                        const cv::Point2d& stretch, const std::string& file_name,
+                                                        std::vector<Warning>& warnings);
 
 }  // namespace sigs::calibration

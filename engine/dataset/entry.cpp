@@ -10,6 +10,7 @@
 #include "base/partial_file.h"
 #include "dataset/checksum.h"
 #include "dataset/json_text.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -54,8 +55,10 @@ std::string entry_text(const PlannedVideo& video, const VideoEntry& entry) {
 Result<VideoEntry> read_entry(const fs::path& file) {
   const Result<std::string> text = read_text(file);
   if (!text) return fail(text.error());
+  const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
+  if (!json) return fail(json.error());
   try {
-    return entry_of(Json::parse(*text));
+    return entry_of(*json);
   } catch (const Json::exception&) {
     return fail(file.string(), "is not the entry of a video that sigs dataset made");
   }

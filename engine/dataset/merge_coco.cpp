@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "annotation/text_file.h"
+#include "base/nesting.h"
 #include "dataset/merge_formats.h"
 #include "dataset/written_lines.h"
 
@@ -70,7 +71,8 @@ struct Head {
 };
 
 Json parsed(const std::string& text, WrittenLines& lines) {
-  Json json = Json::parse(text, nullptr, false);
+  Json json(Json::value_t::discarded);
+  if (json_depth(text) <= kDeepestNesting) json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) lines.blame();
   return json;
 }

@@ -11,6 +11,7 @@
 #include "dataset/checksum.h"
 #include "dataset/entry.h"
 #include "dataset/json_text.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -27,11 +28,11 @@ Result<void> foreign(const fs::path& file) {
 
 // Paths that an index names; none: it is no dataset's.
 std::optional<Paths> paths_of_index(const std::string& text) {
+  const Result<Json> json = parsed_json(text, kIndexName, ErrorKind::bad_data);
+  if (!json || !json->contains("sigs_dataset_index")) return std::nullopt;
   try {
-    const Json json = Json::parse(text);
-    if (!json.contains("sigs_dataset_index")) return std::nullopt;
     Paths paths;
-    for (const Json& file : json.at("shared_files")) paths.push_back(file.at("path").get<std::string>());
+    for (const Json& file : json->at("shared_files")) paths.push_back(file.at("path").get<std::string>());
     return paths;
   } catch (const Json::exception&) {
     return std::nullopt;

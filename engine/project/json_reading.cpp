@@ -7,21 +7,6 @@
 
 namespace sigs {
 
-int json_depth(std::string_view text) {
-  int depth = 0;
-  int deepest = 0;
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') is_quoted = !is_quoted;
-    if (is_quoted && c == '\\') ++i;
-    if (is_quoted) continue;
-    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-    if (c == ']' || c == '}') --depth;
-  }
-  return deepest;
-}
-
 Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind) {
   if (json_depth(text) > kDeepestJson)
     return fail(file, "has more than " + std::to_string(kDeepestJson) + " brackets within one another", kind);

@@ -105,7 +105,10 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
       made_or(made_range(sound.footage, footage), clamped_range(sound.footage, footage), draft.problems);
   scene.first_frame = range.first;
   scene.last_frame = range.last;
-  scene.camera = made_or(made_camera(sound, footage.size_px, files), stand_in_camera(footage.size_px), draft.problems);
+  CalibrationFile calibration = made_or(made_camera(sound, footage.size_px, files),
+                                        CalibrationFile{stand_in_camera(footage.size_px), {}}, draft.problems);
+  scene.camera = std::move(calibration.camera);
+  scene.warnings = std::move(calibration.warnings);
   scene.motion.turns = made_or(made_turns(sound, footage, files), std::vector<CarrierTurn>(), draft.problems);
   scene.own_body = made_or(made_own_body(sound, footage.size_px, files), cv::Mat(), draft.problems);
   for (std::size_t i = 0; i < sound.intruders.size(); ++i) {

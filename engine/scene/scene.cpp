@@ -21,9 +21,10 @@ Result<Scene> opened(const Project& project, const FootageShape& footage, SceneF
   if (!range) return stop(range.error());
   scene.first_frame = range->first;
   scene.last_frame = range->last;
-  Made<Camera> camera = made_camera(project, footage.size_px, files);
-  if (!camera) return stop(camera.error());
-  scene.camera = *std::move(camera);
+  Made<CalibrationFile> calibration = made_camera(project, footage.size_px, files);
+  if (!calibration) return stop(calibration.error());
+  scene.camera = std::move(calibration->camera);
+  scene.warnings = std::move(calibration->warnings);
   Made<std::vector<CarrierTurn>> turns = made_turns(project, footage, files);
   if (!turns) return stop(turns.error());
   scene.motion.turns = *std::move(turns);

@@ -39,7 +39,7 @@ Stamp stamp_of(const std::filesystem::path& file) {
 bool is_held(const std::shared_ptr<const Model>& model) {
   return model.use_count() > 1;
 }
-bool is_held(const Camera&) {
+bool is_held(const CalibrationFile&) {
   return false;
 }
 bool is_held(const cv::Mat&) {
@@ -120,7 +120,7 @@ Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& fil
 
 struct SceneFiles::Shelves {
   Shelf<ModelKey, std::shared_ptr<const Model>> models;
-  Shelf<PictureKey, Camera> cameras;
+  Shelf<PictureKey, CalibrationFile> calibrations;
   Shelf<PictureKey, cv::Mat> masks;
   Shelf<std::string, std::vector<AttitudeAtFrame>> attitudes;
   Shelf<std::uint64_t, std::shared_ptr<const Model>> crosses;
@@ -135,9 +135,15 @@ Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::pa
   return shelves_->models.take(key_of(file, axes), stamp_of(file), [&] { return read_model(file, axes); });
 }
 
+Result<CalibrationFile> SceneFiles::calibration(const std::filesystem::path& file, cv::Size footage_size_px) {
+  return shelves_->calibrations.take(key_of(file, footage_size_px), stamp_of(file),
+                                     [&] { return read_calibration_file(file, footage_size_px); });
+}
+
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px) {
-  return shelves_->cameras.take(key_of(calibration, footage_size_px), stamp_of(calibration),
-                                [&] { return read_calibration(calibration, footage_size_px); });
+  Result<CalibrationFile> file = this->calibration(calibration, footage_size_px);
+  if (!file) return fail(file.error());
+  return std::move(file->camera);
 }
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {

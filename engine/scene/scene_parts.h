@@ -25,7 +25,7 @@ using Made = tl::expected<T, Problem>;
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
 
 [[nodiscard]] Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage);
-[[nodiscard]] Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] Made<CalibrationFile> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 
 // Empty where the project names no attitude file.
 [[nodiscard]] Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage,

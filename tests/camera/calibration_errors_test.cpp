@@ -194,8 +194,8 @@ TEST_CASE("Gyroflow profiles that are not plain fisheye lenses are refused by na
         "gopro.any: distortion_model: Gyroflow's model \"poly5\" is not supported; opencv_fisheye is");
   CHECK(message("{" + kGyroflow + ", \"digital_lens\": \"gopro_superview\"}") ==
         "gopro.any: digital_lens: the digital lens \"gopro_superview\" is not supported");
-  CHECK(message("{" + kGyroflow + ", \"input_horizontal_stretch\": 1.33}") ==
-        "gopro.any: input_horizontal_stretch: stretched footage (1.33) is not supported");
+  CHECK(message("{" + kGyroflow + ", \"input_horizontal_stretch\": 133}") ==
+        "gopro.any: input_horizontal_stretch: expected a number from 0.1 to 10, found 133");
   CHECK(message(R"({"fisheye_params": {"distortion_coeffs": [1, 2, 3, 4]}})") ==
         "gopro.any: fisheye_params.camera_matrix: missing");
   CHECK(message(R"({"fisheye_params": null})") == "gopro.any: fisheye_params.camera_matrix: missing");

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "camera/camera.h"
+#include "camera/calibration_file.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -159,6 +159,65 @@ TEST_CASE("a Gyroflow lens profile is a fisheye") {
     check_reads_as(head + rest, kFisheye, {1, 2, 3, 4});
 }
 
+namespace {
+
+std::string profile(const std::string& rest, const std::string& size = R"({"w": 640, "h": 480})") {
+  return R"({"calib_dimension": )" + size + R"(,
+    "fisheye_params": {"camera_matrix": [[500, 0, 320], [0, 510, 240], [0, 0, 1]], "distortion_coeffs": [0, 0, 0, 0]})" +
+         rest + "}";
+}
+
+}  // namespace
+
+TEST_CASE("a Gyroflow profile's stabilisation crop keeps the middle of the picture and enlarges it") {
+  const auto whole = read(profile(R"(, "crop": null)"));
+  const auto cropped = read(profile(R"(, "crop": 0.8)"));
+  REQUIRE(whole.has_value());
+  REQUIRE(cropped.has_value());
+  const glm::dvec2 middle(319.5, 239.5);  // of 640x480 pixels
+  for (const glm::dvec3& at : {glm::dvec3{1, 0, 0}, glm::dvec3{1, 0.2, -0.1}, glm::dvec3{1, -0.3, 0.2}})
+    CHECK(glm::distance(*cropped->lens.pixel(at), middle + (*whole->lens.pixel(at) - middle) / 0.8) < 1e-10);
+  for (const char* wrong : {"0", "-1", "1e9", "\"0.9\"", "[1]"})
+    CHECK_FALSE(read(profile(std::string(R"(, "crop": )") + wrong)).has_value());
+}
+
+TEST_CASE("a Gyroflow profile's stretch is that of its pictures and not of the footage's") {
+  // Of real footage of 3840x2160 with a 1.212 anamorphic lens: 3840 * 1.212 = 4654.
+  const std::string text = profile(R"(, "input_horizontal_stretch": 1.212)", R"({"w": 4654, "h": 2160})");
+  const auto own = read(text);
+  const auto half = read(text, cv::Size(1920, 1080));
+  REQUIRE(own.has_value());
+  REQUIRE(half.has_value());
+  CHECK(own->size_px == cv::Size(3840, 2160));
+  CHECK(own->lens.parameters().fx == doctest::Approx(500 * 3840.0 / 4654).epsilon(1e-15));
+  CHECK(own->lens.parameters().fy == 510);
+  CHECK(half->lens.parameters().fx == doctest::Approx(250 * 3840.0 / 4654).epsilon(1e-15));
+  CHECK_FALSE(read(text, cv::Size(4654, 2160)).has_value());
+  const auto high = read(profile(R"(, "input_vertical_stretch": 1.5)", R"({"w": 640, "h": 720})"));
+  REQUIRE(high.has_value());
+  CHECK(high->size_px == cv::Size(640, 480));
+  CHECK(high->lens.parameters().fy == doctest::Approx(340).epsilon(1e-15));
+  CHECK(read(profile(R"(, "input_horizontal_stretch": 0.0)"))->lens.parameters().fx == 500);  // not set
+}
+
+TEST_CASE("what a Gyroflow profile leaves open is warned of by name") {
+  const TemporaryFolder folder;
+  const auto warnings = [&](const std::string& rest) {
+    std::ofstream(folder / "p.json") << profile(rest);
+    const auto file = read_calibration_file(folder / "p.json");
+    REQUIRE(file.has_value());
+    return file->warnings;
+  };
+  const std::string settings = R"(, "compatible_settings": [{"width": 640, "height": 480},
+    {"width": 640, "height": 480, "crop": 0.928}, {"width": 640, "crop": 0.745}, {"crop": 0.928}])";
+  REQUIRE(warnings(settings).size() == 1);
+  CHECK(warnings(settings)[0].text().find("p.json: compatible_settings") == 0);
+  CHECK(warnings(settings)[0].what.find("0.745, 0.928") != std::string::npos);
+  CHECK(warnings(settings + R"(, "crop": 0.928)")[0].what.find("0.928 too") == std::string::npos);
+  CHECK(warnings(R"(, "interpolations": {"10": {}})").size() == 1);
+  CHECK(warnings(R"(, "compatible_settings": [], "interpolations": null, "crop": null)").empty());
+}
+
 TEST_CASE("the first camera of a stereo pair is read") {
   check_reads_as("K: " + kMatrixYaml + "\nM2: [1]\nD: [1, 2, 3, 4]\nD2: [7]\nimage_size: [640, 480]\n", kBrown,
                  {1, 2, 3, 4});
@@ -199,8 +258,30 @@ TEST_CASE("a side may be rounded by half a pixel") {
   const auto camera = read(text, cv::Size(854, 480));
   CHECK(camera->lens.parameters().fx == doctest::Approx(500 * 854.0 / 1920).epsilon(1e-15));
   CHECK(camera->lens.parameters().fy == doctest::Approx(510 * 480.0 / 1080).epsilon(1e-15));
-  CHECK_FALSE(read(text, cv::Size(856, 480)).has_value());
-  CHECK_FALSE(read(text, cv::Size(1920, 1088)).has_value());
+}
+
+TEST_CASE("a shape within one percent of the calibration's is scaled side by side and warned of") {
+  // GoPro's 848x480 is 853.3x480 in whole blocks of 16.
+  const TemporaryFolder folder;
+  std::ofstream(folder / "lens.yml") << "K: " << kMatrixYaml << "\nD: []\nimage_size: [1920, 1080]\n";
+  const auto file = read_calibration_file(folder / "lens.yml", cv::Size(848, 480));
+  REQUIRE(file.has_value());
+  const LensParameters& lens = file->camera.lens.parameters();
+  CHECK(lens.fx == doctest::Approx(500 * 848.0 / 1920).epsilon(1e-15));
+  CHECK(lens.fy == doctest::Approx(510 * 480.0 / 1080).epsilon(1e-15));
+  CHECK(lens.cx == doctest::Approx(320.5 * 848.0 / 1920 - 0.5).epsilon(1e-15));
+  CHECK(lens.cy == doctest::Approx(240.5 * 480.0 / 1080 - 0.5).epsilon(1e-15));
+  REQUIRE(file->warnings.size() == 1);
+  const std::string warning = file->warnings[0].text();
+  CAPTURE(warning);
+  for (const char* part : {"lens.yml", "1920x1080", "848x480", "0.44167", "0.44444", "2.7 px"})  // (853.3 - 848) / 2
+    CHECK(warning.find(part) != std::string::npos);
+  for (const cv::Size size : {cv::Size(1920, 1080), cv::Size(1280, 720), cv::Size(854, 480)})
+    CHECK(read_calibration_file(folder / "lens.yml", size)->warnings.empty());
+  for (const cv::Size size : {cv::Size(856, 480), cv::Size(1920, 1088), cv::Size(1904, 1080)})
+    CHECK(read_calibration_file(folder / "lens.yml", size)->warnings.size() == 1);
+  for (const cv::Size size : {cv::Size(864, 480), cv::Size(840, 480), cv::Size(1920, 1100), cv::Size(1440, 1080)})
+    CHECK_FALSE(read_calibration(folder / "lens.yml", size).has_value());
 }
 
 TEST_CASE("all real calibrations are read") {
