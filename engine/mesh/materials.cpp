@@ -139,8 +139,9 @@ class Painter {
     const cv::Mat texture = path.empty() ? cv::Mat() : shelf_.picture(path);
     if (texture.empty() && !is_known(written)) {
       reported_.push_back(written);
+      const std::string wrong = path.empty() ? "is missing" : wrong_with_picture(path);
       warnings_.push_back(
-          {obj_name_, "texture " + written + (path.empty() ? " is missing" : " cannot be read") + "; drawn grey"});
+          {obj_name_, "texture " + written + " " + (wrong.empty() ? "cannot be read" : wrong) + "; drawn grey"});
     }
     return texture;
   }

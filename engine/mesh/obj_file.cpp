@@ -193,11 +193,14 @@ int count_out_of_range(const Reading& reading) {
   return count;
 }
 
-void append_triangles(ObjFile& file, const Polygon& polygon) {
+bool append_triangles(ObjFile& file, const Polygon& polygon) {
   std::vector<glm::vec3> positions;
   for (const ObjCorner& corner : polygon.corners) positions.push_back(file.positions[corner.position]);
-  for (const auto& [a, b, c] : triangulated(positions))
+  const auto triangles = triangulated(positions);
+  if (!triangles) return false;
+  for (const auto& [a, b, c] : *triangles)
     file.triangles.push_back({{polygon.corners[a], polygon.corners[b], polygon.corners[c]}, polygon.material});
+  return true;
 }
 
 }  // namespace
@@ -216,7 +219,10 @@ Result<ObjFile> parse_obj(std::string text, const std::string& name) {
                           " faces name vertices that the file does not have");
   for (const glm::vec3& position : reading->file.positions)
     if (!std::isfinite(position.x + position.y + position.z)) return fail(name, "a coordinate is too large");
-  for (const Polygon& polygon : reading->polygons) append_triangles(reading->file, polygon);
+  for (const Polygon& polygon : reading->polygons)
+    if (!append_triangles(reading->file, polygon))
+      return fail(name, "a face of " + std::to_string(polygon.corners.size()) +
+                            " corners is too intricate; cut it into triangles where it was made");
   reading->file.libraries = libraries_of(text);
   reading->file.colored_vertices = *colored;
   return std::move(reading->file);

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
+
+#include "base/picture_size.h"
 
 namespace sigs {
 
@@ -55,7 +59,11 @@ cv::Mat as_rgba(const cv::Mat& picture) {
   return rgba;
 }
 
+constexpr int kLongestSide_px = 16384;               // what OpenGL takes nearly everywhere
+constexpr std::int64_t kMostPixels = 8192LL * 8192;  // a quarter of a gigabyte in RGBA
+
 cv::Mat read_picture(const fs::path& path) {
+  if (!wrong_with_picture(path).empty()) return {};
   try {
     const cv::Mat picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
     return picture.empty() ? cv::Mat() : as_rgba(as_8_bit(picture));
@@ -74,6 +82,16 @@ fs::path found_file(const fs::path& folder, std::string written) {
        {named, any_case(named), folder / named.filename(), any_case(folder / named.filename())})
     if (is_file(candidate)) return candidate;
   return {};
+}
+
+std::string wrong_with_picture(const fs::path& path) {
+  const std::optional<cv::Size> size = picture_size_px(path);
+  if (!size) return "cannot be read (png, jpeg, bmp, tiff, webp, pnm)";
+  const bool is_large =
+      std::max(size->width, size->height) > kLongestSide_px || std::int64_t{size->width} * size->height > kMostPixels;
+  if (!is_large) return "";
+  return "is " + std::to_string(size->width) + "x" + std::to_string(size->height) +
+         "; at most 8192x8192 pixels are read, and 16384 a side";
 }
 
 cv::Mat TextureShelf::picture(const fs::path& path) {

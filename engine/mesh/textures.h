@@ -12,10 +12,14 @@ namespace sigs {
 // or with a path of his own machine (then the file beside the model counts). Empty: there is none.
 [[nodiscard]] std::filesystem::path found_file(const std::filesystem::path& folder, std::string written);
 
+// Empty where the picture can be read; else why not: "is 16000x16000; at most ...". Looks at the
+// header alone, so that no memory is taken for what is too large (docs/limits.md).
+[[nodiscard]] std::string wrong_with_picture(const std::filesystem::path& path);
+
 // Pictures by path, each read once: materials that name the same file share its pixels.
 class TextureShelf {
  public:
-  // CV_8UC4, RGBA; empty where the file cannot be read as a picture.
+  // CV_8UC4, RGBA; empty where the file cannot be read as a picture or wrong_with_picture().
   [[nodiscard]] cv::Mat picture(const std::filesystem::path& path);
 
  private:

@@ -3,7 +3,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <string>
+
+#include "base/picture_size.h"
 
 namespace sigs {
 
@@ -35,7 +38,12 @@ Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size f
   if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
   if (std::filesystem::is_directory(path, code))
     return fail(path.string(), "is a folder, not a picture", ErrorKind::cannot_read);
-  const cv::Mat picture = picture_in(path);
+  const std::optional<cv::Size> stated_px = picture_size_px(path);  // before anything is decoded
+  const bool is_other_size = stated_px && *stated_px != footage_size_px;
+  const cv::Mat picture = is_other_size ? cv::Mat() : picture_in(path);
+  if (is_other_size)
+    return fail(path.string(),
+                "is " + text_of(*stated_px) + ", the footage is " + text_of(footage_size_px) + "; they must agree");
   if (picture.empty()) return fail(path.string(), "is not a picture that can be read (png, jpeg, bmp, tiff, ...)");
   if (picture.size() != footage_size_px)
     return fail(path.string(),

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/partial_file.h"
 #include "mesh/mesh.h"
 #include "mesh/written.h"
 #include "support/test_data.h"
@@ -138,6 +139,31 @@ TEST_CASE("pictures of every kind become eight bit RGBA with their top row first
     REQUIRE(texture.size() == cv::Size(1, 2));
     CHECK(texture.at<cv::Vec4b>(0, 0) == kind.top);
     CHECK(texture.at<cv::Vec4b>(1, 0) != kind.top);
+  }
+}
+
+TEST_CASE("a texture of too many pixels is named with its size and not decoded") {
+  // Headers that state such a size, with next to nothing behind them: whoever decodes first knows no size.
+  struct Kind {
+    const char* name;
+    std::size_t place;  // of the width, then the height
+    std::string sides;
+  };
+  const Kind kinds[] = {{"large.bmp", 18, std::string("\x80\x3E\0\0\x80\x3E\0\0", 8)},
+                        {"large.jpg", 0, std::string("\x3E\x80\x3E\x80", 4)}};
+  for (const Kind& kind : kinds) {
+    CAPTURE(kind.name);
+    Painted painted("Kd 1 0 0\nmap_Kd " + std::string(kind.name) + "\n");
+    const std::string file = (painted.folder / kind.name).string();
+    REQUIRE(cv::imwrite(file, two_rows(CV_8UC3, 1, 2)));
+    std::string bytes = read_text(file).value();
+    const std::size_t place = kind.place > 0 ? kind.place : bytes.find("\xFF\xC0") + 5;
+    test::written(file, bytes.replace(place, kind.sides.size(), kind.sides));
+    const Mesh mesh = painted.mesh();
+    CHECK(mesh.materials.at(0).texture.empty());
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK_MESSAGE(mesh.warnings[0].text().find("16000x16000") != std::string::npos, mesh.warnings[0].text());
+    CHECK_MESSAGE(mesh.warnings[0].text().find(kind.name) != std::string::npos, mesh.warnings[0].text());
   }
 }
 

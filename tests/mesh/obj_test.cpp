@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <string>
 
 #include "mesh/mesh.h"
 #include "mesh/written.h"
@@ -118,6 +120,51 @@ TEST_CASE("a polygon of three hundred corners keeps its area") {
   CHECK(mesh->indices.size() == 3 * (kCorners - 2));
   // Area of the regular polygon; the coordinates above are written with six digits.
   CHECK(area_m2(*mesh) == doctest::Approx(0.5 * kCorners * std::sin(2 * M_PI / kCorners)).epsilon(1e-5));
+}
+
+// One polygon, its corners at equal angles, as far from the middle as radius_m(i) says.
+std::string ring_obj(int corners, double (*radius_m)(int)) {
+  std::ostringstream text;
+  text.precision(9);
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / corners;
+    text << "v " << radius_m(i) * std::cos(angle) << " " << radius_m(i) * std::sin(angle) << " 0\n";
+  }
+  text << "f";
+  for (int i = 1; i <= corners; ++i) text << " " << i;
+  text << "\n";
+  return text.str();
+}
+
+// The shoelace formula on the corners that ring_obj() writes.
+double ring_area_m2(int corners, double (*radius_m)(int)) {
+  const double step = 2 * 3.14159265358979 / corners;
+  double sum = 0;
+  for (int i = 0; i < corners; ++i) sum += 0.5 * radius_m(i) * radius_m((i + 1) % corners) * std::sin(step);
+  return sum;
+}
+
+TEST_CASE("polygons of up to a hundred thousand corners keep their area whatever their outline") {
+  alarm(300);  // a hang, not a measurement
+  double (*const outlines[])(int) = {[](int) { return 100.0; }, [](int i) { return i % 2 == 0 ? 100.0 : 97.0; },
+                                     [](int i) { return i % 20 < 10 ? 100.0 : 80.0; },
+                                     [](int i) { return 60 + 30 * std::sin(i * 0.01); }};
+  for (const int corners : {200, 260, 2000, 20'000, 100'000})
+    for (const auto& outline : outlines) {
+      CAPTURE(corners);
+      const Result<Mesh> mesh = mesh_of(ring_obj(corners, outline));
+      REQUIRE_MESSAGE(mesh.has_value(), mesh.error().text());
+      // Overlapping triangles would add up to more. Coordinates are floats.
+      CHECK(area_m2(*mesh) == doctest::Approx(ring_area_m2(corners, outline)).epsilon(1e-4));
+    }
+  alarm(0);
+}
+
+TEST_CASE("a polygon that crosses itself a hundred thousand times ends") {
+  alarm(300);
+  const Result<Mesh> mesh = mesh_of(ring_obj(100'000, [](int i) { return i % 3 == 0 ? 100.0 : -50.0; }));
+  if (!mesh) CHECK(mesh.error().text().find("100000 corners") != std::string::npos);
+  alarm(0);
 }
 
 TEST_CASE("negative indices count back from the end") {
