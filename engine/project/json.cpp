@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "project/json.h"
 
-#include <sstream>
+#include <unordered_set>
+#include <utility>
 
 #include "base/partial_file.h"
 #include "project/json_reading.h"
@@ -50,10 +51,13 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
 // Objects that have lost all their keys go too, so that what remains is what nobody knows.
 void remove_empty_objects(Json& json) {
   if (!json.is_object()) return;
-  for (auto it = json.begin(); it != json.end();) {
-    remove_empty_objects(*it);
-    it = it->is_object() && it->empty() ? json.erase(it) : std::next(it);
+  Json remaining = Json::object();
+  for (auto& [key, value] : json.get_ref<Json::object_t&>()) {
+    remove_empty_objects(value);
+    if (!value.is_object() || !value.empty())
+      static_cast<Json::object_t::Container&>(remaining.get_ref<Json::object_t&>()).emplace_back(key, std::move(value));
   }
+  json = std::move(remaining);
 }
 
 // Keys of a project with one intruder and one waypoint that begin with `prefix`, without it; of the whole project (no
@@ -84,13 +88,19 @@ std::string meant(const KeyPlace& place, const std::string& key, std::size_t war
   return warnings_so_far < kMostSuggestions && key.size() <= kLongestKey ? suggestion(place.known, key) : "";
 }
 
+// So many at most: beyond them nobody reads on.
+constexpr std::size_t kMostWarnings = 100;
+
 void warn_of(const Json& unknown, const KeyPlace& place, const std::string& path, std::vector<Warning>& warnings) {
   for (const auto& [name, value] : unknown.items()) {
     const std::string key = path + name;
+    if (warnings.size() > kMostWarnings) return;
     if (value.is_object())
       warn_of(value, place, key + ".", warnings);
-    else
+    else if (warnings.size() < kMostWarnings)
       warnings.push_back({place.where + key, "unknown key, kept but not used" + meant(place, key, warnings.size())});
+    else
+      warnings.push_back({place.where + key, "unknown key, and there are more; all are kept but not used"});
   }
 }
 
@@ -125,7 +135,7 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
 }
 
 Json parsed_or_empty(const std::string& text) {
-  return text.empty() ? Json::object() : Json::parse(text);
+  return text.empty() ? Json::object() : parsed_json(text, "", ErrorKind::bad_project).value_or(Json::object());
 }
 
 Result<void> check_version(const Json& json, const std::string& file) {
@@ -153,9 +163,11 @@ Result<void> put_fields(const Json& json, const std::string& file, Project& proj
 
 // A section written as a number or text ("camera": 5) would hide all its fields.
 Result<void> check_sections(const Json& json, const std::string& file, Project& project) {
+  std::unordered_set<std::string> checked;
   for (const Field& field : fields_of(project)) {
     for (std::size_t dot = field.key.rfind('.'); dot != std::string::npos; dot = field.key.rfind('.', dot - 1)) {
       const std::string section = field.key.substr(0, dot);
+      if (!checked.insert(section).second) break;  // and what holds it
       const Json::json_pointer place = pointer_of(section);
       if (!json.contains(place) || json.at(place).is_object()) continue;
       return fail(file + ": " + section, "expected { ... }", ErrorKind::bad_project);
@@ -192,7 +204,7 @@ std::string text_of(const Project& project) {
   Project copy = project;
   Json json = Json::object();
   json["sigs"] = kProjectVersion;
-  json.update(parsed_or_empty(project.unknown_json), true);
+  append_members(json, parsed_or_empty(project.unknown_json));
   json["intruders"] = Json::array();
   for (const IntruderSettings& intruder : project.intruders) {
     Json item = parsed_or_empty(intruder.unknown_json);

@@ -2,6 +2,7 @@
 #include "project/json.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -201,6 +202,31 @@ TEST_CASE("brackets within brackets are refused before they take all of the stac
     CHECK(read.error().kind == ErrorKind::bad_project);
     CHECK(read.error().text() == "p.json: has more than 100 brackets within one another");
   }
+}
+
+TEST_CASE("a project with hundreds of thousands of unknown keys is read and written in order") {
+  alarm(120);  // a hang, not a measurement: time that grows with the square takes longer
+  constexpr int kMany = 300'000;
+  std::string text = R"({"sigs": 1, "name": "many", "camera": {)";
+  for (int i = 0; i < kMany; ++i) text.append("\"in").append(std::to_string(i)).append("\": {},");
+  text += R"("speed_mps": 7})";
+  for (int i = 0; i < kMany; ++i) text.append(", \"k").append(std::to_string(i)).append("\": [1]");
+  const Result<ReadProject> read = parse_project(text + "}", "p.json");
+  REQUIRE_MESSAGE(read.has_value(), read.error().text());
+  CHECK(read->project.camera.speed_mps == 7);
+  CHECK(read->warnings.size() > 50);
+  CHECK(read->warnings.size() < 200);
+  CHECK(read->warnings[0].text() == "p.json: k0: unknown key, kept but not used");
+  const std::string written = text_of(read->project);
+  const std::size_t first = written.find("\"k0\"");
+  CHECK(first != std::string::npos);
+  CHECK(written.find("\"k299999\"") > first);
+  CHECK(text_of(parse_project(written, "p.json")->project) == written);
+  alarm(0);
+}
+
+TEST_CASE("of several values under one key the last counts") {
+  CHECK(parse_project(R"({"sigs": 1, "name": "a", "name": "b"})", "p.json")->project.name == "b");
 }
 
 TEST_CASE("a value in a message is cut between letters, and bytes that are no letters do no harm") {
