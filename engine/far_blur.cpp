@@ -18,6 +18,16 @@ constexpr double kFarthestFocalLengths = 16;  // beyond the picture
 // Half a code value, by the steepest rise from linear light to display values: sRGB's at black.
 constexpr double kLeastLight = 0.5 / 255 / 12.92;
 
+// Of all views together: 20 bytes each as they are drawn.
+constexpr double kMostDrawnPixels = 32e6;
+constexpr int kSmallestLimit_px = 256;
+
+double pixels_of(const std::vector<VirtualView>& views) {
+  double pixels = 0;
+  for (const VirtualView& view : views) pixels += static_cast<double>(view.size_px.width) * view.size_px.height;
+  return pixels;
+}
+
 Box grown(const Box& box, double by_px) {
   return {box.x - by_px, box.y - by_px, box.width + 2 * by_px, box.height + 2 * by_px};
 }
@@ -60,7 +70,11 @@ std::vector<VirtualView> views_of_cells(const CellGrid& grid, LensTable& lens, c
                                         double supersampling, int max_size_px) {
   // As fine as a pixel wants it at most, and fine enough that a cell's mean is right to a thousandth.
   const double finer = std::min(grid.cell_px, 4);
-  return aimed_views(lens, sitter.corners, grid.cells, supersampling * finer, max_size_px);
+  // A body all around the camera fills views of any size: each halving of a side costs a blurred cell little.
+  for (int most_px = max_size_px;; most_px /= 2) {
+    std::vector<VirtualView> views = aimed_views(lens, sitter.corners, grid.cells, supersampling * finer, most_px);
+    if (pixels_of(views) <= kMostDrawnPixels || most_px <= kSmallestLimit_px) return views;
+  }
 }
 
 Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views, LensTable& lens,

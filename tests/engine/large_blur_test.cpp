@@ -10,6 +10,7 @@
 #include "coarse.h"
 #include "compositor/blend.h"
 #include "engine/made_scenes.h"
+#include "far_blur.h"
 #include "project/json.h"
 #include "see_intruder.h"
 
@@ -137,6 +138,28 @@ void add_aircraft(Lot& lot, const glm::dvec3& position_m) {
 }
 
 }  // namespace
+
+TEST_CASE("a body of a kilometre before a blur of thousands of pixels is drawn in bounded memory") {
+  const Camera camera{Lens::make({.fx = 700, .fy = 700, .cx = 479.5, .cy = 269.5}).value(), {960, 540}};
+  Mesh mesh;
+  mesh.low_m = glm::vec3(-500);
+  mesh.high_m = glm::vec3(500);
+  PlacedIntruder placed;
+  placed.camera_from_body.translation_m = {20, 0, 0};
+  const Light light;
+  const Sitter sitter{mesh, placed, light, corners_in_camera(mesh, placed.camera_from_body)};
+  for (const double sigma_px : {20.0, 200.0, 2e3, 1e4, 1e5}) {
+    const auto grid = cell_grid(std::nullopt, camera, {{0, 0}, camera.size_px}, sigma_px);
+    REQUIRE(grid.has_value());
+    LensTable lens(coarse_camera(camera, grid->cell_px));
+    double drawn_px = 0;
+    for (const VirtualView& view : views_of_cells(*grid, lens, sitter, 3, 16384))
+      drawn_px += static_cast<double>(view.size_px.width) * view.size_px.height;
+    CAPTURE(sigma_px);
+    CHECK(drawn_px > 0);
+    CHECK(drawn_px < 33e6);  // 20 bytes each
+  }
+}
 
 TEST_CASE("far blur of the sample projects is that of the full resolution") {
   const struct {
