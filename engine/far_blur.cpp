@@ -19,7 +19,7 @@ constexpr double kFarthestFocalLengths = 16;  // beyond the picture
 constexpr double kLeastLight = 0.5 / 255 / 12.92;
 
 // Of all views together: 20 bytes each as they are drawn.
-constexpr double kMostDrawnPixels = 32e6;
+constexpr double kMostDrawnPixels = 8e6;
 constexpr int kSmallestLimit_px = 256;
 
 double pixels_of(const std::vector<VirtualView>& views) {
