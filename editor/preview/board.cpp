@@ -91,9 +91,9 @@ int Board::clamped(int frame) const {
 
 std::optional<FrameKey> Board::wanted_key() const {
   if (!wanted_) return std::nullopt;
-  const auto state = state_of_revision_.find(wanted_->revision.number);
-  if (state == state_of_revision_.end()) return std::nullopt;
-  return FrameKey{state->second, clamped(wanted_->frame)};
+  const auto revision = revisions_.find(wanted_->revision.number);
+  if (revision == revisions_.end()) return std::nullopt;
+  return FrameKey{revision->second.state, clamped(wanted_->frame)};
 }
 
 std::shared_ptr<const Picture> Board::found(FrameKey key) const {
@@ -249,13 +249,24 @@ void Board::rest(std::uint64_t version, std::chrono::milliseconds at_most) {
 
 void Board::name_revision(std::uint64_t revision, std::uint64_t state, const FootageId& footage) {
   const std::lock_guard lock(mutex_);
-  const bool is_known = state_of_revision_.contains(revision) && state_of_revision_[revision] == state;
-  if (is_known && footage_wanted_.id == footage.id) return;
-  state_of_revision_[revision] = state;
-  if (state_of_revision_.size() > kRevisionsKnown) state_of_revision_.erase(state_of_revision_.begin());
+  const auto known = revisions_.find(revision);
+  const bool is_new = known == revisions_.end() || known->second.state != state;
+  remember_name(revision, state);
+  if (!is_new && footage_wanted_.id == footage.id) return;
   footage_wanted_ = footage;
   follow_playhead();
   look_up();
+}
+
+// Undo comes back to low numbers: what goes is what was named longest ago, not what has the lowest number.
+void Board::remember_name(std::uint64_t revision, std::uint64_t state) {
+  NamedRevision& known = revisions_[revision];
+  if (known.named != 0) revision_named_.erase(known.named);
+  known = {.state = state, .named = ++namings_};
+  revision_named_[known.named] = revision;
+  if (revisions_.size() <= kRevisionsKnown) return;
+  revisions_.erase(revision_named_.begin()->second);
+  revision_named_.erase(revision_named_.begin());
 }
 
 std::shared_ptr<const Decoded> Board::decoded(FrameKey key) const {

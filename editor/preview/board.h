@@ -104,6 +104,7 @@ class Board {
   [[nodiscard]] bool may_fetch_ahead() const;
   [[nodiscard]] std::optional<FrameKey> next_to_decode() const;
   void follow_playhead();
+  void remember_name(std::uint64_t revision, std::uint64_t state);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -115,7 +116,13 @@ class Board {
 
   std::optional<Wanted> wanted_;
   Clock::time_point revised_{};
-  std::map<std::uint64_t, std::uint64_t> state_of_revision_;
+  struct NamedRevision {
+    std::uint64_t state = 0;
+    std::uint64_t named = 0;  // when, counted: what was named last is known longest
+  };
+  std::map<std::uint64_t, NamedRevision> revisions_;
+  std::map<std::uint64_t, std::uint64_t> revision_named_;  // by `named`: the oldest comes first
+  std::uint64_t namings_ = 0;
 
   FootageId footage_wanted_;
   std::uint64_t opening_ = 0;
