@@ -69,17 +69,17 @@ Document::Document(Project project, std::uint64_t first_number)
 
 void Document::set_frame_count(int count) {
   frame_count_ = std::max(0, count);
-  playhead_ = std::clamp(playhead_, 0, std::max(0, frame_count_ - 1));
+  keep_playhead_valid();
 }
 
 int Document::first_frame() const {
-  return std::clamp(project().footage.first_frame, 0, std::max(0, frame_count_ - 1));
+  const int first = std::max(0, project().footage.first_frame);
+  return frame_count_ > 0 ? std::min(first, frame_count_ - 1) : first;
 }
 
 int Document::last_frame() const {
-  const int footage_last = std::max(0, frame_count_ - 1);
-  return std::clamp(project().footage.last_frame.value_or(footage_last), first_frame(),
-                    std::max(first_frame(), footage_last));
+  const int footage_last = frame_count_ > 0 ? frame_count_ - 1 : project().footage.last_frame.value_or(first_frame());
+  return std::max(first_frame(), std::min(project().footage.last_frame.value_or(footage_last), footage_last));
 }
 
 int Document::range_first() const {
@@ -107,8 +107,7 @@ void Document::apply(const Edit& edit) {
   if (std::holds_alternative<EndGesture>(edit)) gesture_.clear();
   if (std::holds_alternative<Undo>(edit)) step_back();
   if (std::holds_alternative<Redo>(edit)) step_forward();
-  if (const auto* go = std::get_if<GoToFrame>(&edit))
-    playhead_ = std::clamp(go->frame, 0, std::max(0, frame_count_ - 1));
+  if (const auto* go = std::get_if<GoToFrame>(&edit)) playhead_ = go->frame;
   if (const auto* select = std::get_if<Select>(&edit)) selection_ = select->selection;
   if (const auto* range = std::get_if<SetInOut>(&edit)) {
     in_ = range->in;
@@ -116,6 +115,7 @@ void Document::apply(const Edit& edit) {
     if (in_ && out_ && *in_ > *out_) std::swap(*in_, *out_);
   }
   keep_selection_valid();
+  keep_playhead_valid();
 }
 
 void Document::change(const ChangeProject& change) {
@@ -165,6 +165,10 @@ void Document::keep_selection_valid() {
       static_cast<int>(project().intruders[static_cast<std::size_t>(selection_.intruder)].trajectory.waypoints.size());
   if (waypoints == 0) selection_ = {Selected::intruder, selection_.intruder, 0};
   selection_.waypoint = std::clamp(selection_.waypoint, 0, std::max(0, waypoints - 1));
+}
+
+void Document::keep_playhead_valid() {
+  playhead_ = std::clamp(playhead_, first_frame(), last_frame());
 }
 
 Result<void> Document::save() {

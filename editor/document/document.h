@@ -38,11 +38,12 @@ class Document {
   [[nodiscard]] std::optional<int> in() const { return in_; }
   [[nodiscard]] std::optional<int> out() const { return out_; }
 
-  // Frames that the footage has, for clamping the playhead; 0: not known.
+  // Frames that the footage has; 0: not known. The playhead stays within the project's range.
   void set_frame_count(int count);
   [[nodiscard]] int frame_count() const { return frame_count_; }
 
-  // The project's range within the footage, and within it what is marked by in and out (both included).
+  // The project's range within the footage, and within it what is marked by in and out (both included). While the
+  // footage is not known, what the project says.
   [[nodiscard]] int first_frame() const;
   [[nodiscard]] int last_frame() const;
   [[nodiscard]] int range_first() const;
@@ -80,6 +81,7 @@ class Document {
   void step_back();
   void step_forward();
   void keep_selection_valid();
+  void keep_playhead_valid();
 
   Revision revision_;
   std::uint64_t first_number_;

@@ -90,15 +90,14 @@ TEST_CASE("a change that fails, or leaves numbers that are none, is refused as a
   const Project before = document.project();
   document.apply(Edit(speed(std::numeric_limits<double>::quiet_NaN())));
   document.apply(Edit(speed(std::numeric_limits<double>::infinity())));
-  document.apply(Edit(ChangeProject{"broken", [](Project& project) {
+  document.apply(Edit(ChangeProject{"broken",
+                                    [](Project& project) {
                                       project.name = "half";
                                       throw std::out_of_range("no such waypoint");
                                     },
                                     {}}));
-  document.apply(Edit(ChangeProject{"nowhere", [](Project& project) {
-                                      project.intruders[0].trajectory.waypoints[1].position_m.y = NAN;
-                                    },
-                                    {}}));
+  document.apply(Edit(ChangeProject{
+      "nowhere", [](Project& project) { project.intruders[0].trajectory.waypoints[1].position_m.y = NAN; }, {}}));
   CHECK(document.project() == before);
   CHECK_FALSE(document.can_undo());
 }
@@ -150,10 +149,45 @@ TEST_CASE("the playhead stays on the footage, and the range within the project's
   CHECK(document.range_last() == 0);
 }
 
+TEST_CASE("a project opens at its first frame, before and after the footage is known") {
+  Project project;
+  project.footage.first_frame = 100;
+  Document document(project);
+  CHECK(document.playhead() == 100);
+  document.set_frame_count(200);
+  CHECK(document.playhead() == 100);
+  CHECK(document.range_first() == 100);
+  CHECK(document.range_last() == 199);
+  Document shorter(project);
+  shorter.set_frame_count(50);  // the footage is shorter than the project says
+  CHECK(shorter.playhead() == 49);
+}
+
+TEST_CASE("the playhead stays within the project's range, also where that changes") {
+  Project project;
+  project.footage.first_frame = 20;
+  project.footage.last_frame = 60;
+  Document document(project);
+  document.set_frame_count(100);
+  document.apply(Edit(GoToFrame{5}));
+  CHECK(document.playhead() == 20);
+  document.apply(Edit(GoToFrame{99}));
+  CHECK(document.playhead() == 60);
+  document.apply(Edit(ChangeProject{"last frame", [](Project& p) { p.footage.last_frame = 40; }, {}}));
+  CHECK(document.playhead() == 40);
+  document.apply(Edit(ChangeProject{"first frame", [](Project& p) { p.footage.first_frame = 30; }, {}}));
+  document.apply(Edit(GoToFrame{0}));
+  CHECK(document.playhead() == 30);
+  document.apply(Edit(Undo{}));
+  document.apply(Edit(GoToFrame{0}));
+  CHECK(document.playhead() == 20);
+}
+
 TEST_CASE("a selection never points beyond the project") {
   Document document(with_waypoints(3));
   document.apply(Edit(Select{{Selected::waypoint, 0, 2}}));
-  document.apply(Edit(ChangeProject{"delete", [](Project& project) { project.intruders[0].trajectory.waypoints.pop_back(); }, {}}));
+  document.apply(Edit(
+      ChangeProject{"delete", [](Project& project) { project.intruders[0].trajectory.waypoints.pop_back(); }, {}}));
   CHECK(document.selection() == Selection{Selected::waypoint, 0, 1});
   document.apply(Edit(ChangeProject{"delete all", [](Project& project) { project.intruders.clear(); }, {}}));
   CHECK(document.selection().kind == Selected::nothing);
