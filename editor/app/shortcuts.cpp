@@ -94,8 +94,7 @@ void take_waypoint_keys(const Studio& studio) {
   if (pressed(Key::down, true)) go_to_waypoint(studio, 1);
   if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(studio);
   if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(studio);
-  // In a drag it belongs to what is dragged.
-  if (pressed(Key::escape) && !ImGui::IsAnyItemActive() && !studio.wishes.own_escape) studio.edits.select({});
+  if (pressed(Key::escape) && !studio.wishes.own_escape) studio.edits.select({});
 }
 
 // With Ctrl held.
@@ -123,17 +122,19 @@ std::span<const Shortcut> shortcuts() {
 void take_keys(const Studio& studio, bool has_project) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId) || io.KeyAlt) return;
+  // What the mouse holds may be a waypoint: nothing is changed, opened or saved under it, and Esc is its own.
+  const bool mouse_holds = ImGui::IsAnyItemActive();
   if (pressed(Key::f11)) studio.edits.ask(ToggleFullScreen{});
   if (pressed(Key::slash) && io.KeyShift) studio.edits.ask(ShowHelp{});
-  if (io.KeyCtrl) take_program_keys(studio, io.KeyShift);
+  if (io.KeyCtrl && !mouse_holds) take_program_keys(studio, io.KeyShift);
   if (!has_project) return;
   if (io.KeyCtrl) {
-    take_edit_keys(studio, io.KeyShift);
+    if (!mouse_holds) take_edit_keys(studio, io.KeyShift);
     return;
   }
   take_transport_keys(studio);
   take_range_keys(studio);
-  take_waypoint_keys(studio);
+  if (!mouse_holds) take_waypoint_keys(studio);
 }
 
 }  // namespace sigs::editor

@@ -16,8 +16,8 @@ struct Shortcut {
 };
 [[nodiscard]] std::span<const Shortcut> shortcuts();
 
-// Asks for what the keys pressed in this turn mean. Not while text is typed or a dialog is open; without
-// a project those of the program alone.
+// Asks for what the keys pressed in this turn mean. Not while text is typed or a dialog is open; while the mouse holds
+// something only those that go and play; without a project those of the program alone.
 void take_keys(const Studio& studio, bool has_project);
 
 }  // namespace sigs::editor

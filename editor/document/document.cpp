@@ -104,7 +104,8 @@ void Document::apply(const std::vector<Edit>& edits) {
 
 void Document::apply(const Edit& edit) {
   if (const auto* change_project = std::get_if<ChangeProject>(&edit)) change(*change_project);
-  if (std::holds_alternative<EndGesture>(edit)) gesture_.clear();
+  if (std::holds_alternative<EndGesture>(edit)) end_gesture();
+  if (const auto* cancel = std::get_if<CancelGesture>(&edit)) cancel_gesture(cancel->gesture);
   if (std::holds_alternative<Undo>(edit)) step_back();
   if (std::holds_alternative<Redo>(edit)) step_forward();
   if (const auto* go = std::get_if<GoToFrame>(&edit)) playhead_ = go->frame;
@@ -118,6 +119,10 @@ void Document::apply(const Edit& edit) {
   keep_playhead_valid();
 }
 
+bool Document::has_other_changes(std::uint64_t since_revision, const std::string& gesture) const {
+  return revision_.number != since_revision && (gesture.empty() || gesture_ != gesture);
+}
+
 void Document::change(const ChangeProject& change) {
   Project changed = project();
   try {
@@ -127,16 +132,39 @@ void Document::change(const ChangeProject& change) {
   }
   if (!finite(changed) || changed == project()) return;
   const bool joins = !change.gesture.empty() && change.gesture == gesture_ && !past_.empty();
-  if (!joins) past_.push_back({change.name, revision_, selection_});
+  if (!joins) {
+    end_gesture();
+    past_.push_back({change.name, revision_, selection_});
+    future_of_gesture_ = std::exchange(future_, {});
+  }
   gesture_ = change.gesture;
-  future_.clear();
   revision_ = {++last_number_, std::make_shared<const Project>(std::move(changed))};
+  if (gesture_.empty()) end_gesture();
+}
+
+void Document::end_gesture() {
+  gesture_.clear();
+  future_of_gesture_.clear();
+  forget_oldest();
+}
+
+void Document::cancel_gesture(const std::string& gesture) {
+  if (gesture.empty() || gesture != gesture_ || past_.empty()) return;
+  revision_ = std::move(past_.back().before);
+  selection_ = past_.back().selection;
+  past_.pop_back();
+  future_ = std::exchange(future_of_gesture_, {});
+  end_gesture();
+}
+
+// Not in a gesture: what it might still be taken back to has to be there.
+void Document::forget_oldest() {
   const std::size_t room = std::max<std::size_t>(10, kMostWaypointsInHistory / waypoints_in(project()));
   while (past_.size() > std::min(kMostSteps, room)) past_.erase(past_.begin());
 }
 
 void Document::step_back() {
-  gesture_.clear();
+  end_gesture();
   if (past_.empty()) return;
   Step step = std::move(past_.back());
   past_.pop_back();
@@ -144,7 +172,7 @@ void Document::step_back() {
 }
 
 void Document::step_forward() {
-  gesture_.clear();
+  end_gesture();
   if (future_.empty()) return;
   Step step = std::move(future_.back());
   future_.pop_back();
@@ -181,7 +209,7 @@ Result<void> Document::save_as(const std::filesystem::path& path) {
   if (const Result<void> written = write_project(moved, path, true); !written) return written;
   if (moved != project()) revision_ = {++last_number_, std::make_shared<const Project>(std::move(moved))};
   saved_number_ = revision_.number;
-  gesture_.clear();
+  end_gesture();
   return {};
 }
 

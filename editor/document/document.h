@@ -38,6 +38,10 @@ class Document {
   [[nodiscard]] std::optional<int> in() const { return in_; }
   [[nodiscard]] std::optional<int> out() const { return out_; }
 
+  // Whether the project has changed since that revision by anything but this gesture. A drag whose project was changed
+  // under it cannot know what its numbers count any more.
+  [[nodiscard]] bool has_other_changes(std::uint64_t since_revision, const std::string& gesture) const;
+
   // Frames that the footage has; 0: not known. The playhead stays within the project's range.
   void set_frame_count(int count);
   [[nodiscard]] int frame_count() const { return frame_count_; }
@@ -78,6 +82,9 @@ class Document {
   };
 
   void change(const ChangeProject& change);
+  void end_gesture();
+  void cancel_gesture(const std::string& gesture);
+  void forget_oldest();
   void step_back();
   void step_forward();
   void keep_selection_valid();
@@ -89,7 +96,8 @@ class Document {
   std::uint64_t saved_number_;  // 0: what is in memory was never written
   std::vector<Step> past_;
   std::vector<Step> future_;
-  std::string gesture_;  // of the last step, while it lasts
+  std::string gesture_;                  // of the last step, while it lasts
+  std::vector<Step> future_of_gesture_;  // what could be redone before it, for taking it back
   Selection selection_;
   int playhead_ = 0;
   int frame_count_ = 0;

@@ -32,6 +32,11 @@ struct ChangeProject {
   std::string gesture;  // "": a step of its own
 };
 struct EndGesture {};
+// As if the gesture had never begun: the project, the selection, and what could be undone and redone are as before it.
+// Nothing happens where another change has come since.
+struct CancelGesture {
+  std::string gesture;
+};
 struct Undo {};
 struct Redo {};
 struct GoToFrame {
@@ -46,7 +51,7 @@ struct SetInOut {
   std::optional<int> out;  // included
 };
 
-using Edit = std::variant<ChangeProject, EndGesture, Undo, Redo, GoToFrame, Select, SetInOut>;
+using Edit = std::variant<ChangeProject, EndGesture, CancelGesture, Undo, Redo, GoToFrame, Select, SetInOut>;
 
 // What is asked of the program rather than of the document.
 struct OpenProject {
@@ -108,6 +113,7 @@ class Edits {
     edits_.emplace_back(ChangeProject{std::move(name), std::move(change), std::move(gesture)});
   }
   void end_gesture() { edits_.emplace_back(EndGesture{}); }
+  void cancel_gesture(std::string gesture) { edits_.emplace_back(CancelGesture{std::move(gesture)}); }
   void undo() { edits_.emplace_back(Undo{}); }
   void redo() { edits_.emplace_back(Redo{}); }
   void go_to_frame(int frame) { edits_.emplace_back(GoToFrame{frame}); }

@@ -142,8 +142,11 @@ void go_to_waypoint(const Studio& studio, int direction) {
   studio.edits.select({Selected::waypoint, *intruder, found});
 }
 
+std::string gesture_of_waypoint(int intruder, int waypoint) {
+  return "move " + std::to_string(intruder) + " " + std::to_string(waypoint);
+}
+
 void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::dvec3& position_m) {
-  const std::string gesture = "move " + std::to_string(intruder) + " " + std::to_string(waypoint);
   studio.edits.change(
       "move waypoint",
       [=](Project& project) {
@@ -151,7 +154,7 @@ void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::
         if (static_cast<std::size_t>(waypoint) < waypoints.size())
           waypoints[static_cast<std::size_t>(waypoint)].position_m = position_m;
       },
-      gesture);
+      gesture_of_waypoint(intruder, waypoint));
 }
 
 IntruderSettings new_intruder(const Studio& studio) {

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "editor/views/studio.h"
@@ -31,7 +32,8 @@ void duplicate_intruder(const Studio& studio, int intruder);
 // The playhead to the waypoint before (-1) or after (+1) it; selects that.
 void go_to_waypoint(const Studio& studio, int direction);
 
-// Moves one, as part of a drag; ends with studio.edits.end_gesture().
+// Moves one, as part of a drag; ends with studio.edits.end_gesture(). The gesture's name, for taking it back.
+[[nodiscard]] std::string gesture_of_waypoint(int intruder, int waypoint);
 void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::dvec3& position_m);
 
 // An intruder of the same model as the last one (or none) 300 m ahead of the camera, crossing. Adding selects it.

@@ -14,6 +14,7 @@
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -55,6 +56,10 @@ void add_on_curve(const Studio& studio, int intruder, double frame) {
   } else {
     studio.edits.ask(Say{"The trajectory is not known yet; try again in a moment.", true});
   }
+}
+
+std::string gesture_of(int intruder, int waypoint) {
+  return "time " + std::to_string(intruder) + " " + std::to_string(waypoint);
 }
 
 // Whole frames; with Alt any moment.
@@ -123,8 +128,21 @@ void KeyRows::drag(const Studio& studio, const Row& row) {
   go_by_hand(studio, rounded_frame(now));  // one turn behind, but where its neighbours let it go
   const double wanted = snapped(row.strip.moment_at(ImGui::GetIO().MousePos.x) + held.offset);
   if (wanted == now) return;
-  set_frame(studio, held.intruder, held.waypoint, wanted,
-            "time " + std::to_string(held.intruder) + " " + std::to_string(held.waypoint));
+  set_frame(studio, held.intruder, held.waypoint, wanted, gesture_of(held.intruder, held.waypoint));
+}
+
+// Numbers count what they counted as long as nothing but this drag has changed the project.
+void KeyRows::hold(const Studio& studio, const Row& row) {
+  const std::string gesture = gesture_of(held_->intruder, held_->waypoint);
+  const bool is_cancelled = pressed(Key::escape);
+  if (is_cancelled && held_->moving) {
+    studio.edits.cancel_gesture(gesture);
+    go_by_hand(studio, rounded_frame(held_->frame_before));
+  }
+  if (is_cancelled || studio.document.has_other_changes(held_->revision_before, held_->moving ? gesture : ""))
+    held_.reset();
+  else
+    drag(studio, row);
 }
 
 void KeyRows::open_menu(const Studio& studio, const Row& row, int under) {
@@ -144,15 +162,17 @@ void KeyRows::take_mouse(const Studio& studio, const Row& row) {
     if (row.under >= 0) {
       const double frame = row.frames[static_cast<std::size_t>(row.under)];
       go_by_hand(studio, rounded_frame(frame));
-      held_ = Held{row.intruder, row.under, frame - row.strip.moment_at(ImGui::GetIO().MousePos.x)};
+      held_ = Held{.intruder = row.intruder,
+                   .waypoint = row.under,
+                   .offset = frame - row.strip.moment_at(ImGui::GetIO().MousePos.x),
+                   .frame_before = frame,
+                   .revision_before = studio.document.revision().number};
     }
   }
-  if (ImGui::IsItemActive() && held_ && held_->intruder == row.intruder) drag(studio, row);
+  if (ImGui::IsItemActive() && held_ && held_->intruder == row.intruder) hold(studio, row);
   if (ImGui::IsItemDeactivated() && held_) {
-    if (held_->moving) {
-      drag(studio, row);
-      studio.edits.end_gesture();
-    }
+    hold(studio, row);
+    if (held_ && held_->moving) studio.edits.end_gesture();
     held_.reset();
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "editor/views/timeline/strip.h"
@@ -21,6 +22,8 @@ class KeyRows {
     int intruder = 0;
     int waypoint = 0;
     double offset = 0;  // frames from the mouse to the key
+    double frame_before = 0;
+    std::uint64_t revision_before = 0;
     bool moving = false;
   };
   // Where the right button was pressed; waypoint -1: on the row itself.
@@ -36,6 +39,7 @@ class KeyRows {
   static void note_places(const Studio& studio, const Row& row);
   void take_mouse(const Studio& studio, const Row& row);
   void drag(const Studio& studio, const Row& row);
+  void hold(const Studio& studio, const Row& row);
   void open_menu(const Studio& studio, const Row& row, int under);
   void draw_menu(const Studio& studio);
   void draw_key_menu(const Studio& studio);

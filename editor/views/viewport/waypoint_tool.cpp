@@ -111,6 +111,7 @@ bool WaypointTool::press(const ToolTurn& turn) {
   if (const WaypointMark* mark = waypoint_at(turn)) {
     taken_ = Taken{.intruder = mark->intruder,
                    .waypoint = mark->waypoint,
+                   .revision_before = turn.studio.document.revision().number,
                    .selected_before = {Selected::waypoint, mark->intruder, mark->waypoint},
                    .pressed = turn.mouse};
     const double frame = std::clamp(std::round(mark->frame), 0.0, 1e9);
@@ -125,6 +126,7 @@ bool WaypointTool::press(const ToolTurn& turn) {
   if (!intruder) return false;
   taken_ = Taken{.intruder = *intruder,
                  .waypoint = -1,
+                 .revision_before = turn.studio.document.revision().number,
                  .selected_before = {Selected::intruder, *intruder, 0},
                  .pressed = turn.mouse};
   const Selection& selection = turn.studio.document.selection();
@@ -133,7 +135,9 @@ bool WaypointTool::press(const ToolTurn& turn) {
   return true;
 }
 
+// Numbers count what they counted as long as nothing but this drag has changed the project.
 bool WaypointTool::is_still_there(const Studio& studio) const {
+  if (studio.document.has_other_changes(taken_->revision_before, taken_->gesture)) return false;
   if (taken_->waypoint >= 0) return waypoint_position(studio, taken_->intruder, taken_->waypoint).has_value();
   return static_cast<std::size_t>(taken_->intruder) < studio.project().intruders.size();
 }
@@ -149,13 +153,12 @@ bool WaypointTool::begin(const ToolTurn& turn) {
   Taken& taken = *taken_;
   if (glm::distance(turn.mouse, taken.pressed) < scaled(kLeastDrag_px)) return false;
   if (turn.studio.playing) turn.studio.edits.ask(Play{0});
-  taken.gesture = "over the footage " + std::to_string(++gestures_);
   const bool makes_one = taken.waypoint < 0;
   const std::optional<glm::dvec3> start_m = makes_one ? position_of(turn.studio, taken.intruder, turn.eye.frame)
                                                       : waypoint_position(turn.studio, taken.intruder, taken.waypoint);
   if (!start_m) return false;
   if (!makes_one && !is_under_press(turn, *start_m)) return false;
-  taken.revision_before = turn.studio.document.revision().number;
+  taken.gesture = "over the footage " + std::to_string(++gestures_);
   // Where a waypoint stands within a frame of this one, that is the one it gets.
   if (makes_one) taken.waypoint = put_in_gesture(turn.studio, taken.intruder, turn.eye.frame, *start_m, taken.gesture);
   taken.start_m = taken.now_m = taken.first_m = *start_m;
@@ -198,14 +201,13 @@ void WaypointTool::move(const ToolTurn& turn) {
 
 void WaypointTool::cancel(const Studio& studio) {
   if (taken_->moving) {
-    studio.edits.end_gesture();
-    if (studio.document.revision().number != taken_->revision_before) studio.edits.undo();
+    studio.edits.cancel_gesture(taken_->gesture);
     selected_again_ = taken_->selected_before;
   }
   taken_.reset();
 }
 
-// Esc also selects nothing; what was dragged is to stay selected.
+// Taking back a drag brings back what was selected before its first move; what was dragged is to stay selected.
 void WaypointTool::select_again(const Studio& studio) {
   if (selected_again_) studio.edits.select(*selected_again_);
   selected_again_.reset();

@@ -48,8 +48,8 @@ class WaypointTool {
  private:
   struct Taken {
     int intruder = 0;
-    int waypoint = 0;  // -1: the intruder itself, which has none here
-    std::string gesture;
+    int waypoint = 0;     // -1: the intruder itself, which has none here
+    std::string gesture;  // "" until it moves
     std::uint64_t revision_before = 0;
     Selection selected_before;  // what Esc comes back to
     glm::dvec2 pressed{0, 0};   // where the mouse was taken, on the screen

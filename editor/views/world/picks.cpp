@@ -128,17 +128,22 @@ std::optional<Movable> movable(const WorldTurn& turn, const Selection& what) {
   return std::nullopt;
 }
 
+std::string gesture_of(const Selection& moved) {
+  if (moved.kind == Selected::waypoint) return gesture_of_waypoint(moved.intruder, moved.waypoint);
+  return moved.kind == Selected::light ? "move light" : "move camera";
+}
+
 void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m) {
   Edits& edits = turn.studio.edits;
   if (moved.what.kind == Selected::waypoint) move_waypoint(turn.studio, moved.what.intruder, moved.what.waypoint, to_m);
   if (moved.what.kind == Selected::light)
     edits.change(
-        "move light", [=](Project& project) { project.light.position_m = to_m; }, "move light");
+        "move light", [=](Project& project) { project.light.position_m = to_m; }, gesture_of(moved.what));
   if (moved.what.kind != Selected::camera) return;
   // The project holds where it starts.
   const glm::dvec3 flown_m{turn.studio.project().camera.speed_mps * turn.moment.time_s, 0, 0};
   edits.change(
-      "move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, "move camera");
+      "move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, gesture_of(moved.what));
 }
 
 std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn,

@@ -26,7 +26,8 @@ struct Movable {
 // What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the playhead).
 [[nodiscard]] std::optional<Movable> movable(const WorldTurn& turn);
 [[nodiscard]] std::optional<Movable> movable(const WorldTurn& turn, const Selection& what);
-// Part of a gesture.
+// Part of a gesture, of this name.
+[[nodiscard]] std::string gesture_of(const Selection& moved);
 void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m);
 
 // Where a waypoint put at a place of the screen is to be: at the height of the intruder that is worked on; where the

@@ -77,6 +77,9 @@ void WorldTools::update(const WorldTurn& turn, const WorldCanvas& canvas, WorldL
 
 void WorldTools::move_handle(const WorldTurn& turn, const WorldCanvas& canvas, const WorldLook& look) {
   moved_to_.reset();
+  // Numbers count what they counted as long as nothing but this drag has changed the project.
+  if (handle_.dragging() && turn.studio.document.has_other_changes(revision_before_, gesture_of(dragged_)))
+    handle_.let_go();
   const std::optional<Movable> target = handle_.dragging() ? movable(turn, dragged_) : movable(turn);
   if (!target) {
     handle_.let_go();
@@ -102,10 +105,8 @@ void WorldTools::move_handle(const WorldTurn& turn, const WorldCanvas& canvas, c
     take_double_click(turn);
 }
 
-// A drag that has changed nothing yet leaves nothing to undo.
 void WorldTools::cancel_drag(const WorldTurn& turn) {
-  turn.studio.edits.end_gesture();
-  if (turn.studio.document.revision().number != revision_before_) turn.studio.edits.undo();
+  turn.studio.edits.cancel_gesture(gesture_of(dragged_));
 }
 
 void WorldTools::press(const WorldTurn& turn, const WorldCanvas& canvas) {

@@ -250,6 +250,16 @@ void EditorDriver::drag(const std::string& name, double by_x, double by_y, int b
   drag(there.center_x(), there.center_y(), there.center_x() + by_x, there.center_y() + by_y, button, held_key);
 }
 
+void EditorDriver::hold(double x, double y, int button) {
+  xdotool({"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s), "mousedown", std::to_string(button)});
+  rest_a_turn();
+}
+
+void EditorDriver::let_go(int button) {
+  xdotool({"mouseup", std::to_string(button)});
+  rest_a_turn();
+}
+
 void EditorDriver::wheel(double x, double y, int clicks) {
   move(x, y);
   for (int i = 0; i < std::abs(clicks); ++i) {

@@ -57,6 +57,9 @@ class EditorDriver {
   // In steps, with the button held; keys ("ctrl") are held meanwhile.
   void drag(double x, double y, double to_x, double to_y, int button = 1, const std::string& held_key = {});
   void drag(const std::string& place, double by_x, double by_y, int button = 1, const std::string& held_key = {});
+  // The parts of a drag, for what happens in its middle.
+  void hold(double x, double y, int button = 1);
+  void let_go(int button = 1);
   void wheel(double x, double y, int clicks);  // positive: away from the hand
   void key(const std::string& keys);           // "ctrl+z"
   void type(const std::string& text);
