@@ -30,7 +30,23 @@ void FileDesk::say(std::string text, bool is_error) {
   requests_.push_back(Say{std::move(text), is_error});
 }
 
+// What was asked for while a question is open begins anew after its answer: by then nothing may be left to be asked.
+bool FileDesk::waits(Step step) {
+  if (!question_) return false;
+  waiting_.push_back(std::move(step));
+  return true;
+}
+
+void FileDesk::go_on() {
+  while (!question_ && !done_ && !waiting_.empty()) {
+    const Step step = std::move(waiting_.front());
+    waiting_.pop_front();
+    step();
+  }
+}
+
 void FileDesk::ask(Question question, std::vector<Step> steps) {
+  if (waits([this, question, steps] { ask(question, steps); })) return;
   question_ = std::move(question);
   steps_ = std::move(steps);
 }
@@ -40,13 +56,22 @@ void FileDesk::answer(int number) {
   const std::vector<Step> steps = std::exchange(steps_, {});
   if (number >= 0 && number < static_cast<int>(steps.size()) && steps[static_cast<std::size_t>(number)])
     steps[static_cast<std::size_t>(number)]();
+  go_on();
 }
 
 std::vector<Request> FileDesk::take_requests() {
   return std::exchange(requests_, {});
 }
 
+bool FileDesk::is_of_files(const Request& request) const {
+  return std::holds_alternative<OpenProject>(request) || std::holds_alternative<SaveProjectAs>(request) ||
+         std::holds_alternative<SaveProject>(request) || std::holds_alternative<NewProject>(request) ||
+         std::holds_alternative<CloseProject>(request) || std::holds_alternative<Quit>(request);
+}
+
 bool FileDesk::take(const Request& request) {
+  if (!is_of_files(request)) return false;
+  if (waits([this, request] { take(request); })) return true;
   const auto* to_open = std::get_if<OpenProject>(&request);
   const auto* to_save = std::get_if<SaveProjectAs>(&request);
   if (to_open != nullptr) {
@@ -62,10 +87,8 @@ bool FileDesk::take(const Request& request) {
     leave_then([this] { show(Project()); });
   } else if (std::holds_alternative<CloseProject>(request)) {
     leave_then([this] { close(); });
-  } else if (std::holds_alternative<Quit>(request)) {
-    quit();
   } else {
-    return false;
+    quit();
   }
   return true;
 }
@@ -145,6 +168,8 @@ void FileDesk::close() {
 }
 
 void FileDesk::take_loaded() {
+  const bool is_asking_for_file = surroundings_.is_asking_for_file && surroundings_.is_asking_for_file();
+  if (question_ || is_asking_for_file) return;
   std::optional<LoadedProject> loaded = loader_.take();
   if (!loaded) return;
   if (!loaded->read) {
@@ -191,11 +216,19 @@ void FileDesk::save_as_then(const fs::path& path, Step next) {
   }
   const Project& project = document_.project();
   const fs::path start = project.file.empty() ? settings_.last_folder / (project.name + ".json") : project.file;
-  requests_.push_back(AskForFile{.title = "Save the project as",
-                                 .extensions = {".json"},
-                                 .for_saving = true,
-                                 .start = start,
-                                 .chosen = [this, next](const fs::path& chosen) { write_then(chosen, next); }});
+  requests_.push_back(
+      AskForFile{.title = "Save the project as",
+                 .extensions = {".json"},
+                 .for_saving = true,
+                 .start = start,
+                 .chosen = for_this_document([this, next](const fs::path& chosen) { write_then(chosen, next); })});
+}
+
+// A name that was asked for one project is none for another that has come meanwhile.
+std::function<void(const fs::path&)> FileDesk::for_this_document(std::function<void(const fs::path&)> chosen) const {
+  return [this, chosen = std::move(chosen), document = document_.first_number()](const fs::path& path) {
+    if (document_.first_number() == document) chosen(path);
+  };
 }
 
 void FileDesk::write_then(const fs::path& path, const Step& next) {
@@ -215,6 +248,7 @@ void FileDesk::write_then(const fs::path& path, const Step& next) {
 }
 
 void FileDesk::recover(const AbandonedProject& abandoned) {
+  if (waits([this, abandoned] { recover(abandoned); })) return;
   leave_then([this, abandoned] {
     recovery_.forget();
     Result<ReadProject> read = recovery_.take_over(abandoned);
@@ -232,6 +266,7 @@ void FileDesk::recover(const AbandonedProject& abandoned) {
 }
 
 void FileDesk::discard(const AbandonedProject& abandoned) {
+  if (waits([this, abandoned] { discard(abandoned); })) return;
   const auto gone = [this, abandoned] {
     editor::discard(abandoned);
     std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });

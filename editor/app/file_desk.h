@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -32,11 +33,13 @@ class FileDesk {
     std::function<void()> wake;          // called from another thread when a file was read
     std::function<bool()> is_exporting;  // an export is lost by quitting
     UnsavedMask mask;
+    std::function<bool()> is_asking_for_file;  // a file is being chosen: no other project comes meanwhile
   };
   // Document and settings must outlive it. At first no project is open.
   FileDesk(Document& document, Settings& settings, Surroundings surroundings);
 
-  // Open, new, save, close, quit. False: it was another request, nothing happened.
+  // Open, new, save, close, quit. False: it was another request, nothing happened. While a question is open it waits
+  // until that is answered.
   bool take(const Request& request);
   // A file came from outside: opened, or put into the project.
   void take_dropped(const std::filesystem::path& path, Edits& edits);
@@ -65,6 +68,11 @@ class FileDesk {
 
   void say(std::string text, bool is_error = false);
   void ask(Question question, std::vector<Step> steps);
+  [[nodiscard]] bool waits(Step step);  // for the question that is open; false: none is
+  void go_on();
+  [[nodiscard]] bool is_of_files(const Request& request) const;
+  [[nodiscard]] std::function<void(const std::filesystem::path&)> for_this_document(
+      std::function<void(const std::filesystem::path&)> chosen) const;
   void ask_which_to_open();
   void leave_then(Step next);  // next: once nothing unsaved is lost by it
   void leave_document_then(Step next);
@@ -86,7 +94,8 @@ class FileDesk {
   DiskChange disk_;
   std::vector<AbandonedProject> abandoned_;
   std::optional<Question> question_;
-  std::vector<Step> steps_;  // one for each answer
+  std::vector<Step> steps_;   // one for each answer
+  std::deque<Step> waiting_;  // what came while a question was open, oldest first
   std::vector<Request> requests_;
   std::uint64_t may_be_lost_ = 0;       // the unsaved state that the person agreed to give up
   std::uint64_t mask_may_be_lost_ = 0;  // and of the mask

@@ -43,7 +43,11 @@ FrontDesk::FrontDesk(Document& document, Settings& settings, Setup setup)
       setup_(std::move(setup)),
       export_(setup_.wake),
       files_(document, settings,
-             {setup_.recovery_folder, setup_.wake, [this] { return export_.is_running(); }, setup_.mask}),
+             {.recovery_folder = setup_.recovery_folder,
+              .wake = setup_.wake,
+              .is_exporting = [this] { return export_.is_running(); },
+              .mask = setup_.mask,
+              .is_asking_for_file = [this] { return browser_.is_open(); }}),
       start_page_(setup_.samples, setup_.wake) {
   const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
   browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);
@@ -53,7 +57,11 @@ bool FrontDesk::is_restless() const {
   return export_.is_running() || toasts_.is_passing() || !files_.loading().empty() || browser_.is_open();
 }
 
-void FrontDesk::ask_for_file(const AskForFile& wanted) {
+// One after the other: the later waits until the browser is closed.
+void FrontDesk::ask_for_files() {
+  if (browser_.is_open() || files_wanted_.empty()) return;
+  const AskForFile wanted = std::move(files_wanted_.front());
+  files_wanted_.pop_front();
   const FileWanted kind =
       wanted.of_folder ? FileWanted::folder : (wanted.for_saving ? FileWanted::to_save : FileWanted::to_open);
   chosen_ = wanted.chosen;
@@ -64,7 +72,8 @@ void FrontDesk::ask_for_file(const AskForFile& wanted) {
 bool FrontDesk::take(const Request& request) {
   if (files_.take(request)) return true;
   if (const auto* wanted = std::get_if<AskForFile>(&request)) {
-    ask_for_file(*wanted);
+    files_wanted_.push_back(*wanted);
+    ask_for_files();
   } else if (const auto* message = std::get_if<Say>(&request)) {
     toasts_.say(*message, now_s_);
   } else if (std::holds_alternative<ShowExport>(request)) {
@@ -101,6 +110,7 @@ void FrontDesk::turn(double now_s) {
   for (const auto& step : std::exchange(answered_, {})) step();
   files_.turn(now_s);
   take_own_requests();
+  ask_for_files();
   if (std::exchange(project_file_, document_.project().file) != document_.project().file) export_view_.forget_folder();
   const bool exporting = export_.is_running();
   if (std::exchange(was_exporting_, exporting) && !exporting) tell_of_export();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -53,7 +54,7 @@ class FrontDesk {
   [[nodiscard]] bool is_restless() const;
 
  private:
-  void ask_for_file(const AskForFile& wanted);
+  void ask_for_files();
   void take_own_requests();
   void tell_of_export();
   void draw_dialog(const Studio& studio);
@@ -66,7 +67,8 @@ class FrontDesk {
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;
-  std::function<void(const std::filesystem::path&)> chosen_;
+  std::deque<AskForFile> files_wanted_;
+  std::function<void(const std::filesystem::path&)> chosen_;  // for what the browser asks
   ExportView export_view_;
   RelinkDialog relink_;
   SettingsDialog settings_dialog_;

@@ -1,82 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/file_desk.h"
-
-#include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
-#include "support/test_data.h"
+#include "desk.h"
 
 using namespace sigs;
 using namespace sigs::editor;
-using sigs::test::TemporaryFolder;
-
-namespace {
-
-namespace fs = std::filesystem;
-
-// An editor without a window, and a person who answers.
-struct Desk {
-  TemporaryFolder folder;
-  Document document;
-  Settings settings;
-  bool exporting = false;
-  double now_s = 0;
-  std::uint64_t unsaved_mask = 0;
-  std::vector<std::function<void()>> to_save_mask;  // what goes on once its name is given
-  FileDesk desk{document,
-                settings,
-                {folder / "state",
-                 [] {},
-                 [this] { return exporting; },
-                 {.unsaved = [this] { return unsaved_mask; },
-                  .save_then = [this](std::function<void()> next) { to_save_mask.push_back(std::move(next)); }}}};
-
-  void edit(const std::string& name) {
-    document.apply(ChangeProject{"rename", [name](Project& p) { p.name = name; }, {}});
-  }
-
-  fs::path written(const std::string& file, const std::string& name) {
-    Project project;
-    project.name = name;
-    REQUIRE(write_project(project, folder / file, true));
-    return folder / file;
-  }
-
-  void open(const fs::path& path) {
-    desk.take(OpenProject{path});
-    wait();
-  }
-
-  void wait() {
-    for (int i = 0; i < 1000 && !desk.loading().empty(); ++i) {
-      desk.turn(now_s);
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-  }
-
-  std::string errors() {
-    std::string text;
-    for (const Request& request : desk.take_requests())
-      if (const auto* said = std::get_if<Say>(&request); said != nullptr && said->is_error) text += said->text;
-    return text;
-  }
-
-  void choose_file(const fs::path& path) {
-    for (const Request& request : desk.take_requests())
-      if (const auto* wanted = std::get_if<AskForFile>(&request)) {
-        wanted->chosen(path);
-        return;
-      }
-    FAIL("no file was asked for");
-  }
-};
-
-}  // namespace
 
 TEST_CASE("a project is opened in the background and becomes a recent one") {
   Desk d;
