@@ -8,6 +8,7 @@
 
 #include "editor/app/shortcuts.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/popups.h"
 #include "project/json.h"
 
@@ -198,7 +199,7 @@ void App::show_title() {
   const std::string name = project.file.empty() ? project.name : project.file.filename().string();
   const std::string title =
       !desk_.has_project() ? "SIGS" : name + (document_.has_unsaved_changes() ? " * - SIGS" : " - SIGS");
-  if (title != title_) window_.set_title(title);
+  if (title != title_) window_.set_title(shortened(title, 200));
   title_ = title;
 }
 

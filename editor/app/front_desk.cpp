@@ -5,12 +5,15 @@
 #include <utility>
 
 #include "editor/views/menu_bar.h"
+#include "editor/widgets/elided.h"
 
 namespace sigs::editor {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostTitle = 80;  // bytes
 
 void add_place(std::vector<BrowserPlace>& places, std::string name, fs::path folder) {
   std::error_code code;
@@ -65,7 +68,8 @@ void FrontDesk::ask_for_files() {
   const FileWanted kind =
       wanted.of_folder ? FileWanted::folder : (wanted.for_saving ? FileWanted::to_save : FileWanted::to_open);
   chosen_ = wanted.chosen;
-  browser_.ask({wanted.title, wanted.of_folder ? std::vector<std::string>() : wanted.extensions, kind, wanted.start},
+  browser_.ask({shortened(wanted.title, kMostTitle), wanted.of_folder ? std::vector<std::string>() : wanted.extensions,
+                kind, wanted.start},
                places_for(document_.project(), settings_, setup_.samples));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/widgets/dialog.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
@@ -63,7 +64,7 @@ std::optional<int> draw_question(const Question& question, Places& places) {
   if (!begin_dialog((question.title + "###question").c_str(), 460, 0, closed)) return std::nullopt;
   std::optional<int> answer;
   ImGui::Dummy({0, scaled(4)});
-  ImGui::TextWrapped("%s", question.text.c_str());
+  ImGui::TextWrapped("%s", shortened(question.text).c_str());
   ImGui::Dummy({0, scaled(10)});
   // As on other desktops: what changes nothing comes first, the usual answer last.
   std::vector<const char*> labels;

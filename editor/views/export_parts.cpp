@@ -106,7 +106,7 @@ void note_line(Icon icon, ImU32 color, const std::string& text) {
   icon_label(icon, color);
   ImGui::SameLine();
   ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::TextWrapped("%s", shortened(text).c_str());
   ImGui::PopStyleColor();
 }
 

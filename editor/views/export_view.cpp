@@ -128,7 +128,7 @@ void ExportView::draw_command(const Studio& studio) {
   ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
   const ImVec2 place = ImGui::GetCursorPos();
   ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - copy);
-  ImGui::TextUnformatted(command.c_str());
+  ImGui::TextUnformatted(shortened(command).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::PopFont();

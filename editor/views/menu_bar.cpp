@@ -188,7 +188,7 @@ class RightSide {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(scaled(480));
     for (std::size_t i = 0; i < std::min(kMost, problems.size()); ++i)
-      ImGui::TextUnformatted((problems[i].field + ": " + problems[i].what).c_str());
+      ImGui::TextUnformatted(shortened(problems[i].field + ": " + problems[i].what, 400).c_str());
     if (problems.size() > kMost) ImGui::TextUnformatted("...");
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 
@@ -50,7 +51,8 @@ Plate drawn(const std::string& id, const std::string& text, bool is_error, ImVec
 
 }  // namespace
 
-void Toasts::say(const Say& message, double now_s) {
+void Toasts::say(const Say& said, double now_s) {
+  const Say message{shortened(said.text), said.is_error};
   const double until_s = now_s + kShortest_s + kReading_s * static_cast<double>(message.text.size());
   const auto same = std::find_if(toasts_.begin(), toasts_.end(), [&](const Toast& toast) {
     return toast.text == message.text && toast.is_error == message.is_error;

@@ -12,7 +12,7 @@ namespace sigs::editor {
 // Passing messages at the lower edge of the window. Errors stay until they are clicked.
 class Toasts {
  public:
-  void say(const Say& message, double now_s);
+  void say(const Say& said, double now_s);
   void draw(Places& places, double now_s);
 
   // Whether one will pass by itself: the window has to be drawn again soon.

@@ -3,33 +3,65 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace sigs::editor {
 
 namespace {
+
+constexpr const char* kDots = "...";
 
 float width_of(const std::string& text) {
   return ImGui::CalcTextSize(text.c_str(), text.c_str() + text.size()).x;
 }
 
-// Not between the bytes of one UTF-8 character.
-std::size_t whole_characters(const std::string& text, std::size_t bytes) {
-  while (bytes > 0 && bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
-  return bytes;
+bool is_inside_character(const std::string& text, std::size_t byte) {
+  return byte > 0 && byte < text.size() && (static_cast<unsigned char>(text[byte]) & 0xC0U) == 0x80U;
 }
 
-}  // namespace
+// The first bytes, and the last ones: not between the bytes of one UTF-8 character.
+std::string head(const std::string& text, std::size_t bytes) {
+  while (is_inside_character(text, bytes)) --bytes;
+  return text.substr(0, bytes);
+}
 
-std::string elided(const std::string& text, float width) {
-  if (width_of(text) <= width) return text;
+std::string tail(const std::string& text, std::size_t bytes) {
+  std::size_t from = text.size() - std::min(bytes, text.size());
+  while (is_inside_character(text, from)) ++from;
+  return text.substr(from);
+}
+
+// The longest of what `cut` makes for some number of bytes that has room; "" where none has.
+template <class Cut>
+std::string longest(const std::string& text, float width, const Cut& cut) {
   std::size_t fits = 0;
   std::size_t too_many = text.size();
   while (too_many - fits > 1) {
     const std::size_t half = (fits + too_many) / 2;
-    const bool enough = width_of(text.substr(0, whole_characters(text, half)) + "...") <= width;
-    (enough ? fits : too_many) = half;
+    (width_of(cut(half)) <= width ? fits : too_many) = half;
   }
-  if (fits == 0) return {};
-  return text.substr(0, whole_characters(text, fits)) + "...";
+  return fits == 0 ? std::string() : cut(fits);
+}
+
+}  // namespace
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const std::size_t kept = most > 3 ? most - 3 : 0;
+  return head(text, kept - kept / 2) + kDots + tail(text, kept / 2);
+}
+
+std::string elided(const std::string& text, float width) {
+  if (text.size() <= kMostShownText && width_of(text) <= width) return text;
+  // No panel has room for more letters than that.
+  const std::string begin = head(text, kMostShownText);
+  return longest(begin, width, [&](std::size_t bytes) { return head(begin, bytes) + kDots; });
+}
+
+std::string elided_front(const std::string& text, float width) {
+  if (text.size() <= kMostShownText && width_of(text) <= width) return text;
+  const std::string end = tail(text, kMostShownText);
+  return longest(end, width, [&](std::size_t bytes) { return kDots + tail(end, bytes); });
 }
 
 }  // namespace sigs::editor

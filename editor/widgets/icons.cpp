@@ -3,6 +3,7 @@
 
 #include <imgui_internal.h>
 
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icon_shapes.h"
 #include "editor/widgets/theme.h"
 
@@ -54,7 +55,7 @@ void tooltip_for_item(const char* text) {
   if (*text == '\0' || !item_wants_tooltip()) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(shortened(text).c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }

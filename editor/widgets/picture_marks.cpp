@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "editor/widgets/elided.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/zoomable_picture.h"
 
@@ -12,6 +13,7 @@ namespace sigs::editor {
 
 namespace {
 
+constexpr std::size_t kMostLabel = 120;  // bytes
 constexpr double kGridFromZoom = 8;
 constexpr double kLeastValueText_px = 9;
 constexpr int kMostValues = 320;       // pixels; each takes nine characters
@@ -79,14 +81,15 @@ std::optional<cv::Point> PictureCanvas::pixel_at(const glm::dvec2& screen) const
 
 glm::dvec2 label_size(const std::string& text) {
   ImFont* const small = font(Font::small);
-  return dv(small->CalcTextSizeA(small->FontSize, 1e6F, 0, text.c_str())) + 2.0 * plate_margin();
+  return dv(small->CalcTextSizeA(small->FontSize, 1e6F, 0, shortened(text, kMostLabel).c_str())) + 2.0 * plate_margin();
 }
 
 void draw_label(const PictureCanvas& canvas, const glm::dvec2& at, const std::string& text, ImU32 color) {
   ImFont* const small = font(Font::small);
   const ScreenRect plate = plate_at(canvas, at, text);
   canvas.draw.AddRectFilled(im(plate.low), im(plate.high), IM_COL32(12, 13, 16, 190), scaled(3));
-  canvas.draw.AddText(small, small->FontSize, im(plate.low + plate_margin()), color, text.c_str());
+  canvas.draw.AddText(small, small->FontSize, im(plate.low + plate_margin()), color,
+                      shortened(text, kMostLabel).c_str());
 }
 
 void PictureLabels::draw(const PictureCanvas& canvas, std::span<const glm::dvec2> places, const std::string& text,

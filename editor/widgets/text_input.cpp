@@ -3,23 +3,21 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
+
+#include "editor/widgets/elided.h"
+
 namespace sigs::editor {
 
-namespace {
-
-int grow(ImGuiInputTextCallbackData* data) {
-  if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
-  auto& text = *static_cast<std::string*>(data->UserData);
-  text.resize(static_cast<std::size_t>(data->BufTextLen));
-  data->Buf = text.data();
-  return 0;
-}
-
-}  // namespace
-
 bool text_input(const char* label, std::string& text, const char* hint, int flags) {
-  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1,
-                                  flags | ImGuiInputTextFlags_CallbackResize, grow, &text);
+  const bool is_too_long = text.size() > kLongestTypedText;
+  std::array<char, kLongestTypedText + 1> typed{};
+  if (!is_too_long) std::copy(text.begin(), text.end(), typed.begin());
+  const std::string shown = is_too_long ? shortened(text, 200) : std::string(hint);
+  const bool answer = ImGui::InputTextWithHint(label, shown.c_str(), typed.data(), typed.size(), flags);
+  if (!is_too_long || typed[0] != '\0') text = typed.data();
+  return answer;
 }
 
 }  // namespace sigs::editor

@@ -2,7 +2,6 @@
 #include "editor/views/inspector/field_inputs.h"
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,8 @@
 
 #include "editor/document/field_texts.h"
 #include "editor/geometry/round_steps.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/text_input.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -55,17 +56,6 @@ bool any_number_input(int& value, const Field& field, float width) {
   return whole_number_input("##number", value, field, width);
 }
 
-// The end of a path, which tells more than its beginning.
-std::string end_of(const std::string& path, float width) {
-  if (ImGui::CalcTextSize(path.c_str()).x <= width) return path;
-  std::string_view end = path;
-  while (!end.empty() && ImGui::CalcTextSize(("..." + std::string(end)).c_str()).x > width) {
-    end.remove_prefix(1);
-    while (!end.empty() && (static_cast<unsigned char>(end[0]) & 0xC0U) == 0x80U) end.remove_prefix(1);
-  }
-  return "..." + std::string(end);
-}
-
 // Over a number that is 0 and means something else, while it is not changed.
 void cover_with_word(const std::string& word) {
   const ImVec2 low = ImGui::GetItemRectMin();
@@ -84,7 +74,7 @@ void cover_with_end_of(const std::string& path) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high = ImGui::GetItemRectMax();
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
-  const std::string shown = end_of(path, high.x - low.x - 2 * padding.x);
+  const std::string shown = elided_front(path, high.x - low.x - 2 * padding.x);
   if (shown == path) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), ImGui::GetStyle().FrameRounding);
@@ -92,10 +82,10 @@ void cover_with_end_of(const std::string& path) {
   list.AddText({low.x + padding.x, low.y + padding.y}, ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
 }
 
-std::optional<Edited> text_input(const std::string& value, const Field& field, float width, TypedText& typed) {
+std::optional<Edited> typed_text_input(const std::string& value, const Field& field, float width, TypedText& typed) {
   std::string text = typed.key == field.key ? typed.text : value;
   ImGui::SetNextItemWidth(width);
-  ImGui::InputTextWithHint("##text", field.required ? "required" : "none", &text);
+  text_input("##text", text, field.required ? "required" : "none");
   const bool is_finished = ImGui::IsItemDeactivatedAfterEdit();
   if (ImGui::IsItemActive()) typed = {field.key, text};
   if (ImGui::IsItemDeactivated()) typed = {};
@@ -114,9 +104,9 @@ template <class Names>
 std::optional<int> combo(const Names& names, int chosen, const std::string& shown, float width) {
   std::optional<int> taken;
   ImGui::SetNextItemWidth(width);
-  if (!ImGui::BeginCombo("##names", shown.c_str())) return taken;
+  if (!ImGui::BeginCombo("##names", elided(shown, width).c_str())) return taken;
   for (int i = 0; i < static_cast<int>(names.size()); ++i)
-    if (ImGui::Selectable(in_words(names[static_cast<std::size_t>(i)]).c_str(), i == chosen)) taken = i;
+    if (ImGui::Selectable(shortened(in_words(names[static_cast<std::size_t>(i)])).c_str(), i == chosen)) taken = i;
   ImGui::EndCombo();
   return taken;
 }
@@ -148,7 +138,7 @@ std::optional<Edited> list_input(const std::vector<std::string>& values, const R
   for (const std::string& name : names) {
     const auto found = std::find(values.begin(), values.end(), name);
     bool is_chosen = found != values.end();
-    if (!ImGui::Checkbox(name.c_str(), &is_chosen)) continue;
+    if (!ImGui::Checkbox(shortened(name, 200).c_str(), &is_chosen)) continue;
     std::vector<std::string> changed = values;
     if (is_chosen)
       changed.push_back(name);
@@ -195,7 +185,7 @@ struct Input {
   }
 
   std::optional<Edited> operator()(std::string* place) const {
-    return look.names.empty() ? text_input(*place, field, width, typed) : named_text_input(*place, look, width);
+    return look.names.empty() ? typed_text_input(*place, field, width, typed) : named_text_input(*place, look, width);
   }
   std::optional<Edited> operator()(glm::dvec3* place) const {
     glm::dvec3 value = *place;

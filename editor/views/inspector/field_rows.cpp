@@ -50,7 +50,7 @@ void note(const std::string& text, bool is_warning) {
   ImGui::PushStyleColor(ImGuiCol_Text, is_warning ? color::kPartly : color::kQuiet);
   ImGui::PushFont(font(Font::small));
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(shortened(text).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
   ImGui::PopStyleColor();
@@ -191,7 +191,8 @@ void FieldRows::problem_lines(std::string_view key) {
     }
     ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted((capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do)).c_str());
+    ImGui::TextUnformatted(
+        shortened(capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do), 400).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
   }

@@ -2,7 +2,6 @@
 #include "editor/views/inspector/inspector_view.h"
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include "editor/views/inspector/inputs.h"
 #include "editor/views/results/results_panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/text_input.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -131,7 +131,7 @@ void InspectorView::draw_top(const Studio& studio, FieldRows& rows) {
   for (const Field& field : sheet_->fields())
     if (editor::block_of(field.key).empty()) rows.row(field.key, {.label = field.key == "name" ? "Project" : ""});
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - (filter_.empty() ? 0 : icon_button_width() + scaled(2)));
-  ImGui::InputTextWithHint("##filter", "Filter settings", &filter_);
+  text_input("##filter", filter_, "Filter settings");
   studio.places.note_item("inspector/filter");
   if (!filter_.empty()) {
     ImGui::SameLine(0, scaled(2));

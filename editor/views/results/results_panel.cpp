@@ -144,7 +144,7 @@ void draw_problems(const Scored& scored) {
   for (const ScoredTracker& tracker : scored.trackers) {
     if (tracker.problem.empty()) continue;
     ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-    ImGui::TextWrapped("%s", tracker.problem.c_str());
+    ImGui::TextWrapped("%s", shortened(tracker.problem).c_str());
     ImGui::PopStyleColor();
   }
 }

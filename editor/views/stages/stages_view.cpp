@@ -10,6 +10,7 @@
 #include "editor/views/viewport/footage_eye.h"
 #include "editor/views/viewport/picture_icons.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 
@@ -34,7 +35,7 @@ std::string name_of(MethodChoice method) {
 
 std::string name_of_intruder(const Studio& studio, int in_scene) {
   const std::optional<int> intruder = project_intruder(studio, in_scene);
-  return intruder ? studio.project().intruders[static_cast<std::size_t>(*intruder)].name
+  return intruder ? shortened(studio.project().intruders[static_cast<std::size_t>(*intruder)].name, 60)
                   : "intruder " + std::to_string(in_scene);
 }
 

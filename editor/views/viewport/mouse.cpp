@@ -7,6 +7,7 @@
 
 #include "editor/views/viewport/viewport_view.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/elided.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -94,7 +95,7 @@ void ViewportView::draw_menu(const Studio& studio, const PictureCanvas& canvas, 
 void ViewportView::draw_picture_menu(const Studio& studio, const ToolTurn* turn) {
   const std::vector<IntruderSettings>& intruders = studio.project().intruders;
   if (menu_intruder_ && static_cast<std::size_t>(*menu_intruder_) < intruders.size()) {
-    const std::string text = "Select " + intruders[static_cast<std::size_t>(*menu_intruder_)].name;
+    const std::string text = "Select " + shortened(intruders[static_cast<std::size_t>(*menu_intruder_)].name, 60);
     if (ImGui::MenuItem(text.c_str())) studio.edits.select({Selected::intruder, *menu_intruder_, 0});
     ImGui::Separator();
   }

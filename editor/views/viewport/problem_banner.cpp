@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/zoomable_picture.h"
@@ -31,8 +33,9 @@ std::string heading(std::size_t count) {
 std::vector<std::string> problems_of(const Studio& studio, const Picture* picture) {
   std::vector<std::string> problems;
   const auto add = [&](const std::string& problem) {
-    if (!problem.empty() && std::find(problems.begin(), problems.end(), problem) == problems.end())
-      problems.push_back(problem);
+    std::string shown = shortened(problem, 400);
+    if (!shown.empty() && std::find(problems.begin(), problems.end(), shown) == problems.end())
+      problems.push_back(std::move(shown));
   };
   if (studio.shown.scene) {
     const OpenedScene& scene = *studio.shown.scene;

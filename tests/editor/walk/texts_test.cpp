@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <string>
+
+#include "editor/walk/walk.h"
+
+namespace sigs::test {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+bool is_open(const Json& now) {
+  return now.value("page", "") == "project";
+}
+
+// Every text of a project that a person sees, so long, in words and in one.
+Json wordy_project(std::size_t length) {
+  const auto text = [&](const std::string& word) {
+    std::string all;
+    while (all.size() < length) all += word;
+    return all;
+  };
+  Json project = sample_project("two-intruders");
+  project["name"] = text("long name ");
+  project["intruders"][0]["name"] = text("m");
+  project["intruders"][1]["name"] = text("a glider ");
+  project["intruders"][1]["model"]["file"] = text("folder/") + "glider.obj";
+  project["camera"]["attitude_file"] = text("x") + ".csv";
+  project["footage"]["own_body_mask"] = text("mask ");
+  return project;
+}
+
+void rest_on(EditorDriver& editor, const std::string& place) {
+  const ScreenPlace there = editor.place(place);
+  editor.move(there.center_x(), there.center_y());
+  for (int i = 0; i < 4; ++i) editor.settle();  // until its tooltip shows
+  CHECK(editor.running());
+}
+
+// Through everything that shows names and paths.
+void look_around(Walk& walk) {
+  EditorDriver& editor = walk.editor();
+  for (const char* place : {"timeline/row/0", "menu/problems", "inspector/intruders[1]", "inspector/name"})
+    if (editor.has_place(place)) rest_on(editor, place);
+  const ScreenPlace row = editor.place("timeline/row/0");
+  editor.move(row.x - 60, row.center_y());  // the intruder's name
+  for (int i = 0; i < 4; ++i) editor.settle();
+  editor.click(row.x + row.width - 4, row.center_y(), 3);  // its menu
+  editor.settle();
+  editor.key("Escape");
+  const ScreenPlace picture = editor.place("viewport/picture");
+  editor.click(picture.center_x(), picture.center_y(), 3);
+  editor.settle();
+  editor.key("Escape");
+  for (const char* tab : {"tab/stages", "tab/own body", "tab/footage"}) {
+    editor.click(tab);
+    editor.settle();
+    CHECK(editor.running());
+  }
+  editor.click("menu/Edit");
+  editor.settle();
+  editor.key("Escape");
+  editor.key("ctrl+e");
+  editor.settle();
+  walk.picture("export");
+  editor.key("Escape");
+  editor.settle();
+  editor.key("Escape");
+  editor.click("menu/File");
+  editor.click("menu/Find missing files...");
+  editor.settle();
+  walk.picture("missing");
+  editor.key("Escape");
+  editor.settle();
+  CHECK(editor.running());
+}
+
+}  // namespace
+
+TEST_CASE("texts of any length are shown, and the editor goes on") {
+  if (!can_drive_windows()) return;
+  for (const int length : {20'000, 100'000}) {
+    Walk walk("texts-" + std::to_string(length));
+    EditorDriver& editor = walk.editor();
+    editor.start({put(wordy_project(static_cast<std::size_t>(length)), walk.folder() / "wordy.json").string()});
+    editor.wait_for("the project, or why it is none",
+                    [](const Json& now) { return is_open(now) || now["places"].contains("toast/0"); });
+    walk.picture("opened");
+    if (is_open(editor.state())) {
+      editor.wait_for_picture();
+      walk.picture("shown");
+      look_around(walk);
+      const auto turn = editor.state().value("turn", 0);
+      editor.move(400, 400);
+      editor.wait_for("turns", [&](const Json& now) { return now.value("turn", 0) > turn + 1; });
+    }
+    editor.key("ctrl+q");
+    CHECK(editor.exit_status() == 0);
+  }
+}
+
+TEST_CASE("what is typed into a field has a limit, and the editor stays") {
+  if (!can_drive_windows()) return;
+  Walk walk("texts-typed");
+  EditorDriver& editor = walk.editor();
+  const fs::path project = put(sample_project("head-on"), walk.folder() / "mine.json");
+  editor.start({project.string()});
+  editor.wait_for("the project", is_open);
+  editor.wait_for_picture();
+  walk.fill_in("inspector/name", "0123456789");
+  // Doubled by copying: 10 * 2^11 characters at the end, were there no limit.
+  for (int i = 0; i < 11; ++i) {
+    for (const char* keys : {"ctrl+a", "ctrl+c", "End", "ctrl+v"}) editor.key(keys);
+    REQUIRE(editor.running());
+  }
+  walk.picture("typed");
+  editor.key("Return");
+  const Json saved = walk.saved(project);
+  const std::string name = saved["name"];
+  CHECK(name.starts_with("01234567890123456789"));
+  CHECK(name.size() >= 1280);
+  CHECK(name.size() <= 4095);
+}
+
+}  // namespace sigs::test
