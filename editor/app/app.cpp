@@ -41,7 +41,8 @@ App::App(Window& window, Settings settings, Probe probe)
              .help = help_lines(),
              .wake = [] { Window::wake(); },
              .mask = {.unsaved = [this] { return own_body_.unsaved(); },
-                      .save_then = [this](std::function<void()> next) { keep_mask_then(std::move(next)); }}}) {
+                      .save_then = [this](std::function<void()> next) { keep_mask_then(std::move(next)); },
+                      .to_keep = [this] { return own_body_.to_keep(); }}}) {
   places_.set_wanted(probe_.wanted());
 }
 
@@ -244,6 +245,7 @@ void App::turn(double now_s, bool something_happened) {
     scored_.reset();
     scoring_.want({});
   }
+  if (const std::optional<RecoveredMask> mask = desk_.take_recovered_mask()) own_body_.recover(*mask);
   previewer_.set_modest(desk_.is_exporting() || own_body_.job().is_running());
   show_title();
   ask_preview();

@@ -5,6 +5,7 @@
 
 #include "editor/document/dropped.h"
 #include "editor/document/relink.h"
+#include "editor/widgets/elided.h"
 
 namespace sigs::editor {
 
@@ -12,8 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostName = 80;  // bytes, in a sentence
+
 std::string shown_name(const Project& project) {
-  return project.file.empty() ? project.name : project.file.filename().string();
+  return shortened(project.file.empty() ? project.name : project.file.filename().string(), kMostName);
 }
 
 }  // namespace
@@ -97,6 +100,19 @@ void FileDesk::ask_which_to_open() {
   requests_.push_back(AskForFile{.title = "Open a project",
                                  .extensions = {".json"},
                                  .chosen = [this](const fs::path& path) { take(OpenProject{path}); }});
+}
+
+MaskToKeep FileDesk::mask_to_keep() const {
+  return has_project_ && surroundings_.mask.to_keep ? surroundings_.mask.to_keep() : MaskToKeep();
+}
+
+// The project is safe, the mask may not be: what lies on disk for it must not be older than the project.
+void FileDesk::keep_mask_after_saving() {
+  const MaskToKeep mask = mask_to_keep();
+  if (mask.state == 0 || mask.is_changing)
+    recovery_.forget();
+  else
+    (void)recovery_.write(document_, mask);  // what goes wrong keep() tells
 }
 
 std::uint64_t FileDesk::unsaved_mask() const {
@@ -241,7 +257,7 @@ void FileDesk::write_then(const fs::path& path, const Step& next) {
     return;
   }
   disk_.remember(place);
-  recovery_.forget();
+  keep_mask_after_saving();
   remember_project(settings_, place);
   say("Saved " + place.filename().string());
   if (next) next();
@@ -249,20 +265,29 @@ void FileDesk::write_then(const fs::path& path, const Step& next) {
 
 void FileDesk::recover(const AbandonedProject& abandoned) {
   if (waits([this, abandoned] { recover(abandoned); })) return;
-  leave_then([this, abandoned] {
-    recovery_.forget();
-    Result<ReadProject> read = recovery_.take_over(abandoned);
-    std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });
-    if (!read) {
-      say(read.error().text(), true);
-      return;
-    }
-    document_ = Document(std::move(read->project), document_.last_number() + 1);
-    document_.mark_unsaved();
-    disk_.remember(document_.project().file);
-    has_project_ = true;
-    say("Recovered " + abandoned.name + "; save it to keep it");
-  });
+  leave_then([this, abandoned] { show_recovered(abandoned); });
+}
+
+// One that cannot be opened stays in the list, with the reason: it can be discarded there.
+void FileDesk::show_recovered(const AbandonedProject& abandoned) {
+  recovery_.forget();
+  Result<RecoveredProject> taken = recovery_.take_over(abandoned);
+  if (!taken) {
+    for (AbandonedProject& other : abandoned_)
+      if (other.recovery_file == abandoned.recovery_file) other.problem = taken.error().text();
+    say(taken.error().text(), true);
+    return;
+  }
+  std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });
+  document_ = Document(std::move(taken->read.project), document_.last_number() + 1);
+  document_.mark_unsaved();
+  disk_.remember(document_.project().file);
+  has_project_ = true;
+  recovered_mask_ = std::move(taken->mask);
+  if (!taken->mask_problem.empty()) say("The own-body mask is lost: " + taken->mask_problem, true);
+  const std::string name = shortened(abandoned.name, kMostName);
+  say(recovered_mask_ ? "Recovered " + name + " and the own-body mask that was painted; save both to keep them"
+                      : "Recovered " + name + "; save it to keep it");
 }
 
 void FileDesk::discard(const AbandonedProject& abandoned) {
@@ -271,8 +296,11 @@ void FileDesk::discard(const AbandonedProject& abandoned) {
     editor::discard(abandoned);
     std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });
   };
+  const bool is_readable = abandoned.problem.empty();
   ask({.title = "Discard unsaved changes",
-       .text = "The unsaved changes of " + abandoned.name + " will be gone for good.",
+       .text = (is_readable ? "The unsaved changes of " + shortened(abandoned.name, kMostName)
+                            : "What lies in " + abandoned.recovery_file.string()) +
+               " will be gone for good.",
        .answers = {"Discard", "Keep"}},
       {gone, {}});
 }
@@ -304,7 +332,7 @@ void FileDesk::take_dropped(const fs::path& path, Edits& edits) {
 void FileDesk::turn(double now_s) {
   take_loaded();
   if (!has_project_) return;
-  if (const std::optional<Error> error = recovery_.keep(document_, now_s, settings_.autosave_s))
+  if (const std::optional<Error> error = recovery_.keep(document_, now_s, settings_.autosave_s, mask_to_keep()))
     say("Unsaved changes cannot be kept for recovery: " + error->text(), true);
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "editor/app/project_loader.h"
@@ -27,6 +28,7 @@ class FileDesk {
   struct UnsavedMask {
     std::function<std::uint64_t()> unsaved;                     // 0: it may go; else the state that would be lost
     std::function<void(std::function<void()> next)> save_then;  // asks for its name; next: once it is written
+    std::function<MaskToKeep()> to_keep;                        // for the case of a crash
   };
   struct Surroundings {
     std::filesystem::path recovery_folder;
@@ -51,6 +53,9 @@ class FileDesk {
 
   // Once a turn, when the document has taken its edits.
   void turn(double now_s);
+
+  // The mask of the project that was recovered, for whoever paints it; once, none else.
+  [[nodiscard]] std::optional<RecoveredMask> take_recovered_mask() { return std::exchange(recovered_mask_, {}); }
 
   // What to ask; answer it by the number of its answer. Nothing else goes on meanwhile.
   [[nodiscard]] const std::optional<Question>& question() const { return question_; }
@@ -85,6 +90,9 @@ class FileDesk {
   void save_as_then(const std::filesystem::path& path, Step next);
   void write_then(const std::filesystem::path& path, const Step& next);
   void take_loaded();
+  void show_recovered(const AbandonedProject& abandoned);
+  [[nodiscard]] MaskToKeep mask_to_keep() const;
+  void keep_mask_after_saving();
 
   Document& document_;
   Settings& settings_;
@@ -93,6 +101,7 @@ class FileDesk {
   Recovery recovery_;
   DiskChange disk_;
   std::vector<AbandonedProject> abandoned_;
+  std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;
   std::vector<Step> steps_;   // one for each answer
   std::deque<Step> waiting_;  // what came while a question was open, oldest first

@@ -47,6 +47,7 @@ class FrontDesk {
   // Once a turn, when the document has taken its edits: it may become another one here.
   void turn(double now_s);
 
+  [[nodiscard]] std::optional<RecoveredMask> take_recovered_mask() { return files_.take_recovered_mask(); }
   [[nodiscard]] bool has_project() const { return files_.has_project(); }
   [[nodiscard]] bool is_exporting() const { return export_.is_running(); }
   [[nodiscard]] bool is_done() const { return files_.is_done(); }

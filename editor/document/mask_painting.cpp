@@ -21,7 +21,12 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
-MaskPainting::MaskPainting(const cv::Mat& mask) : mask_(mask.clone()) {
+MaskPainting::MaskPainting(const cv::Mat& mask, std::uint64_t first_state)
+    : mask_(mask.clone()),
+      state_(first_state),
+      last_state_(first_state),
+      saved_state_(first_state),
+      whole_state_(first_state) {
   ENSURE(mask.type() == CV_8UC1);
 }
 

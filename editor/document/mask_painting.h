@@ -18,8 +18,9 @@ class MaskPainting {
  public:
   // None: no picture is known yet, and nothing can be painted.
   MaskPainting() = default;
-  // CV_8UC1. It counts as saved.
-  explicit MaskPainting(const cv::Mat& mask);
+  // CV_8UC1. It counts as saved. States are numbered from first_state on: who begins one painting after the other
+  // keeps them apart so.
+  explicit MaskPainting(const cv::Mat& mask, std::uint64_t first_state = 1);
 
   // Changes with what is painted: copy what is to be kept.
   [[nodiscard]] const cv::Mat& mask() const { return mask_; }
@@ -46,8 +47,14 @@ class MaskPainting {
   [[nodiscard]] std::uint64_t state() const { return state_; }
   [[nodiscard]] bool has_unsaved_changes() const { return state_ != saved_state_; }
   void mark_saved() { saved_state_ = state_; }
+  // One that was recovered after a crash is on no disk that counts.
+  void mark_unsaved() { saved_state_ = 0; }
+  // The largest number that was given to a state so far.
+  [[nodiscard]] std::uint64_t last_state() const { return last_state_; }
   // Strokes by hand since the last mask that came as a whole.
   [[nodiscard]] bool has_strokes() const { return state_ != whole_state_; }
+  // There are such strokes already, though their steps are not known.
+  void mark_strokes() { whole_state_ = 0; }
   // The state that had this mask, before these strokes.
   [[nodiscard]] std::uint64_t whole_state() const { return whole_state_; }
 

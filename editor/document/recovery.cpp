@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/partial_file.h"
+#include "editor/document/mask_file.h"
 #include "project/json_reading.h"
 
 namespace sigs::editor {
@@ -28,6 +29,16 @@ std::string stamp_of_this_editor() {
   const auto start = std::chrono::system_clock::now().time_since_epoch();
   return "editor-" + std::to_string(::getpid()) + "-" +
          std::to_string(std::chrono::duration_cast<std::chrono::nanoseconds>(start).count());
+}
+
+// Files of an editor: its project, the mask beside it, its lock.
+bool is_recovery_file(const fs::path& path) {
+  const bool is_part = path.stem().extension() == ".part";
+  return path.extension() == ".json" && path.filename().string().starts_with("editor-") && !is_part;
+}
+
+fs::path mask_of(const fs::path& recovery_file) {
+  return fs::path(recovery_file).replace_extension(".mask.png");
 }
 
 fs::path lock_of(const fs::path& recovery_file) {
@@ -51,13 +62,17 @@ bool is_abandoned(const fs::path& recovery_file) {
   return lock >= 0;
 }
 
-std::string text_of_recovery(const Project& project) {
+std::string text_of_recovery(const Project& project, const fs::path& mask_file, bool mask_has_strokes) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   Json json;
   json["sigs_recovery"] = kFormat;
   json["file"] = project.file.empty() ? std::string() : fs::absolute(project.file).lexically_normal().string();
   json["name"] = project.name;
   json["written_unix_s"] = std::chrono::duration_cast<std::chrono::seconds>(now).count();
+  if (!mask_file.empty()) {
+    json["mask"] = mask_file.filename().string();
+    json["mask_has_strokes"] = mask_has_strokes;
+  }
   json["project"] = text_of(project);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -65,6 +80,8 @@ std::string text_of_recovery(const Project& project) {
 struct RecoveryContent {
   AbandonedProject head;
   std::string project;
+  fs::path mask_file;  // "": none
+  bool mask_has_strokes = false;
 };
 
 Result<RecoveryContent> read_recovery(const fs::path& file) {
@@ -82,7 +99,18 @@ Result<RecoveryContent> read_recovery(const fs::path& file) {
                           text_at("project")};
   if (const auto time = json.find("written_unix_s"); time != json.end() && time->is_number_integer())
     content.head.written_unix_s = time->get<std::int64_t>();
+  // Beside the file, wherever a name that was tampered with may point.
+  if (const fs::path mask = fs::path(text_at("mask")).filename(); !mask.empty())
+    content.mask_file = file.parent_path() / mask;
+  content.mask_has_strokes = json.value("mask_has_strokes", Json(false)) == Json(true);
+  content.head.has_mask = !content.mask_file.empty();
   return content;
+}
+
+AbandonedProject abandoned_at(const fs::path& file) {
+  const Result<RecoveryContent> content = read_recovery(file);
+  if (content) return content->head;
+  return {.recovery_file = file, .name = file.filename().string(), .problem = content.error().what};
 }
 
 }  // namespace
@@ -98,12 +126,10 @@ std::vector<AbandonedProject> abandoned_projects(const fs::path& folder) {
   std::vector<AbandonedProject> found;
   std::error_code code;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
-    const fs::path& path = it->path();
-    const bool is_part = path.stem().extension() == ".part";
-    if (path.extension() != ".json" || is_part || !is_abandoned(path)) continue;
-    if (const Result<RecoveryContent> content = read_recovery(path)) found.push_back(content->head);
+    if (is_recovery_file(it->path()) && is_abandoned(it->path())) found.push_back(abandoned_at(it->path()));
   }
   std::sort(found.begin(), found.end(), [](const AbandonedProject& a, const AbandonedProject& b) {
+    if (a.problem.empty() != b.problem.empty()) return a.problem.empty();
     return a.written_unix_s != b.written_unix_s ? a.written_unix_s > b.written_unix_s
                                                 : a.recovery_file < b.recovery_file;
   });
@@ -113,7 +139,10 @@ std::vector<AbandonedProject> abandoned_projects(const fs::path& folder) {
 void discard(const AbandonedProject& abandoned) {
   if (!is_abandoned(abandoned.recovery_file)) return;
   std::error_code code;
+  const Result<RecoveryContent> content = read_recovery(abandoned.recovery_file);
   fs::remove(abandoned.recovery_file, code);
+  if (content && !content->mask_file.empty()) fs::remove(content->mask_file, code);
+  fs::remove(mask_of(abandoned.recovery_file), code);
   fs::remove(lock_of(abandoned.recovery_file), code);
 }
 
@@ -139,27 +168,50 @@ Result<void> Recovery::hold_lock() {
   return {};
 }
 
-Result<void> Recovery::write(const Document& document) {
+// The mask first: the file that names it follows it, and what it no longer names goes last.
+Result<void> Recovery::write(const Document& document, const MaskToKeep& mask) {
   if (const Result<void> held = hold_lock(); !held) return held;
-  if (const Result<void> done = write_text(file_, text_of_recovery(document.project()), true); !done) return done;
+  if (const Result<void> done = write_mask_of(mask); !done) return done;
+  const fs::path mask_file = mask.state != 0 ? mask_of(file_) : fs::path();
+  const std::string text = text_of_recovery(document.project(), mask_file, mask.has_strokes);
+  if (const Result<void> done = write_text(file_, text, true); !done) return done;
+  remove_mask_other_than(mask_file);
   written_ = true;
   kept_revision_ = document.revision().number;
+  kept_mask_ = mask.state;
   waiting_since_s_.reset();
   return {};
 }
 
-std::optional<Error> Recovery::keep(const Document& document, double now_s, double delay_s) {
-  if (!document.has_unsaved_changes()) {
+Result<void> Recovery::write_mask_of(const MaskToKeep& mask) {
+  const bool lies_there = mask_file_ == mask_of(file_) && kept_mask_ == mask.state;
+  if (mask.state == 0 || lies_there) return {};
+  return write_mask(mask.pixels, mask_of(file_), true);
+}
+
+void Recovery::remove_mask_other_than(const fs::path& kept) noexcept {
+  std::error_code code;
+  if (!mask_file_.empty() && mask_file_ != kept) fs::remove(mask_file_, code);
+  mask_file_ = kept;
+}
+
+bool Recovery::is_kept(const Document& document, const MaskToKeep& mask) const {
+  return written_ && kept_revision_ == document.revision().number && kept_mask_ == mask.state;
+}
+
+std::optional<Error> Recovery::keep(const Document& document, double now_s, double delay_s, const MaskToKeep& mask) {
+  if (mask.is_changing) return std::nullopt;
+  if (!document.has_unsaved_changes() && mask.state == 0) {
     forget();
     return std::nullopt;
   }
-  if (written_ && kept_revision_ == document.revision().number) {
+  if (is_kept(document, mask)) {
     waiting_since_s_.reset();
     return std::nullopt;
   }
   if (!waiting_since_s_) waiting_since_s_ = now_s;
   if (now_s - *waiting_since_s_ < delay_s) return std::nullopt;
-  const Result<void> done = write(document);
+  const Result<void> done = write(document, mask);
   if (done) {
     told_ = false;
     return std::nullopt;
@@ -174,14 +226,16 @@ void Recovery::forget() {
   if (!written_) return;
   std::error_code code;
   fs::remove(file_, code);
+  remove_mask_other_than({});
   written_ = false;
+  kept_mask_ = 0;
 }
 
-Result<ReadProject> Recovery::take_over(const AbandonedProject& abandoned) {
+Result<RecoveredProject> Recovery::take_over(const AbandonedProject& abandoned) {
   const Result<RecoveryContent> content = read_recovery(abandoned.recovery_file);
   if (!content) return fail(content.error());
   Result<ReadProject> read = parse_project(content->project, abandoned.project_file);
-  if (!read) return read;
+  if (!read) return fail(read.error());
   if (const Result<void> held = hold_lock(); !held) return fail(held.error());
   if (!is_abandoned(abandoned.recovery_file))
     return fail(abandoned.recovery_file.string(), "is in use by another editor", ErrorKind::cannot_read);
@@ -191,8 +245,16 @@ Result<ReadProject> Recovery::take_over(const AbandonedProject& abandoned) {
     return fail(abandoned.recovery_file.string(), "cannot be taken over: " + code.message(), ErrorKind::cannot_read);
   fs::remove(lock_of(abandoned.recovery_file), code);
   written_ = true;
-  kept_revision_ = 0;
-  return read;
+  kept_revision_ = kept_mask_ = 0;
+  mask_file_ = content->mask_file;
+  RecoveredProject recovered{.read = std::move(*read)};
+  if (mask_file_.empty()) return recovered;
+  Result<cv::Mat> mask = read_mask(mask_file_);
+  if (mask)
+    recovered.mask = RecoveredMask{std::move(*mask), content->mask_has_strokes};
+  else
+    recovered.mask_problem = mask.error().text();
+  return recovered;
 }
 
 }  // namespace sigs::editor

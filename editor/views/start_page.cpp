@@ -34,6 +34,12 @@ std::string time_ago(std::int64_t unix_s) {
   return minutes < 2880 ? text(minutes / 60, "hour") : text(minutes / 1440, "day");
 }
 
+std::string text_of(const AbandonedProject& project) {
+  const std::string where = project.project_file.empty() ? "never saved" : project.project_file.string();
+  return shortened(project.name, 60) + "  -  " + time_ago(project.written_unix_s) + ", " + where +
+         (project.has_mask ? ", with an own-body mask" : "");
+}
+
 void heading(const char* text) {
   ImGui::Dummy({0, scaled(10)});
   ImGui::PushFont(font(Font::bold));
@@ -122,17 +128,22 @@ void StartPage::draw_abandoned(const Studio& studio, const StartPageContent& con
   heading("Not saved when the editor last ended");
   for (std::size_t i = 0; i < content.abandoned.size(); ++i) {
     const AbandonedProject& project = content.abandoned[i];
+    const bool is_readable = project.problem.empty();
     ImGui::PushID(static_cast<int>(i));
-    if (dialog_button("Open##recover", true)) choice.recover = project;
-    studio.places.note_item("start/recover." + std::to_string(i));
-    ImGui::SameLine();
+    if (is_readable) {
+      if (dialog_button("Open##recover", true)) choice.recover = project;
+      studio.places.note_item("start/recover." + std::to_string(i));
+      ImGui::SameLine();
+    }
     if (dialog_button("Discard##recover")) choice.discard = project;
     studio.places.note_item("start/discard." + std::to_string(i));
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    const std::string where = project.project_file.empty() ? "never saved" : project.project_file.string();
-    const std::string text = project.name + "  -  " + time_ago(project.written_unix_s) + ", " + where;
+    const std::string text = is_readable ? text_of(project) : "Cannot be read: " + project.recovery_file.string();
+    ImGui::PushStyleColor(ImGuiCol_Text, is_readable ? color::kText : color::kPartly);
     ImGui::TextUnformatted(elided(text, ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::PopStyleColor();
+    tooltip_for_item(is_readable ? text.c_str() : (text + "\n" + project.problem).c_str());
     ImGui::PopID();
   }
 }

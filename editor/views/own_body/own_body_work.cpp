@@ -3,12 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "base/partial_file.h"
 #include "editor/document/field_texts.h"
 #include "editor/document/moved_paths.h"
 #include "occlusion/soft_edge.h"
@@ -72,16 +69,6 @@ fs::path usual_mask_file(const Project& project) {
   return is_png(named) ? named : mask_file_beside(project, 1);
 }
 
-Result<void> write_mask(const cv::Mat& mask, const fs::path& path, bool overwrite) {
-  std::vector<uchar> bytes;
-  try {
-    cv::imencode(".png", mask, bytes);
-  } catch (const cv::Exception&) {
-    return fail(path.string(), "the mask cannot be written as a PNG", ErrorKind::write_failed);
-  }
-  return write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, overwrite);
-}
-
 OwnBodyWork::OwnBodyWork(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect)
     : edits_(edits), job_(std::move(wake), std::move(detect)) {}
 
@@ -100,11 +87,28 @@ void OwnBodyWork::forget() {
 }
 
 void OwnBodyWork::begin(const cv::Mat& mask, std::string origin) {
-  painting_ = MaskPainting(mask);
+  painting_ = MaskPainting(mask, painting_.last_state() + 1);
   origin_ = {{painting_.whole_state(), std::move(origin)}};
   remember_file({}, false);
   mask_edge_px_ = edge_px_;
   found_state_ = softened_state_ = share_state_ = 0;
+}
+
+MaskToKeep OwnBodyWork::to_keep() const {
+  return {.state = unsaved(),
+          .pixels = painting_.mask(),
+          .has_strokes = painting_.has_strokes(),
+          .is_changing = painting_.is_stroking()};
+}
+
+void OwnBodyWork::recover(const RecoveredMask& mask) {
+  begin(mask.pixels, "recovered");
+  edge_px_ = mask_edge_px_ = -1;  // as the settings have it, which are not known yet
+  painting_.mark_unsaved();
+  if (mask.has_strokes) {
+    painting_.mark_strokes();
+    origin_[painting_.whole_state()] = "recovered";
+  }
 }
 
 void OwnBodyWork::replace(const cv::Mat& mask, std::string step, std::string origin) {
@@ -173,6 +177,7 @@ void OwnBodyWork::take_found() {
 
 // What was found and not changed since follows at once, by one step at most; back at its own edge it is as it was.
 void OwnBodyWork::take_soft_edge(double edge_px) {
+  if (edge_px_ < 0) edge_px_ = mask_edge_px_ = edge_px;
   if (std::exchange(edge_px_, edge_px) == edge_px || !taken_) return;
   const std::uint64_t state = painting_.state();
   if (state != found_state_ && state != softened_state_) return;
@@ -258,6 +263,7 @@ std::string OwnBodyWork::mask_text(const Project& project) const {
   if (!name.empty() && painting_.whole_state() == file_whole_) return name + ", changed, not saved";
   const auto found = origin_.find(painting_.whole_state());
   const std::string origin = found == origin_.end() ? std::string() : found->second;
+  if (painting_.whole_state() == 0) return origin + ", not saved";
   if (origin.empty()) return painting_.has_strokes() ? "painted, not saved" : "emptied, not saved";
   return origin + (painting_.has_strokes() ? ", painted on, not saved" : ", not saved");
 }

@@ -10,7 +10,9 @@
 #include <string>
 
 #include "editor/document/document.h"
+#include "editor/document/mask_file.h"
 #include "editor/document/mask_painting.h"
+#include "editor/document/recovery.h"
 #include "editor/preview/own_body_job.h"
 #include "editor/preview/previewer.h"
 
@@ -29,6 +31,10 @@ class OwnBodyWork {
   void follow(const Document& document, const OpenedScene* scene);
   // Another project was opened, or none.
   void forget();
+
+  // For the case of a crash; and what was kept so, after one: it is unsaved as it was.
+  [[nodiscard]] MaskToKeep to_keep() const;
+  void recover(const RecoveredMask& mask);
 
   // In the footage as the project has it.
   bool start(const Document& document);
@@ -121,8 +127,5 @@ class OwnBodyWork {
 
 // One beside the project that is not there yet: NAME_own_body.png, NAME_own_body_2.png, ...
 [[nodiscard]] std::filesystem::path new_mask_file(const Project& project);
-
-// 8 bits, one channel. Appears under its name when it is complete.
-[[nodiscard]] Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, bool overwrite);
 
 }  // namespace sigs::editor

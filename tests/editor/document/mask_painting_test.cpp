@@ -178,3 +178,23 @@ TEST_CASE("a painting of nothing can be asked for everything") {
   CHECK_FALSE(painting.has_unsaved_changes());
   CHECK_FALSE(painting.is_stroking());
 }
+
+TEST_CASE("paintings that begin one after the other share no state, and a recovered one is unsaved") {
+  MaskPainting first(black());
+  stroke(first, {5, 1}, {{20, 20}, {40, 30}});
+  MaskPainting second(noise(), first.last_state() + 1);
+  CHECK(second.state() > first.state());
+  CHECK_FALSE(second.has_unsaved_changes());
+  CHECK_FALSE(second.has_strokes());
+  second.mark_unsaved();
+  second.mark_strokes();
+  CHECK(second.has_unsaved_changes());
+  CHECK(second.has_strokes());
+  const std::uint64_t recovered = second.state();
+  stroke(second, {5, 1, true}, {{20, 20}, {40, 30}});
+  second.undo();
+  CHECK(second.state() == recovered);
+  CHECK(second.has_unsaved_changes());
+  second.mark_saved();
+  CHECK_FALSE(second.has_unsaved_changes());
+}

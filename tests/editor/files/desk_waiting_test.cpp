@@ -69,3 +69,60 @@ TEST_CASE("a name that is asked for saves the project that it was asked for, and
   CHECK_FALSE(fs::exists(d.folder / "mine.json"));
   CHECK_FALSE(d.desk.is_done());
 }
+
+TEST_CASE("a recovered project brings its mask; one that cannot be opened stays in the list with the reason") {
+  TemporaryFolder folder;
+  Project project;
+  project.name = "painted";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Recovery recovery(folder / "state");
+    const MaskToKeep mask{.state = 3, .pixels = cv::Mat(4, 6, CV_8UC1, cv::Scalar(9)), .has_strokes = true};
+    ::_exit(recovery.write(Document(project), mask) ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  REQUIRE(status == 0);
+  std::ofstream(folder / "state/editor-1-1.json")
+      << R"({"sigs_recovery": 1, "name": "odd", "written_unix_s": 1, "project": "{ no project"})";
+
+  Document document;
+  Settings settings;
+  FileDesk desk(document, settings, {folder / "state", [] {}, {}});
+  REQUIRE(desk.abandoned().size() == 2);
+  REQUIRE(desk.abandoned()[1].name == "odd");
+  desk.recover(desk.abandoned()[1]);
+  CHECK_FALSE(desk.has_project());
+  REQUIRE(desk.abandoned().size() == 2);
+  CHECK_FALSE(desk.abandoned()[1].problem.empty());
+  desk.discard(desk.abandoned()[1]);
+  desk.answer(0);
+  REQUIRE(desk.abandoned().size() == 1);
+  desk.recover(desk.abandoned()[0]);
+  CHECK(document.project().name == "painted");
+  const std::optional<RecoveredMask> mask = desk.take_recovered_mask();
+  REQUIRE(mask);
+  CHECK(mask->pixels.size() == cv::Size(6, 4));
+  CHECK(mask->has_strokes);
+  CHECK_FALSE(desk.take_recovered_mask());
+}
+
+TEST_CASE("saving the project keeps an unsaved mask for recovery, beside the project as it was saved") {
+  TemporaryFolder folder;
+  Document document;
+  Settings settings;
+  const MaskToKeep mask{.state = 3, .pixels = cv::Mat(4, 6, CV_8UC1, cv::Scalar(9))};
+  FileDesk desk(
+      document, settings,
+      {.recovery_folder = folder / "state",
+       .wake = [] {},
+       .is_exporting = {},
+       .mask = {.unsaved = [] { return std::uint64_t(3); }, .save_then = {}, .to_keep = [&] { return mask; }}});
+  desk.take(NewProject{});
+  document.apply(ChangeProject{"rename", [](Project& p) { p.name = "mine"; }, {}});
+  desk.take(SaveProjectAs{folder / "mine.json"});
+  CHECK_FALSE(document.has_unsaved_changes());
+  int masks = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "state")) masks += entry.path().extension() == ".png";
+  CHECK(masks == 1);
+}

@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "editor/document/mask_file.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -95,9 +96,9 @@ TEST_CASE("what a dead editor left is found, with its file and name, and reads a
   CHECK(found[0].written_unix_s > 1'600'000'000);  // some time after the year 2020
 
   Recovery recovery(folder / "state");
-  const Result<ReadProject> read = recovery.take_over(found[0]);
-  REQUIRE(read);
-  CHECK(read->project == document.project());
+  const auto taken = recovery.take_over(found[0]);
+  REQUIRE(taken);
+  CHECK(taken->read.project == document.project());
   CHECK_MESSAGE(abandoned_projects(folder / "state").empty(), "it is ours, and we run");
   CHECK_MESSAGE(files_in(folder / "state", ".json") == 1, "until it is saved it stays on disk");
   recovery.forget();
@@ -128,7 +129,7 @@ TEST_CASE("of two editors that recover the same project one gets it") {
   Recovery first(folder.path());
   Recovery second(folder.path());
   CHECK(first.take_over(found[0]));
-  const Result<ReadProject> late = second.take_over(found[0]);
+  const auto late = second.take_over(found[0]);
   REQUIRE_FALSE(late);
   CHECK(late.error().kind == ErrorKind::cannot_read);
 }
@@ -164,4 +165,124 @@ TEST_CASE("files that are no recovery files are passed over") {
   std::ofstream(folder / "editor-1-1.part.json") << "{\"sigs_recovery\": 1}";
   CHECK(abandoned_projects(folder.path()).empty());
   CHECK(abandoned_projects(folder / "nowhere").empty());
+}
+
+namespace {
+
+cv::Mat striped_mask(int width_px) {
+  cv::Mat mask = cv::Mat::zeros(30, 40, CV_8UC1);
+  mask.colRange(0, width_px).setTo(200);
+  return mask;
+}
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+// The same with a mask that is being painted.
+void editor_that_dies(const fs::path& folder, const Document& document, const MaskToKeep& mask) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Recovery recovery(folder);
+    const bool told = recovery.keep(document, 0, 0, mask).has_value();
+    ::_exit(told ? 1 : 0);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  REQUIRE(status == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a mask that was not saved outlives its editor, also where the project itself was saved") {
+  for (const bool is_saved : {false, true}) {
+    const TemporaryFolder folder;
+    Document document = edited("a", folder / "p.json");
+    if (is_saved) REQUIRE(document.save());
+    editor_that_dies(folder / "state", document, {.state = 7, .pixels = striped_mask(9), .has_strokes = true});
+    const std::vector<AbandonedProject> found = abandoned_projects(folder / "state");
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].has_mask);
+    CHECK(found[0].problem.empty());
+
+    Recovery recovery(folder / "state");
+    const Result<RecoveredProject> taken = recovery.take_over(found[0]);
+    REQUIRE(taken);
+    CHECK(taken->read.project == document.project());
+    REQUIRE(taken->mask);
+    CHECK(is_same(taken->mask->pixels, striped_mask(9)));
+    CHECK(taken->mask->has_strokes);
+    CHECK_MESSAGE(files_in(folder / "state", ".png") == 1, "until it is saved it stays on disk");
+    recovery.forget();
+    CHECK(files_in(folder / "state", ".png") == 0);
+    CHECK(files_in(folder / "state", ".json") == 0);
+  }
+}
+
+TEST_CASE("what is painted on is written again, what is in the middle of a stroke is not") {
+  const TemporaryFolder folder;
+  Recovery recovery(folder.path());
+  const Document document = edited("a");
+  const auto kept = [&] {
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+      if (entry.path().extension() == ".png") return read_mask(entry.path()).value();
+    return cv::Mat();
+  };
+  CHECK_FALSE(recovery.keep(document, 0, 0, {.state = 3, .pixels = striped_mask(3)}));
+  CHECK(is_same(kept(), striped_mask(3)));
+  CHECK_FALSE(recovery.keep(document, 1, 0, {.state = 3, .pixels = striped_mask(5), .is_changing = true}));
+  CHECK(is_same(kept(), striped_mask(3)));
+  CHECK_FALSE(recovery.keep(document, 2, 0, {.state = 4, .pixels = striped_mask(6)}));
+  CHECK(is_same(kept(), striped_mask(6)));
+  CHECK_FALSE(recovery.keep(document, 3, 0));  // the mask was saved, the project was not
+  CHECK(files_in(folder.path(), ".png") == 0);
+  CHECK(files_in(folder.path(), ".json") == 1);
+}
+
+TEST_CASE("a recovered mask that is painted on takes the place of the one that was taken over") {
+  const TemporaryFolder folder;
+  const Document document = edited("a");
+  editor_that_dies(folder.path(), document, {.state = 7, .pixels = striped_mask(9)});
+  Recovery recovery(folder.path());
+  REQUIRE(recovery.take_over(abandoned_projects(folder.path()).at(0)));
+  CHECK_FALSE(recovery.keep(document, 0, 0, {.state = 2, .pixels = striped_mask(12)}));
+  CHECK(files_in(folder.path(), ".png") == 1);
+  recovery.forget();
+  CHECK(files_in(folder.path(), ".png") == 0);
+}
+
+TEST_CASE("a project whose mask is damaged is recovered without it, and says so") {
+  const TemporaryFolder folder;
+  editor_that_dies(folder.path(), edited("a"), {.state = 7, .pixels = striped_mask(9)});
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    if (entry.path().extension() == ".png") std::ofstream(entry.path()) << "no picture";
+  Recovery recovery(folder.path());
+  const Result<RecoveredProject> taken = recovery.take_over(abandoned_projects(folder.path()).at(0));
+  REQUIRE(taken);
+  CHECK(taken->read.project.name == "a");
+  CHECK_FALSE(taken->mask);
+  CHECK(taken->mask_problem.find(".png") != std::string::npos);
+}
+
+TEST_CASE("a discarded project takes its mask with it") {
+  const TemporaryFolder folder;
+  editor_that_dies(folder.path(), edited("a"), {.state = 7, .pixels = striped_mask(9)});
+  discard(abandoned_projects(folder.path()).at(0));
+  CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("a recovery file that cannot be read is told of, after those that can, and can be discarded") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "editor-1-1.json") << "{\"sigs_recovery\": 1, \"name\": \"cut o";
+  std::ofstream(folder / "editor-1-2.json") << "";
+  editor_that_dies(folder.path(), edited("a"));
+  const std::vector<AbandonedProject> found = abandoned_projects(folder.path());
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].problem.empty());
+  for (const std::size_t i : {1, 2}) {
+    CHECK_FALSE(found[i].problem.empty());
+    CHECK(found[i].recovery_file.filename().string().starts_with("editor-1-"));
+    discard(found[i]);
+  }
+  CHECK(abandoned_projects(folder.path()).size() == 1);
 }

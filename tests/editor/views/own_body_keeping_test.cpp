@@ -159,3 +159,30 @@ TEST_CASE("the share follows what is painted, also within a stroke") {
   b.turn();
   CHECK(b.work.share() == 0);
 }
+
+TEST_CASE(
+    "a mask that is recovered after a crash is unsaved as it was, and neither project nor detection replaces it") {
+  for (const bool by_hand : {false, true}) {
+    Easel b;
+    b.turn();
+    b.work.forget();
+    b.work.recover({disk(25), by_hand});
+    b.use_mask_of_scene(disk(10));
+    b.turn();
+    CHECK(is_same(b.work.painting().mask(), disk(25)));
+    CHECK(b.work.unsaved() != 0);
+    CHECK(b.work.mask_text(b.document.project()) == "recovered, not saved");
+    const MaskToKeep kept = b.work.to_keep();
+    CHECK(kept.state == b.work.unsaved());
+    CHECK(is_same(kept.pixels, disk(25)));
+    CHECK(kept.has_strokes == by_hand);
+    CHECK_FALSE(kept.is_changing);
+    b.detect(12);
+    CHECK(is_same(b.work.painting().mask(), by_hand ? disk(25) : disk(12)));
+    CHECK(b.work.found_waits() == by_hand);
+    b.work.painting().begin_stroke({3, 1}, {5, 5});
+    CHECK(b.work.to_keep().is_changing);
+    b.work.painting().take_back_stroke();
+    REQUIRE(b.work.painting().can_undo() == !by_hand);
+  }
+}

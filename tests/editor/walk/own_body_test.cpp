@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
@@ -20,6 +21,14 @@ bool shows(const Json& state, const std::string& place) {
   return state.contains("places") && state["places"].contains(place);
 }
 
+// A tab takes a press only where the mouse was in the turn before, and a busy machine takes its time for a turn.
+void click_own_body_tab(Walk& walk) {
+  const ScreenPlace tab = walk.editor().place("tab/own body");
+  walk.editor().move(tab.center_x(), tab.center_y());
+  walk.editor().settle();
+  walk.editor().click("tab/own body");
+}
+
 fs::path open_without_mask(Walk& walk) {
   Json project = sample_project("head-on");
   project["footage"].erase("own_body_mask");
@@ -27,7 +36,7 @@ fs::path open_without_mask(Walk& walk) {
   walk.editor().start({file.string()});
   walk.editor().wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   walk.editor().wait_for_picture();
-  walk.editor().click("tab/own body");
+  click_own_body_tab(walk);
   // The world's panel makes room a turn later.
   walk.editor().wait_for("room", [](const Json& now) {
     return shows(now, "own body/canvas") && now["places"]["own body/canvas"][2].get<double>() > 800;
@@ -69,6 +78,53 @@ int value_at(const fs::path& mask, int x, int y) {
 }
 
 }  // namespace
+
+TEST_CASE("strokes that were not saved outlive a crash") {
+  if (!can_drive_windows()) return;
+  Walk walk("own-body-crash", {{"autosave_s", 1}});
+  EditorDriver& editor = walk.editor();
+  const fs::path project = open_without_mask(walk);
+  const std::string original = bytes_of(project);
+  const glm::dvec2 from = on_screen(walk, 200, 200);
+  editor.hold(from.x, from.y);
+  editor.settle();
+  for (const double x_px : {300, 400, 500}) {
+    const glm::dvec2 at = on_screen(walk, x_px, 200);
+    editor.move(at.x, at.y);
+    editor.settle();
+  }
+  editor.let_go();
+  wait_for_place(walk, "own body/unsaved");
+  for (int i = 0; i < 12; ++i) editor.settle();  // autosave_s, and a turn that sees it
+  editor.kill();
+  CHECK(bytes_of(project) == original);
+
+  editor.start({});
+  (void)editor.place("start/recover.0");
+  walk.picture("offered");
+  editor.click("start/recover.0");
+  editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  editor.wait_for_picture();
+  click_own_body_tab(walk);
+  wait_for_place(walk, "own body/unsaved");
+  editor.settle();
+  walk.picture("recovered");
+  editor.click("own body/use");
+  (void)editor.place("browser/answer");
+  editor.settle();
+  walk.edit([&] { editor.key("Return"); });
+  wait_for_place(walk, "own body/used");
+  const fs::path mask = walk.folder() / "flight_own_body.png";
+  for (const int x_px : {200, 350, 500}) CHECK(value_at(mask, x_px, 200) == 255);
+  CHECK(value_at(mask, 350, 300) == 0);
+  CHECK(value_at(mask, 640, 700) == 0);
+  (void)walk.saved(project);
+  editor.wait_for("nothing to be kept for recovery", [&](const Json&) {
+    return std::filesystem::is_empty(walk.folder() / "state/sigs/recovery") ||
+           std::all_of(fs::directory_iterator(walk.folder() / "state/sigs/recovery"), fs::directory_iterator(),
+                       [](const auto& entry) { return entry.path().extension() == ".lock"; });
+  });
+}
 
 TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   if (!can_drive_windows()) return;

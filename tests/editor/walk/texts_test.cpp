@@ -79,6 +79,21 @@ void look_around(Walk& walk) {
   CHECK(editor.running());
 }
 
+// As an editor that was killed leaves it.
+void put_recovery(const fs::path& home, const std::string& stamp, const std::string& text) {
+  fs::create_directories(home / "state/sigs/recovery");
+  std::ofstream(home / "state/sigs/recovery" / ("editor-" + stamp + ".json")) << text;
+}
+
+std::string recovery_of(const Json& project, const fs::path& file) {
+  return Json{{"sigs_recovery", 1},
+              {"file", file.string()},
+              {"name", project["name"]},
+              {"written_unix_s", 1'700'000'000},
+              {"project", project.dump()}}
+      .dump();
+}
+
 }  // namespace
 
 TEST_CASE("texts of any length are shown, and the editor goes on") {
@@ -101,6 +116,41 @@ TEST_CASE("texts of any length are shown, and the editor goes on") {
     editor.key("ctrl+q");
     CHECK(editor.exit_status() == 0);
   }
+}
+
+TEST_CASE("a long text in a recovery file is offered, opened and saved") {
+  if (!can_drive_windows()) return;
+  Walk walk("texts-recovered");
+  EditorDriver& editor = walk.editor();
+  const Json project = wordy_project(20'000);
+  put_recovery(walk.folder(), "999999-1", recovery_of(project, walk.folder() / "wordy.json"));
+  editor.start({});
+  (void)editor.place("start/recover.0");
+  walk.picture("offered");
+  rest_on(editor, "start/discard.0");
+  editor.click("start/recover.0");
+  editor.wait_for("the project", is_open);
+  editor.settle();
+  walk.picture("open");
+  CHECK(walk.saved(walk.folder() / "wordy.json")["name"] == project["name"]);
+}
+
+TEST_CASE("a recovery file that cannot be read is told of with its name, and can be removed") {
+  if (!can_drive_windows()) return;
+  Walk walk("recovery-unreadable");
+  EditorDriver& editor = walk.editor();
+  put_recovery(walk.folder(), "999999-2", "{\"sigs_recovery\": 1, \"name\": \"cut o");
+  const fs::path file = walk.folder() / "state/sigs/recovery/editor-999999-2.json";
+  editor.start({});
+  (void)editor.place("start/discard.0");
+  walk.picture("offered");
+  CHECK_FALSE(editor.has_place("start/recover.0"));
+  editor.click("start/discard.0");
+  (void)editor.place("question/Discard");
+  editor.settle();  // a dialog that has just opened takes the focus for itself first
+  editor.click("question/Discard");
+  editor.wait_for("the file to go", [&](const Json&) { return !fs::exists(file); });
+  editor.wait_for("the row to go", [](const Json& now) { return !now["places"].contains("start/discard.0"); });
 }
 
 TEST_CASE("what is typed into a field has a limit, and the editor stays") {
