@@ -19,6 +19,19 @@ std::string shown_name(const Project& project) {
   return shortened(project.file.empty() ? project.name : project.file.filename().string(), kMostName);
 }
 
+// Where a project that was never saved belongs: beside its footage; without any beside the project saved or opened
+// last.
+fs::path first_folder(const Project& project, const Settings& settings) {
+  std::error_code code;
+  if (!project.footage.video.empty()) {
+    const fs::path beside = fs::absolute(project.footage.video, code).parent_path();
+    if (fs::is_directory(beside, code)) return beside;
+  }
+  if (!settings.recent.empty() && fs::is_directory(settings.recent.front().parent_path(), code))
+    return settings.recent.front().parent_path();
+  return settings.last_folder;
+}
+
 }  // namespace
 
 FileDesk::FileDesk(Document& document, Settings& settings, Surroundings surroundings)
@@ -172,6 +185,7 @@ void FileDesk::open(const fs::path& path) {
 
 void FileDesk::show(Project project) {
   recovery_.forget();
+  requests_.emplace_back(ClearMessages{});
   document_ = Document(std::move(project), document_.last_number() + 1);
   disk_.remember(document_.project().file);
   has_project_ = true;
@@ -231,7 +245,8 @@ void FileDesk::save_as_then(const fs::path& path, Step next) {
     return;
   }
   const Project& project = document_.project();
-  const fs::path start = project.file.empty() ? settings_.last_folder / (project.name + ".json") : project.file;
+  const fs::path start =
+      project.file.empty() ? first_folder(project, settings_) / (project.name + ".json") : project.file;
   requests_.push_back(
       AskForFile{.title = "Save the project as",
                  .extensions = {".json"},

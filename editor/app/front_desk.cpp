@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/app/layout.h"
 #include "editor/views/menu_bar.h"
 #include "editor/widgets/elided.h"
+#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -80,6 +82,8 @@ bool FrontDesk::take(const Request& request) {
     ask_for_files();
   } else if (const auto* message = std::get_if<Say>(&request)) {
     toasts_.say(*message, now_s_);
+  } else if (std::holds_alternative<ClearMessages>(request)) {
+    toasts_.clear();
   } else if (std::holds_alternative<ShowExport>(request)) {
     if (has_project()) export_view_.open(document_);
   } else if (std::holds_alternative<ShowMissingFiles>(request)) {
@@ -155,7 +159,12 @@ void FrontDesk::draw_dialog(const Studio& studio) {
 
 void FrontDesk::draw_over_all(const Studio& studio) {
   draw_dialog(studio);
-  toasts_.draw(studio.places, now_s_);
+  const ImGuiViewport& screen = *ImGui::GetMainViewport();
+  const float inspector = has_project() && settings_.show_inspector ? scaled(settings_.inspector_width) : 0;
+  const float timeline = has_project() ? Layout::timeline_height_px(settings_, screen.WorkSize.y) : 0;
+  const float width = screen.Size.x - inspector;
+  toasts_.draw(studio.places, now_s_, {screen.Pos.x + width / 2, screen.Pos.y + screen.Size.y - timeline - scaled(18)},
+               width);
 }
 
 }  // namespace sigs::editor

@@ -28,7 +28,19 @@ void move(double& size, double by_px, double least, double most) {
   size = std::clamp(size + by_px / scaled(1), least, std::max(least, most));
 }
 
+constexpr double kLowestTimeline = 90;
+
+// Where the text is 15 px high; the pictures above keep some room.
+double highest_timeline(float room_px) {
+  return room_px / scaled(1) - 200;
+}
+
 }  // namespace
+
+float Layout::timeline_height_px(const Settings& settings, float room_px) {
+  return scaled(
+      std::clamp(settings.timeline_height, kLowestTimeline, std::max(kLowestTimeline, highest_timeline(room_px))));
+}
 
 // The tabs and what is in the one that is shown.
 void Layout::draw_tabs(const Studio& studio, OwnBodyWork& own_body) {
@@ -74,8 +86,8 @@ void Layout::draw(const Studio& studio, OwnBodyWork& own_body, Settings& setting
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float bar = splitter_thickness();
-  const double most_timeline = room.y / scaled(1) - 200;
-  const float timeline = scaled(std::clamp(settings.timeline_height, 90.0, std::max(90.0, most_timeline)));
+  const double most_timeline = highest_timeline(room.y);
+  const float timeline = timeline_height_px(settings, room.y);
   // In a small window, or with large text, the pictures keep the larger part.
   const float most_inspector = std::max(scaled(160), room.x * 0.42F);
   const float inspector = settings.show_inspector ? std::min(scaled(settings.inspector_width), most_inspector) : 0;
@@ -91,7 +103,7 @@ void Layout::draw(const Studio& studio, OwnBodyWork& own_body, Settings& setting
   with_usual_spacing([&] { draw_pictures(studio, own_body, settings); });
   ImGui::EndChild();
   const SplitterMove moved = horizontal_splitter("timeline splitter", left);
-  move(settings.timeline_height, -moved.by_px, 90, most_timeline);
+  move(settings.timeline_height, -moved.by_px, kLowestTimeline, most_timeline);
   if (moved.reset) settings.timeline_height = Settings().timeline_height;
   panel("timeline", {left, timeline}, true, color::kPanel,
         [&] { with_usual_spacing([&] { timeline_.draw(studio); }); });

@@ -18,6 +18,8 @@ class Layout {
  public:
   // Fills the window below the menu bar.
   void draw(const Studio& studio, OwnBodyWork& own_body, Settings& settings);
+  // Height of the timeline, as it is drawn in room_px of height.
+  [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
   // From the next turn on.
   void show_own_body() { wants_own_body_ = true; }
 

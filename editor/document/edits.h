@@ -96,14 +96,16 @@ struct ShowResults {
   int id = 0;
   bool shown = true;
 };
-struct Say {  // a passing message at the lower edge
+struct ClearMessages {};  // those that are shown speak of a project that is no longer open
+struct Say {              // a passing message above the timeline
   std::string text;
   bool is_error = false;
 };
 
-using Request = std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play,
-                             TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHelp, ShowSettings, ShowAbout,
-                             ShowMissingFiles, ToggleFullScreen, LoadResults, RemoveResults, ShowResults, Say>;
+using Request =
+    std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
+                 SetLoop, ShowExport, ShowOwnBody, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
+                 ToggleFullScreen, LoadResults, RemoveResults, ShowResults, ClearMessages, Say>;
 
 // Views put what they want here while they draw. Afterwards the document takes the edits and the program the requests,
 // in order.

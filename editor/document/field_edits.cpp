@@ -82,6 +82,18 @@ std::unique_ptr<Project> default_project(std::size_t intruders) {
   return project;
 }
 
+bool lie_along_each_other(const ModelSettings& model) {
+  return model.forward.size() == 2 && model.up.size() == 2 && model.forward[1] == model.up[1];
+}
+
+void keep_axes_apart(ModelSettings& model, const ModelSettings& before) {
+  if (!lie_along_each_other(model) || lie_along_each_other(before)) return;
+  if (model.forward != before.forward)
+    model.up = before.forward;
+  else
+    model.forward = before.up;
+}
+
 }  // namespace
 
 PlainValue value_of(const Field& field) {
@@ -105,13 +117,18 @@ bool put_value(Project& project, std::string_view key, const PlainValue& value) 
     const Field* field = find_in(fields, key);
     return field != nullptr && put_value(*field, value);
   }
+  std::vector<ModelSettings> before;
+  for (const IntruderSettings& intruder : project.intruders) before.push_back(intruder.model);
   std::vector<std::vector<WaypointSettings>> aside;
   for (IntruderSettings& intruder : project.intruders)
     aside.push_back(std::exchange(intruder.trajectory.waypoints, {}));
   const std::vector<Field> fields = fields_of(project);
   const Field* field = find_in(fields, key);
   const bool put = field != nullptr && put_value(*field, value);
-  for (std::size_t i = 0; i < aside.size(); ++i) project.intruders[i].trajectory.waypoints = std::move(aside[i]);
+  for (std::size_t i = 0; i < aside.size(); ++i) {
+    project.intruders[i].trajectory.waypoints = std::move(aside[i]);
+    keep_axes_apart(project.intruders[i].model, before[i]);
+  }
   return put;
 }
 

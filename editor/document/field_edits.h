@@ -26,8 +26,9 @@ using PlainValue = std::variant<double, int, std::optional<double>, std::optiona
 // does not have leave the field alone; false then.
 bool put_value(const Field& field, const PlainValue& value);
 
-// By the field's key; false too where the project has no such field. Quick however many waypoints there are, unless the
-// key is a waypoint's.
+// By the field's key. A model's forward that is put along its up (or the other way round) takes the other's place,
+// which gets the old one: on the way from one pair of axes to another no step is invalid. False too where the project
+// has no such field. Quick however many waypoints there are, unless the key is a waypoint's.
 bool put_value(Project& project, std::string_view key, const PlainValue& value);
 
 // The fields of one state of a project, to be looked at for as long as that state lasts. Without the waypoints', of

@@ -19,14 +19,19 @@ fs::path normal(const fs::path& path) {
 }  // namespace
 
 Project moved_to(Project project, const fs::path& file) {
+  const bool had_file = !project.file.empty();
   const fs::path folder = normal(file).parent_path();
   const fs::path old_folder = normal(project.file.empty() ? fs::path("project.json") : project.file).parent_path();
   project.file = file;
-  if (folder == old_folder) return project;
+  if (had_file && folder == old_folder) return project;
   for (const Field& field : fields_of(project)) {
     if (!field.is_path) continue;
     std::string& path = *std::get<std::string*>(field.value);
-    if (path.empty() || fs::path(path).is_absolute()) continue;
+    if (path.empty()) continue;
+    if (fs::path(path).is_absolute()) {
+      if (!had_file) path = path_in_project(project, path);
+      continue;
+    }
     path = (old_folder / path).lexically_normal().lexically_relative(folder).generic_string();
   }
   return project;

@@ -63,6 +63,12 @@ cv::Mat straight_display(const cv::Mat& premultiplied) {
   return straight;
 }
 
+glm::dvec2 turntable_point_px(const glm::dvec3& direction_in_body, double turn_rad, cv::Size size_px) {
+  const VirtualView view = view_of(size_px);
+  const glm::dvec3 p = placed(Ball{}, turn_rad) * direction_in_body;  // x ahead, y right, z down
+  return view.center_px + view.focal_px * glm::dvec2(p.y, p.z) / p.x;
+}
+
 Result<cv::Mat> turntable_picture(const Mesh& mesh, double turn_rad, cv::Size size_px, Renderer& renderer) {
   const Ball ball = ball_around(mesh);
   const Light light{.p_in_camera = glm::dvec3(-1, -3, -4) * (kDistance * ball.radius_m)};

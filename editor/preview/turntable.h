@@ -16,6 +16,10 @@ namespace sigs::editor {
 [[nodiscard]] Result<cv::Mat> turntable_picture(const Mesh& mesh, double turn_rad, cv::Size size_px,
                                                 Renderer& renderer);
 
+// Where a direction in body axes (x nose, y right wing, z belly) ends in that picture, in pixels: from the middle of
+// the model's bounds, as long as the sphere around them is wide to one side.
+[[nodiscard]] glm::dvec2 turntable_point_px(const glm::dvec3& direction_in_body, double turn_rad, cv::Size size_px);
+
 // Premultiplied linear RGBA (CV_32FC4) as straight display RGBA (CV_8UC4). What is wholly transparent is black.
 [[nodiscard]] cv::Mat straight_display(const cv::Mat& premultiplied);
 

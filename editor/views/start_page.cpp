@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/partial_file.h"
+#include "editor/document/dropped.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
@@ -74,21 +75,21 @@ std::string first_sentence(const std::string& markdown) {
   return text;
 }
 
-StartPage::StartPage(fs::path samples, std::function<void()> wake)
-    : samples_folder_(std::move(samples)), pictures_({kPictureWidth_px, kPictureHeight_px}, std::move(wake)) {
-  read_samples();
-}
+StartPage::StartPage(const fs::path& samples, std::function<void()> wake)
+    : samples_(samples_in(samples)), pictures_({kPictureWidth_px, kPictureHeight_px}, std::move(wake)) {}
 
-void StartPage::read_samples() {
+std::vector<SampleProject> samples_in(const fs::path& folder) {
+  std::vector<SampleProject> samples;
   std::error_code code;
-  for (fs::directory_iterator it(samples_folder_, code), end; !code && it != end; it.increment(code)) {
+  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const fs::path file = it->path() / (it->path().filename().string() + ".json");
     std::error_code unknown;
-    if (!fs::exists(file, unknown)) continue;
+    if (!fs::exists(file, unknown) || what_was_dropped(file).kind != DroppedKind::project) continue;  // or a recipe
     const Result<std::string> readme = read_text(it->path() / "README.md");
-    samples_.push_back({file, it->path().filename().string(), readme ? first_sentence(*readme) : std::string()});
+    samples.push_back({file, it->path().filename().string(), readme ? first_sentence(*readme) : std::string()});
   }
-  std::sort(samples_.begin(), samples_.end(), [](const Sample& a, const Sample& b) { return a.name < b.name; });
+  std::ranges::sort(samples, {}, &SampleProject::name);
+  return samples;
 }
 
 void StartPage::look_for(const std::vector<fs::path>& recent) {
@@ -148,7 +149,7 @@ void StartPage::draw_abandoned(const Studio& studio, const StartPageContent& con
   }
 }
 
-void StartPage::draw_card(const Studio& studio, const Sample& sample, float width, float height) {
+void StartPage::draw_card(const Studio& studio, const SampleProject& sample, float width, float height) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
   const float picture_height = width * kPictureShape;
   if (ImGui::InvisibleButton(sample.name.c_str(), {width, height})) studio.edits.ask(OpenProject{sample.file});
@@ -188,7 +189,7 @@ void StartPage::draw_samples(const Studio& studio, float width) {
       std::min(scaled(300), (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
   const float small = font(Font::small)->FontSize;
   float text = 0;
-  for (const Sample& sample : samples_)
+  for (const SampleProject& sample : samples_)
     text = std::max(text, font(Font::small)->CalcTextSizeA(small, FLT_MAX, card - scaled(20), sample.text.c_str()).y);
   const float height =
       card * kPictureShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));

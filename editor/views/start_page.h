@@ -25,35 +25,38 @@ struct StartPageChoice {
   std::optional<AbandonedProject> discard;
 };
 
+struct SampleProject {
+  std::filesystem::path file;
+  std::string name;
+  std::string text;  // the first sentence of its README
+};
+
+// The projects NAME/NAME.json below a folder, by name; other files of that name (recipes of datasets) are none. Empty
+// where the folder is not there.
+[[nodiscard]] std::vector<SampleProject> samples_in(const std::filesystem::path& folder);
+
 // The page that is shown while no project is open: sample projects, recent ones, and what a crash left behind.
 class StartPage {
  public:
   // samples  a folder whose folders hold a project and a README.md each; one that is not there: none
   // wake     called from another thread when a picture is ready
-  StartPage(std::filesystem::path samples, std::function<void()> wake);
+  StartPage(const std::filesystem::path& samples, std::function<void()> wake);
 
   [[nodiscard]] StartPageChoice draw(const Studio& studio, const StartPageContent& content);
 
  private:
-  struct Sample {
-    std::filesystem::path file;
-    std::string name;
-    std::string text;  // the first sentence of its README
-  };
   struct Recent {
     std::filesystem::path file;
     bool is_there = false;
   };
-  void read_samples();
   void look_for(const std::vector<std::filesystem::path>& recent);
   void draw_head(const Studio& studio, const StartPageContent& content);
   void draw_samples(const Studio& studio, float width);
-  void draw_card(const Studio& studio, const Sample& sample, float width, float height);
+  void draw_card(const Studio& studio, const SampleProject& sample, float width, float height);
   void draw_recent(const Studio& studio, float width);
   void draw_abandoned(const Studio& studio, const StartPageContent& content, StartPageChoice& choice);
 
-  std::filesystem::path samples_folder_;
-  std::vector<Sample> samples_;
+  std::vector<SampleProject> samples_;
   std::vector<Recent> recent_;  // with the look at the disk from when the list last changed
   ProjectPictures pictures_;
 };

@@ -14,11 +14,13 @@ namespace sigs::editor {
 namespace {
 
 constexpr double kShortest_s = 3;
+constexpr double kShortestError_s = 15;
 constexpr double kReading_s = 0.05;  // more for each letter
 constexpr std::size_t kMost = 5;
 
 struct Plate {
   ScreenRect rect;
+  bool hovered = false;
   bool clicked = false;
 };
 
@@ -42,18 +44,20 @@ Plate drawn(const std::string& id, const std::string& text, bool is_error, ImVec
   list.AddText(nullptr, 0, {p.x + scaled(34), p.y + scaled(9)}, color::kText, text.c_str(), nullptr, wrap);
   if (is_error)
     draw_icon(list, Icon::cross, {p.x + whole.x - scaled(16), p.y + whole.y / 2}, scaled(11), color::kQuiet);
-  const bool clicked = ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0);
+  const bool hovered = ImGui::IsWindowHovered();
+  const bool clicked = hovered && ImGui::IsMouseClicked(0);
   ImGui::End();
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
-  return {{{p.x, p.y}, {p.x + whole.x, p.y + whole.y}}, clicked};
+  return {{{p.x, p.y}, {p.x + whole.x, p.y + whole.y}}, hovered, clicked};
 }
 
 }  // namespace
 
 void Toasts::say(const Say& said, double now_s) {
   const Say message{shortened(said.text), said.is_error};
-  const double until_s = now_s + kShortest_s + kReading_s * static_cast<double>(message.text.size());
+  const double shortest_s = message.is_error ? kShortestError_s : kShortest_s;
+  const double until_s = now_s + shortest_s + kReading_s * static_cast<double>(message.text.size());
   const auto same = std::find_if(toasts_.begin(), toasts_.end(), [&](const Toast& toast) {
     return toast.text == message.text && toast.is_error == message.is_error;
   });
@@ -69,22 +73,22 @@ void Toasts::say(const Say& said, double now_s) {
   toasts_.erase(passing != toasts_.end() ? passing : toasts_.begin());
 }
 
-bool Toasts::is_passing() const {
-  return std::any_of(toasts_.begin(), toasts_.end(), [](const Toast& toast) { return !toast.is_error; });
+void Toasts::pass(double now_s) {
+  std::erase_if(toasts_, [now_s](const Toast& toast) { return now_s > toast.until_s; });
 }
 
-void Toasts::draw(Places& places, double now_s) {
-  std::erase_if(toasts_, [now_s](const Toast& toast) { return !toast.is_error && now_s > toast.until_s; });
+void Toasts::draw(Places& places, double now_s, ImVec2 foot, float width_px) {
+  pass(now_s);
   if (toasts_.empty()) return;
-  const ImGuiViewport& screen = *ImGui::GetMainViewport();
-  const float most = std::min(scaled(620), screen.Size.x - scaled(40));
-  float y = screen.Pos.y + screen.Size.y - scaled(18);
+  const float most = std::min(scaled(620), width_px - scaled(40));
+  float y = foot.y;
   std::size_t clicked = toasts_.size();
   for (std::size_t i = toasts_.size(); i-- > 0;) {
-    const Toast& toast = toasts_[i];
+    Toast& toast = toasts_[i];
     const std::string text =
         toast.times > 1 ? toast.text + "  (" + std::to_string(toast.times) + " times)" : toast.text;
-    const Plate plate = drawn(std::to_string(i), text, toast.is_error, {screen.Pos.x + screen.Size.x / 2, y}, most);
+    const Plate plate = drawn(std::to_string(i), text, toast.is_error, {foot.x, y}, most);
+    if (plate.hovered) toast.until_s = std::max(toast.until_s, now_s + 1);
     if (plate.clicked) clicked = i;
     places.note("toast/" + std::to_string(i), plate.rect);
     y = static_cast<float>(plate.rect.low.y) - scaled(8);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <imgui.h>
+
+#include <cstddef>
 #include <deque>
 #include <string>
 
@@ -9,14 +12,22 @@
 
 namespace sigs::editor {
 
-// Passing messages at the lower edge of the window. Errors stay until they are clicked.
+// Passing messages, above the timeline. Errors stay longer, and as long as the mouse is over one; a click takes any
+// away.
 class Toasts {
  public:
   void say(const Say& said, double now_s);
-  void draw(Places& places, double now_s);
+  // foot: the middle of the lowest one's lower edge; width_px: room from left to right.
+  void draw(Places& places, double now_s, ImVec2 foot, float width_px);
+  // Of another project they would speak no more.
+  void clear() { toasts_.clear(); }
 
   // Whether one will pass by itself: the window has to be drawn again soon.
-  [[nodiscard]] bool is_passing() const;
+  [[nodiscard]] bool is_passing() const { return !toasts_.empty(); }
+
+  [[nodiscard]] std::size_t count() const { return toasts_.size(); }
+  // Takes away those whose time is over; draw() does so too.
+  void pass(double now_s);
 
  private:
   struct Toast {

@@ -141,6 +141,9 @@ Json parsed_or_empty(const std::string& text) {
 Result<void> check_version(const Json& json, const std::string& file) {
   if (!json.is_object()) return fail(file, "is not a SIGS project: expected { ... }", ErrorKind::bad_project);
   const auto version = json.find("sigs");
+  if (version == json.end() && json.contains("sigs_dataset"))
+    return fail(file, "is a recipe of a dataset, not a project; sigs dataset makes its videos, each with a project",
+                ErrorKind::bad_project);
   if (version == json.end())
     return fail(file + ": sigs", "missing; a project begins with \"sigs\": 1", ErrorKind::bad_project);
   if (!version->is_number_integer() || *version != kProjectVersion)

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "editor/document/field_texts.h"
+#include "editor/preview/turntable.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
@@ -73,6 +74,32 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return std::filesystem::absolute(a, code).lexically_normal() == std::filesystem::absolute(b, code).lexically_normal();
 }
 
+// From the model's middle along an axis of it, with a word at the tip.
+void draw_axis(ImDrawList& list, ImVec2 low, ImVec2 size, const glm::dvec3& axis_in_body, double turn_rad, ImU32 color,
+               const char* word) {
+  const cv::Size size_px(static_cast<int>(size.x), static_cast<int>(size.y));
+  const glm::dvec2 begin = turntable_point_px({0, 0, 0}, turn_rad, size_px);
+  const glm::dvec2 end = turntable_point_px(axis_in_body, turn_rad, size_px);
+  const ImVec2 from{low.x + static_cast<float>(begin.x), low.y + static_cast<float>(begin.y)};
+  const ImVec2 tip{low.x + static_cast<float>(end.x), low.y + static_cast<float>(end.y)};
+  list.AddLine(from, tip, color, scaled(1.5));
+  const double length = glm::length(end - begin);
+  if (length > 1) {
+    const glm::dvec2 along = (end - begin) / length * static_cast<double>(scaled(8));
+    const glm::dvec2 across = glm::dvec2(-along.y, along.x) * 0.45;
+    const auto at = [&](const glm::dvec2& p) {
+      return ImVec2{low.x + static_cast<float>(p.x), low.y + static_cast<float>(p.y)};
+    };
+    list.AddTriangleFilled(at(end + along * 0.4), at(end - along * 0.6 + across), at(end - along * 0.6 - across),
+                           color);
+  }
+  const ImVec2 extent = ImGui::CalcTextSize(word);
+  const float x = tip.x >= from.x ? tip.x + scaled(6) : tip.x - scaled(6) - extent.x;
+  list.AddText({std::clamp(x, low.x + scaled(2), low.x + size.x - extent.x - scaled(2)),
+                std::clamp(tip.y - extent.y / 2, low.y, low.y + size.y - extent.y)},
+               color, word);
+}
+
 }  // namespace
 
 void ModelBlock::draw_list(const Studio& studio, const FieldRows& rows) {
@@ -115,7 +142,8 @@ void ModelBlock::draw_preview(const Studio& studio, int intruder) {
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   studio.wishes.turntable = Wanted::Turntable{
       .intruder = intruder, .turn_rad = turn_rad_, .size_px = {static_cast<int>(size.x), static_cast<int>(size.y)}};
-  tooltip_for_item("Drag to turn. The nose is where the arrow of the aircraft's flight would be: check the axes here.");
+  tooltip_for_item(
+      "Drag to turn. Does the model's nose point along the arrow, its top upwards? If not, change the axes below.");
 
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high = ImGui::GetItemRectMax();
@@ -130,6 +158,8 @@ void ModelBlock::draw_preview(const Studio& studio, int intruder) {
   }
   list.AddImage(studio.textures.of(model->rgba, Filter::smooth), low, high);
   studio.places.note_item("inspector/model picture");
+  draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");
+  draw_axis(list, low, size, {0, 0, -1}, turn_rad_, color::kText, "top");
   note(decimetres(model->size_m.x) + " m long, " + decimetres(model->size_m.y) + " m span, " +
        decimetres(model->size_m.z) + " m high");
 }

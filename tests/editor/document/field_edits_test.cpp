@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "editor/document/field_texts.h"
 
@@ -242,4 +244,31 @@ TEST_CASE("a zero that is no number is told by its word") {
     if (field.key == "own_body.settled_percent") CHECK(value_text(field, 0.0) == "never");
     if (field.key == "camera.speed_mps") CHECK(value_text(field, 0.0) == "0 m/s");
   }
+}
+
+TEST_CASE("from one pair of model axes to any other each step is valid") {
+  Project project;
+  project.intruders.resize(1);
+  ModelSettings& model = project.intruders[0].model;
+  const std::string key = "intruders[0].model.";
+  const std::vector<std::string> names{"+x", "-x", "+y", "-y", "+z", "-z"};
+  const auto is_valid = [&] { return model.forward[1] != model.up[1]; };
+  for (const std::string& forward : names)
+    for (const std::string& up : names)
+      for (const std::string& next : names) {
+        if (forward[1] == up[1]) continue;
+        for (const char* const changed : {"forward", "up"}) {
+          model.forward = forward;
+          model.up = up;
+          CHECK(put_value(project, key + changed, next));
+          CHECK(is_valid());
+          CHECK((std::string(changed) == "up" ? model.up : model.forward) == next);
+        }
+      }
+  model.forward = "+x";
+  model.up = "+z";
+  CHECK(put_value(project, key + "forward", std::string("-z")));
+  CHECK(model.up == "+x");
+  CHECK(put_value(project, key + "up", std::string("banana")));  // the check of the project tells of it
+  CHECK(model.forward == "-z");
 }

@@ -29,7 +29,8 @@ fs::path meant(const Project& project, const std::string& path) {
 
 TEST_CASE("a project that moves means the same files") {
   const Project before = at("/home/a/projects/x.json");
-  for (const fs::path target : {"/home/a/projects/deeper/still/y.json", "/home/y.json", "/z.json", "/other/place/y.json"}) {
+  for (const fs::path target :
+       {"/home/a/projects/deeper/still/y.json", "/home/y.json", "/z.json", "/other/place/y.json"}) {
     const Project after = moved_to(before, target);
     CHECK(after.file == target);
     CHECK(meant(after, after.footage.video) == "/home/a/clips/a.mp4");
@@ -53,6 +54,18 @@ TEST_CASE("a project without a file names files absolutely, from the current fol
   CHECK(fs::path(path_in_project(project, "y.mp4")) == fs::absolute("y.mp4").lexically_normal());
   const Project saved = moved_to(project, fs::current_path() / "sub/p.json");
   CHECK(meant(saved, saved.intruders[0].model.file) == fs::current_path() / "c.obj");
+}
+
+TEST_CASE("a project's first save beside its files names them relatively, far ones absolutely") {
+  Project project;
+  project.footage.video = "/home/a/clips/a.mp4";
+  project.footage.calibration = "/calibrations/b.xml";
+  project.intruders.resize(1);
+  project.intruders[0].model.file = "/home/a/b/c/d/e/c.obj";
+  const Project saved = moved_to(project, "/home/a/b/c/d/e/p.json");
+  CHECK(saved.intruders[0].model.file == "c.obj");
+  CHECK(saved.footage.video == "../../../../clips/a.mp4");
+  CHECK(saved.footage.calibration == "/calibrations/b.xml");
 }
 
 TEST_CASE("a file near the project is named relative to it, one far away absolutely") {

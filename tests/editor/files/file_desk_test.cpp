@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "desk.h"
@@ -252,4 +253,37 @@ TEST_CASE("what is painted while another project is read is asked for again") {
   d.desk.answer(1);
   d.wait();
   CHECK(d.document.project().name == "b");
+}
+
+TEST_CASE("a project that was never saved is to be saved beside its footage, not where one looked last") {
+  Desk d;
+  d.settings.last_folder = d.folder / "looked";
+  fs::create_directories(d.folder / "clips");
+  fs::create_directories(d.folder / "mine");
+  const auto proposed = [&]() -> fs::path {
+    d.desk.take(SaveProjectAs{});
+    for (const Request& request : d.desk.take_requests())
+      if (const auto* wanted = std::get_if<AskForFile>(&request)) return wanted->start.parent_path();
+    return {};
+  };
+  d.desk.take(NewProject{});
+  CHECK(proposed() == d.folder / "looked");
+  d.settings.recent = {d.folder / "mine/a.json"};
+  CHECK(proposed() == d.folder / "mine");
+  const std::string video = (d.folder / "clips/a.mp4").string();
+  d.document.apply(ChangeProject{"set footage", [&](Project& p) { p.footage.video = video; }, {}});
+  CHECK(proposed() == d.folder / "clips");
+}
+
+TEST_CASE("messages of the project before are cleared when another is shown, before anything is said of that") {
+  Desk d;
+  d.open(d.written("a.json", "a"));
+  const std::vector<Request> requests = d.desk.take_requests();
+  const auto clear = std::find_if(requests.begin(), requests.end(), [](const Request& request) {
+    return std::holds_alternative<ClearMessages>(request);
+  });
+  const auto said = std::find_if(requests.begin(), requests.end(),
+                                 [](const Request& request) { return std::holds_alternative<Say>(request); });
+  REQUIRE(clear != requests.end());
+  CHECK(clear < said);
 }

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "base/transfer.h"
@@ -60,6 +62,25 @@ TEST_CASE("the nose points to the viewer's right and comes nearer, seen from abo
   CHECK(turned.y == doctest::Approx(87.7).epsilon(0.05));
   CHECK(turned.x + turned.width <= 103);
   CHECK(turned.y + turned.height <= 103);
+}
+
+TEST_CASE("the ends of the axes that are drawn over the model are where its tip is drawn") {
+  Renderer renderer = Renderer::create().value();
+  const cv::Size size(401, 401);
+  Mesh far_tip = spike();
+  const float radius_m = 10 * std::sqrt(3.0F);  // of the sphere around the bounds
+  far_tip.vertices[2].position_m = {radius_m, 0, 0};
+  for (const double turn_rad : {0.0, 1.0, 2.5, std::numbers::pi, 5.0}) {
+    CAPTURE(turn_rad);
+    const cv::Rect box = seen_box(turntable_picture(far_tip, turn_rad, size, renderer).value());
+    const glm::dvec2 tip = turntable_point_px({1, 0, 0}, turn_rad, size);
+    const double nearest_x = std::min(std::abs(tip.x - box.x), std::abs(tip.x - (box.x + box.width)));
+    CHECK(nearest_x < 4);  // the last pixels of a tip thinner than a pixel are not drawn
+  }
+  const glm::dvec2 middle = turntable_point_px({0, 0, 0}, 1.0, size);
+  CHECK(middle.x == doctest::Approx(200));
+  CHECK(middle.y == doctest::Approx(200));
+  CHECK(turntable_point_px({0, 0, -1}, 1.0, size).y < 100);  // its top is up
 }
 
 TEST_CASE("a model of any size fills the picture and leaves it nowhere") {
