@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/guarded.h"
 #include "cli/check_command.h"
 #include "cli/dataset_command.h"
 #include "cli/evaluate_command.h"
@@ -30,7 +34,7 @@ constexpr const char* kFooter =
     "  sigs check projects/crossing/crossing.json\n"
     "  sigs info assets/footage/sample.mp4\n"
     "\n"
-    "Exit status: 0 done, 64 usage, 65 bad data, 66 cannot read an input, 69 no OpenGL or encoder,\n"
+    "Exit status: 0 done, 64 usage, 65 bad data, 66 cannot read an input, 69 no OpenGL, encoder or memory,\n"
     "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted.";
 
 struct Command {
@@ -42,9 +46,15 @@ bool is_no_evaluation(std::string_view word) {
   return !word.starts_with('-') && word != "track" && word != "detect";
 }
 
-}  // namespace
+// Mesa reads these when it is loaded. What fails in it comes back as an error; stderr is the program's own. Where the
+// memory is limited its software renderer goes without threads: it waits for ever for those that it could not start.
+void prepare_mesa() {
+  setenv("EGL_LOG_LEVEL", "fatal", 0);
+  rlimit memory{};
+  if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) setenv("LP_NUM_THREADS", "0", 0);
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace sigs::cli;
   CLI::App program("Puts simulated aircraft into real UAV footage, and writes the truth beside it.", "sigs");
   program.set_version_flag("--version", std::string("sigs ") + SIGS_VERSION);
@@ -73,6 +83,7 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
   }
   listen_for_interrupts();
+  prepare_mesa();
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     if (const sigs::Result<void> done = command.run(); !done) {
@@ -85,4 +96,13 @@ int main(int argc, char** argv) {
     return static_cast<int>(sigs::ErrorKind::write_failed);
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const sigs::Result<int> status = sigs::guarded([&]() -> sigs::Result<int> { return run(argc, argv); });
+  if (status) return *status;
+  sigs::cli::print_error(status.error());
+  return static_cast<int>(status.error().kind);
 }

@@ -4,11 +4,25 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/guarded.h"
 #include "base/stopwatch.h"
+#include "base/thread.h"
 
 namespace sigs {
 
-WriterThread::WriterThread(VideoWriter writer) : writer_(std::move(writer)), thread_([this] { write_all(); }) {}
+WriterThread::WriterThread(VideoWriter writer) : writer_(std::move(writer)) {
+  Result<std::thread> thread = started_thread([this] {
+    const Result<void> done = guarded([this]() -> Result<void> {
+      write_all();
+      return {};
+    });
+    if (!done) give_up(done.error());
+  });
+  if (thread)
+    thread_ = std::move(*thread);
+  else
+    give_up(thread.error());
+}
 
 WriterThread::~WriterThread() {
   dropped_ = true;
@@ -37,18 +51,22 @@ Result<void> WriterThread::finish() {
   return finished;
 }
 
+void WriterThread::give_up(const Error& error) {
+  failure_ = {at_, error};
+  queue_.close();
+}
+
 void WriterThread::write_all() {
   writer_.warm_up();  // while the first frame is being made
   while (const std::optional<Item> item = queue_.take()) {
     if (dropped_) return;
+    at_ = item->number;
     const Stopwatch watch;
     const Result<void> written = item->is_blank ? writer_.write_blank(item->frame.time_s, item->number)
                                                 : writer_.write(item->frame, item->number);
     spent_s_ += watch.elapsed_s();
     if (written) continue;
-    failure_ = {item->number, written.error()};
-    queue_.close();
-    return;
+    return give_up(written.error());
   }
 }
 

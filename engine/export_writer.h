@@ -17,7 +17,8 @@ struct FrameFailure {
   Error error;
 };
 
-// A video that is encoded and written on a thread of its own, beside the caller and the other outputs of an export.
+// A video that is encoded and written on a thread of its own, beside the caller and the other outputs of an export. A
+// thread that cannot be started is the failure of the first frame.
 class WriterThread {
  public:
   explicit WriterThread(VideoWriter writer);
@@ -50,12 +51,14 @@ class WriterThread {
     bool is_blank = false;
   };
   void write_all();
+  void give_up(const Error& error);
 
   VideoWriter writer_;
   BoundedQueue<Item> queue_{2};
   std::atomic<bool> dropped_{false};
   std::optional<FrameFailure> failure_;  // of the thread, until it is joined
   double spent_s_ = 0;                   // likewise
+  int at_ = 0;                           // likewise: the frame that is written
   std::thread thread_;
 };
 

@@ -4,7 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/guarded.h"
 #include "base/stopwatch.h"
+#include "base/thread.h"
 #include "outlook.h"
 
 namespace sigs {
@@ -22,8 +24,40 @@ bool any_in_view(const Scene& scene, int frame) {
 
 FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs)
     : scene_(scene), source_(source), range_(range), decoded_(2), finished_(range.first, 2 * jobs + 2) {
-  threads_.emplace_back([this] { decode(); });
-  for (int i = 0; i < jobs; ++i) threads_.emplace_back([this] { compose(); });
+  threads_.reserve(static_cast<std::size_t>(jobs) + 1);
+  start(&FramePipeline::decode);
+  if (!threads_.empty())
+    for (int i = 0; i < jobs; ++i) start(&FramePipeline::compose);
+}
+
+// Fewer composing threads than wished do the same, later; without any it ends in an error.
+void FramePipeline::start(void (FramePipeline::*work)()) {
+  Result<std::thread> thread = started_thread([this, work] {
+    const Result<void> done = guarded([&]() -> Result<void> {
+      (this->*work)();
+      return {};
+    });
+    if (!done) give_up(done.error());
+  });
+  if (thread)
+    threads_.push_back(std::move(*thread));
+  else if (threads_.size() < 2)
+    give_up(thread.error());
+}
+
+void FramePipeline::give_up(const Error& error) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = error;
+  }
+  decoded_.close();
+  finished_.close();
+}
+
+Result<ComposedFrame> FramePipeline::next() {
+  if (std::optional<Result<ComposedFrame>> frame = finished_.take()) return std::move(*frame);
+  const std::lock_guard lock(mutex_);
+  return fail(*failure_);  // nothing else closes it before the end
 }
 
 FramePipeline::~FramePipeline() {
@@ -40,7 +74,7 @@ std::string FramePipeline::drawn_with() {
 void FramePipeline::decode() {
   for (int number = range_.first; number <= range_.last; ++number) {
     const Stopwatch watch;
-    Result<Frame> frame = source_.read(number);
+    Result<Frame> frame = guarded([&] { return source_.read(number); });
     decode_s_ = decode_s_ + watch.elapsed_s();
     if (!frame) {
       finished_.put(number, fail(frame.error()));
@@ -56,7 +90,8 @@ void FramePipeline::compose() {
   // Where the first frame needs OpenGL it is made while that is decoded. If it fails, the frame tells why.
   if (any_in_view(scene_, range_.first)) static_cast<void>(bench.renderer());
   while (std::optional<DecodedFrame> decoded = decoded_.take()) {
-    Result<ComposedFrame> composed = compose_frame(scene_, decoded->number, std::move(decoded->picture), bench);
+    Result<ComposedFrame> composed =
+        guarded([&] { return compose_frame(scene_, decoded->number, std::move(decoded->picture), bench); });
     if (composed && composed->work.pixels_drawn > 0) remember(bench.renderer_description());
     if (!finished_.put(decoded->number, std::move(composed))) break;
   }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,15 +21,17 @@ namespace sigs {
 // order of frames wins.
 class FramePipeline {
  public:
-  // Scene and source must outlive it; nobody else may read the source. jobs, 1 or more: frames composed side by side.
+  // Scene and source must outlive it; nobody else may read the source. jobs, 1 or more: frames composed side by side,
+  // fewer where the system gives no more threads.
   FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs);
   ~FramePipeline();
 
   FramePipeline(const FramePipeline&) = delete;
   FramePipeline& operator=(const FramePipeline&) = delete;
 
-  // The next frame of the range; waits for it. Not to be called after the last one or an error.
-  [[nodiscard]] Result<ComposedFrame> next() { return *finished_.take(); }
+  // The next frame of the range; waits for it. Not to be called after the last one or an error. Errors: those of the
+  // frame; unavailable (no threads, no memory).
+  [[nodiscard]] Result<ComposedFrame> next();
 
   [[nodiscard]] double decode_s() const { return decode_s_; }
 
@@ -40,6 +43,8 @@ class FramePipeline {
     int number = 0;
     Frame picture;
   };
+  void start(void (FramePipeline::*work)());
+  void give_up(const Error& error);
   void decode();
   void compose();
   void remember(std::string description);
@@ -52,6 +57,7 @@ class FramePipeline {
   std::atomic<double> decode_s_{0};
   std::mutex mutex_;
   std::string drawn_with_;
+  std::optional<Error> failure_;  // of a thread as a whole
   std::vector<std::thread> threads_;
 };
 

@@ -3,26 +3,42 @@
 
 #include <algorithm>
 #include <atomic>
-#include <system_error>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "base/thread.h"
 
 namespace sigs {
 
-// Calls work(i) for 0 <= i < count, up to `threads` of them at a time, each i once.
+// Calls work(i) for 0 <= i < count, up to `threads` of them at a time, fewer where the system gives no more threads,
+// each i once. What the work throws is thrown on, once all that had begun is done; nothing more is begun.
 template <class Work>
 void side_by_side(int count, int threads, const Work& work) {
   std::atomic<int> next{0};
+  std::mutex mutex;
+  std::exception_ptr thrown;
   const auto run = [&] {
-    for (int i = next++; i < count; i = next++) work(i);
+    try {
+      for (int i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+    }
   };
   std::vector<std::thread> others;
-  try {
-    for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(run);
-  } catch (const std::system_error&) {  // the system gives no more of them: fewer do the same
+  others.reserve(static_cast<std::size_t>(std::max(0, std::min(threads, count) - 1)));
+  while (others.size() < others.capacity()) {
+    Result<std::thread> other = started_thread(run);
+    if (!other) break;
+    others.push_back(std::move(*other));
   }
   run();
   for (std::thread& other : others) other.join();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace sigs

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/guarded.h"
 #include "base/text_pieces.h"
 #include "mesh/triangulate.h"
 
@@ -92,8 +93,8 @@ Result<Reading> read_with_tinyobj(const std::string& text, const std::string& na
     std::string error;
     if (!tinyobj::LoadObjWithCallback(stream, callbacks, &reading, nullptr, &warning, &error)) return fail(name, error);
     return reading;
-  } catch (const std::exception& exception) {
-    return fail(name, exception.what());
+  } catch (const std::exception&) {
+    return fail(thrown_error(name));
   }
 }
 

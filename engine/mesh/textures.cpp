@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/guarded.h"
 #include "base/picture_size.h"
 
 namespace sigs {
@@ -68,6 +69,7 @@ cv::Mat read_picture(const fs::path& path) {
     const cv::Mat picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
     return picture.empty() ? cv::Mat() : as_rgba(as_8_bit(picture));
   } catch (const cv::Exception&) {
+    if (is_out_of_memory()) throw;  // a model without its texture would be a wrong picture
     return {};
   }
 }

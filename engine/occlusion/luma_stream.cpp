@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "base/guarded.h"
+#include "base/thread.h"
 #include "occlusion/luma.h"
 
 namespace sigs {
@@ -14,12 +16,34 @@ constexpr std::size_t kFramesAhead = 8;
 
 }  // namespace
 
-LumaStream::LumaStream(FrameSource& footage, const FrameSteps& steps)
-    : ahead_(kFramesAhead), thread_([this, &footage, steps] { decode(footage, steps); }) {}
+LumaStream::LumaStream(FrameSource& footage, const FrameSteps& steps) : ahead_(kFramesAhead) {
+  Result<std::thread> thread = started_thread([this, &footage, steps] {
+    const Result<void> done = guarded([&]() -> Result<void> {
+      decode(footage, steps);
+      return {};
+    });
+    if (!done) give_up(done.error());
+  });
+  if (thread)
+    thread_ = std::move(*thread);
+  else
+    give_up(thread.error());
+}
 
 LumaStream::~LumaStream() {
   ahead_.close();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+}
+
+void LumaStream::give_up(const Error& error) {
+  failure_ = error;
+  ahead_.close();
+}
+
+std::optional<Result<LumaFrame>> LumaStream::next() {
+  std::optional<Result<LumaFrame>> frame = ahead_.take();
+  if (frame || !failure_) return frame;
+  return fail(*std::exchange(failure_, std::nullopt));
 }
 
 void LumaStream::decode(FrameSource& footage, const FrameSteps& steps) {

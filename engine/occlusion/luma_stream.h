@@ -36,12 +36,14 @@ class LumaStream {
   LumaStream& operator=(const LumaStream&) = delete;
 
   // Nothing after the last one, or after an error.
-  [[nodiscard]] std::optional<Result<LumaFrame>> next() { return ahead_.take(); }
+  [[nodiscard]] std::optional<Result<LumaFrame>> next();
 
  private:
   void decode(FrameSource& footage, const FrameSteps& steps);
+  void give_up(const Error& error);
 
   BoundedQueue<Result<LumaFrame>> ahead_;
+  std::optional<Error> failure_;  // the thread's, until the queue is closed; then the caller's
   std::thread thread_;
 };
 

@@ -3,14 +3,20 @@
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <sys/mman.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/thread.h"
+#include "render/egl_library.h"
 
 namespace sigs {
 namespace {
@@ -80,6 +86,48 @@ std::string description_of(const Door& door) {
          std::to_string(version % 10);
 }
 
+// Mesa's driver and its compiler crash where memory cannot be had. They and the first pictures take some 400 MiB of
+// addresses.
+Result<void> check_room() {
+  constexpr std::size_t kRoom_bytes = std::size_t{512} << 20;
+  void* const room = mmap(nullptr, kRoom_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    return fail("OpenGL", "out of memory: 512 MiB more must be free for it", ErrorKind::unavailable);
+  munmap(room, kRoom_bytes);
+  return {};
+}
+
+// Mesa's software renderer takes a thread for each core, 32 at most, and waits for ever for those that it could not
+// start. So that many, and two for its caches, are tried before it does.
+Result<void> check_threads() {
+  const unsigned count = std::min(std::thread::hardware_concurrency(), 32U) + 2;
+  std::vector<std::thread> threads;
+  threads.reserve(count);
+  std::mutex gate;
+  Result<void> all;
+  {
+    const std::lock_guard closed(gate);  // none ends before all are there
+    while (all && threads.size() < count) {
+      Result<std::thread> thread = started_thread([&gate] { const std::lock_guard pass(gate); });
+      if (thread)
+        threads.push_back(std::move(*thread));
+      else
+        all = fail(thread.error());
+    }
+  }
+  for (std::thread& thread : threads) thread.join();
+  return all;
+}
+
+// OpenGL 4.5, else 3.3.
+Result<EGLContext> new_context(EGLDisplay display) {
+  static std::mutex one_at_a_time;  // what was tried is still there for the driver
+  const std::lock_guard lock(one_at_a_time);
+  if (const Result<void> threads = check_threads(); !threads) return fail(threads.error());
+  const EGLContext context = context_of(display, 4, 5);
+  return context != EGL_NO_CONTEXT ? context : context_of(display, 3, 3);
+}
+
 // The context, current, or why there is none.
 Result<EGLContext> opened(const Door& door) {
   const auto failed = [&](const char* step) {
@@ -91,11 +139,11 @@ Result<EGLContext> opened(const Door& door) {
   if (!eglInitialize(door.display, &major, &minor)) return failed("cannot be initialised");
   if (!eglBindAPI(EGL_OPENGL_API)) return failed("has no OpenGL");
   if (!epoxy_has_egl_extension(door.display, "EGL_KHR_surfaceless_context")) return failed("needs a surface");
-  EGLContext context = context_of(door.display, 4, 5);
-  if (context == EGL_NO_CONTEXT) context = context_of(door.display, 3, 3);
-  if (context == EGL_NO_CONTEXT) return failed("has no OpenGL 3.3 core");
-  if (eglMakeCurrent(door.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
-  eglDestroyContext(door.display, context);
+  const Result<EGLContext> context = new_context(door.display);
+  if (!context) return context;
+  if (*context == EGL_NO_CONTEXT) return failed("has no OpenGL 3.3 core");
+  if (eglMakeCurrent(door.display, EGL_NO_SURFACE, EGL_NO_SURFACE, *context)) return context;
+  eglDestroyContext(door.display, *context);
   return failed("cannot make its context current");
 }
 
@@ -109,6 +157,8 @@ std::vector<Door> doors() {
 }  // namespace
 
 Result<EglContext> EglContext::create() {
+  if (const Result<void> library = check_egl_library(); !library) return fail(library.error());
+  if (const Result<void> room = check_room(); !room) return fail(room.error());
   std::string tried;
   for (const Door& door : doors()) {
     const Result<EGLContext> context = opened(door);
@@ -116,7 +166,8 @@ Result<EglContext> EglContext::create() {
     tried += (tried.empty() ? "" : "; ") + context.error().text();
   }
   if (tried.empty()) tried = "EGL offers neither the surfaceless platform nor devices";
-  return fail("OpenGL", "cannot be had without a display: " + tried, ErrorKind::unavailable);
+  return fail("OpenGL", "cannot be had without a display: " + tried + "; " + how_to_get_opengl(),
+              ErrorKind::unavailable);
 }
 
 EglContext::EglContext(void* display, void* context, std::string description)

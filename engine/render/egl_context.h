@@ -12,7 +12,7 @@ namespace sigs {
 class EglContext {
  public:
   // Tries EGL's surfaceless platform, then each EGL device. OpenGL 4.5, else 3.3. Current on return.
-  // Error unavailable says what was tried and how each failed.
+  // Error unavailable says what was tried, how each failed and what to install.
   [[nodiscard]] static Result<EglContext> create();
 
   EglContext(EglContext&& other) noexcept;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/guarded.h"
 #include "video/libav/video_file.h"
 #include "video/png_sequence.h"
 
@@ -29,7 +30,7 @@ Result<VideoWriter> VideoWriter::open(const fs::path& path, const VideoFormat& f
       return fail(path.string(), "no such folder to write pictures into", ErrorKind::cannot_create);
     return VideoWriter(std::move(state));
   }
-  Result<libav::VideoFile> file = libav::VideoFile::create(path, format);
+  Result<libav::VideoFile> file = guarded([&] { return libav::VideoFile::create(path, format); });
   if (!file) return fail(file.error());
   state->file.emplace(std::move(*file));
   return VideoWriter(std::move(state));
@@ -41,25 +42,32 @@ VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::warm_up() {
-  if (state_->file) state_->file->warm_up();
+  if (!state_->file) return;
+  // What fails for want of memory fails again where it is needed, and is told there.
+  static_cast<void>(guarded([this]() -> Result<void> {
+    state_->file->warm_up();
+    return {};
+  }));
 }
 
 Result<void> VideoWriter::write(const Frame& frame, int number) {
   ENSURE(!state_->finished);
-  return state_->file ? state_->file->write(frame) : write_png(state_->path, frame, number);
+  return guarded([&] { return state_->file ? state_->file->write(frame) : write_png(state_->path, frame, number); });
 }
 
 Result<void> VideoWriter::write_blank(double time_s, int number) {
   ENSURE(!state_->finished);
-  if (state_->file) return state_->file->write_blank(time_s);
-  const VideoFormat& format = state_->format;
-  return write_png(state_->path, blank_frame(format.layout, format.size_px, format.color), number);
+  return guarded([&] {
+    if (state_->file) return state_->file->write_blank(time_s);
+    const VideoFormat& format = state_->format;
+    return write_png(state_->path, blank_frame(format.layout, format.size_px, format.color), number);
+  });
 }
 
 Result<void> VideoWriter::finish() {
   ENSURE(!state_->finished);
   state_->finished = true;
-  return state_->file ? state_->file->finish() : Result<void>();
+  return guarded([this] { return state_->file ? state_->file->finish() : Result<void>(); });
 }
 
 const char* extension_of(Container container) {

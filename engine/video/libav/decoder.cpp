@@ -2,9 +2,8 @@
 #include "video/libav/decoder.h"
 
 #include <algorithm>
+#include <new>
 #include <string>
-
-#include "base/ensure.h"
 
 namespace sigs::libav {
 
@@ -15,12 +14,15 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
     return fail("", std::string("no decoder for the codec ") + avcodec_get_name(parameters.codec_id),
                 ErrorKind::cannot_read);
   CodecPtr context(avcodec_alloc_context3(codec));
-  ENSURE(context != nullptr);
+  if (context == nullptr) throw std::bad_alloc();
   int error = avcodec_parameters_to_context(context.get(), &parameters);
   context->opaque = &complaint;
   context->thread_count = settings.threads;
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
+  if (error < 0 && settings.threads > 1)  // there may be no more threads to be had; one gives the same pictures
+    return open_decoder(parameters, {.threads = 1, .reorder_depth = settings.reorder_depth}, complaint);
+  check_memory(error);
   if (error < 0)
     return fail("", std::string("the ") + codec->name + " decoder cannot be opened: " + text_of(error),
                 ErrorKind::cannot_read);

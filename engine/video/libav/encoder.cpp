@@ -6,9 +6,9 @@ extern "C" {
 }
 
 #include <algorithm>
+#include <new>
 #include <string>
 
-#include "base/ensure.h"
 #include "video/libav/color_tags.h"
 
 namespace sigs::libav {
@@ -70,7 +70,7 @@ Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encodin
   if (codec == nullptr)
     return fail("", std::string("this FFmpeg has no encoder ") + encoding.encoder, ErrorKind::unavailable);
   CodecPtr context(avcodec_alloc_context3(codec));
-  ENSURE(context != nullptr);
+  if (context == nullptr) throw std::bad_alloc();
   set_up_picture(*context, format, encoding, tick);
   if (headers) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   AVDictionary* options = nullptr;
@@ -79,6 +79,7 @@ Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encodin
   if (format.codec == VideoCodec::mjpeg) set_up_mjpeg(*context, format);
   const int error = avcodec_open2(context.get(), codec, &options);
   av_dict_free(&options);
+  check_memory(error);
   if (error < 0)
     return fail("", std::string("the encoder ") + encoding.encoder + " refuses: " + text_of(error),
                 ErrorKind::unavailable);

@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cstdarg>
+#include <new>
 #include <string_view>
-
-#include "base/ensure.h"
 
 namespace sigs::libav {
 namespace {
@@ -43,13 +42,13 @@ void Deleter::operator()(SwsContext* context) const {
 
 PacketPtr new_packet() {
   PacketPtr packet(av_packet_alloc());
-  ENSURE(packet != nullptr);
+  if (packet == nullptr) throw std::bad_alloc();
   return packet;
 }
 
 FramePtr new_frame() {
   FramePtr frame(av_frame_alloc());
-  ENSURE(frame != nullptr);
+  if (frame == nullptr) throw std::bad_alloc();
   return frame;
 }
 
@@ -57,6 +56,10 @@ std::string text_of(int error) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(error, text.data(), text.size());
   return text.data();
+}
+
+void check_memory(int error) {
+  if (error == AVERROR(ENOMEM)) throw std::bad_alloc();
 }
 
 std::string url_of(const std::filesystem::path& path) {

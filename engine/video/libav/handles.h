@@ -32,9 +32,13 @@ using PacketPtr = std::unique_ptr<AVPacket, Deleter>;
 using FramePtr = std::unique_ptr<AVFrame, Deleter>;
 using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 
-// Stops the program where memory is out.
+// These throw std::bad_alloc where there is no memory; guarded() (base/guarded.h) makes an error of it.
 [[nodiscard]] PacketPtr new_packet();
 [[nodiscard]] FramePtr new_frame();
+
+// Throws std::bad_alloc where that is what the error code says. A picture that could not be decoded for want of memory
+// is not a damaged one.
+void check_memory(int error);
 
 // FFmpeg's words for one of its error codes.
 [[nodiscard]] std::string text_of(int error);

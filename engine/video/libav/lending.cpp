@@ -6,6 +6,7 @@ extern "C" {
 }
 
 #include <memory>
+#include <new>
 
 #include "base/ensure.h"
 
@@ -21,7 +22,7 @@ AVBufferRef* share_in(const cv::Mat& plane) {
   auto held = std::make_unique<cv::Mat>(plane);
   const size_t bytes = static_cast<size_t>(plane.rows - 1) * plane.step + static_cast<size_t>(plane.cols);
   AVBufferRef* share = av_buffer_create(plane.data, bytes, give_back, held.get(), AV_BUFFER_FLAG_READONLY);
-  ENSURE(share != nullptr);
+  if (share == nullptr) throw std::bad_alloc();
   static_cast<void>(held.release());
   return share;
 }

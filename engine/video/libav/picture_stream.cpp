@@ -30,7 +30,9 @@ Result<void> PictureStream::feed() {
   // The decoder hands time stamps through to the pictures. Ours is the ordinal: every container has it, and it is
   // unique.
   packet_->pts = packet_->dts = fed_;
-  if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) note_damage(fed_);
+  const int sent = avcodec_send_packet(decoder_.get(), packet_.get());
+  check_memory(sent);
+  if (sent < 0) note_damage(fed_);
   note_complaint();
   return {};
 }
@@ -62,6 +64,7 @@ Result<std::optional<Picture>> PictureStream::next() {
     FramePtr frame = new_frame();
     const int result = avcodec_receive_frame(decoder_.get(), frame.get());
     note_complaint();
+    check_memory(result);
     if (result == 0) {
       Picture picture = taken(std::move(frame));
       if (picture.ordinal >= 0) return std::optional<Picture>(std::move(picture));

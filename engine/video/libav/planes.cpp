@@ -10,6 +10,7 @@ extern "C" {
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <new>
 #include <vector>
 
 #include "base/ensure.h"
@@ -184,7 +185,7 @@ Result<FramePtr> scaled(const AVFrame& picture, PixelLayout layout, ColorRange r
   plain->format = plain_format(layout);
   plain->width = picture.width;
   plain->height = picture.height;
-  ENSURE(av_frame_get_buffer(plain.get(), 0) >= 0);
+  if (av_frame_get_buffer(plain.get(), 0) < 0) throw std::bad_alloc();
   const ScalerPtr scaler(sws_getContext(picture.width, picture.height, static_cast<AVPixelFormat>(picture.format),
                                         plain->width, plain->height, static_cast<AVPixelFormat>(plain->format),
                                         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -80,7 +81,8 @@ Result<void> VideoFile::begin() {
   if (!encoder) return fail(encoder.error());
   encoder_ = std::move(*encoder);
   AVStream* stream = avformat_new_stream(context, nullptr);
-  ENSURE(stream != nullptr && avcodec_parameters_from_context(stream->codecpar, encoder_.get()) >= 0);
+  if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, encoder_.get()) < 0)
+    throw std::bad_alloc();
   stream->time_base = tick_;
   stream->avg_frame_rate = encoder_->framerate;
   stream->sample_aspect_ratio = encoder_->sample_aspect_ratio;
@@ -110,7 +112,7 @@ FramePtr VideoFile::picture_of(const Frame& frame) const {
   if (is_done_at_once(format_.codec) && can_lend(encoder_->pix_fmt)) {
     lend(*picture, as_stored);
   } else {
-    ENSURE(av_frame_get_buffer(picture.get(), 0) >= 0);
+    if (av_frame_get_buffer(picture.get(), 0) < 0) throw std::bad_alloc();
     fill(*picture, as_stored);
   }
   return picture;
@@ -151,14 +153,17 @@ std::vector<uint8_t> VideoFile::packet_alone(const Frame& frame) {
   return bytes;
 }
 
+tl::unexpected<Error> VideoFile::encoding_failed(int error) const {
+  check_memory(error);
+  return fail(path_.string(), "could not be encoded: " + text_of(error), ErrorKind::write_failed);
+}
+
 Result<void> VideoFile::encode(const AVFrame* picture) {
-  if (const int sent = avcodec_send_frame(encoder_.get(), picture); sent < 0)
-    return fail(path_.string(), "could not be encoded: " + text_of(sent), ErrorKind::write_failed);
+  if (const int sent = avcodec_send_frame(encoder_.get(), picture); sent < 0) return encoding_failed(sent);
   while (true) {
     const int received = avcodec_receive_packet(encoder_.get(), packet_.get());
     if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return {};
-    if (received < 0)
-      return fail(path_.string(), "could not be encoded: " + text_of(received), ErrorKind::write_failed);
+    if (received < 0) return encoding_failed(received);
     if (const Result<void> written = put(*packet_); !written) return written;
   }
 }
@@ -166,7 +171,7 @@ Result<void> VideoFile::encode(const AVFrame* picture) {
 Result<void> VideoFile::put_known(const std::vector<uint8_t>& packet, double time_s) {
   const Result<int64_t> stamp = next_stamp(time_s);
   if (!stamp) return fail(stamp.error());
-  ENSURE(av_new_packet(packet_.get(), static_cast<int>(packet.size())) >= 0);
+  if (av_new_packet(packet_.get(), static_cast<int>(packet.size())) < 0) throw std::bad_alloc();
   std::copy(packet.begin(), packet.end(), packet_->data);
   packet_->pts = packet_->dts = *stamp;
   packet_->flags |= AV_PKT_FLAG_KEY;
@@ -194,6 +199,7 @@ Result<void> VideoFile::finish() {
 Result<void> VideoFile::check(int result) const {
   if (result >= 0 && output_->pb != nullptr) result = output_->pb->error;
   if (result >= 0) return {};
+  check_memory(result);
   return fail(path_.string(), "could not be written: " + text_of(result), ErrorKind::write_failed);
 }
 

@@ -40,6 +40,7 @@ class VideoFile {
   [[nodiscard]] Result<void> put(AVPacket& packet);
   [[nodiscard]] Result<void> put_known(const std::vector<uint8_t>& packet, double time_s);
   [[nodiscard]] Result<void> check(int result) const;
+  [[nodiscard]] tl::unexpected<Error> encoding_failed(int error) const;
 
   std::filesystem::path path_;
   VideoFormat format_;
