@@ -202,6 +202,7 @@ Result<void> run(const DatasetOptions& options) {
   if (plan->videos.empty() && plan->unopened.empty()) return judged(*plan, options.recipe);
   if (!options.merge) warn_of_unseen(videos, views);
   request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
+  defer_interrupts();
   keep_freed_memory();
   Teller teller(progress_style(options.progress));
   const Result<DatasetReport> report = make_dataset(*plan, request, teller.control());

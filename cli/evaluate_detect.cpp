@@ -91,6 +91,7 @@ Result<void> run(const DetectOptions& options) {
     return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
   const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split);
   if (!inputs) return fail(inputs.error());
+  defer_interrupts();
   std::optional<EvaluationFolder> folder;
   if (!options.folder.empty()) {
     std::vector<fs::path> read = options.inputs;

@@ -10,6 +10,7 @@
 #include "cli/detect_inputs.h"
 #include "cli/evaluate_options.h"
 #include "cli/evaluation_folder.h"
+#include "cli/interrupt.h"
 #include "cli/track_request.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
@@ -121,6 +122,7 @@ Result<void> write(EvaluationFolder& folder, const TrackReport& report, const Tr
 Result<void> run(const TrackOptions& options) {
   const Result<TrackRequest> request = request_of(options);
   if (!request) return fail(request.error());
+  defer_interrupts();
   std::optional<EvaluationFolder> folder;
   if (!options.folder.empty()) {
     std::vector<fs::path> inputs = request->results;

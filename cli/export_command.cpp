@@ -130,6 +130,7 @@ void print_times(const ExportReport& report) {
 Result<void> run(const ExportOptions& options) {
   const Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
+  defer_interrupts();
   keep_freed_memory();
   Progress progress(progress_style(options.progress));
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/partial_file.h"
+#include "cli/interrupt.h"
 #include "cli/options.h"
 #include "export.h"
 #include "frame.h"
@@ -57,6 +58,7 @@ Result<ComposedFrame> composed(const FrameOptions& options) {
 Result<void> run(const FrameOptions& options) {
   const Result<ComposedFrame> frame = composed(options);
   if (!frame) return fail(frame.error());
+  defer_interrupts();
   std::error_code code;
   std::filesystem::create_directories(options.folder, code);
   if (code) return fail(options.folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);

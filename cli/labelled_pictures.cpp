@@ -8,6 +8,9 @@
 
 #include "annotation/labels.h"
 #include "base/folder_contents.h"
+#include "base/guarded.h"
+#include "base/input_file.h"
+#include "cli/interrupt.h"
 
 namespace sigs::cli {
 
@@ -43,6 +46,7 @@ cv::Mat picture_in(const fs::path& file) {
   try {
     return cv::imread(file.string(), cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
+    if (is_out_of_memory()) throw;
     return {};
   }
 }
@@ -77,7 +81,7 @@ Result<LabelledPictures> LabelledPictures::open(const fs::path& path, const Film
     if (const Result<cv::Mat> first = pictures.at(film.footage.first_frame); !first) return fail(first.error());
     return pictures;
   }
-  Result<FrameSource> video = FrameSource::open(path);
+  Result<FrameSource> video = FrameSource::open(path, &interrupt_flag());
   if (!video) return fail(video.error());
   Result<void> fits = check_size(path, video->info().size_px, film.footage);
   if (fits) fits = check_count(path, video->info().frame_count(), film);
@@ -93,8 +97,7 @@ Result<cv::Mat> LabelledPictures::at(int frame) {
     return bgr_of(*picture);
   }
   const fs::path file = path_ / picture_name(frame);
-  std::error_code code;
-  if (!fs::exists(file, code)) return fail(file.string(), "no such file", ErrorKind::cannot_read);
+  if (const Result<void> there = check_input_file(file, "picture"); !there) return fail(there.error());
   const cv::Mat picture = picture_in(file);
   if (picture.empty()) return fail(file.string(), "cannot be read as a picture");
   if (const Result<void> fits = check_size(file, picture.size(), footage_); !fits) return fail(fits.error());

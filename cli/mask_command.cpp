@@ -163,6 +163,7 @@ Result<void> run(const MaskOptions& options) {
   if (!footage) return fail(footage.error());
   const Made<FrameRange> range = made_range(project->footage, shape_of(footage->info()));
   if (!range) return fail(error_in(*project, range.error()));
+  defer_interrupts();
   Result<MaskOutputs> out = reserved(options, *project, footage->info().path);
   if (!out) return fail(out.error());
   const Result<OwnBody> found = found_in(*footage, *range, *project, options);

@@ -109,7 +109,7 @@ Result<TrackedFilm> on_project(const TrackRequest& request, TrackerGroup group) 
   for (const IntruderSettings& intruder : project->intruders) names.push_back(intruder.name);
   const Result<int> target = target_of(request, names);
   if (!target) return fail(target.error());
-  Result<Film> film = Film::open(*project, request.frames);
+  Result<Film> film = Film::open(*project, request.frames, &interrupt_flag());
   if (!film) return fail(film.error());
   if (const Result<void> good = check_results(request, film->footage()); !good) return fail(good.error());
   for (const Warning& warning : film->warnings()) print_warning(warning);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "annotation/labels.h"
+#include "base/guarded.h"
 #include "base/stopwatch.h"
 #include "export_files.h"
 #include "frame.h"
@@ -21,10 +22,6 @@ void say(const ExportControl& control, ExportReport& report, const Warning& warn
   if (control.warn) control.warn(warning);
 }
 
-bool cancelled(const ExportControl& control) {
-  return control.cancel != nullptr && control.cancel->load();
-}
-
 void count(const ComposedFrame& frame, ExportReport& report) {
   ++report.frames;
   report.damaged_frames += frame.picture.damaged ? 1 : 0;
@@ -36,7 +33,7 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, Expo
                           const ExportControl& control, ExportReport& report) {
   const int total = range.last - range.first + 1;
   for (int done = 1; done <= total; ++done) {
-    if (cancelled(control)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(control.cancel); !on) return on;
     Result<ComposedFrame> frame = pipeline.next();
     if (!frame) {
       const Result<void> before = files.settle();
@@ -78,10 +75,12 @@ FootageShape shape_of(const VideoInfo& video) {
           .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
 }
 
-Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control) {
+namespace {
+
+Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
   const Stopwatch watch;
   const Project& project = request.project;
-  Result<OpenedProject> opened = open_project(project);
+  Result<OpenedProject> opened = open_project(project, control.cancel);
   if (!opened) return fail(opened.error());
   const VideoInfo& video = opened->source.info();
   const Scene& scene = opened->scene;
@@ -109,6 +108,12 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
         {video.path.string(), std::to_string(report.damaged_frames) + " of " + std::to_string(report.frames) +
                                   " frames are damaged; " + "what could be decoded of them is used"});
   return report;
+}
+
+}  // namespace
+
+Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control) {
+  return guarded([&] { return exported(request, control); });
 }
 
 }  // namespace sigs

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/guarded.h"
 #include "frame_pipeline.h"
 #include "opened_project.h"
 
@@ -20,8 +21,9 @@ Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 Film::~Film() = default;
 
-Result<Film> Film::open(const Project& project, const std::optional<FrameRange>& frames) {
-  Result<OpenedProject> opened = open_project(project);
+Result<Film> Film::open(const Project& project, const std::optional<FrameRange>& frames,
+                        const std::atomic<bool>* cancel) {
+  Result<OpenedProject> opened = guarded([&] { return open_project(project, cancel); });
   if (!opened) return fail(opened.error());
   const Result<FrameRange> range = range_in(opened->scene, frames);
   if (!range) return fail(range.error());

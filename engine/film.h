@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -24,8 +25,10 @@ struct FilmFrame {
 class Film {
  public:
   // Checks the project and opens what it names. frames: none: the project's own range; numbers are the footage's.
+  //   cancel  set: opening and showing end soon with the error interrupted; null or longer alive than the film
   // Errors as export_project's.
-  [[nodiscard]] static Result<Film> open(const Project& project, const std::optional<FrameRange>& frames = {});
+  [[nodiscard]] static Result<Film> open(const Project& project, const std::optional<FrameRange>& frames = {},
+                                         const std::atomic<bool>* cancel = nullptr);
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;
   ~Film();

@@ -9,12 +9,19 @@
 
 namespace sigs {
 
-Result<OpenedProject> open_project(const Project& project) {
+Result<void> check_interrupt(const std::atomic<bool>* cancel) {
+  if (cancel != nullptr && cancel->load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+  return {};
+}
+
+Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
   if (const std::vector<Problem> problems = validate(project); !problems.empty())
     return fail(error_of(project, problems.front()));
-  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), cancel);
+  if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   Result<Scene> scene = open_scene(project, shape_of(source->info()));
+  if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!scene) return fail(scene.error());
   std::vector<Warning> warnings = warnings_of(source->info());
   warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,11 @@ struct OpenedProject {
 };
 
 // Checks the project and opens all that it names. Errors name the project file and the field.
-[[nodiscard]] Result<OpenedProject> open_project(const Project& project);
+//   cancel  set: ends soon with the error interrupted; null or longer alive than what is opened
+[[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel);
+
+// Error interrupted once cancel is set; null: never.
+[[nodiscard]] Result<void> check_interrupt(const std::atomic<bool>* cancel);
 
 // Which frames are made; none asked for: the scene's own. Error usage: they do not lie in the scene's.
 [[nodiscard]] Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for);

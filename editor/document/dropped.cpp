@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/input_file.h"
 #include "editor/document/moved_paths.h"
 
 namespace sigs::editor {
@@ -116,6 +117,8 @@ Dropped what_was_dropped(const fs::path& path) {
   const auto nothing = [&](const std::string& why) { return Dropped{DroppedKind::nothing, path, why}; };
   if (fs::is_directory(path, code)) return nothing(path.string() + " is a folder; drop a file");
   if (!fs::exists(path, code)) return nothing(path.string() + " is not there");
+  if (const Result<void> file = check_input_file(path); !file)
+    return nothing(file.error().where + " " + file.error().what);
   if (!std::ifstream(path, std::ios::binary)) return nothing(path.string() + " cannot be read");
   // An OBJ is text without a mark of its own: its name has to say it.
   const std::string extension = extension_of(path);

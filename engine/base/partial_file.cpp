@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -112,17 +111,6 @@ Result<void> PartialFile::keep() {
   part_.clear();
   close(std::exchange(lock_, -1));
   return {};
-}
-
-Result<std::string> read_text(const fs::path& path) {
-  std::error_code code;
-  if (!fs::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
-  if (fs::is_directory(path, code)) return fail(path.string(), "is a folder, not a file", ErrorKind::cannot_read);
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return fail(path.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read);
-  return text.str();
 }
 
 Result<void> write_text(const fs::path& path, std::string_view text, bool overwrite) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/input_file.h"  // read_text, the other half of write_text
 #include "base/result.h"
 
 namespace sigs {
@@ -44,8 +45,7 @@ class PartialFile {
   int lock_ = -1;               // file descriptor that holds the lock on the part; -1: none
 };
 
-// Whole small files. Errors: cannot_read; cannot_create, write_failed (also when the disk is full).
-[[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path);
+// A whole small file. Errors: cannot_create, write_failed (also when the disk is full).
 [[nodiscard]] Result<void> write_text(const std::filesystem::path& path, std::string_view text, bool overwrite);
 
 }  // namespace sigs

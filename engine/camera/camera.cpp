@@ -49,7 +49,7 @@ Result<Camera> read_calibration(const std::filesystem::path& path, std::optional
 Result<CalibrationFile> read_calibration_file(const std::filesystem::path& path,
                                               std::optional<cv::Size> footage_size_px) {
   const std::string file_name = path.filename().string();
-  Result<std::string> text = read_text(path);
+  Result<std::string> text = read_text(path, kCalibrationLimit_bytes);
   if (!text) return fail(text.error());
   const Result<Fields> fields = fields_in(trimmed(*std::move(text)), file_name);
   if (!fields) return fail(fields.error());

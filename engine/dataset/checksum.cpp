@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/input_file.h"
 
 extern "C" {
 #include <libavutil/mem.h>
@@ -61,9 +62,7 @@ std::string checksum_of_text(std::string_view text) {
 }
 
 Result<std::string> checksum_of_file(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
-  std::error_code code;
-  if (std::filesystem::is_directory(file, code))
-    return fail(file.string(), "is a folder, not a file", ErrorKind::cannot_read);
+  if (const Result<void> there = check_input_file(file); !there) return fail(there.error());
   std::ifstream in(file, std::ios::binary);
   if (!in) return fail(file.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read);
   Checksum checksum;

@@ -128,7 +128,7 @@ Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::
 }
 
 Result<ReadRecipe> read_recipe(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = read_text(path, kProjectLimit_bytes);
   if (!text) return fail(text.error());
   return parse_recipe(*text, path, settings);
 }

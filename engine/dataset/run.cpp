@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/guarded.h"
 #include "base/stopwatch.h"
 #include "dataset/fingerprint.h"
 #include "dataset/merge_labels.h"
@@ -128,7 +129,7 @@ void Run::look_at(Task& task) {
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
   if (!task.is_to_do() || request_.merge_only) return;
-  const Result<int> frames = frames_of(video.project);
+  const Result<int> frames = frames_of(video.project, control_.cancel);
   if (frames)
     task.frames = *frames;
   else
@@ -169,7 +170,7 @@ void Run::make(Task& task, int jobs) {
                            .progress = [&](int done, int) { advance(task, done); },
                            .warn = [&](const Warning& warning) { warn(warning); },
                            .cancel = control_.cancel};
-  Result<VideoEntry> made = make_video(task.folder, wanted);
+  Result<VideoEntry> made = guarded([&] { return make_video(task.folder, wanted); });
   if (!made) {
     task.error = made.error();
     if (!is_cancelled()) advance(task, task.frames);
@@ -336,9 +337,9 @@ Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const D
 
 }  // namespace
 
-Result<int> frames_of(const Project& project) {
+Result<int> frames_of(const Project& project, const std::atomic<bool>* cancel) {
   if (project.footage.last_frame) return *project.footage.last_frame - project.footage.first_frame + 1;
-  const Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  const Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), cancel);
   if (!source) return fail(source.error());
   return source->info().frame_count() - project.footage.first_frame;
 }

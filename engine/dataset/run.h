@@ -57,6 +57,6 @@ struct DatasetControl {
                                                  const DatasetControl& control);
 
 // How many frames an export of the project has. Opens the footage only where the project does not say.
-[[nodiscard]] Result<int> frames_of(const Project& project);
+[[nodiscard]] Result<int> frames_of(const Project& project, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace sigs

@@ -11,7 +11,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/partial_file.h"
+#include "base/guarded.h"
+#include "base/input_file.h"
 #include "base/text_pieces.h"
 #include "mesh/textures.h"
 
@@ -62,7 +63,7 @@ std::map<std::string, Aside> asides_of(std::string_view text) {
 }
 
 void read_library(const fs::path& path, MtlMaterials& found) {
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = read_text(path, kMaterialsLimit_bytes);
   if (!text) return;
   std::map<std::string, int> index_of_name;
   std::vector<tinyobj::material_t> materials;
@@ -72,6 +73,7 @@ void read_library(const fs::path& path, MtlMaterials& found) {
     std::string error;
     tinyobj::LoadMtl(&index_of_name, &materials, &stream, &warning, &error);
   } catch (const std::exception&) {
+    if (is_out_of_memory()) throw;  // a model without its materials would be a wrong picture
     return;
   }
   std::map<std::string, Aside> asides = asides_of(*text);

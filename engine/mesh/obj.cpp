@@ -201,7 +201,7 @@ Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) 
   const std::string name = path.filename().string();
   const Result<glm::dmat3> rotation = body_from_model(axes);
   if (!rotation) return fail(rotation.error());
-  Result<std::string> text = read_text(path);
+  Result<std::string> text = read_text(path, kModelLimit_bytes);
   if (!text) return fail(text.error());
   Result<ObjFile> file = parse_obj(std::move(*text), name);
   if (!file) return fail(file.error());

@@ -198,7 +198,7 @@ Result<ReadProject> parse_project(const std::string& text, const std::filesystem
 }
 
 Result<ReadProject> read_project(const std::filesystem::path& path) {
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = read_text(path, kProjectLimit_bytes);
   if (!text) return fail(text.error());
   return parse_project(*text, path);
 }

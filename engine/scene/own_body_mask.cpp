@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "base/guarded.h"
+#include "base/input_file.h"
 #include "base/picture_size.h"
 
 namespace sigs {
@@ -27,6 +29,7 @@ cv::Mat picture_in(const std::filesystem::path& path) {
   try {
     return cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
+    if (is_out_of_memory()) throw;
     return {};
   }
 }
@@ -34,10 +37,7 @@ cv::Mat picture_in(const std::filesystem::path& path) {
 }  // namespace
 
 Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
-  if (std::filesystem::is_directory(path, code))
-    return fail(path.string(), "is a folder, not a picture", ErrorKind::cannot_read);
+  if (const Result<void> file = check_input_file(path, "picture"); !file) return fail(file.error());
   const std::optional<cv::Size> stated_px = picture_size_px(path);  // before anything is decoded
   const bool is_other_size = stated_px && *stated_px != footage_size_px;
   const cv::Mat picture = is_other_size ? cv::Mat() : picture_in(path);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/guarded.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_facts.h"
 #include "video/picture_seeker.h"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr size_t kBytesToKeep = 64 << 20;  // of pictures already decoded, for stepping back
 
 Error named(Error error, const fs::path& path) {
-  if (error.where.empty()) error.where = path.string();
+  if (error.where.empty() && error.kind != ErrorKind::interrupted) error.where = path.string();
   return error;
 }
 
@@ -60,12 +61,15 @@ struct FrameSource::State {
   libav::PacketTable table;
   VideoInfo info;
   std::optional<PictureSeeker> seeker;
+  const std::atomic<bool>* cancel = nullptr;  // null: none
 
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
+  [[nodiscard]] Result<Frame> read(int n);
 };
 
 Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   table = libav::PacketTable::read(demuxer);
+  if (const Result<void> on = demuxer.check_interrupt(); !on) return on;
   libav::PictureStream stream(libav::PacketReader(info.path, std::move(demuxer), table), table);
   Result<libav::PictureOrder> order = order_of(table, stream);
   if (!order) return fail(order.error());
@@ -80,14 +84,17 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   return {};
 }
 
-Result<FrameSource> FrameSource::open(const fs::path& path) {
-  Result<libav::Demuxer> demuxer = libav::Demuxer::open(path);
-  if (!demuxer) return fail(demuxer.error());
-  auto state = std::make_unique<State>();
-  state->info.path = path;
-  const Result<void> opened = state->open(std::move(*demuxer));
-  if (!opened) return fail(named(opened.error(), path));
-  return FrameSource(std::move(state));
+Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bool>* cancel) {
+  return guarded([&]() -> Result<FrameSource> {
+    Result<libav::Demuxer> demuxer = libav::Demuxer::open(path, cancel);
+    if (!demuxer) return fail(demuxer.error());
+    auto state = std::make_unique<State>();
+    state->info.path = path;
+    state->cancel = cancel;
+    const Result<void> opened = state->open(std::move(*demuxer));
+    if (!opened) return fail(named(opened.error(), path));
+    return FrameSource(std::move(state));
+  });
 }
 
 FrameSource::FrameSource(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -100,10 +107,17 @@ const VideoInfo& FrameSource::info() const {
 }
 
 Result<Frame> FrameSource::read(int n) {
-  const VideoInfo& info = state_->info;
+  Result<Frame> frame = guarded([&] { return state_->read(n); });
+  // What the reading gave may then be less than is there.
+  if (state_->cancel != nullptr && state_->cancel->load())
+    return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+  return frame;
+}
+
+Result<Frame> FrameSource::State::read(int n) {
   ENSURE(n >= 0 && n < info.frame_count());
   const std::string where = info.path.string() + ": frame " + std::to_string(n);
-  const Result<PictureSeeker::Found> found = state_->seeker->find(n);
+  const Result<PictureSeeker::Found> found = seeker->find(n);
   if (!found) return fail(named(found.error(), info.path));
   if (found->picture == nullptr) return fail(where, "cannot be decoded, nor any frame before it");
   const AVFrame& picture = *found->picture->frame;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -39,8 +40,11 @@ struct VideoInfo {
 class FrameSource {
  public:
   // Reads the container's packets once to build the index; nothing is decoded but what is needed for the format.
-  // Errors: cannot_read (missing, no video in it), bad_data (no frame can be decoded).
-  [[nodiscard]] static Result<FrameSource> open(const std::filesystem::path& path);
+  //   cancel  set: opening and reading end soon with the error interrupted; null or longer alive than the source
+  // Errors: cannot_read (missing, no regular file, no video in it, a play list), bad_data (no frame can be decoded),
+  // interrupted.
+  [[nodiscard]] static Result<FrameSource> open(const std::filesystem::path& path,
+                                                const std::atomic<bool>* cancel = nullptr);
 
   FrameSource(FrameSource&&) noexcept;
   FrameSource& operator=(FrameSource&&) noexcept;

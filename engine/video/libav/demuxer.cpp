@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/demuxer.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <new>
 #include <string>
 #include <string_view>
+
+#include "base/input_file.h"
 
 namespace sigs::libav {
 namespace {
@@ -15,11 +19,9 @@ namespace fs = std::filesystem;
 constexpr int kMostReadErrorsInARow = 64;
 
 Result<void> check_is_file(const fs::path& path) {
+  if (const Result<void> file = check_input_file(path, "video"); !file) return file;
   std::error_code code;
-  if (!fs::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
-  if (fs::is_directory(path, code)) return fail(path.string(), "is a folder, not a video", ErrorKind::cannot_read);
-  if (fs::is_regular_file(path, code) && fs::file_size(path, code) == 0)
-    return fail(path.string(), "is empty", ErrorKind::cannot_read);
+  if (fs::file_size(path, code) == 0) return fail(path.string(), "is empty", ErrorKind::cannot_read);
   return {};
 }
 
@@ -30,7 +32,51 @@ bool begins_as_mp4(const fs::path& path) {
   return box == "ftyp" || box == "mdat" || box == "wide";
 }
 
+// HLS, DASH and FFmpeg's own lists. They name other files, which may lie anywhere and never end.
+bool begins_as_playlist(const fs::path& path) {
+  std::string head(4096, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  return head.find("#EXTM3U") < 16 || head.find("ffconcat") < 16 || head.find("<MPD") != std::string::npos;
+}
+
+// The formats that are read: all but those that name other files or are programs. FFmpeg looks here before it reads on.
+std::string formats_of_one_file() {
+  constexpr std::array<std::string_view, 10> kOthers{
+      "hls", "applehttp", "concat", "dash", "imf", "sdp", "rtsp", "avisynth", "vapoursynth", "webm_dash_manifest"};
+  std::string names;
+  void* at = nullptr;
+  while (const AVInputFormat* format = av_demuxer_iterate(&at)) {
+    std::string_view rest = format->name;  // "mov,mp4,m4a"
+    const std::string_view first = rest.substr(0, rest.find(','));
+    if (std::find(kOthers.begin(), kOthers.end(), first) == kOthers.end())
+      names.append(names.empty() ? "" : ",").append(rest);
+  }
+  return names;
+}
+
+int is_cancelled(void* cancel) {
+  return cancel != nullptr && static_cast<const std::atomic<bool>*>(cancel)->load() ? 1 : 0;
+}
+
+// An input that is not open yet. FFmpeg asks `cancel` wherever it waits or reads.
+AVFormatContext* new_input(const std::atomic<bool>* cancel) {
+  AVFormatContext* context = avformat_alloc_context();
+  if (context == nullptr) throw std::bad_alloc();
+  context->interrupt_callback = {is_cancelled, const_cast<std::atomic<bool>*>(cancel)};
+  return context;
+}
+
+tl::unexpected<Error> interrupted() {
+  return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+}
+
 tl::unexpected<Error> open_failed(const fs::path& path, int error) {
+  if (error == AVERROR_EXIT) return interrupted();
+  check_memory(error);
+  if (begins_as_playlist(path))
+    return fail(path.string(), "is a playlist, not a video; name the video file itself", ErrorKind::cannot_read);
   if (error == AVERROR(EACCES))
     return fail(path.string(), "may not be read: permission denied", ErrorKind::cannot_read);
   if (begins_as_mp4(path))
@@ -53,12 +99,13 @@ bool is_video(const AVStream& stream) {
 
 }  // namespace
 
-Result<Demuxer> Demuxer::open(const fs::path& path) {
+Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* cancel) {
   silence();
   if (const Result<void> file = check_is_file(path); !file) return fail(file.error());
-  AVFormatContext* opened = nullptr;
+  AVFormatContext* opened = new_input(cancel);
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "protocol_whitelist", "file", 0);  // a play list must not reach into the network
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", formats_of_one_file().c_str(), 0);
   const int error = avformat_open_input(&opened, url_of(path).c_str(), nullptr, &options);
   av_dict_free(&options);
   if (error < 0) return open_failed(path, error);
@@ -69,13 +116,15 @@ Result<Demuxer> Demuxer::open(const fs::path& path) {
     return fail(path.string(), "there is no video in it", ErrorKind::cannot_read);
   for (unsigned i = 0; i < input->nb_streams; ++i)
     if (static_cast<int>(i) != stream) input->streams[i]->discard = AVDISCARD_ALL;
-  return Demuxer(std::move(input), stream);
+  return Demuxer(std::move(input), stream, cancel);
 }
 
 bool Demuxer::next(AVPacket& packet) {
   for (int errors = 0; errors < kMostReadErrorsInARow;) {
     av_packet_unref(&packet);
     const int result = av_read_frame(input_.get(), &packet);
+    check_memory(result);
+    if (result == AVERROR_EXIT) return false;
     if (result == AVERROR_EOF) {
       broke_off_ = errors > 0;
       return false;
@@ -87,6 +136,11 @@ bool Demuxer::next(AVPacket& packet) {
   }
   broke_off_ = true;
   return false;
+}
+
+Result<void> Demuxer::check_interrupt() const {
+  if (cancel_ != nullptr && cancel_->load()) return interrupted();
+  return {};
 }
 
 bool Demuxer::seek(int64_t time) {

@@ -25,7 +25,7 @@ int key_before(const PacketTable& table, int ordinal) {
 }  // namespace
 
 Result<void> PacketReader::reopen() {
-  Result<Demuxer> demuxer = Demuxer::open(path_);
+  Result<Demuxer> demuxer = demuxer_.reopened(path_);
   if (!demuxer) return fail(demuxer.error());
   demuxer_ = std::move(*demuxer);
   met_ = -1;

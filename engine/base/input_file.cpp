@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "base/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kPiece_bytes = 64 << 10;  // beyond the size that the file system tells
+
+// A file descriptor, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+tl::unexpected<Error> cannot_read(const fs::path& path, int error) {
+  if (error == ENOENT || error == ENOTDIR) return fail(path.string(), "no such file", ErrorKind::cannot_read);
+  return fail(path.string(), std::string("cannot be read: ") + std::strerror(error), ErrorKind::cannot_read);
+}
+
+const char* name_of(mode_t mode) {
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "device";
+  if (S_ISFIFO(mode)) return "pipe (FIFO)";
+  if (S_ISSOCK(mode)) return "socket";
+  return "special file";
+}
+
+Result<void> check_mode(const fs::path& path, mode_t mode, const std::string& thing) {
+  if (S_ISREG(mode)) return {};
+  if (S_ISDIR(mode)) return fail(path.string(), "is a folder, not a " + thing, ErrorKind::cannot_read);
+  return fail(path.string(), std::string("is a ") + name_of(mode) + ", not a " + thing + "; a regular file is needed",
+              ErrorKind::cannot_read);
+}
+
+tl::unexpected<Error> too_large(const fs::path& path, std::uint64_t limit_bytes) {
+  return fail(path.string(), "is larger than " + std::to_string(limit_bytes / kMebibyte) +
+                                 " MiB, the most that is read of such a file");
+}
+
+}  // namespace
+
+Result<void> check_input_file(const fs::path& path, const std::string& thing) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return cannot_read(path, errno);
+  return check_mode(path, found.st_mode, thing);
+}
+
+Result<std::string> read_text(const fs::path& path, std::uint64_t limit_bytes) {
+  if (const Result<void> file = check_input_file(path); !file) return fail(file.error());
+  // What took its place since then: opening a pipe does not wait for a writer.
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  struct stat found {};
+  if (file.number() < 0 || fstat(file.number(), &found) != 0) return cannot_read(path, errno);
+  if (const Result<void> regular = check_mode(path, found.st_mode, "file"); !regular) return fail(regular.error());
+  if (static_cast<std::uint64_t>(found.st_size) > limit_bytes) return too_large(path, limit_bytes);
+  std::string text;
+  text.resize(static_cast<std::size_t>(found.st_size) + 1);  // the last read shows that there is no more
+  for (std::size_t filled = 0;;) {
+    const ssize_t got = read(file.number(), text.data() + filled, text.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return cannot_read(path, errno);
+    filled += static_cast<std::size_t>(got);
+    if (filled > limit_bytes) return too_large(path, limit_bytes);
+    if (got == 0) {
+      text.resize(filled);
+      return text;
+    }
+    if (filled == text.size()) text.resize(filled + std::max(filled / 2, kPiece_bytes));  // it says 0, or grows
+  }
+}
+
+}  // namespace sigs
