@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "base/guarded.h"
 #include "editor/app/app.h"
 
 namespace {
@@ -52,5 +53,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
   }
-  return run(project, probe);
+  const sigs::Result<int> status = sigs::guarded([&]() -> sigs::Result<int> { return run(project, probe); });
+  if (status) return *status;
+  std::fprintf(stderr, "error: %s\n", status.error().text().c_str());
+  return static_cast<int>(status.error().kind);
 }

@@ -5,6 +5,9 @@
 #include <thread>
 #include <utility>
 
+#include "base/guarded.h"
+#include "base/thread.h"
+
 namespace sigs::editor {
 
 // Shared with the reading thread, which may outlive the loader where a disk does not answer.
@@ -20,14 +23,18 @@ void ProjectLoader::start(std::filesystem::path path) {
   pending_ = std::make_shared<Pending>();
   // The project keeps an absolute path: it means the same file in messages, lists of recent ones and after a crash.
   pending_->path = std::filesystem::absolute(path).lexically_normal();
-  std::thread([pending = pending_, wake = wake_] {
-    Result<ReadProject> read = read_project(pending->path);
+  const auto read_it = [pending = pending_, wake = wake_] {
+    Result<ReadProject> read = guarded([&] { return read_project(pending->path); }, pending->path.string());
     {
       const std::lock_guard lock(pending->mutex);
       pending->read = std::move(read);
     }
     wake();
-  }).detach();
+  };
+  if (Result<std::thread> thread = started_thread(read_it))
+    thread->detach();
+  else
+    read_it();  // the window waits
 }
 
 std::filesystem::path ProjectLoader::path() const {

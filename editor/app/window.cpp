@@ -154,7 +154,8 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   const auto [width, height] = fitting_size(settings);
   GLFWwindow* window = glfwCreateWindow(width, height, "SIGS", nullptr, nullptr);
   if (window == nullptr) {
-    const Error error = glfw_error("no window with OpenGL 3.3 can be opened");
+    Error error = glfw_error("no window with OpenGL 3.3 can be opened");
+    error.what += "; install libgl1 and libgl1-mesa-dri (Debian, Ubuntu), or a GPU's driver";
     glfwTerminate();
     return fail(error);
   }

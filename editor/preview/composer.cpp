@@ -2,9 +2,9 @@
 #include "editor/preview/composer.h"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
+#include "base/guarded.h"
 #include "editor/preview/turntable.h"
 #include "scene/scene_parts.h"
 #include "scene/stand_ins.h"
@@ -18,11 +18,7 @@ constexpr double kCrossLength_m = 10;
 
 // The untouched footage where composing fails for want of OpenGL or memory.
 Result<ComposedFrame> composed(const Scene& scene, int frame, const Frame& background, Bench& bench, Stages stages) {
-  try {
-    return compose_frame(scene, frame, background, bench, stages);
-  } catch (const std::exception& e) {
-    return fail("composing", e.what(), ErrorKind::unavailable);
-  }
+  return guarded([&] { return compose_frame(scene, frame, background, bench, stages); }, "composing");
 }
 
 // Shares everything large with the scene it is made from.

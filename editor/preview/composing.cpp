@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/guarded.h"
 #include "editor/preview/polite.h"
 
 namespace sigs::editor {
@@ -21,8 +22,10 @@ constexpr int kBackgroundTasks = 3;
 void Composing::run() {
   be_polite(kNicenessOfPictures);
   while (const std::optional<Turn> turn = board_.turn()) {
-    if (step(*turn)) continue;
-    board_.rest(turn->version, turn->ahead ? kLookAtFiles : kNap);
+    // What failed for want of memory is tried again at the next turn, when something else may have given it back.
+    const Result<bool> did = guarded([&]() -> Result<bool> { return step(*turn); });
+    if (did && *did) continue;
+    board_.rest(turn->version, did && turn->ahead ? kLookAtFiles : kNap);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/guarded.h"
+#include "base/thread.h"
 #include "editor/preview/polite.h"
 
 namespace sigs::editor {
@@ -29,12 +31,21 @@ bool ExportJob::start(ExportRequest request) {
   cancel_ = false;
   rate_ = {};
   state_ = {.phase = ExportPhase::running, .request = std::move(request)};
-  thread_ = std::thread([this] { run(); });
+  Result<std::thread> thread = started_thread([this] { run(); });
+  if (thread)
+    thread_ = std::move(*thread);
+  else
+    finish(fail(thread.error()));
   return true;
 }
 
 void ExportJob::run() {
   be_polite(kNicenessOfExport);
+  finish(guarded([this] { return exported(); }));
+  wake_();
+}
+
+Result<ExportReport> ExportJob::exported() {
   const ExportControl control{.progress =
                                   [this](int done, int total) {
                                     {
@@ -51,19 +62,19 @@ void ExportJob::run() {
                                     state_.warnings.push_back(warning);
                                   },
                               .cancel = &cancel_};
-  Result<ExportReport> report = export_project(state_.request, control);
-  {
-    const std::lock_guard lock(mutex_);
-    if (report) {
-      state_.phase = ExportPhase::done;
-      state_.report = std::move(*report);
-    } else {
-      const bool interrupted = report.error().kind == ErrorKind::interrupted;
-      state_.phase = interrupted ? ExportPhase::cancelled : ExportPhase::failed;
-      state_.error = report.error();
-    }
+  return export_project(state_.request, control);
+}
+
+void ExportJob::finish(Result<ExportReport> report) {
+  const std::lock_guard lock(mutex_);
+  if (report) {
+    state_.phase = ExportPhase::done;
+    state_.report = std::move(*report);
+    return;
   }
-  wake_();
+  const bool interrupted = report.error().kind == ErrorKind::interrupted;
+  state_.phase = interrupted ? ExportPhase::cancelled : ExportPhase::failed;
+  state_.error = std::move(report.error());
 }
 
 void ExportJob::cancel() {

@@ -41,7 +41,7 @@ class ExportJob {
   ExportJob(const ExportJob&) = delete;
   ExportJob& operator=(const ExportJob&) = delete;
 
-  // False, and nothing happens, while one is running.
+  // False, and nothing happens, while one is running. Where no thread can be had it has failed at once, and says so.
   bool start(ExportRequest request);
   void cancel();
   [[nodiscard]] bool is_running() const;
@@ -51,6 +51,8 @@ class ExportJob {
 
  private:
   void run();
+  [[nodiscard]] Result<ExportReport> exported();
+  void finish(Result<ExportReport> report);
 
   std::function<void()> wake_;
   mutable std::mutex mutex_;

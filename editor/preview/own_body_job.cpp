@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/guarded.h"
+#include "base/thread.h"
 #include "editor/preview/polite.h"
 
 namespace sigs::editor {
@@ -19,7 +21,7 @@ double now_s() {
 }  // namespace
 
 Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control) {
-  Result<FrameSource> source = FrameSource::open(request.video);
+  Result<FrameSource> source = FrameSource::open(request.video, control.cancel);
   if (!source) return fail(source.error());
   return detect_own_body(*source, request.first_frame, request.settings, control);
 }
@@ -43,15 +45,21 @@ bool OwnBodyJob::start(DetectionRequest request) {
             .request = request,
             .found = std::move(state_.found),
             .found_by = std::move(state_.found_by)};
-  thread_ = std::thread([this, request = std::move(request)] { run(request); });
+  Result<std::thread> thread = started_thread([this, request = std::move(request)] { run(request); });
+  if (thread)
+    thread_ = std::move(*thread);
+  else
+    finish(fail(thread.error()));
   return true;
 }
 
 void OwnBodyJob::run(const DetectionRequest& request) {
   be_polite(kNicenessOfExport);
-  finish(detect_(
-      request,
-      {.progress = [this](int done, int total) { note(done, total); }, .cancel = &cancel_, .stages = KeepStages::yes}));
+  finish(guarded([&] {
+    return detect_(request, {.progress = [this](int done, int total) { note(done, total); },
+                             .cancel = &cancel_,
+                             .stages = KeepStages::yes});
+  }));
   wake_();
 }
 

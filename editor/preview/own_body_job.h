@@ -55,7 +55,7 @@ class OwnBodyJob {
   OwnBodyJob(const OwnBodyJob&) = delete;
   OwnBodyJob& operator=(const OwnBodyJob&) = delete;
 
-  // False, and nothing happens, while one is running.
+  // False, and nothing happens, while one is running. Where no thread can be had it has failed at once, and says so.
   bool start(DetectionRequest request);
   void cancel();
   // What was found is no longer of use, nor what is being looked for.

@@ -12,9 +12,21 @@ namespace sigs::editor {
 
 struct Previewer::State {
   State(PreviewLimits limits, std::function<void()> wake)
-      : board(std::make_shared<Board>(limits, std::move(wake))),
-        decoding([shared = board] { decode_for(shared); }),
-        composing([shared = board] { Composing(*shared).run(); }) {}
+      : board(std::make_shared<Board>(limits, std::move(wake))), decoding([shared = board] { decode_for(shared); }) {
+    try {
+      composing = std::thread([shared = board] { Composing(*shared).run(); });
+    } catch (...) {
+      end();
+      throw;
+    }
+  }
+  ~State() { end(); }
+
+  void end() {
+    board->stop();
+    for (std::thread* const thread : {&decoding, &composing})
+      if (thread->joinable()) thread->join();
+  }
 
   std::shared_ptr<Board> board;  // footage that is still being opened holds on to it
   std::thread decoding;
@@ -24,11 +36,7 @@ struct Previewer::State {
 Previewer::Previewer(PreviewLimits limits, std::function<void()> wake)
     : state_(std::make_unique<State>(limits, std::move(wake))) {}
 
-Previewer::~Previewer() {
-  state_->board->stop();
-  state_->decoding.join();
-  state_->composing.join();
-}
+Previewer::~Previewer() = default;
 
 void Previewer::want(const Wanted& wanted) {
   state_->board->want(wanted);

@@ -112,6 +112,7 @@ struct PreviewLimits {
 class Previewer {
  public:
   // wake  called from another thread whenever there is something new to show
+  // Throws std::system_error where the system gives no threads: without them there is no editor.
   Previewer(PreviewLimits limits, std::function<void()> wake);
   ~Previewer();
   Previewer(const Previewer&) = delete;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/guarded.h"
+#include "base/thread.h"
 #include "export.h"
 #include "frame.h"
 #include "outlook.h"
@@ -114,7 +116,8 @@ std::shared_ptr<const cv::Mat> ProjectPictures::of(const fs::path& project) {
   const auto [place, is_new] = pictures_.try_emplace(project);
   if (!is_new) return place->second;
   queue_.push_back(project);
-  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  if (!thread_.joinable())  // without a thread there are no pictures; the next question tries again
+    if (Result<std::thread> thread = started_thread([this] { work(); })) thread_ = std::move(*thread);
   asked_.notify_one();
   return nullptr;
 }
@@ -129,13 +132,14 @@ void ProjectPictures::work() {
       project = std::move(queue_.front());
       queue_.pop_front();
     }
-    Result<cv::Mat> picture = project_picture(project, size_px_);
-    if (!picture) continue;
-    {
+    const Result<void> made = guarded([&]() -> Result<void> {
+      Result<cv::Mat> picture = project_picture(project, size_px_);
+      if (!picture) return fail(picture.error());
       const std::lock_guard lock(mutex_);
       pictures_[project] = std::make_shared<const cv::Mat>(std::move(*picture));
-    }
-    wake_();
+      return {};
+    });
+    if (made) wake_();
   }
 }
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <utility>
 
+#include "base/guarded.h"
 #include "editor/preview/outline_truth.h"
 #include "editor/preview/polite.h"
 #include "evaluation/track_start.h"
@@ -23,11 +23,7 @@ bool is_same(const FootageTruth& a, const FootageTruth& b) {
 }
 
 Result<Results> read_safely(const std::filesystem::path& path, const FootageTruth& footage, std::optional<int> start) {
-  try {
-    return read_results(path, footage, {.start_frame = start});
-  } catch (const std::exception& e) {
-    return fail(path.string(), e.what());
-  }
+  return guarded([&] { return read_results(path, footage, {.start_frame = start}); }, path.string());
 }
 
 const TargetTruth* target_in(const FilmTruth& film, int id) {
@@ -194,10 +190,15 @@ void Scoring::run() {
     }
     const bool has_work = !wanted.files.empty() && wanted.scene;
     truth_.want(has_work ? wanted.scene : nullptr);
-    if (has_work)
-      step(wanted);
-    else
+    if (!has_work) {
       trackers_.clear();
+      continue;
+    }
+    // What failed for want of memory is tried again at the next look at the files.
+    static_cast<void>(guarded([&]() -> Result<void> {
+      step(wanted);
+      return {};
+    }));
   }
 }
 

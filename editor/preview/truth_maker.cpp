@@ -2,9 +2,9 @@
 #include "editor/preview/truth_maker.h"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
+#include "base/guarded.h"
 #include "editor/preview/outline_truth.h"
 #include "editor/preview/polite.h"
 
@@ -23,11 +23,7 @@ std::string why_not(const OpenedScene& scene) {
 
 // Composing may run out of OpenGL or memory.
 Result<void> shown(const TruthMaker::ShowFilm& show, const Project& project, const TruthMaker::See& see) {
-  try {
-    return show(project, 1, see);
-  } catch (const std::exception& e) {
-    return fail("composing", e.what(), ErrorKind::unavailable);
-  }
+  return guarded([&] { return show(project, 1, see); }, "composing");
 }
 
 }  // namespace
@@ -134,18 +130,25 @@ void TruthMaker::make(const Scene& scene, PictureName name) {
 void TruthMaker::run() {
   be_polite(kNicenessOfExport);
   while (const Scene scene = next()) {
-    if (const std::string problem = why_not(*scene); !problem.empty()) {
-      put({.scene = scene, .problem = problem});
-      continue;
-    }
-    PictureName name = picture_name_of(*scene->project);
-    const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) { return made.name == name; });
-    if (known != made_.end()) {
-      const int frames = known->film->frames();
-      put({.scene = scene, .film = known->film, .done = frames, .total = frames});
-    } else if (has_rested(scene)) {
-      make(scene, std::move(name));
-    }
+    const Result<void> done = guarded([&]() -> Result<void> {
+      show_truth_of(scene);
+      return {};
+    });
+    if (!done) put({.scene = scene, .problem = done.error().text()});
+  }
+}
+
+void TruthMaker::show_truth_of(const Scene& scene) {
+  if (const std::string problem = why_not(*scene); !problem.empty()) {
+    return put({.scene = scene, .problem = problem});
+  }
+  PictureName name = picture_name_of(*scene->project);
+  const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) { return made.name == name; });
+  if (known != made_.end()) {
+    const int frames = known->film->frames();
+    put({.scene = scene, .film = known->film, .done = frames, .total = frames});
+  } else if (has_rested(scene)) {
+    make(scene, std::move(name));
   }
 }
 

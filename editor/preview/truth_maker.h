@@ -60,6 +60,7 @@ class TruthMaker {
   };
 
   void run();
+  void show_truth_of(const Scene& scene);
   [[nodiscard]] Scene next();                         // waits; null: stop
   [[nodiscard]] bool has_rested(const Scene& scene);  // waits; false: another one is wanted meanwhile
   [[nodiscard]] bool goes_on(const Scene& begun, const PictureName& name);

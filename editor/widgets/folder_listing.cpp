@@ -13,6 +13,9 @@
 #include <thread>
 #include <utility>
 
+#include "base/guarded.h"
+#include "base/thread.h"
+
 namespace sigs::editor {
 
 namespace {
@@ -140,12 +143,17 @@ struct FolderReader::Pending {
 
 void FolderReader::read(const fs::path& folder) {
   pending_ = std::make_shared<Pending>();
-  std::thread([pending = pending_, folder] {
-    FolderListing listing = listing_of(folder);
+  const auto read_it = [pending = pending_, folder] {
+    Result<FolderListing> listing = guarded([&]() -> Result<FolderListing> { return listing_of(folder); });
     const std::lock_guard lock(pending->mutex);
-    pending->listing = std::move(listing);
+    pending->listing =
+        listing ? std::move(*listing) : FolderListing{.folder = folder, .problem = listing.error().text()};
     pending->done.notify_all();
-  }).detach();
+  };
+  if (Result<std::thread> thread = started_thread(read_it))
+    thread->detach();
+  else
+    read_it();  // the window waits
   std::unique_lock lock(pending_->mutex);
   pending_->done.wait_for(lock, std::chrono::milliseconds(40), [this] { return pending_->listing.has_value(); });
 }
