@@ -96,6 +96,10 @@ Result<void> run(const DetectOptions& options) {
   if (!options.folder.empty()) {
     std::vector<fs::path> read = options.inputs;
     read.insert(read.end(), options.results.begin(), options.results.end());
+    for (const FilmFiles& film : inputs->films) {
+      read.push_back(film.labels);
+      read.insert(read.end(), film.results.begin(), film.results.end());
+    }
     Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, read);
     if (!reserved) return fail(reserved.error());
     folder.emplace(std::move(*reserved));

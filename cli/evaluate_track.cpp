@@ -15,6 +15,8 @@
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 #include "evaluation/results_text.h"
+#include "project/json.h"
+#include "project_inputs.h"
 
 namespace sigs::cli {
 
@@ -119,6 +121,13 @@ Result<void> write(EvaluationFolder& folder, const TrackReport& report, const Tr
   return {};
 }
 
+// What a project is made of; labels name nothing. What is wrong with it is said when it is opened.
+std::vector<fs::path> files_named_by(const ProjectOptions& options) {
+  Result<ReadProject> read = read_project(options.file);
+  if (!read || !set_all(read->project, options.settings)) return {};
+  return files_read_by(read->project);
+}
+
 Result<void> run(const TrackOptions& options) {
   const Result<TrackRequest> request = request_of(options);
   if (!request) return fail(request.error());
@@ -128,6 +137,8 @@ Result<void> run(const TrackOptions& options) {
     std::vector<fs::path> inputs = request->results;
     inputs.push_back(request->input.file);
     if (!request->video.empty()) inputs.push_back(request->video);
+    const std::vector<fs::path> named = files_named_by(request->input);
+    inputs.insert(inputs.end(), named.begin(), named.end());
     Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, inputs);
     if (!reserved) return fail(reserved.error());
     folder.emplace(std::move(*reserved));

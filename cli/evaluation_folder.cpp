@@ -2,9 +2,13 @@
 #include "cli/evaluation_folder.h"
 
 #include <algorithm>
+#include <span>
+#include <string_view>
 #include <system_error>
 
 #include "base/folder_contents.h"
+#include "base/kept_inputs.h"
+#include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 
 namespace sigs::cli {
@@ -17,15 +21,12 @@ Error not_free(const fs::path& folder, const std::string& what) {
   return {folder.string(), what, ErrorKind::cannot_create};
 }
 
-// Links followed, without a slash at the end.
-fs::path place_of(const fs::path& path) {
+// Called after a tracker that ran, as evaluate track writes it.
+bool is_result_file(const fs::path& path) {
   std::error_code code;
-  fs::path place = fs::weakly_canonical(fs::absolute(path, code), code);
-  return place.has_filename() ? place : place.parent_path();
-}
-
-bool lies_at_or_below(const fs::path& place, const fs::path& top) {
-  return std::mismatch(top.begin(), top.end(), place.begin(), place.end()).first == top.end();
+  const std::span<const std::string_view> trackers = tracker_names();
+  return path.extension() == ".csv" && fs::symlink_status(path, code).type() == fs::file_type::regular &&
+         std::find(trackers.begin(), trackers.end(), path.stem().string()) != trackers.end();
 }
 
 // The first thing in the folder that no evaluation writes; empty: there is none.
@@ -39,7 +40,7 @@ Result<std::string> strange_in(const fs::path& folder) {
     const Result<std::vector<fs::path>> results = folder_contents(path);
     if (!results) return fail(results.error());
     for (const fs::path& result : *results)
-      if (result.extension() != ".csv") return "results/" + result.filename().string();
+      if (!is_result_file(result)) return "results/" + result.filename().string();
   }
   return std::string();
 }
@@ -64,14 +65,12 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
 Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
                                                     const std::vector<fs::path>& inputs) {
   const fs::path place = place_of(folder);
-  for (const fs::path& input : inputs)
-    if (lies_at_or_below(place_of(input), place))
-      return fail(
-          not_free(folder, "holds " + input.string() + ", which is read by this command; choose another folder"));
+  if (const Result<void> kept = check_inputs_kept({folder}, inputs); !kept) return fail(kept.error());
   if (const Result<void> free = check_free(folder, place, overwrite); !free) return fail(free.error());
   MadeFolders above;
   if (const Result<void> made = above.make(place.parent_path()); !made) return fail(made.error());
-  Result<PartialFile> file = PartialFile::create_folder(place, true);
+  Result<PartialFile> file = PartialFile::create_folder(
+      place, true, [overwrite](const fs::path& there) { return check_free(there, there, overwrite); });
   if (!file) return fail(file.error());
   return EvaluationFolder(folder, std::move(above), std::move(*file));
 }

@@ -2,22 +2,25 @@
 #include "cli/frame_command.h"
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "base/partial_file.h"
 #include "cli/interrupt.h"
+#include "cli/made_folders.h"
 #include "cli/options.h"
+#include "cli/picture_files.h"
 #include "export.h"
 #include "frame.h"
+#include "project_inputs.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct FrameOptions {
   ProjectOptions project;
@@ -27,25 +30,14 @@ struct FrameOptions {
   bool force = false;
 };
 
-Result<void> write_picture(const std::filesystem::path& path, const cv::Mat& picture, bool overwrite) {
-  std::vector<uchar> bytes;
-  cv::imencode(".png", picture, bytes);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (const Result<void> written = write_text(path, text, overwrite); !written) return written;
-  std::printf("%s\n", path.c_str());
-  return {};
-}
-
-Result<ComposedFrame> composed(const FrameOptions& options) {
-  const Result<Project> project = project_of(options.project);
-  if (!project) return fail(project.error());
-  Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
-  if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
+Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
+  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)
     return fail("--frame " + std::to_string(options.frame), "the footage has frames 0 to " + std::to_string(count - 1),
                 ErrorKind::usage);
-  const Result<Scene> scene = open_scene(*project, shape_of(source->info()));
+  const Result<Scene> scene = open_scene(project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
   for (const Warning& warning : scene->warnings) print_warning(warning);
   Result<Frame> background = source->read(options.frame);
@@ -55,21 +47,42 @@ Result<ComposedFrame> composed(const FrameOptions& options) {
                        options.stages ? Stages::keep : Stages::leave_out);
 }
 
+using Pictures = std::vector<std::pair<fs::path, cv::Mat>>;
+
+// By the names that they will have.
+Pictures pictures_of(const ComposedFrame& frame, const FrameOptions& options) {
+  const std::string base = "frame_" + std::to_string(options.frame);
+  Pictures pictures{{options.folder / (base + ".png"), bgr_of(frame.picture)}};
+  for (std::size_t i = 0; i < frame.stages.size(); ++i) {
+    const std::string number = (i < 10 ? "0" : "") + std::to_string(i);
+    pictures.emplace_back(options.folder / (base + "_" + number + "_" + frame.stages[i].name + ".png"),
+                          frame.stages[i].picture);
+  }
+  return pictures;
+}
+
+Result<void> write(const Pictures& pictures, const Project& project, bool overwrite) {
+  std::vector<fs::path> paths;
+  for (const auto& [path, picture] : pictures) paths.push_back(path);
+  if (const Result<void> kept = check_inputs_kept(project, paths); !kept) return kept;
+  PictureFiles files(overwrite);
+  for (const auto& [path, picture] : pictures)
+    if (const Result<void> step = files.write(path, picture); !step) return step;
+  const Result<std::vector<fs::path>> written = files.keep();
+  if (!written) return fail(written.error());
+  for (const fs::path& path : *written) std::printf("%s\n", path.c_str());
+  return {};
+}
+
 Result<void> run(const FrameOptions& options) {
-  const Result<ComposedFrame> frame = composed(options);
+  const Result<Project> project = project_of(options.project);
+  if (!project) return fail(project.error());
+  const Result<ComposedFrame> frame = composed(*project, options);
   if (!frame) return fail(frame.error());
   defer_interrupts();
-  std::error_code code;
-  std::filesystem::create_directories(options.folder, code);
-  if (code) return fail(options.folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  const std::string base = "frame_" + std::to_string(options.frame);
-  Result<void> step = write_picture(options.folder / (base + ".png"), bgr_of(frame->picture), options.force);
-  for (std::size_t i = 0; step && i < frame->stages.size(); ++i) {
-    const std::string number = (i < 10 ? "0" : "") + std::to_string(i);
-    step = write_picture(options.folder / (base + "_" + number + "_" + frame->stages[i].name + ".png"),
-                         frame->stages[i].picture, options.force);
-  }
-  return step;
+  MadeFolders folders;
+  if (const Result<void> made = folders.make(options.folder); !made) return made;
+  return write(pictures_of(*frame, options), *project, options.force);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ constexpr const char* kFooter =
     "  sigs info assets/footage/sample.mp4\n"
     "\n"
     "Exit status: 0 done, 64 usage, 65 bad data, 66 cannot read an input, 69 no OpenGL, encoder or memory,\n"
-    "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted.";
+    "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted,\n"
+    "129 stopped by SIGHUP, 143 by SIGTERM.";
 
 struct Command {
   CLI::App* app;
@@ -88,7 +89,8 @@ int run(int argc, char** argv) {
     if (!command.app->parsed()) continue;
     if (const sigs::Result<void> done = command.run(); !done) {
       print_error(done.error());
-      return static_cast<int>(done.error().kind);
+      const sigs::ErrorKind kind = done.error().kind;
+      return kind == sigs::ErrorKind::interrupted ? interrupted_status() : static_cast<int>(kind);
     }
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

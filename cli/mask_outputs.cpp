@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/kept_inputs.h"
 #include "cli/overlay.h"
 
 namespace sigs::cli {
@@ -22,24 +23,6 @@ constexpr std::string_view kStages[] = {
     // stable
     "mean_gradient", "coherence", "variation", "drift", "moving", "walls", "labels", "own_body", "confidence"};
 
-// One spelling for one place, also where it is not there yet.
-fs::path place_of_folder(const fs::path& folder) {
-  std::error_code code;
-  const fs::path place = fs::weakly_canonical(fs::absolute(folder, code), code);
-  const fs::path plain = code ? fs::absolute(folder, code).lexically_normal() : place;
-  return plain.has_filename() ? plain : plain.parent_path();
-}
-
-// Of a link the link itself: a file that gets its name replaces it.
-fs::path place_of_file(const fs::path& file) {
-  std::error_code code;
-  return place_of_folder(fs::absolute(file, code).parent_path()) / file.filename();
-}
-
-bool lies_at_or_below(const fs::path& place, const fs::path& top) {
-  return std::mismatch(top.begin(), top.end(), place.begin(), place.end()).first == top.end();
-}
-
 bool is_taken_by_a_stage(const fs::path& file, const fs::path& stages) {
   if (!lies_at_or_below(file, stages) || file == stages) return false;
   const fs::path first = *file.lexically_relative(stages).begin();
@@ -48,12 +31,12 @@ bool is_taken_by_a_stage(const fs::path& file, const fs::path& stages) {
 
 // Two outputs that want the same place.
 Result<void> check_apart(const MaskPaths& paths) {
-  const fs::path mask = place_of_file(paths.mask);
-  const fs::path confidence = paths.confidence.empty() ? fs::path() : place_of_file(paths.confidence);
+  const fs::path mask = place_of_name(paths.mask);
+  const fs::path confidence = paths.confidence.empty() ? fs::path() : place_of_name(paths.confidence);
   if (!confidence.empty() && (lies_at_or_below(confidence, mask) || lies_at_or_below(mask, confidence)))
     return fail("--confidence " + paths.confidence.string(), "is where the mask goes", ErrorKind::usage);
   if (paths.stages.empty()) return {};
-  const fs::path stages = place_of_folder(paths.stages);
+  const fs::path stages = place_of(paths.stages);
   const std::pair<std::string, fs::path> files[] = {{"--out " + paths.mask.string(), mask},
                                                     {"--confidence " + paths.confidence.string(), confidence}};
   for (const auto& [option, file] : files) {
@@ -66,13 +49,11 @@ Result<void> check_apart(const MaskPaths& paths) {
   return {};
 }
 
-Result<void> check_name(const char* option, const fs::path& path, const std::array<fs::path, 2>& inputs) {
+Result<void> check_name(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
   const std::string where = std::string(option) + " " + path.string();
   if (path.extension() != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
-  std::error_code code;
-  for (const fs::path& input : inputs)
-    if (!input.empty() && fs::equivalent(input, path, code))
-      return fail(where, "is read by this command; choose another name", ErrorKind::cannot_create);
+  if (const Result<void> kept = check_inputs_kept({path}, inputs); !kept)
+    return fail(where, kept.error().what, ErrorKind::cannot_create);
   return {};
 }
 
@@ -102,7 +83,7 @@ fs::path MaskOutputs::stage(std::size_t number, std::string_view name) const {
 }
 
 // Takes the name of a picture, in a folder that is made where it is not there.
-Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::array<fs::path, 2>& inputs) {
+Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
   Result<void> step = check_name(option, path, inputs);
   if (step) step = folders_.make(path.parent_path());
   if (step) step = files_.reserve(path);
@@ -110,21 +91,22 @@ Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, cons
 }
 
 // Which steps there will be is known at the end alone; any that is there already stands in the way.
-Result<void> MaskOutputs::reserve_stages(bool overwrite) {
+Result<void> MaskOutputs::reserve_stages(const std::vector<fs::path>& inputs) {
   if (const Result<void> made = folders_.make(paths_.stages); !made) return made;
   const std::vector<fs::path> there = stages_in(paths_.stages);
-  if (!overwrite && !there.empty())
+  if (!overwrite_ && !there.empty())
     return fail(there.front().string(), "exists already; --force replaces the stages that are there",
                 ErrorKind::cannot_create);
+  if (const Result<void> kept = check_inputs_kept(there, inputs); !kept) return kept;
   return files_.reserve(stage(0, "frame"));
 }
 
-Result<MaskOutputs> MaskOutputs::reserved(MaskPaths paths, const std::array<fs::path, 2>& inputs, bool overwrite) {
+Result<MaskOutputs> MaskOutputs::reserved(MaskPaths paths, const std::vector<fs::path>& inputs, bool overwrite) {
   if (const Result<void> apart = check_apart(paths); !apart) return fail(apart.error());
   MaskOutputs out(std::move(paths), overwrite);
   Result<void> step = out.reserve("--out", out.paths_.mask, inputs);
   if (step && !out.paths_.confidence.empty()) step = out.reserve("--confidence", out.paths_.confidence, inputs);
-  if (step && out.has_stages()) step = out.reserve_stages(overwrite);
+  if (step && out.has_stages()) step = out.reserve_stages(inputs);
   if (!step) return fail(step.error());
   return out;
 }
@@ -145,7 +127,7 @@ Result<std::vector<fs::path>> MaskOutputs::write(const OwnBody& found, const cv:
   if (step && has_stages()) step = write_stages(found, bgr);
   if (!step) return fail(step.error());
   Result<std::vector<fs::path>> written = files_.keep();
-  if (!written || !has_stages()) return written;
+  if (!written || !has_stages() || !overwrite_) return written;
   std::error_code code;
   for (const fs::path& there : stages_in(paths_.stages))
     if (std::find(written->begin(), written->end(), there) == written->end() && !fs::is_directory(there, code))

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
@@ -27,7 +26,7 @@ class MaskOutputs {
  public:
   // Before the work begins: finding that a file stands in the way after minutes would be late. inputs: what the command
   // reads; may be empty paths. Errors: usage (not a PNG, one output where another goes), cannot_create.
-  [[nodiscard]] static Result<MaskOutputs> reserved(MaskPaths paths, const std::array<std::filesystem::path, 2>& inputs,
+  [[nodiscard]] static Result<MaskOutputs> reserved(MaskPaths paths, const std::vector<std::filesystem::path>& inputs,
                                                     bool overwrite);
 
   [[nodiscard]] bool has_stages() const { return !paths_.stages.empty(); }
@@ -37,14 +36,15 @@ class MaskOutputs {
   [[nodiscard]] Result<std::vector<std::filesystem::path>> write(const OwnBody& found, const cv::Mat& bgr);
 
  private:
-  MaskOutputs(MaskPaths paths, bool overwrite) : paths_(std::move(paths)), files_(overwrite) {}
+  MaskOutputs(MaskPaths paths, bool overwrite) : paths_(std::move(paths)), overwrite_(overwrite), files_(overwrite) {}
   [[nodiscard]] Result<void> reserve(const char* option, const std::filesystem::path& path,
-                                     const std::array<std::filesystem::path, 2>& inputs);
-  [[nodiscard]] Result<void> reserve_stages(bool overwrite);
+                                     const std::vector<std::filesystem::path>& inputs);
+  [[nodiscard]] Result<void> reserve_stages(const std::vector<std::filesystem::path>& inputs);
   [[nodiscard]] Result<void> write_stages(const OwnBody& found, const cv::Mat& bgr);
   [[nodiscard]] std::filesystem::path stage(std::size_t number, std::string_view name) const;
 
   MaskPaths paths_;
+  bool overwrite_ = false;
   MadeFolders folders_;  // outlives the files: a folder can go only once it is empty
   PictureFiles files_;
 };

@@ -2,20 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "base/partial_file.h"
 #include "base/result.h"
+#include "base/staged_outputs.h"
 
 namespace sigs::cli {
 
 // PNG files that get their final names together, once all of them are written. Without keep() none is left.
 class PictureFiles {
  public:
-  explicit PictureFiles(bool overwrite) : overwrite_(overwrite) {}
+  explicit PictureFiles(bool overwrite)
+      : outputs_(overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
 
-  // Takes the name, so that what stands in the way shows before the pictures are made. Errors as PartialFile::create.
+  // Takes the name, so that what stands in the way shows before the pictures are made. Errors as
+  // StagedOutputs::add_file.
   [[nodiscard]] Result<void> reserve(const std::filesystem::path& path);
 
   // Writes under a name taken before, or takes it. Error write_failed.
@@ -25,10 +28,8 @@ class PictureFiles {
   [[nodiscard]] Result<std::vector<std::filesystem::path>> keep();
 
  private:
-  [[nodiscard]] const PartialFile* taken(const std::filesystem::path& path) const;
-
-  bool overwrite_ = false;
-  std::vector<PartialFile> files_;
+  StagedOutputs outputs_;
+  std::map<std::filesystem::path, std::filesystem::path> staged_;  // by final name
 };
 
 }  // namespace sigs::cli

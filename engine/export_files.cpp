@@ -8,6 +8,7 @@
 
 #include "label_folder.h"
 #include "opened_project.h"
+#include "project_inputs.h"
 
 namespace sigs {
 
@@ -120,7 +121,7 @@ Result<void> make_folder(const fs::path& folder) {
 }
 
 // A folder of pictures is replaced whole; one that holds anything else is somebody's own.
-Result<void> check_replaceable(const fs::path& folder) {
+Result<void> check_picture_folder(const fs::path& folder) {
   std::error_code code;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const std::string name = it->path().filename().string();
@@ -128,48 +129,48 @@ Result<void> check_replaceable(const fs::path& folder) {
       return fail(folder.string(), "holds " + name + ", which no export wrote; choose another folder",
                   ErrorKind::cannot_create);
   }
+  if (code && code != std::errc::no_such_file_or_directory)
+    return fail(folder.string(), "cannot be looked through: " + code.message(), ErrorKind::cannot_create);
   return {};
 }
 
-// An output may replace an older one, but nothing that this export reads.
-Result<void> check_not_read(const Project& project, const fs::path& output) {
-  std::vector<fs::path> inputs{project.file};
-  for (const std::string& input : {project.footage.video, project.footage.calibration, project.footage.own_body_mask,
-                                   project.camera.attitude_file})
-    inputs.push_back(resolved(project, input));
-  for (const IntruderSettings& intruder : project.intruders) inputs.push_back(resolved(project, intruder.model.file));
-  std::error_code code;
-  for (const fs::path& input : inputs)
-    if (fs::equivalent(input, output, code))
-      return fail(output.string(), "is read by this export; choose another folder or project name",
-                  ErrorKind::cannot_create);
-  return {};
+struct OutputPaths {
+  fs::path base;  // FOLDER/NAME
+  fs::path video;
+  fs::path masks;
+  std::vector<fs::path> all;
+};
+
+OutputPaths output_paths(const ExportRequest& request, const VideoFormat& video, const VideoFormat& masks) {
+  const fs::path base = request.folder / request.project.name;
+  OutputPaths paths{.base = base,
+                    .video = with_extension(base.string(), video),
+                    .masks = with_extension(base.string() + ".masks", masks)};
+  paths.all = {paths.video, paths.masks};
+  for (const std::string& label : request.project.output.labels)
+    paths.all.push_back(base.string() + std::string(label_format(label)->suffix));
+  return paths;
 }
 
 }  // namespace
 
-Result<ExportFiles::Video> ExportFiles::open_video(const fs::path& path, const VideoFormat& format, bool overwrite) {
-  const bool pictures = format.codec == VideoCodec::png;
-  if (pictures)
-    if (const Result<void> ours = check_replaceable(path); !ours) return fail(ours.error());
-  Result<PartialFile> file =
-      pictures ? PartialFile::create_folder(path, overwrite) : PartialFile::create(path, overwrite);
-  if (!file) return fail(file.error());
-  Result<VideoWriter> writer = VideoWriter::open(file->part(), format);
+Result<ExportFiles::OpenedVideo> ExportFiles::open_video(const fs::path& path, const VideoFormat& format) {
+  const Result<fs::path> staged =
+      format.codec == VideoCodec::png ? outputs_.add_folder(path, check_picture_folder) : outputs_.add_file(path);
+  if (!staged) return fail(staged.error());
+  Result<VideoWriter> writer = VideoWriter::open(*staged, format);
   if (!writer) return fail(writer.error());
-  return Video{std::move(*file), std::make_unique<WriterThread>(std::move(*writer))};
+  return OpenedVideo{*staged, std::make_unique<WriterThread>(std::move(*writer))};
 }
 
 Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const LabelFormat& format,
-                                                     const LabelSequence& sequence, bool overwrite) {
-  if (format.is_folder)
-    if (const Result<void> ours = check_label_folder(path, format); !ours) return fail(ours.error());
-  Result<PartialFile> file =
-      format.is_folder ? PartialFile::create_folder(path, overwrite) : PartialFile::create(path, overwrite);
-  if (!file) return fail(file.error());
-  Result<std::unique_ptr<LabelWriter>> writer = format.open(file->part(), sequence);
+                                                     const LabelSequence& sequence) {
+  const auto may_go = [&format](const fs::path& folder) { return check_label_folder(folder, format); };
+  const Result<fs::path> staged = format.is_folder ? outputs_.add_folder(path, may_go) : outputs_.add_file(path);
+  if (!staged) return fail(staged.error());
+  Result<std::unique_ptr<LabelWriter>> writer = format.open(*staged, sequence);
   if (!writer) return fail(writer.error());
-  return Labels{std::move(*file), std::move(*writer)};
+  return Labels{std::move(*writer)};
 }
 
 Result<void> check_output(const Project& project, const VideoInfo& footage) {
@@ -187,38 +188,37 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
                                       const FrameRange& range) {
   if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
+  ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  const Result<void> opened = files.open_all(request, footage, scene, range);
+  if (!opened) return fail(files.outputs_.with_final_names(opened.error()));
+  return files;
+}
+
+Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                   const FrameRange& range) {
   const ExportSettings& output = request.project.output;
-  const fs::path base = request.folder / request.project.name;
   const VideoFormat format = picture_format(output, footage, encoder_threads());
   const VideoFormat masks = mask_format(format, output.masks);
-  const fs::path video_path = with_extension(base.string(), format);
-  const fs::path masks_path = with_extension(base.string() + ".masks", masks);
-  std::vector<fs::path> paths{video_path, masks_path};
-  for (const std::string& label : output.labels)
-    paths.push_back(base.string() + std::string(label_format(label)->suffix));
-  for (const fs::path& path : paths)
-    if (const Result<void> free = check_not_read(request.project, path); !free) return fail(free.error());
-  ExportFiles files;
-
-  Result<Video> video = open_video(video_path, format, request.overwrite);
+  const OutputPaths paths = output_paths(request, format, masks);
+  if (const Result<void> kept = check_inputs_kept(request.project, paths.all, "export"); !kept) return kept;
+  Result<OpenedVideo> video = open_video(paths.video, format);
   if (!video) return fail(video.error());
-  files.video_.emplace(std::move(*video));
-  if (format.codec == VideoCodec::png) files.pictures_ = files.video_->file.part();
-
+  video_ = std::move(video->writer);
+  if (format.codec == VideoCodec::png) pictures_ = video->staged;
   if (output.masks != MasksChoice::none) {
-    Result<Video> opened = open_video(masks_path, masks, request.overwrite);
+    Result<OpenedVideo> opened = open_video(paths.masks, masks);
     if (!opened) return fail(opened.error());
-    files.masks_.emplace(std::move(*opened));
+    masks_ = std::move(opened->writer);
   }
-  const LabelSequence sequence = label_sequence(request.project, footage, scene, range, video_path.filename().string());
+  const LabelSequence sequence =
+      label_sequence(request.project, footage, scene, range, paths.video.filename().string());
   for (const std::string& label : output.labels) {
     const LabelFormat& chosen = *label_format(label);
-    Result<Labels> labels =
-        open_labels(base.string() + std::string(chosen.suffix), chosen, sequence, request.overwrite);
+    Result<Labels> labels = open_labels(paths.base.string() + std::string(chosen.suffix), chosen, sequence);
     if (!labels) return fail(labels.error());
-    files.labels_.push_back(std::move(*labels));
+    labels_.push_back(std::move(*labels));
   }
-  return files;
+  return {};
 }
 
 bool ExportFiles::write_labels(const FrameTruth& truth) {
@@ -236,9 +236,9 @@ bool ExportFiles::write_labels(const FrameTruth& truth) {
 Result<void> ExportFiles::write(ComposedFrame frame) {
   const int number = frame.truth.index;
   const double time_s = frame.picture.time_s;
-  bool goes_on = video_->writer->put(std::move(frame.picture), number);
+  bool goes_on = video_->put(std::move(frame.picture), number);
   if (masks_) {
-    WriterThread& masks = *masks_->writer;
+    WriterThread& masks = *masks_;
     goes_on &= frame.mask.empty() ? masks.put_blank(time_s, number)
                                   : masks.put(frame_of_mask(std::move(frame.mask), time_s), number);
   }
@@ -247,40 +247,33 @@ Result<void> ExportFiles::write(ComposedFrame frame) {
 }
 
 Result<void> ExportFiles::settle() {
-  std::vector<std::optional<FrameFailure>> failures{video_->writer->settle()};
-  if (masks_) failures.push_back(masks_->writer->settle());
+  std::vector<std::optional<FrameFailure>> failures{video_->settle()};
+  if (masks_) failures.push_back(masks_->settle());
   for (const Labels& labels : labels_) failures.push_back(labels.failure);
   std::erase(failures, std::nullopt);
   if (failures.empty()) return {};
   const auto first = std::min_element(failures.begin(), failures.end(),
                                       [](const auto& a, const auto& b) { return a->frame < b->frame; });
-  return fail((*first)->error);
+  return fail(outputs_.with_final_names((*first)->error));
 }
 
 double ExportFiles::spent_s() const {
-  return video_->writer->spent_s() + (masks_ ? masks_->writer->spent_s() : 0);
+  return video_->spent_s() + (masks_ ? masks_->spent_s() : 0);
 }
 
 Result<void> ExportFiles::finish() {
   Result<void> step = settle();
-  if (step) step = video_->writer->finish();
-  if (step && masks_) step = masks_->writer->finish();
+  if (step) step = video_->finish();
+  if (step && masks_) step = masks_->finish();
   for (Labels& labels : labels_)
     if (step) step = labels.writer->finish(pictures_);
-  return step;
+  return step ? step : fail(outputs_.with_final_names(step.error()));
 }
 
 Result<std::vector<fs::path>> ExportFiles::keep() {
   if (const Result<void> step = finish(); !step) return fail(step.error());
-  std::vector<PartialFile*> files{&video_->file};
-  if (masks_) files.push_back(&masks_->file);
-  for (Labels& labels : labels_) files.push_back(&labels.file);
-  std::vector<fs::path> written;
-  for (PartialFile* file : files) {
-    if (const Result<void> step = file->keep(); !step) return fail(step.error());
-    written.push_back(file->final_path());
-  }
-  return written;
+  if (const Result<void> kept = outputs_.keep(); !kept) return fail(kept.error());
+  return outputs_.final_paths();
 }
 
 }  // namespace sigs

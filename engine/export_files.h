@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "annotation/labels.h"
-#include "base/partial_file.h"
+#include "base/staged_outputs.h"
 #include "export.h"
 #include "export_writer.h"
 #include "frame.h"
@@ -33,28 +33,27 @@ class ExportFiles {
   [[nodiscard]] double spent_s() const;
 
  private:
-  ExportFiles() = default;
+  explicit ExportFiles(StagedOutputs::Existing existing) : outputs_(existing) {}
 
-  // A file or, for numbered pictures, a folder.
-  struct Video {
-    PartialFile file;
-    std::unique_ptr<WriterThread> writer;
-  };
-  // Likewise.
   struct Labels {
-    PartialFile file;
     std::unique_ptr<LabelWriter> writer;
     std::optional<FrameFailure> failure{};
   };
-  [[nodiscard]] static Result<Video> open_video(const std::filesystem::path& path, const VideoFormat& format,
-                                                bool overwrite);
-  [[nodiscard]] static Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
-                                                  const LabelSequence& sequence, bool overwrite);
+  struct OpenedVideo {
+    std::filesystem::path staged;
+    std::unique_ptr<WriterThread> writer;
+  };
+  [[nodiscard]] Result<void> open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                      const FrameRange& range);
+  [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format);
+  [[nodiscard]] Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
+                                           const LabelSequence& sequence);
   [[nodiscard]] bool write_labels(const FrameTruth& truth);
   [[nodiscard]] Result<void> finish();
 
-  std::optional<Video> video_;
-  std::optional<Video> masks_;
+  StagedOutputs outputs_;  // outlives the writers: they write into it
+  std::unique_ptr<WriterThread> video_;
+  std::unique_ptr<WriterThread> masks_;  // nullptr: none are asked for
   std::vector<Labels> labels_;
   std::filesystem::path pictures_;  // where numbered pictures are written to; empty: a video is
 };

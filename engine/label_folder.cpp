@@ -39,6 +39,8 @@ Result<void> check_label_folder(const fs::path& folder, const LabelFormat& forma
       return fail(folder.string(), "holds " + path + ", which no export wrote; choose another folder",
                   ErrorKind::cannot_create);
   }
+  if (code && code != std::errc::no_such_file_or_directory)
+    return fail(folder.string(), "cannot be looked through: " + code.message(), ErrorKind::cannot_create);
   return {};
 }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "editor/document/recovery.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/file_lock.h"
 #include "base/partial_file.h"
 #include "editor/document/mask_file.h"
 #include "project/json_reading.h"
@@ -45,21 +46,24 @@ fs::path lock_of(const fs::path& recovery_file) {
   return fs::path(recovery_file).replace_extension(".lock");
 }
 
-// -1 where another one holds it. The system lets go of a lock when its process ends, however that happens.
-int locked(const fs::path& path, int flags) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0600);
-  if (file < 0) return -1;
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
-  ::close(file);
-  return -1;
+// The number in "editor-NUMBER-TIME.json"; none: it is no such name.
+std::optional<pid_t> process_of(const fs::path& recovery_file) {
+  int number = 0;
+  if (std::sscanf(recovery_file.stem().c_str(), "editor-%d-", &number) != 1 || number <= 0) return std::nullopt;
+  return number;
 }
 
+// The lock is let go of when its process ends, however that happens. Where the file system has no locks, the process
+// itself is looked for.
 bool is_abandoned(const fs::path& recovery_file) {
   std::error_code code;
   if (!fs::exists(lock_of(recovery_file), code)) return true;
-  const int lock = locked(lock_of(recovery_file), 0);
-  if (lock >= 0) ::close(lock);
-  return lock >= 0;
+  const Descriptor lock = open_for_lock(lock_of(recovery_file), LockFile::must_be_there);
+  if (!lock.is_open()) return false;
+  const LockAnswer answer = try_lock(lock);
+  if (answer != LockAnswer::unavailable) return answer == LockAnswer::held;
+  const std::optional<pid_t> process = process_of(recovery_file);
+  return process && ::kill(*process, 0) != 0 && errno == ESRCH;
 }
 
 std::string text_of_recovery(const Project& project, const fs::path& mask_file, bool mask_has_strokes) {
@@ -149,22 +153,23 @@ void discard(const AbandonedProject& abandoned) {
 Recovery::Recovery(fs::path folder) : folder_(std::move(folder)), file_(folder_ / (stamp_of_this_editor() + ".json")) {}
 
 Recovery::~Recovery() {
-  if (lock_ < 0) return;
   std::error_code code;
-  if (!written_) fs::remove(lock_of(file_), code);
-  ::close(lock_);
+  if (lock_.is_open() && !written_) fs::remove(lock_of(file_), code);
 }
 
 Result<void> Recovery::hold_lock() {
-  if (lock_ >= 0) return {};
+  if (lock_.is_open()) return {};
   std::error_code code;
   fs::create_directories(folder_, code);
   if (code)
     return fail(folder_.string(), "cannot be created: " + code.message() + "; unsaved changes are not kept",
                 ErrorKind::cannot_create);
-  lock_ = locked(lock_of(file_), O_CREAT);
-  if (lock_ < 0)
+  Descriptor lock = open_for_lock(lock_of(file_), LockFile::made_where_missing);
+  if (!lock.is_open())
     return fail(folder_.string(), std::string("cannot be written: ") + std::strerror(errno), ErrorKind::cannot_create);
+  if (try_lock(lock) == LockAnswer::taken)
+    return fail(lock_of(file_).string(), "is locked by another editor", ErrorKind::cannot_create);
+  lock_ = std::move(lock);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "base/result.h"
 #include "editor/document/document.h"
 #include "project/json.h"
@@ -84,7 +85,7 @@ class Recovery {
 
   std::filesystem::path folder_;
   std::filesystem::path file_;  // ours, whether it is there or not
-  int lock_ = -1;               // file descriptor, open while the lock is held
+  Descriptor lock_;             // open while this editor runs and has had something to keep
   bool written_ = false;
   std::uint64_t kept_revision_ = 0;  // the state that lies in the file
   std::filesystem::path mask_file_;  // of the mask that lies beside it, ours or one that was taken over; "": none

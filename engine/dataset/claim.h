@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/descriptor.h"
 #include "base/result.h"
 
 namespace sigs {
@@ -26,17 +27,18 @@ struct Shard {
 // has locks; where it has none nobody is kept out.
 class Claim {
  public:
-  // The folder must be there. Error cannot_create: another process makes some of the same videos.
+  // The folder must be there. Error cannot_create: another process makes some of the same videos, or what has the
+  // workshop's name is nothing that a dataset made, and is left alone.
   [[nodiscard]] static Result<Claim> take(const std::filesystem::path& dataset, const Shard& shard);
 
-  Claim(Claim&& other) noexcept;
+  Claim(Claim&& other) noexcept = default;
   Claim& operator=(Claim&&) = delete;
   ~Claim();  // the workshop goes with its last claim, where it is empty
 
  private:
-  Claim(std::filesystem::path file, int lock);
+  Claim(std::filesystem::path file, Descriptor lock);
   std::filesystem::path file_;
-  int lock_ = -1;
+  Descriptor lock_;
 };
 
 }  // namespace sigs

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/flush.h"
 #include "base/partial_file.h"
+#include "base/renaming.h"
 #include "dataset/checksum.h"
 #include "dataset/claim.h"
-#include "dataset/flush.h"
 #include "dataset/json_text.h"
 #include "dataset/merge_labels.h"
 #include "dataset/shared_files.h"
@@ -48,6 +49,17 @@ Result<void> put_in_place(const fs::path& dataset, const std::string& name) {
   else if (!code)
     fs::rename(made, dataset / name, code);
   if (code) return fail((dataset / name).string(), "cannot be written: " + code.message(), ErrorKind::write_failed);
+  return {};
+}
+
+// A file of the dataset's own, whose place is free: it appears there when it is on the disk.
+Result<void> write_own(const fs::path& dataset, const std::string& name, const std::string& text) {
+  const Result<fs::path> room = begun(dataset, "new");
+  if (!room) return fail(room.error());
+  if (const Result<void> step = write_text(*room / name, text, false); !step) return step;
+  std::error_code code = rename_new(*room / name, dataset / name);
+  if (code) return fail((dataset / name).string(), "cannot be written: " + code.message(), ErrorKind::write_failed);
+  fs::remove(*room, code);
   return {};
 }
 
@@ -145,12 +157,11 @@ Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, c
   index["shared_files"] = described(*shared, "");
   index["checksum"] = checksum_of_text(checksums);
   Result<void> step = check_shared_files(dataset);  // making them took its time
-  if (step) step = write_text(dataset / kChecksumsName, checksums, true);
-  if (step) step = flush(dataset / kChecksumsName);
+  if (step) step = write_own(dataset, kChecksumsName, checksums);
+  if (step) step = flush(dataset);
   for (const char* const name : kSharedFolders)
     if (step) step = put_in_place(dataset, name);
-  if (step) step = write_text(dataset / kIndexName, json_text(index), true);
-  if (step) step = flush(dataset / kIndexName);
+  if (step) step = write_own(dataset, kIndexName, json_text(index));
   if (step) step = flush(dataset);
   if (!step) return fail(step.error());
   DatasetIndex made{.written = {dataset / kIndexName, dataset / kChecksumsName}, .checksum = index["checksum"]};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/guarded.h"
+#include "base/staging_folder.h"
 #include "base/stopwatch.h"
 #include "dataset/fingerprint.h"
 #include "dataset/merge_labels.h"
@@ -114,6 +115,7 @@ std::string Run::outdated(const Task& task, const VideoEntry& entry) {
 
 void Run::look_at(Task& task) {
   if (is_cancelled()) return;
+  remove_abandoned_staging(task.folder.path());  // of notes that a killed run was writing
   const PlannedVideo& video = *task.folder.video;
   Result<std::string> planned = fingerprint_of(video.project, request_.source.program, inputs_);
   if (!planned) {

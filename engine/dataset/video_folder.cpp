@@ -6,9 +6,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/flush.h"
 #include "base/partial_file.h"
+#include "base/renaming.h"
 #include "dataset/claim.h"
-#include "dataset/flush.h"
 #include "export.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -89,18 +90,39 @@ Result<void> finish(const fs::path& part, const VideoFolder& folder, const Video
   return step ? flush(part) : step;
 }
 
-// An older folder steps aside first, so that no moment shows half of it.
-Result<void> put_in_place(const fs::path& part, const VideoFolder& folder) {
+// Why what lies at a place may not be replaced by the video; empty: it may.
+std::string wrong_in(const fs::path& place, const PlannedVideo& video) {
+  const Result<VideoEntry> entry = read_entry(place / kEntryName);
+  if (!entry) return "is there and no video that sigs dataset made; move it away or choose another --out";
+  const std::optional<std::string> stranger = stranger_in(place, *entry, uncounted(video));
+  if (stranger) return "is made anew, but holds " + *stranger + ", which sigs dataset did not write; move that away";
+  return "";
+}
+
+Error not_placed(const VideoFolder& folder, const std::error_code& code) {
+  return {folder.path().string(), "cannot be given its final name: " + code.message(), ErrorKind::write_failed};
+}
+
+// The older folder lies aside until it was looked at once more: somebody may have put something into it meanwhile.
+Result<void> replace(const fs::path& part, const VideoFolder& folder) {
+  const fs::path room = workshop_of(folder.dataset) / "old" / folder.video->name;
+  if (const Result<void> step = make_empty(room); !step) return step;
+  const fs::path aside = room / folder.video->name;
+  if (const std::error_code code = replace_keeping(part, folder.path(), aside); code)
+    return fail(not_placed(folder, code));
+  const std::string wrong = wrong_in(aside, *folder.video);
   std::error_code code;
-  const fs::path old = workshop_of(folder.dataset) / "old" / folder.video->name;
-  if (fs::exists(folder.path(), code)) {
-    if (const Result<void> step = make_empty(old); !step) return step;
-    fs::rename(folder.path(), old, code);
-  }
-  if (!code) fs::rename(part, folder.path(), code);
+  if (!wrong.empty()) code = replace_keeping(aside, folder.path(), part);
+  if (code) return fail(aside.string(), "cannot be put back: " + code.message(), ErrorKind::write_failed);
+  fs::remove_all(room, code);
+  return wrong.empty() ? Result<void>() : fail(folder.path().string(), wrong, ErrorKind::cannot_create);
+}
+
+Result<void> put_in_place(const fs::path& part, const VideoFolder& folder) {
+  const std::error_code code = rename_new(part, folder.path());
+  if (code && code != std::errc::file_exists) return fail(not_placed(folder, code));
   if (code)
-    return fail(folder.path().string(), "cannot be given its final name: " + code.message(), ErrorKind::write_failed);
-  fs::remove_all(old, code);
+    if (const Result<void> step = replace(part, folder); !step) return step;
   return flush(folder.dataset);
 }
 
@@ -126,12 +148,7 @@ Result<void> update_notes(const VideoFolder& folder, const VideoEntry& entry) {
 
 std::string not_replaceable(const VideoFolder& folder) {
   std::error_code code;
-  if (!fs::exists(folder.path(), code)) return "";
-  const Result<VideoEntry> entry = read_entry(folder.path() / kEntryName);
-  if (!entry) return "is there and no video that sigs dataset made; move it away or choose another --out";
-  const std::optional<std::string> stranger = stranger_in(folder.path(), *entry, uncounted(*folder.video));
-  if (stranger) return "is made anew, but holds " + *stranger + ", which sigs dataset did not write; move that away";
-  return "";
+  return fs::exists(fs::symlink_status(folder.path(), code)) ? wrong_in(folder.path(), *folder.video) : "";
 }
 
 Result<VideoEntry> make_video(const VideoFolder& folder, const VideoExport& request) {

@@ -6,11 +6,12 @@
 #include <optional>
 #include <string_view>
 
+#include "base/file_name.h"
+
 namespace sigs {
 
 namespace {
 
-constexpr std::size_t kLongestName = 200;  // bytes; endings go behind it, and file systems take 255
 constexpr std::array<std::string_view, 4> kParts{"background", "aircraft", "flight", "number"};
 constexpr std::array<std::string_view, 5> kOwnNames{"labels", "splits", "index.json", "sha256sums", "entry"};  // folded
 
@@ -54,14 +55,7 @@ std::string wrong_with_pattern(const std::string& pattern) {
 }
 
 std::string wrong_with_name(const std::string& name) {
-  if (name.empty()) return "is empty; it becomes a file's name";
-  if (name.size() > kLongestName) return "is longer than 200 bytes; it becomes a file's name";
-  const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
-    return c != '/' && c != 0x7f && (c < 0 || static_cast<unsigned char>(c) >= 0x20);
-  });
-  if (name.front() == '.' || !is_plain)
-    return "becomes a file's name: it may hold no / and no control character and not begin with a dot";
-  return {};
+  return wrong_with_file_name(name);
 }
 
 std::string wrong_with_video_name(const std::string& name) {

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/file_name.h"
 #include "project/fields.h"
 
 namespace sigs {
@@ -63,8 +64,8 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
 }
 
 void check_name(const Project& project, Problems& problems) {
-  if (project.name.find('/') != std::string::npos || project.name.starts_with('.'))
-    problems.push_back({"name", "names the output files: it may hold no / and not begin with a dot"});
+  if (project.name.empty()) return;  // a required field, told as such
+  if (const std::string wrong = wrong_with_file_name(project.name); !wrong.empty()) problems.push_back({"name", wrong});
 }
 
 bool is_axis(std::string_view text) {

@@ -11,9 +11,18 @@
 namespace sigs::test {
 
 Run run_sigs(const std::string& arguments) {
+  return run_sigs_after("", arguments);
+}
+
+Run run_sigs_on(const std::string& oddity, const std::string& arguments) {
+  const std::string library = (build_dir() / "sigs_odd_file_system.so").string();
+  return run_sigs_after(oddity + " LD_PRELOAD=" + library, arguments);
+}
+
+Run run_sigs_after(const std::string& before, const std::string& arguments) {
   const TemporaryFolder folder;
-  const std::string command = (build_dir() / "sigs").string() + " " + arguments + " >" + (folder / "out").string() +
-                              " 2>" + (folder / "err").string();
+  const std::string command = before + " " + (build_dir() / "sigs").string() + " " + arguments + " >" +
+                              (folder / "out").string() + " 2>" + (folder / "err").string();
   const int status = std::system(command.c_str());
   return {.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           .out = read_text(folder / "out").value(),

@@ -65,7 +65,14 @@ TEST_CASE("a second export of the same name is refused while the first one write
   const std::string first = (build_dir() / "sigs").string() + " export " + tiny.project() + " --method classic --out " +
                             tiny.out() + " >/dev/null 2>&1 &";
   REQUIRE(std::system(first.c_str()) == 0);
-  while (tiny.files_out() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto has_begun = [&] {  // the last of its outputs lies in its staging folder
+    std::error_code code;
+    for (std::filesystem::recursive_directory_iterator it(tiny.out(), code), end; !code && it != end;
+         it.increment(code))
+      if (it->path().filename() == "tiny.xml") return true;
+    return false;
+  };
+  while (!has_begun()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const Run second = run_sigs("export " + tiny.project() + " --frames 0-3 --out " + tiny.out());
   CHECK(second.status == 73);
   CHECK_MESSAGE(has(second.err, "is being written by another process"), second.err);

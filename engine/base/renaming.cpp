@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "base/renaming.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::error_code code_of(int result) {
+  return result == 0 ? std::error_code() : std::error_code(errno, std::generic_category());
+}
+
+// What file systems say that do not have the flag, and kernels that do not have the call.
+bool is_unknown_here(const std::error_code& code) {
+  return code == std::errc::invalid_argument || code == std::errc::function_not_supported ||
+         code == std::errc::operation_not_supported;
+}
+
+std::error_code renamed(const fs::path& from, const fs::path& to, unsigned int flags) {
+  return code_of(renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags));
+}
+
+bool is_real_folder(const fs::path& path) {
+  std::error_code code;
+  return fs::symlink_status(path, code).type() == fs::file_type::directory;
+}
+
+std::error_code move_aside_and_replace(const fs::path& from, const fs::path& to, const fs::path& aside) {
+  if (const std::error_code code = rename_new(to, aside); code) return code;
+  const std::error_code code = rename_new(from, to);
+  if (!code) return {};
+  return rename_new(aside, to) ? std::make_error_code(std::errc::state_not_recoverable) : code;
+}
+
+}  // namespace
+
+std::error_code rename_new(const fs::path& from, const fs::path& to) {
+  const std::error_code code = renamed(from, to, RENAME_NOREPLACE);
+  if (!is_unknown_here(code)) return code;
+  struct stat there {};
+  if (lstat(to.c_str(), &there) == 0) return std::make_error_code(std::errc::file_exists);
+  if (!is_real_folder(from)) {
+    const std::error_code linked = code_of(link(from.c_str(), to.c_str()));
+    if (linked == std::errc::file_exists) return linked;
+    if (!linked) return code_of(unlink(from.c_str()));
+  }
+  return code_of(rename(from.c_str(), to.c_str()));  // a folder: refused where one with something in it has the name
+}
+
+std::error_code replace_keeping(const fs::path& from, const fs::path& to, const fs::path& aside) {
+  const std::error_code code = renamed(from, to, RENAME_EXCHANGE);
+  if (!code) {
+    const std::error_code moved = rename_new(from, aside);
+    return moved && renamed(from, to, RENAME_EXCHANGE) ? std::make_error_code(std::errc::state_not_recoverable) : moved;
+  }
+  if (!is_unknown_here(code)) return code;
+  const bool are_files = !is_real_folder(from) && !is_real_folder(to);
+  if (!are_files || link(to.c_str(), aside.c_str()) != 0) return move_aside_and_replace(from, to, aside);
+  const std::error_code replaced = code_of(rename(from.c_str(), to.c_str()));  // the older file has a second name
+  if (replaced) unlink(aside.c_str());
+  return replaced;
+}
+
+}  // namespace sigs

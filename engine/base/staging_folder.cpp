@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "base/staging_folder.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/file_lock.h"
+#include "base/folder_contents.h"
+#include "base/renaming.h"
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kBeginning = ".sigs-";
+constexpr std::string_view kPattern = "XXXXXX";
+
+Error not_created(const fs::path& folder) {
+  const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
+  return {folder.string(), std::string("cannot be written into: ") + std::strerror(errno),
+          is_full ? ErrorKind::write_failed : ErrorKind::cannot_create};
+}
+
+// A lock says nothing of runs on other machines where the file system keeps locks to each machine.
+std::string lock_text() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return std::string("SIGS staging folder; it goes when its run ends\nhost ") + host.data() + "\n";
+}
+
+bool is_staging_name(const std::string& name) {
+  return name.size() == kBeginning.size() + kPattern.size() && name.starts_with(kBeginning);
+}
+
+std::vector<fs::path> staging_folders_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code code;
+  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
+    if (is_staging_name(it->path().filename().string())) found.push_back(it->path());
+  return found;
+}
+
+bool is_private_folder(const fs::path& path) {
+  struct stat state {};
+  return lstat(path.c_str(), &state) == 0 && S_ISDIR(state.st_mode) && state.st_uid == geteuid() &&
+         (state.st_mode & 0777) == 0700;
+}
+
+// Not open: it is no staging folder of this user and machine.
+Descriptor opened_lock(const fs::path& staging) {
+  if (!is_private_folder(staging)) return {};
+  Descriptor lock = open_for_lock(staging / "lock", LockFile::must_be_there);
+  if (!lock.is_open()) return lock;
+  const std::string expected = lock_text();
+  std::string text(expected.size() + 1, '\0');
+  const ssize_t read = pread(lock.number(), text.data(), text.size(), 0);
+  if (read != static_cast<ssize_t>(expected.size()) || !text.starts_with(expected)) return {};
+  return lock;
+}
+
+// Opens one folder at a time, however deep they lie.
+void remove_tree(const fs::path& path) {
+  if (unlink(path.c_str()) == 0) return;
+  struct stat state {};
+  if (lstat(path.c_str(), &state) != 0 || !S_ISDIR(state.st_mode)) return;
+  if (const Result<std::vector<fs::path>> inside = folder_contents(path))
+    for (const fs::path& one : *inside) remove_tree(one);
+  rmdir(path.c_str());
+}
+
+// The lock goes last: a removal that is killed can be gone on with.
+void remove_staging(const fs::path& staging) {
+  remove_tree(staging / "new");
+  remove_tree(staging / "old");
+  unlink((staging / "lock").c_str());
+  rmdir(staging.c_str());
+}
+
+// Where a run was killed between moving the older one aside and giving its name to the newer one.
+bool put_back_older(const fs::path& staging) {
+  std::error_code code;
+  if (!fs::exists(fs::symlink_status(staging / "old", code))) return true;
+  const Result<std::vector<fs::path>> older = folder_contents(staging / "old");
+  if (!older) return false;
+  for (const fs::path& one : *older)
+    if (code = rename_new(one, staging.parent_path() / one.filename()); code && code != std::errc::file_exists)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+void remove_abandoned_staging(const fs::path& folder) {
+  for (const fs::path& staging : staging_folders_in(folder)) {
+    const Descriptor lock = opened_lock(staging);
+    if (!lock.is_open() || try_lock(lock) != LockAnswer::held || !is_named(lock, staging / "lock")) continue;
+    if (put_back_older(staging)) remove_staging(staging);
+  }
+}
+
+Result<StagingFolder> StagingFolder::create(const fs::path& folder) {
+  remove_abandoned_staging(folder);
+  Descriptor spare(open("/", O_PATH | O_CLOEXEC));
+  if (!spare.is_open()) return fail(not_created(folder));
+  std::string path = (folder / std::string(kBeginning).append(kPattern)).string();
+  if (mkdtemp(path.data()) == nullptr) return fail(not_created(folder));
+  StagingFolder staging(folder, path, std::move(spare));
+  if (const Result<void> begun = staging.begin(); !begun) return fail(begun.error());
+  return staging;
+}
+
+StagingFolder::StagingFolder(fs::path folder, fs::path path, Descriptor spare)
+    : folder_(std::move(folder)), path_(std::move(path)), spare_(std::move(spare)) {}
+
+StagingFolder::StagingFolder(StagingFolder&& other) noexcept
+    : folder_(std::move(other.folder_)),
+      path_(std::exchange(other.path_, {})),
+      stays_(other.stays_),
+      lock_(std::move(other.lock_)),
+      spare_(std::move(other.spare_)) {}
+
+StagingFolder::~StagingFolder() {
+  remove();
+}
+
+// Until the lock file has its text nobody takes the folder for an abandoned one.
+Result<void> StagingFolder::begin() {
+  constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  lock_ = Descriptor(open((path_ / "lock").c_str(), kFlags, 0600));
+  if (!lock_.is_open()) return fail(not_created(folder_));
+  static_cast<void>(try_lock(lock_));  // without locks, others leave it alone
+  const std::string text = lock_text();
+  if (write(lock_.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
+      mkdir((path_ / "new").c_str(), 0700) != 0 || mkdir((path_ / "old").c_str(), 0700) != 0)
+    return fail(not_created(folder_));
+  return {};
+}
+
+bool StagingFolder::is_begun_elsewhere(const fs::path& name) const {
+  for (const fs::path& other : staging_folders_in(folder_)) {
+    if (other == path_) continue;
+    std::error_code code;
+    const Descriptor lock = open_for_lock(other / "lock", LockFile::must_be_there);
+    if (lock.is_open() && is_locked_by_another(lock) && fs::exists(fs::symlink_status(other / "new" / name, code)))
+      return true;
+  }
+  return false;
+}
+
+void StagingFolder::leave_on_disk() noexcept {
+  stays_ = true;
+  unlink((path_ / "lock").c_str());
+}
+
+void StagingFolder::remove() noexcept {
+  if (path_.empty() || stays_) return;
+  spare_.reset();
+  try {
+    remove_staging(path_);
+  } catch (const std::exception&) {  // no memory even for its names: the next run removes it
+  }
+}
+
+}  // namespace sigs
