@@ -30,7 +30,7 @@ struct LayerRow {
   int left;
   const TransferTable& curve;
 
-  [[nodiscard]] bool changes(int x) const { return colors[x - left][3] > 0; }
+  [[nodiscard]] float opacity(int x) const { return colors[x - left][3]; }
 
   [[nodiscard]] cv::Vec3f over(int x, const cv::Vec3f& below) const {
     const cv::Vec4f& color = colors[x - left];
@@ -54,10 +54,10 @@ struct LayerPixels {
 std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   if (layer.empty()) return 0;
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
-  PixelBlocks blocks(frame);
+  PlaneWriter planes(frame);
   const TransferTable& curve = transfer_table();
-  return space == BlendSpace::linear ? blocks.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{layer, curve})
-                                     : blocks.rewrite(layer.rect, LayerPixels<BlendSpace::display>{layer, curve});
+  return space == BlendSpace::linear ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{layer, curve})
+                                     : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{layer, curve});
 }
 
 }  // namespace sigs

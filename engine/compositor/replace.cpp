@@ -13,7 +13,7 @@ struct MixedRow {
   const float* weights;
   int left;
 
-  [[nodiscard]] bool changes(int x) const { return weights[x - left] > 0; }
+  [[nodiscard]] float opacity(int x) const { return weights[x - left]; }
 
   [[nodiscard]] cv::Vec3f over(int x, const cv::Vec3f& below) const {
     const cv::Vec3b& pixel = bgr[x - left];
@@ -39,7 +39,7 @@ std::int64_t replace_pixels(Frame& frame, const cv::Rect& rect, const cv::Mat& b
   ENSURE((rect & cv::Rect({0, 0}, frame.size_px())) == rect);
   ENSURE(bgr.type() == CV_8UC3 && bgr.size() == rect.size());
   ENSURE(weight.type() == CV_32FC1 && weight.size() == rect.size());
-  return PixelBlocks(frame).rewrite(rect, MixedPixels{rect, bgr, weight});
+  return PlaneWriter(frame).rewrite(rect, MixedPixels{rect, bgr, weight});
 }
 
 std::int64_t replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight) {

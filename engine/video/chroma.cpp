@@ -63,6 +63,25 @@ std::vector<ChromaTap> chroma_taps(int luma_size, int step, bool on_luma) {
   return taps;
 }
 
+std::vector<ChromaShare> chroma_shares(int luma_size, int step, bool on_luma) {
+  std::vector<ChromaShare> shares(static_cast<size_t>(luma_size));
+  const int last = luma_size - 1;
+  for (int i = 0; i <= last; ++i) {
+    ChromaShare& share = shares[static_cast<size_t>(i)];
+    const bool is_even = i % 2 == 0;
+    // Beyond the edge the outermost luma sample stands in, with the weight of what is missing there.
+    if (step == 1)
+      share = {i, 1, 0};
+    else if (!on_luma)
+      share = {i / 2, is_even && i == last ? 1.0F : 0.5F, 0};
+    else if (is_even)
+      share = {i / 2, 0.5F + (i == 0 ? 0.25F : 0) + (i == last ? 0.25F : 0), 0};
+    else
+      share = {i / 2, 0.25F, i < last ? 0.25F : 0};
+  }
+  return shares;
+}
+
 cv::Mat shrunk_chroma(const cv::Mat& full, PixelLayout layout, ChromaSite site) {
   const cv::Size step = chroma_step(layout);
   cv::Mat chroma = full;

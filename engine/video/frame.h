@@ -15,9 +15,12 @@ enum class PixelLayout {
   rgb,  // planes red, green, blue, full range
 };
 
-enum class ColorRange { limited, full };           // luma 16..235 or 0..255
-enum class ColorMatrix { bt601, bt709, bt2020 };   // Y'CbCr coefficients; bt2020 is the non-constant-luminance one
-enum class ChromaSite { left, center, top_left };  // of 4:2:0: where a chroma sample sits among its four luma samples
+enum class ColorRange { limited, full };          // luma 16..235 or 0..255
+enum class ColorMatrix { bt601, bt709, bt2020 };  // Y'CbCr coefficients; bt2020 is the non-constant-luminance one
+
+// Where a chroma sample sits among its luma samples: of 4:2:0 on a column, midway between two rows; midway both ways;
+// on a pixel. Of 4:2:2 on a column; midway between two; on a column.
+enum class ChromaSite { left, center, top_left };
 
 // What the samples mean. Carried from the footage to the output unchanged.
 struct ColorInfo {
@@ -62,8 +65,8 @@ struct CodeToRgb {
 };
 [[nodiscard]] CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color);
 
-// Whole pictures as 8-bit BGR (OpenCV's order), chroma read at its own site (bilinear), and back (chroma averaged).
-// For showing, for PNG files and for the classic method; the direct method never converts a whole picture.
+// Whole pictures as 8-bit BGR (OpenCV's order), chroma read at its own site (bilinear), and back (chroma averaged at
+// its site). For showing, for PNG files and for the classic method; the direct method never converts a whole picture.
 [[nodiscard]] cv::Mat bgr_of(const Frame& frame);
 [[nodiscard]] Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color);
 

@@ -45,13 +45,12 @@ TEST_CASE("samples that a layer does not cover keep their bits in every layout")
       blend_over(frame, layer, space);
       int changed = 0;
       for (int plane = 0; plane < frame.plane_count(); ++plane) {
-        const cv::Size step = plane == 0 ? cv::Size(1, 1) : sort.step;
         const cv::Mat& old_plane = before.planes[static_cast<std::size_t>(plane)];
         const cv::Mat& new_plane = frame.planes[static_cast<std::size_t>(plane)];
         for (int y = 0; y < old_plane.rows; ++y)
           for (int x = 0; x < old_plane.cols; ++x) {
             const bool same = old_plane.at<uchar>(y, x) == new_plane.at<uchar>(y, x);
-            if (is_covered(layer, x, y, step))
+            if (is_covered(layer, x, y, plane, sort, {37, 23}))
               changed += same ? 0 : 1;
             else
               REQUIRE(same);
@@ -147,48 +146,51 @@ TEST_CASE("more opacity never takes a step back") {
   }
 }
 
-TEST_CASE("the chroma of a block moves by the share of its pixels that are covered") {
+TEST_CASE("a chroma sample moves by the weight of the pixels that are covered") {
   for (const Sort& sort : all_sorts()) {
     if (sort.step.area() == 1) continue;
     CAPTURE(sort.name);
     const cv::Vec3d red = codes_of(sort, {1, 0, 0});
-    const int pixels = sort.step.area();
-    for (int covered = 1; covered <= pixels; ++covered) {
+    for (const cv::Point& pixel : {cv::Point(4, 4), cv::Point(5, 4), cv::Point(4, 5), cv::Point(5, 5)}) {
+      CAPTURE(pixel);
       Frame frame = even(sort, {8, 8}, 100);
-      Layer layer = opaque({4, 4, sort.step.width, sort.step.height}, {0, 0, 0}, 0);
-      for (int i = 0; i < covered; ++i)
-        layer.color.at<cv::Vec4f>(i / sort.step.width, i % sort.step.width) = {1, 0, 0, 1};
-      blend_over(frame, layer, BlendSpace::linear);
+      blend_over(frame, opaque({pixel, cv::Size(1, 1)}, {1, 0, 0}), BlendSpace::linear);
       for (int plane = 1; plane < 3; ++plane) {
-        const double wanted = 128 + (red[plane] - 128) * covered / pixels;
-        const int code =
-            frame.planes[static_cast<std::size_t>(plane)].at<uchar>(4 / sort.step.height, 4 / sort.step.width);
-        CHECK(std::abs(code - wanted) < 0.501);
-        CHECK(frame.planes[static_cast<std::size_t>(plane)].at<uchar>(0, 0) == 128);
+        const cv::Mat& codes = frame.planes[static_cast<std::size_t>(plane)];
+        for (int y = 0; y < codes.rows; ++y)
+          for (int x = 0; x < codes.cols; ++x) {
+            double weight = 0;
+            for (const Share& down : shares_down(sort, y, 8))
+              for (const Share& across : shares_across(sort, x, 8))
+                if (cv::Point(across.pixel, down.pixel) == pixel) weight += across.weight * down.weight;
+            CHECK(std::abs(codes.at<uchar>(y, x) - (128 + (red[plane] - 128) * weight)) < 0.501);
+          }
       }
     }
   }
 }
 
-TEST_CASE("a block cut by the edge of an odd picture takes the whole colour") {
+TEST_CASE("at the edges of an odd picture a chroma sample takes the weight of the pixels beyond") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     const cv::Size size(7, 5);
     for (const cv::Point corner : {cv::Point(0, 0), cv::Point(6, 0), cv::Point(0, 4), cv::Point(6, 4)}) {
+      CAPTURE(corner);
       Frame frame = even(sort, size, 80);
       blend_over(frame, opaque({corner, cv::Size(1, 1)}, {0, 0, 1}), BlendSpace::linear);
       const cv::Vec3d blue = codes_of(sort, {0, 0, 1});
       CHECK(std::abs(frame.planes[0].at<uchar>(corner) - blue[0]) < 0.501);
       if (frame.plane_count() == 1) continue;
-      // How many pixels of the picture lie in the corner's block.
-      const int wide =
-          corner.x == 6 ? (7 % sort.step.width == 0 ? sort.step.width : 7 % sort.step.width) : sort.step.width;
-      const int high =
-          corner.y == 4 ? (5 % sort.step.height == 0 ? sort.step.height : 5 % sort.step.height) : sort.step.height;
+      // Lying on the corner: a half and the quarter beyond. Between it and the next: a half, or all where there is
+      // none.
+      const bool is_last_column = corner.x == 6;
+      const bool is_last_row = corner.y == 4;
+      const double wide = sort.step.width == 1 ? 1 : sort.site != ChromaSite::center ? 0.75 : is_last_column ? 1 : 0.5;
+      const double high = sort.step.height == 1 ? 1 : sort.site == ChromaSite::top_left ? 0.75 : is_last_row ? 1 : 0.5;
       const bool is_rgb = sort.layout == PixelLayout::rgb;
       for (int plane = 1; plane < 3; ++plane) {
         const double old_code = is_rgb ? 80 : 128;
-        const double wanted = old_code + (blue[plane] - old_code) / (wide * high);
+        const double wanted = old_code + (blue[plane] - old_code) * wide * high;
         const int code = frame.planes[static_cast<std::size_t>(plane)].at<uchar>(corner.y / sort.step.height,
                                                                                  corner.x / sort.step.width);
         CHECK(std::abs(code - std::min(wanted, 255.0)) < 0.501);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/made_frames.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sigs::test {
@@ -17,7 +18,16 @@ Frame frame_of(const Sort& sort) {
   Frame frame{.layout = sort.layout, .time_s = 1.25};
   frame.color.range = sort.is_limited ? ColorRange::limited : ColorRange::full;
   frame.color.matrix = sort.matrix;
+  frame.color.chroma_site = sort.site;
   return frame;
+}
+
+std::vector<Share> shares(int step, bool on_pixel, int chroma, int pixels) {
+  if (step == 1) return {{chroma, 1}};
+  std::vector<Share> taps{{2 * chroma, 0.5}, {2 * chroma + 1, 0.5}};
+  if (on_pixel) taps = {{2 * chroma - 1, 0.25}, {2 * chroma, 0.5}, {2 * chroma + 1, 0.25}};
+  for (Share& tap : taps) tap.pixel = std::clamp(tap.pixel, 0, pixels - 1);
+  return taps;
 }
 
 }  // namespace
@@ -27,10 +37,14 @@ std::vector<Sort> all_sorts() {
     const char* name;
     PixelLayout layout;
     cv::Size step;
+    ChromaSite site = ChromaSite::left;
   };
   const Named layouts[] = {{"gray", PixelLayout::gray, {1, 1}},
-                           {"4:2:0", PixelLayout::yuv420, {2, 2}},
-                           {"4:2:2", PixelLayout::yuv422, {2, 1}},
+                           {"4:2:0 left", PixelLayout::yuv420, {2, 2}},
+                           {"4:2:0 center", PixelLayout::yuv420, {2, 2}, ChromaSite::center},
+                           {"4:2:0 top left", PixelLayout::yuv420, {2, 2}, ChromaSite::top_left},
+                           {"4:2:2 left", PixelLayout::yuv422, {2, 1}},
+                           {"4:2:2 center", PixelLayout::yuv422, {2, 1}, ChromaSite::center},
                            {"4:4:4", PixelLayout::yuv444, {1, 1}}};
   const std::pair<const char*, ColorMatrix> matrices[] = {
       {"BT.601", ColorMatrix::bt601}, {"BT.709", ColorMatrix::bt709}, {"BT.2020", ColorMatrix::bt2020}};
@@ -39,7 +53,7 @@ std::vector<Sort> all_sorts() {
     for (const auto& [name, matrix] : matrices)
       for (const bool is_limited : {true, false})
         sorts.push_back({std::string(layout.name) + " " + name + (is_limited ? " limited" : " full"), layout.layout,
-                         layout.step, is_limited, matrix});
+                         layout.step, is_limited, matrix, layout.site});
   sorts.push_back({"RGB", PixelLayout::rgb, {1, 1}, false, ColorMatrix::bt709});
   return sorts;
 }
@@ -85,11 +99,22 @@ cv::Vec3d codes_of(const Sort& sort, const cv::Vec3d& display) {
   return {255 * luma, 128 + 255 * cb, 128 + 255 * cr};
 }
 
-bool is_covered(const Layer& layer, int x, int y, cv::Size step) {
-  for (int j = y * step.height; j < (y + 1) * step.height; ++j)
-    for (int i = x * step.width; i < (x + 1) * step.width; ++i)
-      if (layer.rect.contains({i, j}) && layer.color.at<cv::Vec4f>(j - layer.rect.y, i - layer.rect.x)[3] > 0)
-        return true;
+std::vector<Share> shares_across(const Sort& sort, int chroma, int pixels) {
+  return shares(sort.step.width, sort.site != ChromaSite::center, chroma, pixels);
+}
+
+std::vector<Share> shares_down(const Sort& sort, int chroma, int pixels) {
+  return shares(sort.step.height, sort.site == ChromaSite::top_left, chroma, pixels);
+}
+
+bool is_covered(const Layer& layer, int x, int y, int plane, const Sort& sort, cv::Size size_px) {
+  const auto covers = [&](int i, int j) {
+    return layer.rect.contains({i, j}) && layer.color.at<cv::Vec4f>(j - layer.rect.y, i - layer.rect.x)[3] > 0;
+  };
+  if (plane == 0) return covers(x, y);
+  for (const Share& down : shares_down(sort, y, size_px.height))
+    for (const Share& across : shares_across(sort, x, size_px.width))
+      if (covers(across.pixel, down.pixel)) return true;
   return false;
 }
 

@@ -43,10 +43,11 @@ struct Count {
   long long kept_chroma = 0;
 };
 
-// A luma sample is free where its pixel's mask is 0; a chroma sample where those of all four of its pixels are.
+// A luma sample is free where its pixel's mask is 0; a chroma sample where those of all pixels are that it averages: of
+// 4:2:0 at the left, three columns and two rows.
 bool is_free(const cv::Mat& mask, int x, int y, int step) {
   for (int j = y * step; j < std::min((y + 1) * step, mask.rows); ++j)
-    for (int i = x * step; i < std::min((x + 1) * step, mask.cols); ++i)
+    for (int i = std::max(x * step - (step - 1), 0); i < std::min((x + 1) * step, mask.cols); ++i)
       if (mask.at<uchar>(j, i) != 0) return false;
   return true;
 }

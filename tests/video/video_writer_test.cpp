@@ -153,6 +153,19 @@ TEST_CASE("what the colours mean survives") {
         }
 }
 
+TEST_CASE("4:2:2 tells where its chroma lies too: motion JPEG midway, video at the left") {
+  const TemporaryFolder folder;
+  for (const auto& [codec, site] :
+       {std::pair{VideoCodec::mjpeg, ChromaSite::center}, std::pair{VideoCodec::ffv1, ChromaSite::center},
+        std::pair{VideoCodec::ffv1, ChromaSite::left}, std::pair{VideoCodec::h264, ChromaSite::left}}) {
+    CAPTURE(static_cast<int>(codec));
+    VideoFormat format = format_of(codec, Container::mkv, PixelLayout::yuv422, {64, 48});
+    format.color.chroma_site = site;
+    write_clip(folder / "a", format, 2);
+    CHECK(opened(folder / "a").info().color.chroma_site == site);
+  }
+}
+
 TEST_CASE("what the footage leaves open stays open") {
   for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264}) {
     const TemporaryFolder folder;

@@ -113,7 +113,8 @@ ColorReading color_of(const AVFrame& picture, AVCodecID codec, PixelLayout layou
   color.transfer = code_point(picture.color_trc);
   read_range(color, picture, codec, layout);
   reading.remark = layout == PixelLayout::rgb ? "" : read_matrix(color, picture);
-  const std::string site = layout == PixelLayout::yuv420 ? read_site(color, picture, codec) : "";
+  const bool shares_chroma = layout == PixelLayout::yuv420 || layout == PixelLayout::yuv422;
+  const std::string site = shares_chroma ? read_site(color, picture, codec) : "";
   if (!site.empty()) reading.remark += (reading.remark.empty() ? "" : "; ") + site;
   return reading;
 }
@@ -129,7 +130,9 @@ void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
   const bool full = color.range == ColorRange::full;
   if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
   if (color.matrix_stated) encoder.colorspace = space_of(color.matrix);
-  if (layout == PixelLayout::yuv420) encoder.chroma_sample_location = location_of(color.chroma_site);
+  // Of 4:2:2 the standards know one site, the left; what lies elsewhere must be said.
+  const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
+  if (layout == PixelLayout::yuv420 || is_odd_422) encoder.chroma_sample_location = location_of(color.chroma_site);
 }
 
 }  // namespace sigs::libav

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "compositor/shared_chroma.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sigs {
+
+namespace {
+
+// First chroma sample, and how many, in which the luma samples begin to end - 1 have weight.
+cv::Range chroma_range(const std::vector<ChromaShare>& shares, int begin, int end) {
+  const ChromaShare& last = shares[static_cast<size_t>(end - 1)];
+  return {shares[static_cast<size_t>(begin)].first, last.first + (last.in_next > 0 ? 2 : 1)};
+}
+
+uchar code_of(float value) {
+  return static_cast<uchar>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+}
+
+// What reading between samples and averaging again makes of a sample, along one axis: weights of the one before, of
+// itself and of the one after.
+using Averaging = std::array<float, 3>;
+
+std::vector<Averaging> averaging(const std::vector<ChromaTap>& taps, const std::vector<ChromaShare>& shares,
+                                 int count) {
+  std::vector<Averaging> all(static_cast<size_t>(count), {0, 0, 0});
+  const auto add = [&](int chroma, const ChromaTap& tap, float weight) {
+    if (weight == 0) return;
+    Averaging& weights = all[static_cast<size_t>(chroma)];
+    weights[static_cast<size_t>(tap.first - chroma + 1)] += weight * (1 - tap.share);
+    weights[static_cast<size_t>(tap.second - chroma + 1)] += weight * tap.share;
+  };
+  for (size_t i = 0; i < taps.size(); ++i) {
+    add(shares[i].first, taps[i], shares[i].in_first);
+    add(shares[i].first + 1, taps[i], shares[i].in_next);
+  }
+  return all;
+}
+
+// A copy of the window's samples and of one more on each side, as floats; the plane's edges repeated.
+cv::Mat with_border(const cv::Mat& plane, const cv::Rect& window) {
+  cv::Mat samples(window.height + 2, window.width + 2, CV_32FC1);
+  for (int y = 0; y < samples.rows; ++y) {
+    const uchar* const in = plane.ptr<uchar>(std::clamp(window.y + y - 1, 0, plane.rows - 1));
+    float* const out = samples.ptr<float>(y);
+    for (int x = 0; x < samples.cols; ++x) out[x] = in[std::clamp(window.x + x - 1, 0, plane.cols - 1)];
+  }
+  return samples;
+}
+
+}  // namespace
+
+SharedChroma::SharedChroma(Frame& frame, const cv::Rect& part) : frame_(frame) {
+  const cv::Size step = chroma_step(frame.layout);
+  const cv::Size size = frame.size_px();
+  const bool on_column = chroma_on_luma_column(frame.color.chroma_site);
+  const bool on_row = chroma_on_luma_row(frame.color.chroma_site);
+  column_taps_ = chroma_taps(size.width, step.width, on_column);
+  row_taps_ = chroma_taps(size.height, step.height, on_row);
+  column_shares_ = chroma_shares(size.width, step.width, on_column);
+  row_shares_ = chroma_shares(size.height, step.height, on_row);
+  const cv::Range across = chroma_range(column_shares_, part.x, part.br().x);
+  const cv::Range down = chroma_range(row_shares_, part.y, part.br().y);
+  window_ = {across.start, down.start, across.size(), down.size()};
+  sums_ = cv::Mat::zeros(window_.size(), CV_32FC3);
+  row_sums_.resize(static_cast<size_t>(window_.width) + 1);
+}
+
+void SharedChroma::start_row(int y, int begin, int end) {
+  row_ = y;
+  read_from_ = column_taps_[static_cast<size_t>(begin)].first;
+  const int count = column_taps_[static_cast<size_t>(end - 1)].second + 1 - read_from_;
+  read_row(frame_.planes[1], count, read_cb_);
+  read_row(frame_.planes[2], count, read_cr_);
+  std::fill(row_sums_.begin(), row_sums_.end(), cv::Vec3f(0, 0, 0));
+}
+
+void SharedChroma::read_row(const cv::Mat& plane, int count, std::vector<float>& samples) const {
+  const ChromaTap& tap = row_taps_[static_cast<size_t>(row_)];
+  const uchar* const first = plane.ptr<uchar>(tap.first) + read_from_;
+  const uchar* const second = plane.ptr<uchar>(tap.second) + read_from_;
+  samples.resize(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i)
+    samples[static_cast<size_t>(i)] =
+        static_cast<float>(first[i]) + tap.share * static_cast<float>(second[i] - first[i]);
+}
+
+void SharedChroma::finish_row() {
+  const ChromaShare& share = row_shares_[static_cast<size_t>(row_)];
+  add_row_sums(share.first, share.in_first);
+  if (share.in_next > 0) add_row_sums(share.first + 1, share.in_next);
+}
+
+void SharedChroma::add_row_sums(int chroma_row, float weight) {
+  cv::Vec3f* const sums = sums_.ptr<cv::Vec3f>(chroma_row - window_.y);
+  for (int i = 0; i < window_.width; ++i) sums[i] += weight * row_sums_[static_cast<size_t>(i)];
+}
+
+void SharedChroma::write() {
+  const std::vector<Averaging> across = averaging(column_taps_, column_shares_, frame_.planes[1].cols);
+  const std::vector<Averaging> down = averaging(row_taps_, row_shares_, frame_.planes[1].rows);
+  std::vector<float> mixed(static_cast<size_t>(window_.width) + 2);  // of three rows, by their weights
+  for (int channel = 0; channel < 2; ++channel) {
+    cv::Mat& plane = frame_.planes[static_cast<size_t>(channel) + 1];
+    const cv::Mat before = with_border(plane, window_);
+    for (int y = 0; y < window_.height; ++y) {
+      const float* const above = before.ptr<float>(y);
+      const float* const here = before.ptr<float>(y + 1);
+      const float* const below = before.ptr<float>(y + 2);
+      const Averaging& row_weights = down[static_cast<size_t>(window_.y + y)];
+      for (size_t i = 0; i < mixed.size(); ++i)
+        mixed[i] = row_weights[0] * above[i] + row_weights[1] * here[i] + row_weights[2] * below[i];
+      const cv::Vec3f* const sums = sums_.ptr<cv::Vec3f>(y);
+      uchar* const out = plane.ptr<uchar>(window_.y + y) + window_.x;
+      for (int x = 0; x < window_.width; ++x) {
+        if (!(sums[x][2] > 0)) continue;
+        const Averaging& weights = across[static_cast<size_t>(window_.x + x)];
+        const float* const near = &mixed[static_cast<size_t>(x)];
+        const float averaged = weights[0] * near[0] + weights[1] * near[1] + weights[2] * near[2];
+        const float code = here[x + 1];
+        out[x] = code_of(code + sums[x][channel] + sums[x][2] * (averaged - code));
+      }
+    }
+  }
+}
+
+}  // namespace sigs
