@@ -15,6 +15,8 @@
 #include "mesh/mesh.h"
 #include "project/json.h"
 #include "video/frame_source.h"
+#include "video/primaries.h"
+#include "video/transfer_function.h"
 
 namespace sigs::cli {
 
@@ -48,6 +50,31 @@ const char* name_of(ColorMatrix matrix) {
   return "";
 }
 
+const char* name_of(ChromaSite site) {
+  switch (site) {
+    case ChromaSite::left:
+      return "left";
+    case ChromaSite::center:
+      return "midway";
+    case ChromaSite::top_left:
+      return "top left";
+  }
+  return "";
+}
+
+// What the footage's curve is taken for, where its own name does not say it.
+const char* curve_of(int transfer) {
+  switch (transfer_function_of(transfer).value_or(TransferFunction::srgb)) {
+    case TransferFunction::srgb:
+      return " (sRGB's curve is used)";
+    case TransferFunction::pq:
+    case TransferFunction::hlg:
+      return " (an intruder's white is 203 cd/m2)";
+    default:
+      return "";
+  }
+}
+
 // To the end of the last frame, which lasts as long as the nominal rate says.
 double length_s(const VideoInfo& video) {
   const double last_s = video.times_s.empty() ? 0.0 : video.times_s.back();
@@ -63,6 +90,11 @@ void print_video(const VideoInfo& video) {
   std::printf("color: %s range%s, matrix %s%s\n", video.color.range == ColorRange::full ? "full" : "limited",
               video.color.range_stated ? "" : " (assumed)", name_of(video.color.matrix),
               video.color.matrix_stated ? "" : " (assumed)");
+  if (video.layout == PixelLayout::yuv420 || video.layout == PixelLayout::yuv422)
+    std::printf("chroma: %s\n", name_of(video.color.chroma_site));
+  std::printf("light: transfer %s%s, primaries %s%s\n", transfer_name(video.color.transfer).c_str(),
+              curve_of(video.color.transfer), primaries_name(video.color.primaries).c_str(),
+              video.color.primaries == 2 || !from_bt709(video.color.primaries) ? " (BT.709's are used)" : "");
   for (const Warning& warning : video.warnings) print_warning(warning);
 }
 

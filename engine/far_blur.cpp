@@ -15,9 +15,6 @@ constexpr double kCellsAcross = 64;           // of a silhouette, or more: its s
 constexpr double kCellsPerFocalLength = 16;   // or more: 4 degrees a cell, which a view can still show
 constexpr double kFarthestFocalLengths = 16;  // beyond the picture
 
-// Half a code value, by the steepest rise from linear light to display values: sRGB's at black.
-constexpr double kLeastLight = 0.5 / 255 / 12.92;
-
 // Of all views together: 20 bytes each as they are drawn.
 constexpr double kMostDrawnPixels = 8e6;
 constexpr int kSmallestLimit_px = 256;
@@ -78,9 +75,9 @@ std::vector<VirtualView> views_of_cells(const CellGrid& grid, LensTable& lens, c
 }
 
 Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views, LensTable& lens,
-                  double sigma_px) {
+                  double sigma_px, double least_light) {
   const Layer cells = views.empty() ? in_cells(sharp, grid.cell_px) : bent(views, lens, grid.cells);
-  if (most_after_blur(cells, grid.cell_px, sigma_px) < kLeastLight) return {};
+  if (most_after_blur(cells, grid.cell_px, sigma_px) < least_light) return {};
   Layer soft = blurred_from_cells(cells, grid.cell_px, sigma_px, grid.target);
   soft.coverage = coverage_over(grid.target, sharp);
   return soft;

@@ -33,7 +33,8 @@ struct CellGrid {
 //   sharp  the part within the picture, whose coverage is taken over
 //   views  for the grid's cells; none: `sharp` is the whole intruder and the cells are made of its pixels
 //   lens   of the coarse camera
+//   least_light  what changes no sample of the footage (video/transfer_function.h)
 [[nodiscard]] Layer far_blurred(const CellGrid& grid, const Layer& sharp, std::span<const DrawnView> views,
-                                LensTable& lens, double sigma_px);
+                                LensTable& lens, double sigma_px, double least_light);
 
 }  // namespace sigs

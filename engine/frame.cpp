@@ -67,7 +67,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   std::vector<SeenIntruder> seen;
   double draw_s = 0;
   for (const PlacedIntruder& placed : moment.intruders) {
-    Result<SeenIntruder> intruder = see_intruder(scene, moment, placed, bench);
+    Result<SeenIntruder> intruder = see_intruder(scene, moment, placed, bench, background.color);
     if (!intruder) return fail(intruder.error());
     draw_s += intruder->draw_s;
     seen.push_back(std::move(*intruder));

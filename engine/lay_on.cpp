@@ -13,9 +13,9 @@
 
 #include "base/image.h"
 #include "base/pose.h"
-#include "base/transfer.h"
 #include "compositor/blend.h"
 #include "compositor/classic.h"
+#include "compositor/footage_light.h"
 #include "compositor/hide.h"
 #include "compositor/replace.h"
 
@@ -39,21 +39,19 @@ void add_to_mask(cv::Mat& mask, cv::Size picture_size_px, const cv::Rect& rect, 
   }
 }
 
-// A layer as it looks before black, over the whole picture.
-cv::Mat shown(const Layer& layer, cv::Size picture_size_px) {
+// A layer as it looks before black, over the whole picture, in code values of the footage.
+cv::Mat shown(const Layer& layer, const ColorInfo& footage, cv::Size picture_size_px) {
   cv::Mat picture = cv::Mat::zeros(picture_size_px, CV_8UC3);
+  const cv::Mat colors = in_footage_primaries(layer.color, footage);
+  const TransferTable& curve = transfer_table_of(footage);
   const cv::Rect inside = layer.rect & cv::Rect({0, 0}, picture_size_px);
   for (int y = inside.y; y < inside.y + inside.height; ++y)
     for (int x = inside.x; x < inside.x + inside.width; ++x) {
-      const cv::Vec4f& color = layer.color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x);
+      const cv::Vec4f& color = colors.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x);
       for (int c = 0; c < 3; ++c)
-        picture.at<cv::Vec3b>(y, x)[2 - c] = cv::saturate_cast<uchar>(255.0F * display_of_linear(color[c]));
+        picture.at<cv::Vec3b>(y, x)[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.exact_display(color[c]));
     }
   return picture;
-}
-
-cv::Mat shown_view(const DrawnView& drawn) {
-  return shown(drawn.layer, drawn.view.size_px);
 }
 
 // "1_bent" for the intruder with id 1; plain "bent" where there is only one.
@@ -67,12 +65,14 @@ void lay_direct(ComposedFrame& composed, const Scene& scene, const SeenIntruder&
   add_to_mask(composed.mask, scene.footage.size_px, seen.soft.rect, seen.soft.color);
 }
 
-void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const SeenIntruder& seen) {
+void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const SeenIntruder& seen,
+                        const ColorInfo& footage) {
   const cv::Size size = scene.footage.size_px;
-  for (const DrawnView& view : seen.views) stages.push_back({stage_name("layer", seen, scene), shown_view(view)});
-  stages.push_back({stage_name("bent", seen, scene), shown(seen.sharp, size)});
-  stages.push_back({stage_name("blurred", seen, scene), shown(seen.blurred, size)});
-  stages.push_back({stage_name("hidden", seen, scene), shown(seen.soft, size)});
+  for (const auto& [view, layer] : seen.views)
+    stages.push_back({stage_name("layer", seen, scene), shown(layer, footage, view.size_px)});
+  stages.push_back({stage_name("bent", seen, scene), shown(seen.sharp, footage, size)});
+  stages.push_back({stage_name("blurred", seen, scene), shown(seen.blurred, footage, size)});
+  stages.push_back({stage_name("hidden", seen, scene), shown(seen.soft, footage, size)});
 }
 
 // What the own body leaves of the pixels of part that the classic methods changed: CV_32FC1, 0 where nothing is to
@@ -135,7 +135,7 @@ ClassicStages lay_classic(ComposedFrame& composed, const Scene& scene, const See
   const cv::Mat input1 = bgr_of(composed.picture);
   composed.work.pixels_converted += static_cast<std::int64_t>(input1.total());
   const Layer pinhole = pinhole_layer(scene, seen);
-  const cv::Mat input2 = on_green_screen(pinhole, scene.footage.size_px, buffers.input2);
+  const cv::Mat input2 = on_green_screen(pinhole, composed.picture.color, scene.footage.size_px, buffers.input2);
   const DistortMaps* maps = scene.compositing.method == MethodChoice::classic ? &bench.maps_of(scene.camera) : nullptr;
   ClassicStages stages = maps ? classic_stages(input1, input2, *maps, seen.sigma_px, std::move(buffers))
                               : plain_stages(input1, input2, std::move(buffers));
@@ -170,7 +170,7 @@ ComposedFrame laid_on(Frame background, const Scene& scene, const std::vector<Se
     if (seen.views.empty()) continue;
     if (direct) {
       if (!seen.soft.empty()) lay_direct(composed, scene, seen);
-      if (keep) keep_direct_stages(composed.stages, scene, seen);
+      if (keep) keep_direct_stages(composed.stages, scene, seen, composed.picture.color);
     } else {
       ClassicStages classic = lay_classic(composed, scene, seen, bench);
       if (keep)

@@ -14,6 +14,7 @@
 #include "compositor/blur.h"
 #include "compositor/hide.h"
 #include "far_blur.h"
+#include "video/transfer_function.h"
 
 namespace sigs {
 
@@ -127,14 +128,15 @@ void count_bending(Work& work, const SeenIntruder& seen, const Sitting& sitting,
 
 // Draws the views and makes the layers of them.
 Result<void> sit(SeenIntruder& seen, Sitting& sitting, LensTable& lens, const Sitter& sitter, const Scene& scene,
-                 Renderer& renderer) {
+                 const ColorInfo& footage, Renderer& renderer) {
   Result<std::vector<DrawnView>> drawn = drawn_in_time(seen.draw_s, sitting.views, sitter, renderer);
   if (!drawn) return fail(drawn.error());
   Result<std::vector<DrawnView>> drawn_for_cells = drawn_in_time(seen.draw_s, sitting.views_of_cells, sitter, renderer);
   if (!drawn_for_cells) return fail(drawn_for_cells.error());
   if (!drawn->empty()) seen.sharp = bent(*drawn, lens, sitting.reach);
   if (sitting.cells)
-    seen.blurred = far_blurred(*sitting.cells, seen.sharp, *drawn_for_cells, *sitting.lens_of_cells, seen.sigma_px);
+    seen.blurred = far_blurred(*sitting.cells, seen.sharp, *drawn_for_cells, *sitting.lens_of_cells, seen.sigma_px,
+                               least_light(transfer_function_of(footage.transfer).value_or(TransferFunction::srgb)));
   else
     seen.blurred = clipped(blurred(seen.sharp, needs_blur(scene) ? seen.sigma_px : 0), picture_of(scene));
   seen.soft = hidden_by_body(seen.blurred, scene.own_body);
@@ -169,7 +171,7 @@ Camera seeing_camera(const Scene& scene) {
 }
 
 Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                                  Bench& bench) {
+                                  Bench& bench, const ColorInfo& footage) {
   LensTable& lens = bench.lens_of(seeing_camera(scene));
   const std::int64_t evaluations_before = lens.evaluations();
   const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
@@ -193,7 +195,7 @@ Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
   const Result<Renderer*> renderer = bench.renderer();
   if (!renderer) return fail(renderer.error());
   const RenderWork drawn_before = (*renderer)->work();
-  const Result<void> sat = sit(seen, sitting, lens, sitter, scene, **renderer);
+  const Result<void> sat = sit(seen, sitting, lens, sitter, scene, footage, **renderer);
   if (!sat) return fail(sat.error());
   if (seen.silhouette && !seen.sharp.empty()) {
     const Result<double> area = whole_area_px(seen, lens, sitter, **renderer);

@@ -8,6 +8,7 @@
 #include "compositor/bend.h"
 #include "frame.h"
 #include "scene/scene_at.h"
+#include "video/frame.h"
 
 namespace sigs {
 
@@ -29,8 +30,10 @@ struct SeenIntruder {
 // The camera that the method has: the footage's, or for `plain`, which knows no lens, the pinhole with its matrix.
 [[nodiscard]] Camera seeing_camera(const Scene& scene);
 
+// footage: what the samples mean that it will be laid on; tells from when on it is too faint to change any
 [[nodiscard]] Result<SeenIntruder> see_intruder(const Scene& scene, const SceneMoment& moment,
-                                                const PlacedIntruder& placed, Bench& bench);
+                                                const PlacedIntruder& placed, Bench& bench,
+                                                const ColorInfo& footage = {});
 
 // The truth of every intruder, given far to near: nearer ones hide farther ones.
 //   mask  ComposedFrame::mask; what was not laid on the picture is not visible in it (the classic method cannot show

@@ -2,8 +2,8 @@
 #include "compositor/blend.h"
 
 #include "base/ensure.h"
+#include "compositor/footage_light.h"
 #include "compositor/plane_writer.h"
-#include "compositor/transfer_table.h"
 
 namespace sigs {
 
@@ -41,12 +41,11 @@ struct LayerRow {
 
 template <BlendSpace space>
 struct LayerPixels {
-  const Layer& layer;
+  const cv::Mat& color;  // in the footage's primaries
+  const cv::Rect& rect;
   const TransferTable& curve;
 
-  [[nodiscard]] LayerRow<space> row(int y) const {
-    return {layer.color.ptr<cv::Vec4f>(y - layer.rect.y), layer.rect.x, curve};
-  }
+  [[nodiscard]] LayerRow<space> row(int y) const { return {color.ptr<cv::Vec4f>(y - rect.y), rect.x, curve}; }
 };
 
 }  // namespace
@@ -55,9 +54,11 @@ std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   if (layer.empty()) return 0;
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
   PlaneWriter planes(frame);
-  const TransferTable& curve = transfer_table();
-  return space == BlendSpace::linear ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{layer, curve})
-                                     : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{layer, curve});
+  const cv::Mat color = in_footage_primaries(layer.color, frame.color);
+  const TransferTable& curve = transfer_table_of(frame.color);
+  return space == BlendSpace::linear
+             ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{color, layer.rect, curve})
+             : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{color, layer.rect, curve});
 }
 
 }  // namespace sigs

@@ -11,8 +11,8 @@
 
 #include "base/ensure.h"
 #include "base/pose.h"
-#include "base/transfer.h"
 #include "compositor/blur.h"
+#include "compositor/footage_light.h"
 #include "compositor/resample.h"
 
 namespace sigs {
@@ -21,15 +21,12 @@ namespace {
 
 const cv::Scalar kGreenBorder(0, 255, 0);
 
-uchar code_of_linear(float linear) {
-  return cv::saturate_cast<uchar>(255.0F * display_of_linear(std::clamp(linear, 0.0F, 1.0F)));
-}
-
 // An intruder that is pure green itself gives way by one code value, so that the key stays the backdrop's alone.
-cv::Vec3b keyed_color(const cv::Vec4f& premultiplied) {
+cv::Vec3b keyed_color(const cv::Vec4f& premultiplied, const TransferTable& curve) {
   const float opacity = std::max(premultiplied[3], 1e-6F);
-  const cv::Vec3b bgr(code_of_linear(premultiplied[2] / opacity), code_of_linear(premultiplied[1] / opacity),
-                      code_of_linear(premultiplied[0] / opacity));
+  cv::Vec3b bgr;
+  for (int c = 0; c < 3; ++c)
+    bgr[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.exact_display(std::max(premultiplied[c] / opacity, 0.0F)));
   return bgr == kKeyGreen ? cv::Vec3b(0, 254, 0) : bgr;
 }
 
@@ -115,14 +112,16 @@ cv::Mat widely_softened(const cv::Mat& picture, double sigma_px) {
 
 }  // namespace
 
-cv::Mat on_green_screen(const Layer& layer, cv::Size picture_size_px, cv::Mat buffer) {
+cv::Mat on_green_screen(const Layer& layer, const ColorInfo& color, cv::Size picture_size_px, cv::Mat buffer) {
+  const cv::Mat layer_color = in_footage_primaries(layer.color, color);
+  const TransferTable& curve = transfer_table_of(color);
   buffer.create(picture_size_px, CV_8UC3);
   buffer.setTo(kGreenBorder);
   const cv::Rect inside = layer.rect & cv::Rect({0, 0}, picture_size_px);
   for (int y = inside.y; y < inside.y + inside.height; ++y)
     for (int x = inside.x; x < inside.x + inside.width; ++x) {
       if (layer.coverage.at<float>(y - layer.rect.y, x - layer.rect.x) < 0.5F) continue;
-      buffer.at<cv::Vec3b>(y, x) = keyed_color(layer.color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x));
+      buffer.at<cv::Vec3b>(y, x) = keyed_color(layer_color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x), curve);
     }
   return buffer;
 }

@@ -5,6 +5,7 @@
 
 #include "base/layer.h"
 #include "camera/camera.h"
+#include "video/frame.h"
 
 namespace sigs {
 
@@ -16,7 +17,9 @@ inline const cv::Vec3b kKeyGreen{0, 255, 0};
 
 // Paper figure 2: the intruder before pure green. A pixel is the intruder's where its coverage is at least one half; it
 // then has the intruder's own colour, so that no green mixes into the edge. Written over buffer, where one is given.
-[[nodiscard]] cv::Mat on_green_screen(const Layer& layer, cv::Size picture_size_px, cv::Mat buffer = {});
+// color: the footage's, whose transfer function and primaries the picture has as well
+[[nodiscard]] cv::Mat on_green_screen(const Layer& layer, const ColorInfo& color, cv::Size picture_size_px,
+                                      cv::Mat buffer = {});
 
 // The stages of the paper's figure 4.
 struct ClassicStages {

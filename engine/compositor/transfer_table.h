@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
-#include "base/transfer.h"
+#include "video/transfer_function.h"
 
 namespace sigs {
 
-// A curve over [low, high), both powers of two, as parabolas on 32 equal parts of each octave. The parts of a float are
+// A curve between two powers of two as parabolas on 32 equal parts of each octave. The parts of a float are
 // its leading bits, so finding one takes no search.
-template <int low_exponent, int high_exponent>
 class PiecewiseParabola {
  public:
+  // Over [2^low_exponent, 2^high_exponent).
   template <class Curve>
-  explicit PiecewiseParabola(const Curve& curve) {
+  PiecewiseParabola(int low_exponent, int high_exponent, const Curve& curve)
+      : low_(power_of_two(low_exponent)),
+        high_(power_of_two(high_exponent)),
+        first_(std::bit_cast<std::uint32_t>(low_) >> kBitsWithin),
+        pieces_(static_cast<std::size_t>(high_exponent - low_exponent) * 32) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const double left = start(i);
       pieces_[i] = through(curve, left, start(i + 1) - left);
     }
   }
 
-  static constexpr float low() { return kLow; }
-  static constexpr float high() { return kHigh; }
+  [[nodiscard]] bool holds(float x) const { return x >= low_ && x < high_; }
 
-  // low() <= x < high()
+  // holds(x)
   [[nodiscard]] float at(float x) const {
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    const Piece& piece = pieces_[(bits >> kBitsWithin) - kFirst];
+    const Piece& piece = pieces_[(bits >> kBitsWithin) - first_];
     const float along = x - std::bit_cast<float>((bits >> kBitsWithin) << kBitsWithin);
     return piece.value + along * (piece.slope + along * piece.bend);
   }
@@ -42,12 +45,12 @@ class PiecewiseParabola {
     float bend = 0;
   };
 
-  static constexpr float power_of_two(int exponent) {
+  [[nodiscard]] static float power_of_two(int exponent) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
   }
 
-  static double start(std::size_t piece) {
-    return std::bit_cast<float>((kFirst + static_cast<std::uint32_t>(piece)) << kBitsWithin);
+  [[nodiscard]] double start(std::size_t piece) const {
+    return std::bit_cast<float>((first_ + static_cast<std::uint32_t>(piece)) << kBitsWithin);
   }
 
   // The parabola through three Chebyshev nodes: off by at most the third derivative times (width / 2)^3 / 24.
@@ -66,36 +69,44 @@ class PiecewiseParabola {
   }
 
   static constexpr std::uint32_t kBitsWithin = 23 - 5;
-  static constexpr float kLow = power_of_two(low_exponent);
-  static constexpr float kHigh = power_of_two(high_exponent);
-  static constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(kLow) >> kBitsWithin;
-  std::array<Piece, static_cast<std::size_t>(high_exponent - low_exponent) * 32> pieces_;
+  float low_;
+  float high_;
+  std::uint32_t first_;
+  std::vector<Piece> pieces_;
 };
 
-// The curve of base/transfer.h, both ways, within 1e-4 of an 8-bit code value and many times as fast: blending asks for
-// it six times a pixel. Beyond +-4 it is that curve itself.
+// A footage's transfer function, both ways, within 1e-2 of an 8-bit code value (sRGB's: 1e-4) and many times as fast:
+// blending asks for it six times a pixel. Where no piece is it is the function itself.
 class TransferTable {
  public:
-  TransferTable();
+  explicit TransferTable(TransferFunction function);
 
   [[nodiscard]] float linear_of_display(float display) const {
     const float size = std::fabs(display);
-    if (size <= 0.04045F) return display / 12.92F;
-    return size < decode_.high() ? std::copysign(decode_.at(size), display) : sigs::linear_of_display(display);
+    if (size <= toe_display_) return display / toe_slope_;
+    return decode_.holds(size) ? std::copysign(decode_.at(size), display) : exact_linear(display);
   }
 
   [[nodiscard]] float display_of_linear(float linear) const {
     const float size = std::fabs(linear);
-    if (size <= 0.0031308F) return linear * 12.92F;
-    return size < encode_.high() ? std::copysign(encode_.at(size), linear) : sigs::display_of_linear(linear);
+    if (size <= toe_linear_) return linear * toe_slope_;
+    return encode_.holds(size) ? std::copysign(encode_.at(size), linear) : exact_display(linear);
   }
 
+  // The function without the table.
+  [[nodiscard]] float exact_linear(float display) const;
+  [[nodiscard]] float exact_display(float linear) const;
+
  private:
-  PiecewiseParabola<-5, 2> decode_;
-  PiecewiseParabola<-9, 2> encode_;
+  TransferFunction function_;
+  float toe_display_;  // up to here the function is a straight line; below 0: nowhere
+  float toe_linear_;
+  float toe_slope_;
+  PiecewiseParabola decode_;
+  PiecewiseParabola encode_;
 };
 
-// A constant, computed at its first use.
-[[nodiscard]] const TransferTable& transfer_table();
+// Constants, computed at their first use.
+[[nodiscard]] const TransferTable& transfer_table(TransferFunction function);
 
 }  // namespace sigs

@@ -267,7 +267,7 @@ TEST_CASE("an intruder before green has its own colour and no green in its edge"
   layer.coverage.at<float>(0, 1) = 0.499F;
   layer.color.at<cv::Vec4f>(0, 2) = {0, 1, 0, 1};  // pure green itself: steps aside
   layer.color.at<cv::Vec4f>(0, 3) = {2, 1, 0, 1};  // brighter than white: clipped
-  const cv::Mat picture = on_green_screen(layer, {10, 5});
+  const cv::Mat picture = on_green_screen(layer, {}, {10, 5});
   const auto code = [](double linear) {
     const double display = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
     return static_cast<uchar>(std::lround(255 * display));
@@ -280,11 +280,11 @@ TEST_CASE("an intruder before green has its own colour and no green in its edge"
 }
 
 TEST_CASE("an intruder before green may lie across the picture's edge or be empty") {
-  const cv::Mat cut = on_green_screen(even_layer({-3, -2, 5, 4}, {1, 0, 0, 1}), {10, 5});
+  const cv::Mat cut = on_green_screen(even_layer({-3, -2, 5, 4}, {1, 0, 0, 1}), {}, {10, 5});
   CHECK(cut.at<cv::Vec3b>(0, 0) == cv::Vec3b(0, 0, 255));
   CHECK(cut.at<cv::Vec3b>(1, 1) == cv::Vec3b(0, 0, 255));
   CHECK(cut.at<cv::Vec3b>(2, 2) == cv::Vec3b(0, 255, 0));
-  const cv::Mat empty = on_green_screen(Layer{}, {10, 5});
+  const cv::Mat empty = on_green_screen(Layer{}, {}, {10, 5});
   CHECK(cv::norm(empty, cv::Mat(5, 10, CV_8UC3, kGreen), cv::NORM_INF) == 0);
 }
 

@@ -5,6 +5,9 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "video/primaries.h"
+#include "video/transfer_function.h"
+
 namespace sigs::libav {
 namespace {
 
@@ -76,6 +79,20 @@ std::string read_site(ColorInfo& color, const AVFrame& picture, AVCodecID codec)
          " is not known; left is assumed";
 }
 
+void add_remark(std::string& remark, const std::string& more) {
+  if (!more.empty()) remark += (remark.empty() ? "" : "; ") + more;
+}
+
+std::string remark_on_light(const ColorInfo& color) {
+  std::string remark;
+  if (!transfer_function_of(color.transfer))
+    add_remark(remark,
+               "the transfer function (" + transfer_name(color.transfer) + ") is not followed; sRGB's is assumed");
+  if (!from_bt709(color.primaries))
+    add_remark(remark, "the primaries (" + primaries_name(color.primaries) + ") are not known; BT.709's are assumed");
+  return remark;
+}
+
 int code_point(int stated) {
   return stated == 0 ? kUnspecified : stated;
 }
@@ -115,7 +132,8 @@ ColorReading color_of(const AVFrame& picture, AVCodecID codec, PixelLayout layou
   reading.remark = layout == PixelLayout::rgb ? "" : read_matrix(color, picture);
   const bool shares_chroma = layout == PixelLayout::yuv420 || layout == PixelLayout::yuv422;
   const std::string site = shares_chroma ? read_site(color, picture, codec) : "";
-  if (!site.empty()) reading.remark += (reading.remark.empty() ? "" : "; ") + site;
+  add_remark(reading.remark, site);
+  add_remark(reading.remark, remark_on_light(color));
   return reading;
 }
 
