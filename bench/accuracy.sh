@@ -22,7 +22,7 @@ source bench/accuracy/tables.sh
 if [ "$mode" != draw ]; then
   effort=()
   [ "$mode" = quick ] && effort=(quick)
-  for what in spline lens frames; do
+  for what in spline lens chroma frames; do
     echo "measuring: $what"
     "$build/bench_accuracy_$what" "$folder" "${effort[@]}"
   done
@@ -35,7 +35,7 @@ done
 
 with_tables docs/accuracy.md >"$folder/page.md"
 mv "$folder/page.md" "$page"
-if ! awk -F, -f bench/accuracy/claims.awk "$folder"/{machine,frames,sizes,tolerance,lens,lens_table,spline,condition}.csv &&
+if ! awk -F, -f bench/accuracy/claims.awk "$folder"/{machine,frames,chroma,sizes,tolerance,lens,lens_table,spline,condition}.csv &&
   [ "$mode" != quick ]; then
   echo "error: $page says what the figures do not" >&2
   exit 1

@@ -1,5 +1,5 @@
 # What docs/accuracy.md says in words, held against the tables: prints each sentence that the figures no longer carry.
-#   awk -F, -f claims.awk machine.csv frames.csv sizes.csv tolerance.csv lens.csv lens_table.csv spline.csv condition.csv
+#   awk -F, -f claims.awk machine.csv frames.csv chroma.csv sizes.csv tolerance.csv lens.csv lens_table.csv spline.csv condition.csv
 function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
 FNR == 1 { next }
 FILENAME ~ /machine/ { ss = $1; m = $2; tolerance = $3 }
@@ -14,6 +14,10 @@ FILENAME ~ /lens.csv/ && $2 == "Lens::ray" { claim($6 < 1e-9, $1 ": Lens::ray is
 FILENAME ~ /lens_table/ && $2 == tolerance { claim($9 <= tolerance, $1 ": no tabulated ray misses by more than the tolerance") }
 FILENAME ~ /spline/ { claim($6 < 1e-9 && $7 < 1e-14 && $8 < 1e-12, $1 " waypoints: flights are exact") }
 FILENAME ~ /condition/ { claim($2 < 3.001 && $5 < 1e-11, "ratio " $1 ": the condition stays 3") }
+FILENAME ~ /chroma/ {
+  claim($7 < 1.02 * $6, $1 ", chroma " $2 ": weights of the site are no worse than blocks")
+  claim($7 < 1.15 * $8, $1 ", chroma " $2 ": what is left in chroma is hardly more than rounding")
+}
 END {
   for (s in scenes) {
     for (samples = 1; samples <= 4; samples += 3)

@@ -139,6 +139,13 @@ table_condition() {
   ' "$folder/condition.csv"
 }
 
+table_chroma() {
+  awk -F, "$number_awk"'
+    FNR == 1 { row("scene | chroma lies | RMSE of chroma: by blocks | **by site** | rounding alone | largest: by blocks | **by site** | RMSE of luma: by blocks | **by site**"); print "|---|---|---|---|---|---|---|---|---|"; next }
+    { row($1 " | " $2 " | " n($6) " | **" n($7) "** | " n($8) " | " n($9) " | **" n($10) "** | " n($3) " | **" n($4) "**") }
+  ' "$folder/chroma.csv"
+}
+
 # with_tables PAGE: the page with what stands between <!-- table: NAME --> and <!-- end --> made anew.
 with_tables() {
   local line name=
