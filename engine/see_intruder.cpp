@@ -219,7 +219,9 @@ std::vector<IntruderTruth> measured(const Scene& scene, const SceneMoment& momen
                         .position_m = seen.placed.camera_from_body.translation_m,
                         .attitude = seen.placed.attitude};
     if (seen.silhouette) truth.silhouette = seen.silhouette->box;
-    truth.horizon = horizon_side_of(scene.intruders[id].model->outermost_m, seen.placed.camera_from_body, up_in_camera);
+    if (scene.horizon_is_known)
+      truth.horizon =
+          horizon_side_of(scene.intruders[id].model->outermost_m, seen.placed.camera_from_body, up_in_camera);
     const cv::Rect outline = outline_of(seen);
     const Layer inside = clipped(seen.sharp, picture_of(scene));
     const double inside_px = area_px(inside.coverage);

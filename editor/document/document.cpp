@@ -41,8 +41,8 @@ bool finite(const OwnBodySettings& own_body) {
 
 bool finite(const Project& project) {
   const CameraSettings& camera = project.camera;
-  return finite(project.own_body) && finite(camera.position_m) && std::isfinite(camera.roll_deg) &&
-         std::isfinite(camera.pitch_deg) && std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) &&
+  return finite(project.own_body) && finite(camera.position_m) && std::isfinite(camera.roll_deg.value_or(0)) &&
+         std::isfinite(camera.pitch_deg.value_or(0)) && std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) &&
          finite(project.light.position_m) && finite(project.light.color) && std::isfinite(project.light.ambient) &&
          std::isfinite(project.compositing.blur_px_per_m) &&
          std::all_of(project.intruders.begin(), project.intruders.end(),

@@ -26,8 +26,7 @@ glm::dvec3 ahead_of_camera(const Studio& studio, int frame, double forward_m, do
   const CameraSettings& camera = studio.project().camera;
   const double time_s =
       studio.shown.scene ? time_of_frame_s(studio.shown.scene->draft.scene.footage, frame) : frame * 0.04;
-  const double yaw_rad = rad_of_deg(camera.yaw_deg);
-  const double pitch_rad = rad_of_deg(camera.pitch_deg);
+  const auto [roll_rad, pitch_rad, yaw_rad] = mount_attitude(camera);
   const glm::dvec3 ahead(std::cos(pitch_rad) * std::cos(yaw_rad), std::cos(pitch_rad) * std::sin(yaw_rad),
                          -std::sin(pitch_rad));
   const glm::dvec3 right(-std::sin(yaw_rad), std::cos(yaw_rad), 0);

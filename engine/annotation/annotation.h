@@ -14,11 +14,21 @@
 namespace sigs {
 
 // Where a body lies against the horizon: the plane through the camera, level in the world (flat ground without end).
-enum class HorizonSide { below, on, above };
+// unknown: nobody has said how the camera is turned, so where the footage's horizon lies cannot be told.
+enum class HorizonSide { below, on, above, unknown };
 
 [[nodiscard]] constexpr std::string_view name_of(HorizonSide side) {
-  if (side == HorizonSide::on) return "on";
-  return side == HorizonSide::above ? "above" : "below";
+  switch (side) {
+    case HorizonSide::below:
+      return "below";
+    case HorizonSide::on:
+      return "on";
+    case HorizonSide::above:
+      return "above";
+    case HorizonSide::unknown:
+      break;
+  }
+  return "unknown";
 }
 
 // The truth of one intruder in one frame. docs/annotation-format.md has the formula of each.
@@ -33,7 +43,7 @@ struct IntruderTruth {
   cv::Mat visible;                        // CV_8UC1 over box: 255 where a pixel shows it, else 0; empty: not measured
   int visible_pixels = 0;                 // how many of them there are
   std::optional<Box> silhouette;          // the whole of it through the lens; none where no part of it has an image
-  HorizonSide horizon = HorizonSide::on;  // above or below: all of it is
+  HorizonSide horizon = HorizonSide::unknown;  // above or below: all of it is
   double inside_fraction = 0;             // of the whole silhouette's area: what lies in the picture, hidden or not
 };
 

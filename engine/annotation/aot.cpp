@@ -31,8 +31,9 @@ std::string object_id(const LabelledIntruder& intruder) {
   return name + (is_digit(name.back()) ? "_" : "") + std::to_string(intruder.id + 1);
 }
 
+// The data set marks 0 where it is unclear.
 int horizon_number(HorizonSide side) {
-  if (side == HorizonSide::on) return 0;
+  if (side == HorizonSide::on || side == HorizonSide::unknown) return 0;
   return side == HorizonSide::above ? 1 : -1;
 }
 

@@ -13,7 +13,7 @@ namespace sigs {
 // or a frame without any. docs/label-formats.md.
 //   time      ns of the footage; blob.frame  the footage's frame; blob.range_distance_m  to the reference point
 //   id        category and number from 1: Airplane1; bb  left, top, width, height, pixels from 0
-//   labels.is_above_horizon  1 above, 0 on, -1 below
+//   labels.is_above_horizon  1 above, 0 on or unknown, -1 below
 //   img_name  picture_name() in its folder, NAME/frame_000123.png, so that it stays apart from other flights'
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_aot(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);

@@ -60,9 +60,7 @@ Possible<void> check_values(FlightKind kind, const Values& values) {
 
 // Ray of a place given by two quantities, in world axes.
 glm::dvec3 world_ray(const Values& values, const char* x_percent, const char* y_percent, const FlightStage& stage) {
-  const glm::dquat world_from_camera = rotation_of({.roll_rad = rad_of_deg(stage.camera.roll_deg),
-                                                    .pitch_rad = rad_of_deg(stage.camera.pitch_deg),
-                                                    .yaw_rad = rad_of_deg(stage.camera.yaw_deg)});
+  const glm::dquat world_from_camera = rotation_of(mount_attitude(stage.camera));
   return world_from_camera * ray_of_place(stage.lens, {values.at(x_percent), values.at(y_percent)});
 }
 

@@ -33,10 +33,11 @@ void for_frames_in_range(const Followed& followed, const EncounterSpan& encounte
   }
 }
 
-// Above or below in all its frames, else on.
+// Above or below in all its frames, else on. Unknown where it is so in any.
 HorizonSide horizon_of(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy) {
   std::set<HorizonSide> sides;
   for_frames_in_range(followed, encounter, policy, [&](int, const TargetFrame& truth) { sides.insert(truth.horizon); });
+  if (sides.contains(HorizonSide::unknown)) return HorizonSide::unknown;
   return sides.size() == 1 ? *sides.begin() : HorizonSide::on;
 }
 
@@ -73,16 +74,27 @@ void count(DetectionRate& rate, bool is_detected) {
   rate.detected += is_detected;
 }
 
+DetectionRate& rate_of(DetectionScore& sum, HorizonSide side) {
+  switch (side) {
+    case HorizonSide::above:
+      return sum.above_horizon;
+    case HorizonSide::on:
+      return sum.on_horizon;
+    case HorizonSide::below:
+      return sum.below_horizon;
+    case HorizonSide::unknown:
+      break;
+  }
+  return sum.unknown_horizon;
+}
+
 void take_encounter(DetectionScore& sum, EncounterScore encounter, const DetectionPolicy& policy) {
   if (encounter.nearest_m > policy.nearest_range_m) {
     ++sum.encounters_too_far;
     return;
   }
   count(sum.all, encounter.is_detected);
-  count(encounter.horizon == HorizonSide::above   ? sum.above_horizon
-        : encounter.horizon == HorizonSide::below ? sum.below_horizon
-                                                  : sum.on_horizon,
-        encounter.is_detected);
+  count(rate_of(sum, encounter.horizon), encounter.is_detected);
   sum.encounters.push_back(std::move(encounter));
 }
 

@@ -38,7 +38,7 @@ struct EncounterScore {
   int target = 0;
   int first_frame = 0;
   int last_frame = 0;
-  HorizonSide horizon = HorizonSide::on;  // above or below: in all its frames
+  HorizonSide horizon = HorizonSide::unknown;  // above or below: in all its frames; unknown: in any
   double nearest_m = 0;
   bool is_detected = false;                       // in time
   std::optional<double> first_detection_range_m;  // of its first match
@@ -62,6 +62,7 @@ struct DetectionScore {
   DetectionRate above_horizon;
   DetectionRate on_horizon;
   DetectionRate below_horizon;
+  DetectionRate unknown_horizon;
   int encounters_too_short = 0;  // shorter than least_encounter_s, however near: not counted, not listed
   int encounters_too_far = 0;    // of the others, those that never come within nearest_range_m: nor are these
   int frames = 0;

@@ -70,7 +70,7 @@ std::string summary_csv(const DetectionReport& report) {
       "detector,encounters,encounters_too_short,encounters_too_far,detected,encounters_above,detected_above,encounters_"
       "on,detected_on,"
       "encounters_below,"
-      "detected_below,false_alarm_tracks,false_alarms_per_hour,false_alarm_boxes,false_boxes_per_frame,"
+      "detected_below,encounters_unknown,detected_unknown,false_alarm_tracks,false_alarms_per_hour,false_alarm_boxes,false_boxes_per_frame,"
       "frame_detection_rate,mean_first_range_m,frames,hours\n";
   for (const DetectionScore& score : report.scores) {
     const auto count = [](int number) { return std::to_string(number); };
@@ -79,6 +79,7 @@ std::string summary_csv(const DetectionReport& report) {
              count(score.encounters_too_far), count(score.all.detected), count(score.above_horizon.encounters),
              count(score.above_horizon.detected), count(score.on_horizon.encounters), count(score.on_horizon.detected),
              count(score.below_horizon.encounters), count(score.below_horizon.detected),
+             count(score.unknown_horizon.encounters), count(score.unknown_horizon.detected),
              count(score.false_alarm_tracks), exact_text(score.false_alarms_per_hour), count(score.false_alarm_boxes),
              exact_text(score.false_boxes_per_frame), exact_text(score.frame_detection_rate),
              exact_text(score.mean_first_range_m), count(score.frames), exact_text(score.hours)});

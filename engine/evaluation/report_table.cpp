@@ -130,7 +130,7 @@ std::vector<TableColumn> table_of(const TrackReport& report) {
 std::vector<TableColumn> table_of(const DetectionReport& report) {
   using Score = DetectionScore;
   const std::vector<Score>& scores = report.scores;
-  return {
+  std::vector<TableColumn> columns{
       names_of(scores, "detector"),
       rates(scores, "all", &Score::all),
       rates(scores, "above", &Score::above_horizon),
@@ -142,6 +142,11 @@ std::vector<TableColumn> table_of(const DetectionReport& report) {
       column<Score>(scores, "first seen", "mean m", 0, Best::none, [](const Score& s) { return s.mean_first_range_m; }),
       column<Score>(scores, "frames", "", 0, Best::none, [](const Score& s) { return double(s.frames); }),
       column<Score>(scores, "time", "h", 4, Best::none, [](const Score& s) { return s.hours; })};
+  // Most films say where their horizon lies.
+  const bool has_unknown = std::any_of(scores.begin(), scores.end(),
+                                       [](const Score& score) { return score.unknown_horizon.encounters > 0; });
+  if (has_unknown) columns.insert(columns.begin() + 5, rates(scores, "unknown", &Score::unknown_horizon));
+  return columns;
 }
 
 std::vector<TableColumn> encounters_of(const DetectionReport& report) {

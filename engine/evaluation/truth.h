@@ -20,7 +20,7 @@ struct TargetFrame {
   double visible_fraction = 0;
   int visible_pixels = 0;  // 0 where the file does not say
   double distance_m = 0;
-  HorizonSide horizon = HorizonSide::on;
+  HorizonSide horizon = HorizonSide::unknown;
 };
 
 struct TargetTruth {

@@ -63,12 +63,12 @@ constexpr int kMostPixels = 1 << 20;    // a side of a picture; keeps sums of a 
 constexpr double kFarthest_px = 1e100;  // of a silhouette; keeps areas finite
 
 HorizonSide horizon_of(Reading& reading, pugi::xml_node intruder) {
-  if (!intruder.attribute("horizon")) return HorizonSide::on;  // files of before there was one
+  if (!intruder.attribute("horizon")) return HorizonSide::unknown;  // files of before there was one
   const std::string_view name = reading.text(intruder, "horizon");
-  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above})
+  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above, HorizonSide::unknown})
     if (name == name_of(side)) return side;
-  reading.wrong(intruder, "intruder horizon: " + in_quotes(name) + " is not above, on or below");
-  return HorizonSide::on;
+  reading.wrong(intruder, "intruder horizon: " + in_quotes(name) + " is not above, on or below, nor unknown");
+  return HorizonSide::unknown;
 }
 
 std::optional<Box> visible_of(Reading& reading, pugi::xml_node box) {

@@ -80,8 +80,8 @@ void add_own_body(FieldList list, OwnBodySettings& own_body) {
 void add_camera(FieldList list, CameraSettings& camera) {
   list.number("position_m", &camera.position_m, "m", -kFarthest_m, kFarthest_m,
               "where the camera is at frame 0, in the world");
-  list.number("attitude_deg.roll", &camera.roll_deg, "deg", -180, 180, "right side down");
-  list.number("attitude_deg.pitch", &camera.pitch_deg, "deg", -90, 90, "axis up");
+  list.number("attitude_deg.roll", &camera.roll_deg, "deg", -180, 180, "right side down; null: not known");
+  list.number("attitude_deg.pitch", &camera.pitch_deg, "deg", -90, 90, "axis up; null: not known");
   list.number("attitude_deg.yaw", &camera.yaw_deg, "deg", -180, 180, "axis to the right of world X");
   list.path("attitude_file", camera.attitude_file, false,
             "CSV with the attitude, at each frame, of what carries the camera; empty: level");

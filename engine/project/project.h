@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/pose.h"
+
 namespace sigs {
 
 // A project as its file has it: numbers, names and paths; nothing is opened. Units and ranges: project/fields.h.
@@ -58,8 +60,8 @@ struct OwnBodySettings {
 
 struct CameraSettings {
   glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
-  double roll_deg = 0;
-  double pitch_deg = 0;
+  std::optional<double> roll_deg;   // none: not known; mount_attitude() takes it as 0
+  std::optional<double> pitch_deg;  // likewise
   double yaw_deg = 0;
   std::string attitude_file;  // how what carries the camera is turned, frame by frame; empty: level
   double speed_mps = 0;       // along world X
@@ -167,6 +169,12 @@ struct Project {
 
   [[nodiscard]] bool operator==(const Project&) const = default;
 };
+
+// How the camera is fixed to what carries it. A roll or pitch that is not set counts as 0.
+[[nodiscard]] Attitude mount_attitude(const CameraSettings& camera);
+
+// Whether the project says where the horizon lies: roll or pitch is set, or an attitude file is named.
+[[nodiscard]] bool knows_horizon(const CameraSettings& camera);
 
 // The categories that labels count: export.categories or, where that is empty, those of the intruders, each once.
 [[nodiscard]] std::vector<std::string> categories_of(const Project& project);

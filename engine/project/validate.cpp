@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/angles.h"
 #include "base/file_name.h"
 #include "project/fields.h"
 
@@ -143,6 +144,15 @@ std::vector<std::string> categories_of(const Project& project) {
     if (std::find(categories.begin(), categories.end(), intruder.category) == categories.end())
       categories.push_back(intruder.category);
   return categories;
+}
+
+Attitude mount_attitude(const CameraSettings& camera) {
+  return {rad_of_deg(camera.roll_deg.value_or(0)), rad_of_deg(camera.pitch_deg.value_or(0)),
+          rad_of_deg(camera.yaw_deg)};
+}
+
+bool knows_horizon(const CameraSettings& camera) {
+  return camera.roll_deg || camera.pitch_deg || !camera.attitude_file.empty();
 }
 
 std::filesystem::path resolved(const Project& project, const std::string& path) {

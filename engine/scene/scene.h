@@ -70,6 +70,7 @@ struct Scene {
   FootageShape footage;
   int first_frame = 0;
   int last_frame = 0;  // included
+  bool horizon_is_known = false;  // somebody has said how the camera is turned
   std::vector<Warning> warnings;
 };
 

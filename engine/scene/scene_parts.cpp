@@ -51,13 +51,13 @@ std::string key_of_intruder(std::size_t intruder) {
 
 Scene bare_scene(const Project& project, const FootageShape& footage) {
   const CameraSettings& camera = project.camera;
-  const Attitude attitude{rad_of_deg(camera.roll_deg), rad_of_deg(camera.pitch_deg), rad_of_deg(camera.yaw_deg)};
   return {.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
-          .motion = {.world_from_camera_at_start = {rotation_of(attitude), camera.position_m},
+          .motion = {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
                      .speed_mps = camera.speed_mps},
           .light = {project.light.position_m, project.light.color, project.light.ambient},
           .compositing = project.compositing,
-          .footage = footage};
+          .footage = footage,
+          .horizon_is_known = knows_horizon(camera)};
 }
 
 Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage) {

@@ -25,8 +25,8 @@ Camera camera_of(LensModel model, double focal_px, std::vector<double> coefficie
 
 CameraMotion motion_of(const FlightStage& stage) {
   CameraMotion motion;
-  motion.world_from_camera_at_start = {rotation_of({.roll_rad = rad_of_deg(stage.camera.roll_deg),
-                                                    .pitch_rad = rad_of_deg(stage.camera.pitch_deg),
+  motion.world_from_camera_at_start = {rotation_of({.roll_rad = rad_of_deg(stage.camera.roll_deg.value_or(0)),
+                                                    .pitch_rad = rad_of_deg(stage.camera.pitch_deg.value_or(0)),
                                                     .yaw_rad = rad_of_deg(stage.camera.yaw_deg)}),
                                        stage.camera.position_m};
   motion.speed_mps = stage.camera.speed_mps;

@@ -48,7 +48,8 @@ IntruderTruth seen(int id) {
           .visible_fraction = 0.5,
           .box = cv::Rect(0, 7, 41, 13),
           .visible_pixels = 287,
-          .silhouette = Box{-1e6, 0.00004, 2e6, 0}};
+          .silhouette = Box{-1e6, 0.00004, 2e6, 0},
+          .horizon = HorizonSide::on};
 }
 
 IntruderTruth unseen(int id) {

@@ -221,6 +221,10 @@ TEST_CASE("an encounter's side of the horizon is that of all its frames, or on i
   CHECK(side(HorizonSide::below, HorizonSide::below).below_horizon.detected == 1);
   CHECK(side(HorizonSide::below, HorizonSide::above).on_horizon.detected == 1);
   CHECK(side(HorizonSide::above, HorizonSide::on).on_horizon.detected == 1);
+  // Where one frame does not say, nobody can tell.
+  const DetectionScore unknown = side(HorizonSide::above, HorizonSide::unknown);
+  CHECK(unknown.unknown_horizon.detected == 1);
+  CHECK(unknown.above_horizon.encounters + unknown.on_horizon.encounters == 0);
 }
 
 TEST_CASE("false alarms are counted by track for the hour and by box for the frame") {

@@ -139,12 +139,10 @@ WorldModel world_model(const OpenedScene& opened) {
 }
 
 CameraPose camera_pose_at(const Project& project, double time_s) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180;
   const CameraSettings& camera = project.camera;
-  const Attitude attitude{camera.roll_deg * kRadPerDeg, camera.pitch_deg * kRadPerDeg, camera.yaw_deg * kRadPerDeg};
-  return camera_at(
-      {.world_from_camera_at_start = {rotation_of(attitude), camera.position_m}, .speed_mps = camera.speed_mps},
-      time_s);
+  return camera_at({.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
+                    .speed_mps = camera.speed_mps},
+                   time_s);
 }
 
 double time_of(const Studio& studio, double frame) {
