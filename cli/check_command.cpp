@@ -2,11 +2,17 @@
 #include "cli/check_command.h"
 
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/options.h"
 #include "export.h"
+#include "opened_project.h"
+#include "outlook.h"
 #include "project/validate.h"
 #include "scene/path_stiffness.h"
 #include "scene/scene.h"
@@ -20,8 +26,13 @@ void print(const Error& error) {
   std::printf("%s\n", error.text().c_str());
 }
 
-// One line an intruder. The condition is that of spline/stiffness.h.
-void print_paths(const Project& project, const Scene& scene) {
+// "1 warning", "2 warnings"
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+// Two lines an intruder. The condition is that of spline/stiffness.h.
+void print_intruders(const Project& project, const Scene& scene, const std::vector<Visibility>& visibilities) {
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const IntruderSettings& intruder = project.intruders[i];
     const std::size_t count = intruder.trajectory.waypoints.size();
@@ -29,7 +40,7 @@ void print_paths(const Project& project, const Scene& scene) {
                 count == 1 ? "waypoint" : "waypoints");
     if (const std::optional<double> condition = path_condition(project, i, scene))
       std::printf(", condition %.4g", *condition);
-    std::printf("\n");
+    std::printf("\nintruders[%zu] \"%s\": %s\n", i, intruder.name.c_str(), text_of(visibilities[i]).c_str());
   }
 }
 
@@ -41,18 +52,20 @@ Result<void> check(const ProjectOptions& options) {
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
     return fail(project->file.string(),
-                std::to_string(problems.size()) + (problems.size() == 1 ? " problem" : " problems"),
-                problems.front().kind);
+                counted(problems.size(), "problem"), problems.front().kind);
   const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
-  for (const Warning& warning : warnings_of(source->info())) print_warning(warning);
+  std::vector<Warning> warnings = warnings_of(source->info());
   if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
   const Result<Scene> scene = open_scene(*project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
-  for (const Warning& warning : scene->warnings) print_warning(warning);
-  print_paths(*project, *scene);
-  std::printf("%s: nothing is wrong; frames %d to %d, %zu %s\n", project->file.c_str(), scene->first_frame,
-              scene->last_frame, scene->intruders.size(), scene->intruders.size() == 1 ? "intruder" : "intruders");
+  const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
+  for (Warning& warning : warnings_of(*project, *scene, visibilities)) warnings.push_back(std::move(warning));
+  for (const Warning& warning : warnings) print_warning(warning);
+  print_intruders(*project, *scene, visibilities);
+  std::printf("%s: %s; frames %d to %d, %s\n", project->file.c_str(),
+              warnings.empty() ? "nothing is wrong" : ("no errors, " + counted(warnings.size(), "warning")).c_str(),
+              scene->first_frame, scene->last_frame, counted(scene->intruders.size(), "intruder").c_str());
   return {};
 }
 

@@ -139,12 +139,12 @@ Result<void> judged(const Plan& plan, const std::filesystem::path& recipe) {
 constexpr int kFramesLookedAt = 20;  // of a video, for how its intruder is seen
 
 void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
-                    const std::vector<std::optional<VideoView>>& views) {
+                    const std::vector<std::optional<Visibility>>& views) {
   constexpr std::size_t kNamed = 20;
   std::size_t count = 0;
   std::string names;
   for (std::size_t i = 0; i < videos.size(); ++i)
-    if (views[i] && views[i]->in_view == 0 && ++count <= kNamed) names += (count > 1 ? ", " : "") + videos[i]->name;
+    if (views[i] && views[i]->visible == 0 && ++count <= kNamed) names += (count > 1 ? ", " : "") + videos[i]->name;
   if (count > 0)
     print_warning({"", "the intruder is never in the picture in " + count_text(count, "video") + ": " + names +
                            (count > kNamed ? ", ..." : "")});
@@ -152,7 +152,7 @@ void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
 
 // The table, and what is wrong with what is asked for.
 Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& videos,
-                  const std::vector<std::optional<VideoView>>& views, const std::filesystem::path& recipe) {
+                  const std::vector<std::optional<Visibility>>& views, const std::filesystem::path& recipe) {
   const Result<std::string> table = table_of(videos, views);
   if (!table) return fail(table.error());
   std::fputs(table->c_str(), stdout);
@@ -193,7 +193,7 @@ Result<void> run(const DatasetOptions& options) {
   const Result<Plan> plan = planned(options, request.source);
   if (!plan) return fail(plan.error());
   const std::vector<const PlannedVideo*> videos = videos_of(*plan, request.shard.value_or(Shard{}));
-  std::vector<std::optional<VideoView>> views;
+  std::vector<std::optional<Visibility>> views;
   if (!options.merge) views = views_of(videos, kFramesLookedAt, &interrupt_flag());
   if (options.dry_run) {
     if (options.merge) views.resize(videos.size());

@@ -115,14 +115,14 @@ std::string or_dash(const std::map<std::string, std::string>& tags, const char* 
   return found == tags.end() || found->second.empty() ? "-" : found->second;
 }
 
-std::string view_text(const std::optional<VideoView>& view) {
+std::string view_text(const std::optional<Visibility>& view) {
   if (!view) return "?";
-  const std::string share = std::to_string(view->in_view) + "/" + std::to_string(view->looked_at);
-  return view->in_view > 0 ? share : "never";
+  const std::string share = std::to_string(view->visible) + "/" + std::to_string(view->looked_at);
+  return view->visible > 0 ? share : "never";
 }
 
-std::string size_range_text(const std::optional<VideoView>& view) {
-  if (!view || view->in_view == 0) return "-";
+std::string size_range_text(const std::optional<Visibility>& view) {
+  if (!view || view->visible == 0) return "-";
   const std::string low = rounded_text(std::round(view->smallest_px * 10) / 10);
   const std::string high = rounded_text(std::round(view->largest_px * 10) / 10);
   return low == high ? low : low + ".." + high;
@@ -149,7 +149,7 @@ std::vector<Block> blocks_of(const std::vector<const PlannedVideo*>& videos) {
 
 struct Measured {
   const std::vector<const PlannedVideo*>& videos;
-  const std::vector<std::optional<VideoView>>& views;
+  const std::vector<std::optional<Visibility>>& views;
   std::vector<int> frames;
 };
 
@@ -186,7 +186,7 @@ std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard)
 }
 
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
-                             const std::vector<std::optional<VideoView>>& views) {
+                             const std::vector<std::optional<Visibility>>& views) {
   Measured all{.videos = videos, .views = views, .frames = {}};
   PictureSizes sizes;
   long long frames = 0;

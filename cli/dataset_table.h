@@ -19,6 +19,6 @@ namespace sigs::cli {
 // view, the silhouette's size, and what was drawn, to four digits. Videos of other quantities have a table of their
 // own. What all videos of a table share stands in one line below it. The last line is the sum. views: one a video.
 [[nodiscard]] Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
-                                           const std::vector<std::optional<VideoView>>& views);
+                                           const std::vector<std::optional<Visibility>>& views);
 
 }  // namespace sigs::cli

@@ -127,6 +127,19 @@ void print_times(const ExportReport& report) {
                report.drawn_with.c_str());
 }
 
+// A line for each intruder, the first few where there are many.
+void print_visibilities(const Project& project, const std::vector<Visibility>& visibilities) {
+  constexpr std::size_t kNamed = 10;
+  const std::size_t named = std::min(kNamed, visibilities.size());
+  for (std::size_t i = 0; i < named; ++i)
+    std::fprintf(stderr, "%s: %s\n", project.intruders[i].name.c_str(), text_of(visibilities[i]).c_str());
+  if (named == visibilities.size()) return;
+  const auto visible = std::count_if(visibilities.begin() + named, visibilities.end(),
+                                     [](const Visibility& one) { return one.visible > 0; });
+  std::fprintf(stderr, "%zu more intruders: %td visible, %td never\n", visibilities.size() - named, visible,
+               static_cast<std::ptrdiff_t>(visibilities.size() - named) - visible);
+}
+
 Result<void> run(const ExportOptions& options) {
   const Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
@@ -145,6 +158,7 @@ Result<void> run(const ExportOptions& options) {
   if (!report) return fail(report.error());
   for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
   if (options.times) print_times(*report);
+  if (options.progress != "none") print_visibilities(request->project, report->visibilities);
   return {};
 }
 

@@ -13,6 +13,8 @@
 #include "cli/picture_files.h"
 #include "export.h"
 #include "frame.h"
+#include "opened_project.h"
+#include "outlook.h"
 #include "project_inputs.h"
 #include "video/frame_source.h"
 
@@ -39,7 +41,8 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
                 ErrorKind::usage);
   const Result<Scene> scene = open_scene(project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
-  for (const Warning& warning : scene->warnings) print_warning(warning);
+  const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kQuickLook_frames);
+  for (const Warning& warning : warnings_of(*project, *scene, visibilities)) print_warning(warning);
   Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
   Bench bench;

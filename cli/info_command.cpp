@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/angles.h"
-#include "camera/calibration_file.h"
+#include "camera/camera.h"
 #include "cli/options.h"
 #include "mesh/mesh.h"
 #include "project/json.h"
@@ -114,6 +114,7 @@ void print_camera(const Camera& camera) {
                                   glm::dvec2(size.width - 1, size.height - 1)})
     unreachable += camera.lens.ray(corner) ? 0 : 1;
   if (unreachable > 0) std::printf("corners of the picture without a ray: %d of 4\n", unreachable);
+  for (const Warning& warning : camera.warnings) print_warning(warning);
 }
 
 void print_mesh(const Mesh& mesh) {
@@ -151,10 +152,9 @@ Result<void> info_of_calibration(const std::filesystem::path& path, const std::s
     size = *given;
   }
   if (read_project(path)) return fail(path.string(), "is a SIGS project; `sigs check` looks at it", ErrorKind::usage);
-  const Result<CalibrationFile> file = read_calibration_file(path, size);
-  if (!file) return fail(file.error());
-  print_camera(file->camera);
-  for (const Warning& warning : file->warnings) print_warning(warning);
+  const Result<Camera> camera = read_calibration(path, size);
+  if (!camera) return fail(camera.error());
+  print_camera(*camera);
   return {};
 }
 

@@ -25,6 +25,11 @@ void say(const ExportControl& control, ExportReport& report, const Warning& warn
 void count(const ComposedFrame& frame, ExportReport& report) {
   ++report.frames;
   report.damaged_frames += frame.picture.damaged ? 1 : 0;
+  for (const IntruderTruth& truth : frame.truth.intruders) {
+    Visibility& seen = report.visibilities[static_cast<std::size_t>(truth.id)];
+    ++seen.looked_at;
+    if (truth.box) seen.add_visible(truth.silhouette ? std::max(truth.silhouette->width, truth.silhouette->height) : 0);
+  }
   report.times.draw_s += frame.times.draw_s;
   report.times.composite_s += frame.times.composite_s;
 }
@@ -89,6 +94,7 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   if (!range) return fail(range.error());
 
   ExportReport report;
+  report.visibilities.assign(scene.intruders.size(), {.frames = range->last - range->first + 1});
   for (const Warning& warning : opened->warnings) say(control, report, warning);
   Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range);
   if (!files) return fail(files.error());

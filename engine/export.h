@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "project/project.h"
 #include "video/frame_source.h"
+#include "visibility.h"
 
 namespace sigs {
 
@@ -38,6 +39,7 @@ struct ExportReport {
   int frames = 0;
   int damaged_frames = 0;
   StopTimes times;
+  std::vector<Visibility> visibilities;  // of each intruder in the frames written, by the truth
   std::string drawn_with;  // what Renderer::description says; empty: no intruder came into view
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "export.h"
+#include "outlook.h"
 #include "project/validate.h"
 
 namespace sigs {
@@ -24,8 +25,21 @@ Result<OpenedProject> open_project(const Project& project, const std::atomic<boo
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!scene) return fail(scene.error());
   std::vector<Warning> warnings = warnings_of(source->info());
-  warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());
+  for (Warning& warning : warnings_of(project, *scene, estimated_visibilities(*scene, kQuickLook_frames)))
+    warnings.push_back(std::move(warning));
   return OpenedProject{std::move(*source), std::move(*scene), std::move(warnings)};
+}
+
+std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
+                                 const std::vector<Visibility>& visibilities) {
+  std::vector<Warning> warnings = scene.warnings;
+  const auto add = [&](const Problem& doubt) {
+    warnings.push_back({project.file.string() + ": " + doubt.field, doubt.what});
+  };
+  for (const Problem& doubt : scene.doubts) add(doubt);
+  for (std::size_t i = 0; i < visibilities.size(); ++i)
+    if (const std::optional<Problem> never = never_visible(visibilities[i], scene.intruders[i].name, i)) add(*never);
+  return warnings;
 }
 
 Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for) {

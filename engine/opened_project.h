@@ -11,6 +11,7 @@
 #include "project/project.h"
 #include "scene/scene.h"
 #include "video/frame_source.h"
+#include "visibility.h"
 
 namespace sigs {
 
@@ -27,6 +28,14 @@ struct OpenedProject {
 
 // Error interrupted once cancel is set; null: never.
 [[nodiscard]] Result<void> check_interrupt(const std::atomic<bool>* cancel);
+
+// How many frames of a film are looked at for who is never visible in it, where somebody is seen at once.
+inline constexpr int kQuickLook_frames = 20;
+
+// All that is worth telling of a scene before its pictures are made: of the files that were read, what is hardly meant
+// (scene/doubts.h), and who is never visible. visibilities: of each intruder; empty: not looked at.
+[[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
+                                               const std::vector<Visibility>& visibilities);
 
 // Which frames are made; none asked for: the scene's own. Error usage: they do not lie in the scene's.
 [[nodiscard]] Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for);

@@ -7,7 +7,6 @@
 
 #include "annotation/measure.h"
 #include "base/ensure.h"
-#include "scene/scene_at.h"
 #include "see_intruder.h"
 
 namespace sigs {
@@ -16,6 +15,8 @@ namespace {
 
 constexpr std::array<double, 4> kShares{1, 0.75, 0.5, 0.25};  // of the way from the middle to an outermost point
 constexpr float kHides = 0.5F;
+constexpr int kMostLooks = 100'000;  // at an intruder in a frame
+constexpr int kFewestFrames = 2;
 
 std::vector<glm::dvec2> images_of(const std::vector<glm::vec3>& points_m,
                                   const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
@@ -63,24 +64,89 @@ Sighting sighting_of(const std::vector<glm::dvec2>& images, cv::Size size_px, co
   return counted.behind == counted.inside ? Sighting::hidden : Sighting::partly_hidden;
 }
 
+// The film's frames, spread evenly with first and last.
+std::vector<Visibility> looked_at(const OutlookPoints& points, const Scene& scene, int frames) {
+  const int length = scene.last_frame - scene.first_frame;
+  std::vector<Visibility> seen(scene.intruders.size(), Visibility{.frames = length + 1, .is_estimate = true});
+  for (int i = 0; i < frames; ++i) {
+    const double share = frames > 1 ? double(i) / (frames - 1) : 0;
+    const int frame = scene.first_frame + static_cast<int>(std::lround(share * length));
+    const std::vector<Outlook> outlooks = points.all_at(frame);
+    for (std::size_t j = 0; j < seen.size(); ++j) add(seen[j], outlooks[j]);
+  }
+  return seen;
+}
+
 }  // namespace
 
 OutlookPoints::OutlookPoints(const Scene& scene) : scene_(&scene), camera_(seeing_camera(scene)) {}
+
+Outlook OutlookPoints::of(const PlacedIntruder& placed, int frame) const {
+  Outlook outlook{.frame = frame, .distance_m = placed.distance_m()};
+  const Model* const model = scene_->intruders[static_cast<std::size_t>(placed.id)].model;
+  if (model == nullptr) return outlook;
+  outlook.is_behind_camera = placed.camera_from_body.translation_m.x < -double(model->mesh.radius_m);
+  const std::vector<glm::dvec2> images = images_of(model->outermost_m, placed.camera_from_body, camera_.lens);
+  if (images.empty()) return outlook;
+  outlook.silhouette = box_around(images);
+  outlook.size_px = std::max(outlook.silhouette->width, outlook.silhouette->height);
+  outlook.sighting = sighting_of(images, scene_->footage.size_px, scene_->own_body);
+  return outlook;
+}
 
 Outlook OutlookPoints::at(int intruder, int frame) const {
   const SceneMoment moment = scene_at(*scene_, frame);
   const auto placed = std::find_if(moment.intruders.begin(), moment.intruders.end(),
                                    [&](const PlacedIntruder& candidate) { return candidate.id == intruder; });
   ENSURE(placed != moment.intruders.end());
-  Outlook outlook{.frame = frame, .distance_m = placed->distance_m()};
-  const Model* const model = scene_->intruders[static_cast<std::size_t>(intruder)].model;
-  if (model == nullptr) return outlook;
-  const std::vector<glm::dvec2> images = images_of(model->outermost_m, placed->camera_from_body, camera_.lens);
-  if (images.empty()) return outlook;
-  outlook.silhouette = box_around(images);
-  outlook.size_px = std::max(outlook.silhouette->width, outlook.silhouette->height);
-  outlook.sighting = sighting_of(images, scene_->footage.size_px, scene_->own_body);
-  return outlook;
+  return of(*placed, frame);
+}
+
+std::vector<Outlook> OutlookPoints::all_at(int frame) const {
+  std::vector<Outlook> outlooks(scene_->intruders.size());
+  for (const PlacedIntruder& placed : scene_at(*scene_, frame).intruders)
+    outlooks[static_cast<std::size_t>(placed.id)] = of(placed, frame);
+  return outlooks;
+}
+
+void add(Visibility& visibility, const Outlook& outlook) {
+  visibility.is_estimate = true;
+  ++visibility.looked_at;
+  if (outlook.sighting == Sighting::in_view || outlook.sighting == Sighting::partly_hidden)
+    visibility.add_visible(outlook.size_px);
+  visibility.behind_camera += outlook.is_behind_camera ? 1 : 0;
+  visibility.hidden += outlook.sighting == Sighting::hidden ? 1 : 0;
+}
+
+std::vector<Visibility> estimated_visibilities(const Scene& scene, int most_frames) {
+  const int frames = scene.last_frame - scene.first_frame + 1;
+  const auto intruders = static_cast<int>(std::clamp<std::size_t>(scene.intruders.size(), 1, kMostLooks));
+  const int affordable = std::max(kFewestFrames, kMostLooks / intruders);
+  const OutlookPoints points(scene);
+  std::vector<Visibility> seen = looked_at(points, scene, std::min({frames, most_frames, affordable}));
+  const auto is_never = [](const Visibility& visibility) { return visibility.visible == 0; };
+  if (std::none_of(seen.begin(), seen.end(), is_never) || most_frames >= std::min(frames, affordable)) return seen;
+  const std::vector<Visibility> all = looked_at(points, scene, std::min(frames, affordable));
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (is_never(seen[i])) seen[i] = all[i];
+  return seen;
+}
+
+std::optional<Problem> never_visible(const Visibility& visibility, const std::string& name, std::size_t intruder) {
+  if (visibility.visible > 0 || visibility.looked_at == 0) return std::nullopt;
+  const int outside = visibility.looked_at - visibility.hidden - visibility.behind_camera;
+  std::string why;
+  const auto add = [&](int count, const char* where) {
+    if (count > 0) why += (why.empty() ? " (" : ", ") + std::string(where) + " in " + std::to_string(count);
+  };
+  add(visibility.behind_camera, "behind the camera");
+  add(outside, "outside the picture");
+  add(visibility.hidden, "behind the own body");
+  why += ")";
+  if (visibility.behind_camera + outside > 0)
+    why += "; the camera looks along world X where it has no attitude, Y is to its right, Z down";
+  return Problem{"intruders[" + std::to_string(intruder) + "].trajectory",
+                 "\"" + name + "\" is " + text_of(visibility) + why};
 }
 
 }  // namespace sigs

@@ -3,10 +3,13 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "scene/scene.h"
+#include "scene/scene_at.h"
+#include "visibility.h"
 
 namespace sigs {
 
@@ -24,6 +27,7 @@ struct Outlook {
   double size_px = 0;             // longer side of the silhouette's box, 0 where it has no image
   std::optional<Box> silhouette;  // within 1 % of the annotation's
   Sighting sighting = Sighting::out_of_view;
+  bool is_behind_camera = false;  // all of it
 };
 
 // Measures many frames of one scene quickly: a body is looked at by its outermost points alone
@@ -35,9 +39,27 @@ class OutlookPoints {
   explicit OutlookPoints(const Scene& scene);
   [[nodiscard]] Outlook at(int intruder, int frame) const;
 
+  // Of all intruders of the scene, by number.
+  [[nodiscard]] std::vector<Outlook> all_at(int frame) const;
+
  private:
+  [[nodiscard]] Outlook of(const PlacedIntruder& placed, int frame) const;
+
   const Scene* scene_;
   Camera camera_;
 };
+
+// How the film's intruders are seen, estimated. Looks at up to `most_frames` frames, spread over the scene's with first
+// and last; where an intruder is seen in none of these, at all of them, so that nobody is told that it is never seen
+// because it was seen in between. Of films with very many intruders and frames fewer are looked at, some 100,000
+// intruders in frames in all.
+[[nodiscard]] std::vector<Visibility> estimated_visibilities(const Scene& scene, int most_frames);
+
+// Adds one more frame.
+void add(Visibility& visibility, const Outlook& outlook);
+
+// What is worth telling where an intruder is never visible, and why it is not: in "intruders[0].trajectory".
+[[nodiscard]] std::optional<Problem> never_visible(const Visibility& visibility, const std::string& name,
+                                                   std::size_t intruder);
 
 }  // namespace sigs

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/nesting.h"
+#include "camera/calibration_doubts.h"
 #include "camera/scaled_calibration.h"
 
 namespace sigs::calibration {
@@ -56,9 +57,11 @@ struct Reader {
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
   [[nodiscard]] Result<void> check_numbers(const Field& field) const;
-  [[nodiscard]] Result<bool> is_fisheye() const;
+  [[nodiscard]] Result<std::optional<bool>> stated_fisheye() const;
   [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
   [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
+  [[nodiscard]] Result<void> choose_model(LensParameters& lens, std::optional<LensModel> wanted,
+                                          std::vector<Warning>& warnings) const;
   [[nodiscard]] Result<int> pixels(const Field& field, double number) const;
   [[nodiscard]] Result<std::optional<cv::Size>> size() const;
 };
@@ -73,20 +76,21 @@ Result<void> Reader::check_numbers(const Field& field) const {
   return {};
 }
 
-// Words for a model, as ROS and Kalibr have them, against OpenCV's flag.
-Result<bool> Reader::is_fisheye() const {
-  constexpr std::array<std::string_view, 7> kBrown{
-      "plumb_bob", "rational_polynomial", "thin_prism", "radtan", "brown_conrady", "none", ""};
+// Words for a model, as ROS and Kalibr have them, against OpenCV's flag. Nothing where the file says neither.
+Result<std::optional<bool>> Reader::stated_fisheye() const {
+  constexpr std::array<std::string_view, 6> kBrown{
+      "plumb_bob", "rational_polynomial", "thin_prism", "radtan", "brown_conrady", "none"};
   constexpr std::array<std::string_view, 5> kFisheye{"equidistant", "fisheye", "kannala_brandt", "kannala_brandt4",
                                                      "opencv_fisheye"};
-  if (const Field* flag = found(fields, kFisheyeNames)) {
+  const Field* flag = found(fields, kFisheyeNames);
+  if (flag != nullptr) {
     if (flag->text == "true" || flag->text == "True") return true;
     if (flag->text == "false" || flag->text == "False") return false;
     if (flag->numbers.size() != 1 || flag->not_a_number) return fail(where(*flag), "expected 0 or 1");
     if (flag->numbers.front() != 0) return true;
   }
   const Field* model = found(fields, kModelNames);
-  if (model == nullptr) return false;
+  if (model == nullptr || model->text.empty()) return flag == nullptr ? std::nullopt : std::optional(false);
   if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return true;
   if (std::ranges::find(kBrown, model->text) != kBrown.end()) return false;
   return fail(where(*model), "distortion model '" + model->text +
@@ -118,6 +122,33 @@ Result<void> Reader::read_coefficients(LensParameters& lens) const {
   if (field == nullptr) return fail(file, "no distortion coefficients; looked for " + joined(kCoefficientNames));
   if (const auto good = check_numbers(*field); !good) return fail(good.error());
   lens.coefficients = field->numbers;
+  return {};
+}
+
+// What is wanted, else what the file states, else what its coefficients look like.
+Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel> wanted,
+                                  std::vector<Warning>& warnings) const {
+  const auto words_of = [](LensModel model) { return model == LensModel::kannala_brandt ? "fisheye" : "Brown-Conrady"; };
+  const Result<std::optional<bool>> fisheye = stated_fisheye();
+  if (!fisheye) return fail(fisheye.error());
+  std::optional<LensModel> stated;
+  if (*fisheye) stated = **fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
+  if (wanted || stated) {
+    lens.model = wanted ? *wanted : *stated;
+    if (wanted && stated && *wanted != *stated)
+      warnings.push_back({file, std::string("says that it is of the ") + words_of(*stated) +
+                                    " model; it is read as " + words_of(*wanted) + ", as asked for"});
+    return {};
+  }
+  const AssumedModel assumed = assumed_model(lens.coefficients);
+  lens.model = assumed.model;
+  if (!assumed.why.empty())
+    warnings.push_back({where(*found(fields, kCoefficientNames)),
+                        std::string("four coefficients can be Brown-Conrady (k1 k2 p1 p2) or fisheye (k1 k2 k3 k4), and "
+                                    "the file does not say which; read as ") +
+                            words_of(assumed.model) + ", since " + assumed.why +
+                            ": set footage.lens_model to brown_conrady or fisheye, or fisheye_model to 0 or 1 in the "
+                            "file"});
   return {};
 }
 
@@ -180,36 +211,38 @@ std::string text_of(double number) {
   return {digits.data(), end};
 }
 
-Result<CalibrationFile> camera_from(const Fields& fields, const std::string& file_name,
-                                    std::optional<cv::Size> footage_size_px) {
+Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
+                           std::optional<cv::Size> footage_size_px, std::optional<LensModel> wanted_model) {
   constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
   const Reader reader{fields, file_name};
   if (const Field* mirror = found(fields, kMirrorNames))
     return fail(reader.where(*mirror), "the omnidirectional model (xi) is not supported; calibrate as fisheye");
   LensParameters lens;
-  const Result<bool> fisheye = reader.is_fisheye();
-  if (!fisheye) return fail(fisheye.error());
-  lens.model = *fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
   if (const auto good = reader.read_matrix(lens); !good) return fail(good.error());
   if (const auto good = reader.read_coefficients(lens); !good) return fail(good.error());
+  std::vector<Warning> warnings = fields.warnings;
+  if (const auto good = reader.choose_model(lens, wanted_model, warnings); !good) return fail(good.error());
   const Result<std::optional<cv::Size>> own_size_px = reader.size();
   if (!own_size_px) return fail(own_size_px.error());
   if (!*own_size_px && !footage_size_px)
     return fail(file_name, "no image size, and no footage to take it from; looked for " + size_names());
+  const std::string matrix = reader.where(*found(fields, kMatrixNames));
+  if (!*own_size_px && !footage_size_px->empty())
+    if (const std::string why_not = why_not_made_for(lens, *footage_size_px); !why_not.empty())
+      return fail(matrix, why_not);
   const cv::Point2d stretch = fields.stretch;
   const cv::Size from_px =
       own_size_px->value_or(divided(footage_size_px.value_or(cv::Size{}), {1 / stretch.x, 1 / stretch.y}));
   const cv::Size to_px = footage_size_px.value_or(divided(from_px, stretch));
   if (fields.kept_share != 1) crop(lens, from_px, fields.kept_share);
-  CalibrationFile file{.camera = {.lens = *Lens::make({}), .size_px = to_px}, .warnings = fields.warnings};
-  Result<LensParameters> scaled =
-      scaled_calibration(std::move(lens), from_px, to_px, stretch, file_name, file.warnings);
+  Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, to_px, stretch, file_name, warnings);
   if (!scaled) return fail(scaled.error());
   Result<Lens> made = Lens::make(*std::move(scaled));
   // The matrix is in order by now: what is left to be wrong are the coefficients.
   if (!made) return fail(reader.where(*found(fields, kCoefficientNames)), made.error().what);
-  file.camera.lens = *std::move(made);
-  return file;
+  for (const std::string& doubt : matrix_doubts(made->parameters(), to_px, own_size_px->has_value()))
+    warnings.push_back({matrix, doubt});
+  return Camera{.lens = *std::move(made), .size_px = to_px, .warnings = std::move(warnings)};
 }
 
 }  // namespace sigs::calibration

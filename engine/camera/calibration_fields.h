@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "camera/calibration_file.h"
+#include "camera/camera.h"
 
 namespace sigs::calibration {
 
@@ -39,7 +39,9 @@ struct Fields : std::map<std::string, Field, std::less<>> {
 [[nodiscard]] std::string text_of(double number);
 
 // Makes sense of the fields: docs/calibration-files.md lists the keys. file_name is for messages.
-[[nodiscard]] Result<CalibrationFile> camera_from(const Fields& fields, const std::string& file_name,
-                                                  std::optional<cv::Size> footage_size_px);
+// wanted_model: as read_calibration has it.
+[[nodiscard]] Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
+                                         std::optional<cv::Size> footage_size_px,
+                                         std::optional<LensModel> wanted_model);
 
 }  // namespace sigs::calibration

@@ -7,7 +7,6 @@
 
 #include "base/partial_file.h"
 #include "camera/calibration_fields.h"
-#include "camera/calibration_file.h"
 #include "camera/gyroflow.h"
 #include "camera/opencv_storage.h"
 #include "camera/plain_yaml.h"
@@ -16,8 +15,6 @@ namespace sigs {
 namespace {
 
 using calibration::Fields;
-
-constexpr std::size_t kMostMegabytes = 16;  // a hundred times the views of the largest calibration board
 
 // Without a byte order mark and leading blanks, which the parsers stumble over.
 std::string trimmed(std::string text) {
@@ -29,8 +26,6 @@ std::string trimmed(std::string text) {
 
 Result<Fields> fields_in(const std::string& text, const std::string& file_name) {
   if (text.empty()) return fail(file_name, "is empty");
-  if (text.size() > kMostMegabytes << 20)
-    return fail(file_name, "is larger than " + std::to_string(kMostMegabytes) + " MB; no calibration is");
   if (text.find('\0') != std::string::npos) return fail(file_name, "is not a text file");
   // "%YAML:1.0" is OpenCV's own header; the YAML standard has a space in the colon's place.
   if (text.starts_with('<') || text.starts_with("%YAML:")) return calibration::opencv_storage_fields(text, file_name);
@@ -40,20 +35,14 @@ Result<Fields> fields_in(const std::string& text, const std::string& file_name) 
 
 }  // namespace
 
-Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px) {
-  Result<CalibrationFile> file = read_calibration_file(path, footage_size_px);
-  if (!file) return fail(file.error());
-  return std::move(file->camera);
-}
-
-Result<CalibrationFile> read_calibration_file(const std::filesystem::path& path,
-                                              std::optional<cv::Size> footage_size_px) {
+Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px,
+                                std::optional<LensModel> model) {
   const std::string file_name = path.filename().string();
   Result<std::string> text = read_text(path, kCalibrationLimit_bytes);
   if (!text) return fail(text.error());
   const Result<Fields> fields = fields_in(trimmed(*std::move(text)), file_name);
   if (!fields) return fail(fields.error());
-  return calibration::camera_from(*fields, file_name, footage_size_px);
+  return calibration::camera_from(*fields, file_name, footage_size_px, model);
 }
 
 }  // namespace sigs

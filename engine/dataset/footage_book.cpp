@@ -6,6 +6,7 @@
 #include "export.h"
 #include "scene/attitude_file.h"
 #include "scene/own_body_mask.h"
+#include "scene/scene_parts.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -33,7 +34,8 @@ class Book {
     const Background& background = recipe_.backgrounds[i];
     const FootageSettings& settings = background.footage;
     const std::string where = key_of(i) + "footage.";
-    Result<Camera> lens = read_calibration(settings.calibration, shape.size_px);
+    Result<Camera> lens = 
+        read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model));
     if (!lens) return fail_at(where + "calibration", lens.error());
     if (const std::string& mask = settings.own_body_mask; !mask.empty())
       if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)

@@ -49,6 +49,8 @@ void add_footage(FieldList list, FootageSettings& footage) {
   list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
   list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
   list.path("calibration", footage.calibration, true, "the camera's calibration file");
+  list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye"}), "",
+           "lens model of the calibration's numbers; auto: as the file says, else as they look");
   list.path("own_body_mask", footage.own_body_mask, false,
             "picture of the footage's size, white where the UAV's own body hides the intruder; empty: none");
 }

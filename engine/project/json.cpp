@@ -32,6 +32,17 @@ Result<std::size_t> list_size(const Json& json, const char* pointer, const std::
   return json.at(place).size();
 }
 
+// Nobody means the world's origin by saying nothing.
+Result<void> check_positions(const Json& intruder, std::size_t waypoints, const std::string& where) {
+  for (std::size_t i = 0; i < waypoints; ++i) {
+    const Json& waypoint = intruder.at("trajectory").at("waypoints").at(i);
+    if (waypoint.is_object() && !waypoint.contains("position_m"))
+      return fail(where + ".trajectory.waypoints[" + std::to_string(i) + "].position_m",
+                  "is missing: where the waypoint is, in the world, as [x, y, z]", ErrorKind::bad_project);
+  }
+  return {};
+}
+
 Result<void> make_room_for_lists(const Json& json, const std::string& file, Project& project) {
   const Result<std::size_t> intruders = list_size(json, "/intruders", file + ": intruders");
   if (!intruders) return fail(intruders.error());
@@ -43,6 +54,7 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
     const Result<std::size_t> waypoints =
         list_size(intruder, "/trajectory/waypoints", file + ": " + key + ".trajectory.waypoints");
     if (!waypoints) return fail(waypoints.error());
+    if (const Result<void> places = check_positions(intruder, *waypoints, file + ": " + key); !places) return places;
     project.intruders[i].trajectory.waypoints.resize(*waypoints);
   }
   return {};

@@ -13,6 +13,10 @@
 
 namespace sigs {
 
+// Which lens model the numbers of the calibration file are of; automatic: as the file says or, where it does not, as
+// its numbers look (docs/calibration-files.md).
+enum class LensModelChoice { automatic, brown_conrady, fisheye };
+
 // A project as its file has it: numbers, names and paths; nothing is opened. Units and ranges: project/fields.h.
 struct FootageSettings {
   std::string video;
@@ -20,6 +24,7 @@ struct FootageSettings {
   std::optional<int> last_frame;  // the last one used; none: the footage's last
   std::string calibration;
   std::string own_body_mask;  // empty: none
+  LensModelChoice lens_model = LensModelChoice::automatic;
 
   [[nodiscard]] bool operator==(const FootageSettings&) const = default;
 };

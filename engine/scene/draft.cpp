@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "scene/path_stiffness.h"
+#include "scene/doubts.h"
 #include "scene/scene_parts.h"
 #include "scene/stand_ins.h"
 
@@ -30,18 +30,22 @@ bool holds(std::string_view outer, std::string_view inner) {
 }
 
 // What opening finds is often what checking has named: of the same field, or of a part of it.
+bool is_known(const std::vector<Problem>& problems, const Problem& found) {
+  return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
+    return holds(known.field, found.field) || holds(found.field, known.field);
+  });
+}
+
 void note(std::vector<Problem>& problems, const Problem& found) {
-  for (const Problem& known : problems)
-    if (holds(known.field, found.field) || holds(found.field, known.field)) return;
-  problems.push_back(found);
+  if (!is_known(problems, found)) problems.push_back(found);
 }
 
 // Of several in one field, the first.
 std::vector<Problem> checked(const Project& project) {
   std::vector<Problem> problems;
   for (Problem& found : validate(project)) {
-    const auto is_known = [&](const Problem& known) { return known.field == found.field; };
-    if (std::none_of(problems.begin(), problems.end(), is_known)) problems.push_back(std::move(found));
+    const auto is_same = [&](const Problem& known) { return known.field == found.field; };
+    if (std::none_of(problems.begin(), problems.end(), is_same)) problems.push_back(std::move(found));
   }
   return problems;
 }
@@ -79,9 +83,6 @@ Trajectory hovering(const Project& sound, std::size_t intruder) {
 Trajectory drafted_trajectory(const Project& written, const Project& sound, std::size_t intruder, DraftScene& draft) {
   if (!can_be_flown(written, intruder)) return hovering(sound, intruder);
   Made<Trajectory> made = made_trajectory(sound, intruder, draft.scene);
-  if (made)
-    if (std::optional<Warning> swing = swing_warning(sound, intruder, draft.scene))
-      draft.scene.warnings.push_back(*std::move(swing));
   return made_or(std::move(made), hovering(sound, intruder), draft.problems);
 }
 
@@ -105,10 +106,8 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
       made_or(made_range(sound.footage, footage), clamped_range(sound.footage, footage), draft.problems);
   scene.first_frame = range.first;
   scene.last_frame = range.last;
-  CalibrationFile calibration = made_or(made_camera(sound, footage.size_px, files),
-                                        CalibrationFile{stand_in_camera(footage.size_px), {}}, draft.problems);
-  scene.camera = std::move(calibration.camera);
-  scene.warnings = std::move(calibration.warnings);
+  scene.camera =
+      made_or(made_camera(sound, footage.size_px, files), stand_in_camera(footage.size_px), draft.problems);
   scene.motion.turns = made_or(made_turns(sound, footage, files), std::vector<CarrierTurn>(), draft.problems);
   scene.own_body = made_or(made_own_body(sound, footage.size_px, files), cv::Mat(), draft.problems);
   for (std::size_t i = 0; i < sound.intruders.size(); ++i) {
@@ -117,6 +116,9 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
     const std::shared_ptr<const Model> model = drafted_model(sound, i, draft, files);
     if (has_waypoint) add_intruder(scene, sound.intruders[i].name, model, drafted_trajectory(project, sound, i, draft));
   }
+  scene.doubts = doubts_of(sound, scene, draft.intruder_of_project);
+  // Of what is wrong there is nothing to doubt.
+  std::erase_if(scene.doubts, [&](const Problem& doubt) { return is_known(draft.problems, doubt); });
   return draft;
 }
 
@@ -128,7 +130,8 @@ FootageShape stand_in_footage(const Project& project) {
       last = std::max(last, std::ceil(waypoint.frame.value_or(0)));
   const int count = static_cast<int>(std::clamp<double>(last + 1, kFewestFrames, kMostFrames));
   // The size that the calibration is made for: else a second fault would be seen where there is one.
-  const Result<Camera> camera = read_calibration(resolved(sound, sound.footage.calibration));
+  const Result<Camera> camera = 
+      read_calibration(resolved(sound, sound.footage.calibration), {}, lens_model_of(sound.footage.lens_model));
   FootageShape footage{.size_px = camera ? camera->size_px : cv::Size(kStandInWidth_px, kStandInHeight_px),
                        .frame_interval_s = kStandInInterval_s};
   for (int frame = 0; frame < count; ++frame) footage.times_s.push_back(frame * kStandInInterval_s);

@@ -46,7 +46,7 @@ std::optional<double> path_condition(const Project& project, std::size_t intrude
   return interpolation_condition(waypoints);
 }
 
-std::optional<Warning> swing_warning(const Project& project, std::size_t intruder, const Scene& scene) {
+std::optional<Problem> swing_doubt(const Project& project, std::size_t intruder, const Scene& scene) {
   const IntruderSettings& settings = project.intruders[intruder];
   const std::vector<TimedWaypoint> waypoints = shaping_waypoints(settings.trajectory, scene);
   if (waypoints.empty()) return std::nullopt;
@@ -54,7 +54,7 @@ std::optional<Warning> swing_warning(const Project& project, std::size_t intrude
   if (swings.empty()) return std::nullopt;
   const std::vector<double> frames =
       waypoint_frames(settings.trajectory.waypoints, scene.first_frame, scene.last_frame);
-  return Warning{project.file.string() + ": " + key_of_intruder(intruder) + ".trajectory",
+  return Problem{key_of_intruder(intruder) + ".trajectory",
                  text_of(farthest(swings), swings.size() - 1, settings.name, frames)};
 }
 

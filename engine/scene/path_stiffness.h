@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "base/result.h"
 #include "project/project.h"
+#include "project/validate.h"
 #include "scene/scene.h"
 
 namespace sigs {
@@ -15,6 +15,6 @@ namespace sigs {
 
 // Where the path swings farther off the straight way between two waypoints than any leg around is long: which intruder,
 // which frames, how far, and what to do. The worst place is told, others are counted.
-[[nodiscard]] std::optional<Warning> swing_warning(const Project& project, std::size_t intruder, const Scene& scene);
+[[nodiscard]] std::optional<Problem> swing_doubt(const Project& project, std::size_t intruder, const Scene& scene);
 
 }  // namespace sigs

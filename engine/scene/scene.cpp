@@ -2,11 +2,10 @@
 #include "scene/scene.h"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "project/validate.h"
-#include "scene/path_stiffness.h"
+#include "scene/doubts.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 
@@ -21,10 +20,9 @@ Result<Scene> opened(const Project& project, const FootageShape& footage, SceneF
   if (!range) return stop(range.error());
   scene.first_frame = range->first;
   scene.last_frame = range->last;
-  Made<CalibrationFile> calibration = made_camera(project, footage.size_px, files);
-  if (!calibration) return stop(calibration.error());
-  scene.camera = std::move(calibration->camera);
-  scene.warnings = std::move(calibration->warnings);
+  Made<Camera> camera = made_camera(project, footage.size_px, files);
+  if (!camera) return stop(camera.error());
+  scene.camera = *std::move(camera);
   Made<std::vector<CarrierTurn>> turns = made_turns(project, footage, files);
   if (!turns) return stop(turns.error());
   scene.motion.turns = *std::move(turns);
@@ -36,9 +34,9 @@ Result<Scene> opened(const Project& project, const FootageShape& footage, SceneF
     if (!model) return stop(model.error());
     const Made<Trajectory> trajectory = made_trajectory(project, i, scene);
     if (!trajectory) return stop(trajectory.error());
-    if (std::optional<Warning> swing = swing_warning(project, i, scene)) scene.warnings.push_back(*std::move(swing));
     add_intruder(scene, project.intruders[i].name, *model, *trajectory);
   }
+  scene.doubts = doubts_of(project, scene);
   return scene;
 }
 

@@ -13,6 +13,7 @@
 #include "camera/camera.h"
 #include "mesh/mesh.h"
 #include "project/project.h"
+#include "project/validate.h"
 #include "spline/trajectory.h"
 
 namespace sigs {
@@ -71,7 +72,8 @@ struct Scene {
   int first_frame = 0;
   int last_frame = 0;  // included
   bool horizon_is_known = false;  // somebody has said how the camera is turned
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings;  // of the files that were read
+  std::vector<Problem> doubts;    // what can be used but is hardly meant, by field (scene/doubts.h)
 };
 
 // Errors name project file and field: "x.json: intruders[0].model.file: no such file".

@@ -39,7 +39,7 @@ Stamp stamp_of(const std::filesystem::path& file) {
 bool is_held(const std::shared_ptr<const Model>& model) {
   return model.use_count() > 1;
 }
-bool is_held(const CalibrationFile&) {
+bool is_held(const Camera&) {
   return false;
 }
 bool is_held(const cv::Mat&) {
@@ -92,6 +92,7 @@ class Shelf {
 // Numbers by their bits: NaN too then has its place.
 using ModelKey = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool>;
 using PictureKey = std::tuple<std::string, int, int>;
+using CameraKey = std::tuple<std::string, int, int, std::optional<LensModel>>;
 
 std::string name_of(const std::filesystem::path& file) {
   return file.lexically_normal().string();
@@ -120,7 +121,7 @@ Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& fil
 
 struct SceneFiles::Shelves {
   Shelf<ModelKey, std::shared_ptr<const Model>> models;
-  Shelf<PictureKey, CalibrationFile> calibrations;
+  Shelf<CameraKey, Camera> cameras;
   Shelf<PictureKey, cv::Mat> masks;
   Shelf<std::string, std::vector<AttitudeAtFrame>> attitudes;
   Shelf<std::uint64_t, std::shared_ptr<const Model>> crosses;
@@ -135,15 +136,11 @@ Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::pa
   return shelves_->models.take(key_of(file, axes), stamp_of(file), [&] { return read_model(file, axes); });
 }
 
-Result<CalibrationFile> SceneFiles::calibration(const std::filesystem::path& file, cv::Size footage_size_px) {
-  return shelves_->calibrations.take(key_of(file, footage_size_px), stamp_of(file),
-                                     [&] { return read_calibration_file(file, footage_size_px); });
-}
-
-Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px) {
-  Result<CalibrationFile> file = this->calibration(calibration, footage_size_px);
-  if (!file) return fail(file.error());
-  return std::move(file->camera);
+Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
+                                  std::optional<LensModel> model) {
+  const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
+  return shelves_->cameras.take(key, stamp_of(calibration),
+                                [&] { return read_calibration(calibration, footage_size_px, model); });
 }
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {

@@ -4,10 +4,11 @@
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
-#include "camera/calibration_file.h"
+#include "camera/camera.h"
 #include "scene/attitude_file.h"
 #include "scene/scene.h"
 
@@ -27,8 +28,8 @@ class SceneFiles {
 
   // Two calls with the same file and axes give the same object, which lives as long as anybody holds it.
   [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes);
-  [[nodiscard]] Result<CalibrationFile> calibration(const std::filesystem::path& file, cv::Size footage_size_px);
-  [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px);
+  [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
+                                      std::optional<LensModel> model = std::nullopt);
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);
   // Shared: not to be written to.
   [[nodiscard]] Result<cv::Mat> own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px);

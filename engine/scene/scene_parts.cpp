@@ -69,10 +69,16 @@ Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape&
   return range;
 }
 
-Made<CalibrationFile> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
-  Result<CalibrationFile> file = files.calibration(resolved(project, project.footage.calibration), footage_size_px);
-  if (!file) return in_field("footage.calibration", file.error());
-  return *std::move(file);
+std::optional<LensModel> lens_model_of(LensModelChoice choice) {
+  if (choice == LensModelChoice::automatic) return std::nullopt;
+  return choice == LensModelChoice::fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
+}
+
+Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+  Result<Camera> camera = files.camera(resolved(project, project.footage.calibration), footage_size_px,
+                                       lens_model_of(project.footage.lens_model));
+  if (!camera) return in_field("footage.calibration", camera.error());
+  return *std::move(camera);
 }
 
 Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage, SceneFiles& files) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
@@ -25,7 +26,10 @@ using Made = tl::expected<T, Problem>;
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
 
 [[nodiscard]] Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage);
-[[nodiscard]] Made<CalibrationFile> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+
+// None: as the file says, or as it looks.
+[[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
 
 // Empty where the project names no attitude file.
 [[nodiscard]] Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "camera/calibration_file.h"
+#include "camera/camera.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -132,23 +132,23 @@ TEST_CASE("YAML with OpenCV tags is read with its own header and without") {
       "image_width: 640\nimage_height: 480\n"
       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., 0., 320., 0.,\n"
       "       5.1e+02, 240., 0., 0., 1. ]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.25, 0.125, 0., .5 ]\n";
+      "distortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.25, 0.125, 0., .05 ]\n";
   for (const char* head : {"%YAML:1.0\n---\n", "%YAML:1.0\n", "", "---\n", "\xEF\xBB\xBF", "\n\n  \n"})
-    check_reads_as(head + body, kBrown, {-0.25, 0.125, 0, 0.5});
+    check_reads_as(head + body, kBrown, {-0.25, 0.125, 0, 0.05});
 }
 
 TEST_CASE("line ends of Windows do not matter") {
-  std::string text = "%YAML:1.0\n---\nK: " + kMatrixYaml + "\nD: [1, 2, 3, 4]\nimage_size: [640, 480]\n";
+  std::string text = "%YAML:1.0\n---\nK: " + kMatrixYaml + "\nD: [1, 2, .03, .04]\nimage_size: [640, 480]\n";
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
-  check_reads_as(text, kBrown, {1, 2, 3, 4});
-  check_reads_as(text.substr(16), kBrown, {1, 2, 3, 4});
+  check_reads_as(text, kBrown, {1, 2, 0.03, 0.04});
+  check_reads_as(text.substr(16), kBrown, {1, 2, 0.03, 0.04});
 }
 
 TEST_CASE("plain JSON is read by the same names") {
   check_reads_as(
-      "{\n\t\"camera_matrix\": [[500, 0, 320], [0, 510, 240], [0, 0, 1]],\n\t\"dist_coeff\": [[1, 2, 3, 4]],\n"
+      "{\n\t\"camera_matrix\": [[500, 0, 320], [0, 510, 240], [0, 0, 1]],\n\t\"dist_coeff\": [[1, 2, 0.03, 0.04]],\n"
       "\t\"image_size\": [640, 480], \"note\": null}",
-      kBrown, {1, 2, 3, 4});
+      kBrown, {1, 2, 0.03, 0.04});
 }
 
 TEST_CASE("a Gyroflow lens profile is a fisheye") {
@@ -204,7 +204,7 @@ TEST_CASE("what a Gyroflow profile leaves open is warned of by name") {
   const TemporaryFolder folder;
   const auto warnings = [&](const std::string& rest) {
     std::ofstream(folder / "p.json") << profile(rest);
-    const auto file = read_calibration_file(folder / "p.json");
+    const auto file = read_calibration(folder / "p.json");
     REQUIRE(file.has_value());
     return file->warnings;
   };
@@ -219,8 +219,8 @@ TEST_CASE("what a Gyroflow profile leaves open is warned of by name") {
 }
 
 TEST_CASE("the first camera of a stereo pair is read") {
-  check_reads_as("K: " + kMatrixYaml + "\nM2: [1]\nD: [1, 2, 3, 4]\nD2: [7]\nimage_size: [640, 480]\n", kBrown,
-                 {1, 2, 3, 4});
+  check_reads_as("K: " + kMatrixYaml + "\nM2: [1]\nD: [1, 2, .03, .04]\nD2: [7]\nimage_size: [640, 480]\n", kBrown,
+                 {1, 2, 0.03, 0.04});
 }
 
 TEST_CASE("a calibration without a size is made for the footage") {
@@ -264,9 +264,9 @@ TEST_CASE("a shape within one percent of the calibration's is scaled side by sid
   // GoPro's 848x480 is 853.3x480 in whole blocks of 16.
   const TemporaryFolder folder;
   std::ofstream(folder / "lens.yml") << "K: " << kMatrixYaml << "\nD: []\nimage_size: [1920, 1080]\n";
-  const auto file = read_calibration_file(folder / "lens.yml", cv::Size(848, 480));
+  const auto file = read_calibration(folder / "lens.yml", cv::Size(848, 480));
   REQUIRE(file.has_value());
-  const LensParameters& lens = file->camera.lens.parameters();
+  const LensParameters& lens = file->lens.parameters();
   CHECK(lens.fx == doctest::Approx(500 * 848.0 / 1920).epsilon(1e-15));
   CHECK(lens.fy == doctest::Approx(510 * 480.0 / 1080).epsilon(1e-15));
   CHECK(lens.cx == doctest::Approx(320.5 * 848.0 / 1920 - 0.5).epsilon(1e-15));
@@ -277,9 +277,9 @@ TEST_CASE("a shape within one percent of the calibration's is scaled side by sid
   for (const char* part : {"lens.yml", "1920x1080", "848x480", "0.44167", "0.44444", "2.7 px"})  // (853.3 - 848) / 2
     CHECK(warning.find(part) != std::string::npos);
   for (const cv::Size size : {cv::Size(1920, 1080), cv::Size(1280, 720), cv::Size(854, 480)})
-    CHECK(read_calibration_file(folder / "lens.yml", size)->warnings.empty());
+    CHECK(read_calibration(folder / "lens.yml", size)->warnings.empty());
   for (const cv::Size size : {cv::Size(856, 480), cv::Size(1920, 1088), cv::Size(1904, 1080)})
-    CHECK(read_calibration_file(folder / "lens.yml", size)->warnings.size() == 1);
+    CHECK(read_calibration(folder / "lens.yml", size)->warnings.size() == 1);
   for (const cv::Size size : {cv::Size(864, 480), cv::Size(840, 480), cv::Size(1920, 1100), cv::Size(1440, 1080)})
     CHECK_FALSE(read_calibration(folder / "lens.yml", size).has_value());
 }

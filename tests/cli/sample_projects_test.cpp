@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <sstream>
+#include <string>
 
 #include "base/partial_file.h"
 #include "cli/program.h"
@@ -39,7 +41,10 @@ TEST_CASE("every sample project is whole and exports, every sample recipe makes 
     CHECK_MESSAGE(checked.status == 0, checked.err);
     const Run exported = run_sigs("export " + file.string() + " --frames 100-103 --out " + folder.path().string());
     CHECK_MESSAGE(exported.status == 0, exported.err);
-    CHECK_MESSAGE(exported.err.empty(), exported.err);
+    // Nothing but in how many frames each intruder is visible.
+    std::istringstream lines(exported.err);
+    for (std::string line; std::getline(lines, line);)
+      CHECK_MESSAGE(line.find(": visible in ") != std::string::npos, exported.err);
     ++projects;
   }
   CHECK(projects >= 3);

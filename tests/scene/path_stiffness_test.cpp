@@ -42,9 +42,10 @@ Scene opened(const Project& project) {
 
 TEST_CASE("a path that swings far beyond its waypoints is told with intruder and frames and what to do") {
   const Scene scene = opened(stiff_project());
-  REQUIRE(scene.warnings.size() == 1);
-  const std::string text = scene.warnings.front().text();
-  CHECK(text.find("crossing.json: intruders[0].trajectory: \"late bird\" swings ") != std::string::npos);
+  REQUIRE(scene.doubts.size() == 1);
+  CHECK(scene.doubts.front().field == "intruders[0].trajectory");
+  const std::string text = scene.doubts.front().what;
+  CHECK(text.find("\"late bird\" swings ") != std::string::npos);
   CHECK(text.find("of frames 1 and 100001, where no leg is longer than 9000 m") != std::string::npos);
   CHECK(text.find("approximating") != std::string::npos);
 }
@@ -52,11 +53,11 @@ TEST_CASE("a path that swings far beyond its waypoints is told with intruder and
 TEST_CASE("each way out of a swing that the warning names is one") {
   Project spread = stiff_project();
   for (const std::size_t inner : {1U, 2U}) spread.intruders[0].trajectory.waypoints[inner].frame.reset();
-  CHECK(opened(spread).warnings.empty());
+  CHECK(opened(spread).doubts.empty());
 
   Project approximating = stiff_project();
   approximating.intruders[0].trajectory.spline = SplineChoice::approximating;
-  CHECK(opened(approximating).warnings.empty());
+  CHECK(opened(approximating).doubts.empty());
 
   Project more = stiff_project();
   std::vector<WaypointSettings>& waypoints = more.intruders[0].trajectory.waypoints;
@@ -65,21 +66,21 @@ TEST_CASE("each way out of a swing that the warning names is one") {
     waypoints.insert(waypoints.begin() + 2, {.frame = frame, .position_m = {503 + 0.09 * (frame - 1), 0, -150}});
   for (const double frame : {90'001.0, 99'001.0, 99'901.0, 99'991.0})
     waypoints.insert(waypoints.end() - 2, {.frame = frame, .position_m = {503 + 0.09 * (frame - 1), 0, -150}});
-  CHECK(opened(more).warnings.empty());
+  CHECK(opened(more).doubts.empty());
 }
 
 TEST_CASE("one speed along the same curve does not take the swing out of it") {
   Project project = stiff_project();
   project.intruders[0].trajectory.timing = TimingChoice::constant_speed;
-  CHECK(opened(project).warnings.size() == 1);
+  CHECK(opened(project).doubts.size() == 1);
 }
 
 TEST_CASE("the draft has the warnings of the opened scene") {
   SceneFiles files;
   const DraftScene draft = draft_scene(stiff_project(), long_footage(), files);
   CHECK(draft.problems.empty());
-  REQUIRE(draft.scene.warnings.size() == 1);
-  CHECK(draft.scene.warnings.front().text() == opened(stiff_project()).warnings.front().text());
+  REQUIRE(draft.scene.doubts.size() == 1);
+  CHECK(draft.scene.doubts.front().what == opened(stiff_project()).doubts.front().what);
 }
 
 TEST_CASE("the sample projects swing nowhere and are well conditioned") {
@@ -88,6 +89,7 @@ TEST_CASE("the sample projects swing nowhere and are well conditioned") {
     const Project project = sample_project(name);
     const Result<Scene> scene = open_scene(project, sample_footage());
     REQUIRE(scene.has_value());
+    CHECK(scene->doubts.empty());
     CHECK(scene->warnings.empty());
     for (std::size_t i = 0; i < project.intruders.size(); ++i) {
       const std::optional<double> condition = path_condition(project, i, *scene);
