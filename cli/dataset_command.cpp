@@ -118,7 +118,7 @@ Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
             .seed = read->recipe.seed,
             .recipe = read->recipe.text,
             .settings = options.project.settings};
-  Result<Plan> plan = plan_of(read->recipe);
+  Result<Plan> plan = plan_of(read->recipe, &interrupt_flag());
   if (!plan || options.only.empty()) return plan;
   if (const Result<void> kept = keep_only(*plan, names_in(options.only)); !kept) return fail(kept.error());
   return plan;
@@ -135,8 +135,6 @@ Result<void> judged(const Plan& plan, const std::filesystem::path& recipe) {
                      : count_text(plan.impossible.size(), "video") + " cannot be; the others are planned",
               ErrorKind::bad_data);
 }
-
-constexpr int kFramesLookedAt = 20;  // of a video, for how its intruder is seen
 
 void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
                     const std::vector<std::optional<Visibility>>& views) {
@@ -201,6 +199,7 @@ Result<void> run(const DatasetOptions& options) {
   }
   if (plan->videos.empty() && plan->unopened.empty()) return judged(*plan, options.recipe);
   if (!options.merge) warn_of_unseen(videos, views);
+  std::fputs(redraws_line(videos).c_str(), stderr);
   request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
   defer_interrupts();
   keep_freed_memory();

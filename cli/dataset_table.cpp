@@ -128,6 +128,12 @@ std::string size_range_text(const std::optional<Visibility>& view) {
   return low == high ? low : low + ".." + high;
 }
 
+std::string redraws_count(const PlannedVideo& video) {
+  int count = 0;
+  for (const auto& [condition, times] : video.redraws) count += times;
+  return count > 0 ? std::to_string(count) : "-";
+}
+
 // One table's videos: those of the same quantities.
 struct Block {
   std::set<std::string> quantities;
@@ -161,14 +167,16 @@ std::vector<Column> columns_of(const Block& block, const Measured& all) {
                               {.title = "flight"},
                               {.title = "frames", .is_number = true},
                               {.title = "in_view", .is_number = true},
-                              {.title = "size_px", .is_number = true}};
+                              {.title = "size_px", .is_number = true},
+                              {.title = "redraws", .is_number = true}};
   const std::size_t fixed = columns.size();
   for (const std::string& quantity : block.quantities) columns.push_back({.title = quantity, .is_number = true});
   for (const std::size_t i : block.videos) {
     const PlannedVideo& video = *all.videos[i];
     Row row{video.name, video.split.empty() ? "-" : video.split};
     for (const char* const tag : {"background", "aircraft", "flight"}) row.push_back(or_dash(video.tags, tag));
-    row.insert(row.end(), {std::to_string(all.frames[i]), view_text(all.views[i]), size_range_text(all.views[i])});
+    row.insert(row.end(), {std::to_string(all.frames[i]), view_text(all.views[i]), size_range_text(all.views[i]),
+                           redraws_count(video)});
     for (std::size_t c = 0; c < fixed; ++c) columns[c].cells.push_back(row[c]);
     std::size_t c = fixed;
     for (const auto& [quantity, value] : video.drawn) columns[c++].cells.push_back(rounded_text(value));
@@ -183,6 +191,11 @@ std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard)
   for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i)
     if (shard.has(i)) videos.push_back(&plan.videos[static_cast<std::size_t>(i)]);
   return videos;
+}
+
+std::string redraws_line(const std::vector<const PlannedVideo*>& videos) {
+  const std::string text = redraws_text(redraws_of(videos));
+  return text.empty() ? text : "drawn again: " + text + "\n";
 }
 
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
@@ -202,7 +215,7 @@ Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));
-  return text + std::to_string(videos.size()) + (videos.size() == 1 ? " video, " : " videos, ") +
+  return text + redraws_line(videos) + std::to_string(videos.size()) + (videos.size() == 1 ? " video, " : " videos, ") +
          std::to_string(frames) + (frames == 1 ? " frame, about " : " frames, about ") + size_text(bytes) + "\n";
 }
 

@@ -127,6 +127,9 @@ Json index_of(const Plan& plan, const DatasetSource& source, const std::vector<F
     video["files"] = described(one.entry.files, one.video->name + "/");
     json["videos"].push_back(std::move(video));
   }
+  std::vector<const PlannedVideo*> planned;
+  for (const PlannedVideo& video : plan.videos) planned.push_back(&video);
+  for (const auto& [condition, count] : redraws_of(planned)) json["redraws"][condition] = count;
   json["impossible"] = Json::array();
   for (const ImpossibleVideo& one : plan.impossible)
     json["impossible"].push_back({{"name", one.name}, {"why", one.why}});

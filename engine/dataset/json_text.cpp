@@ -11,6 +11,7 @@ Json described(const PlannedVideo& video) {
   for (const auto& [key, value] : video.tags) json["tags"][key] = value;
   json["drawn"] = Json::object();
   for (const auto& [key, value] : video.drawn) json["drawn"][key] = value;
+  for (const auto& [condition, count] : video.redraws) json["redraws"][condition] = count;
   return json;
 }
 

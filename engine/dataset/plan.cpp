@@ -2,27 +2,18 @@
 #include "dataset/plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "dataset/flight_plan.h"
 #include "dataset/footage_book.h"
 #include "dataset/splits.h"
+#include "dataset/video_draw.h"
 #include "dataset/video_name.h"
+#include "dataset/video_view.h"
 #include "project/validate.h"
 
 namespace sigs {
 
 namespace {
-
-// One combination of a group: numbers in the recipe's lists.
-struct Cast {
-  std::size_t group = 0;
-  std::size_t background = 0;
-  std::size_t aircraft = 0;
-  std::size_t flight = 0;
-  std::string name;
-};
 
 template <class Named>
 std::size_t index_of(const std::vector<Named>& all, const std::string& name) {
@@ -33,12 +24,20 @@ std::size_t index_of(const std::vector<Named>& all, const std::string& name) {
 std::vector<Cast> casts_of(const Recipe& recipe, std::size_t group_index) {
   const VideoGroup& group = recipe.groups[group_index];
   std::vector<Cast> casts;
+  if (group.is_drawn) {
+    for (int number = 1; number <= group.count; ++number)
+      casts.push_back({.group = group_index, .name = name_from(group.name, {.number = number})});
+    return casts;
+  }
   for (const std::string& background : group.backgrounds)
     for (const std::string& aircraft : group.aircraft)
       for (std::size_t flight = 0; flight < group.flights.size(); ++flight)
         for (int number = 1; number <= group.count; ++number)
-          casts.push_back({group_index, index_of(recipe.backgrounds, background), index_of(recipe.aircraft, aircraft),
-                           flight, name_from(group.name, {background, aircraft, group.flights[flight].name, number})});
+          casts.push_back({.group = group_index,
+                           .name = name_from(group.name, {background, aircraft, group.flights[flight].name, number}),
+                           .background = index_of(recipe.backgrounds, background),
+                           .aircraft = index_of(recipe.aircraft, aircraft),
+                           .flight = flight});
   return casts;
 }
 
@@ -58,94 +57,6 @@ Result<std::vector<Cast>> all_casts(const Recipe& recipe) {
     }
   }
   return casts;
-}
-
-std::map<std::string, std::string> tags_of(const Recipe& recipe, const Cast& cast) {
-  const Background& background = recipe.backgrounds[cast.background];
-  const Aircraft& aircraft = recipe.aircraft[cast.aircraft];
-  const VideoGroup& group = recipe.groups[cast.group];
-  std::map<std::string, std::string> tags{
-      {"background", background.name}, {"aircraft", aircraft.name}, {"flight", group.flights[cast.flight].name}};
-  for (const auto* const more : {&group.tags, &aircraft.tags, &background.tags})
-    tags.insert(more->begin(), more->end());
-  return tags;
-}
-
-std::map<std::string, double> values_of(const FlightPlan& flight, std::uint64_t seed, const std::string& video) {
-  std::map<std::string, double> values;
-  for (const FlightQuantity& quantity : quantities_of(flight.kind)) {
-    const std::string name(quantity.name);
-    if (const auto given = flight.quantities.find(name); given != flight.quantities.end())
-      values[name] = drawn(given->second, {seed, video, name});
-    else if (quantity.standard)
-      values[name] = *quantity.standard;
-  }
-  return values;
-}
-
-// The frames of a video, or why the background has not got them.
-tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const std::string& video, std::uint64_t seed,
-                                                const FrameRange& there) {
-  const double skipped = std::floor(drawn(group.first_frame, {seed, video, "first_frame"}));
-  const double first = there.first + skipped;
-  const double last = group.frames ? first + *group.frames - 1 : there.last;
-  if (first <= last && last <= there.last) return FrameRange{static_cast<int>(first), static_cast<int>(last)};
-  return tl::unexpected(std::string(group.frames ? "frames" : "first_frame") + ": the background has " +
-                        std::to_string(there.last - there.first + 1) + " frames, too few for " +
-                        (group.frames ? std::to_string(*group.frames) + " " : "any ") + "from its frame " +
-                        std::to_string(std::llround(skipped)) + " on");
-}
-
-std::vector<std::string> categories_of(const Recipe& recipe) {
-  if (!recipe.base.output.categories.empty()) return recipe.base.output.categories;
-  std::vector<std::string> categories;
-  for (const Aircraft& aircraft : recipe.aircraft)
-    if (std::find(categories.begin(), categories.end(), aircraft.category) == categories.end())
-      categories.push_back(aircraft.category);
-  return categories;
-}
-
-Project project_of(const Recipe& recipe, const Cast& cast, const FrameRange& frames,
-                   std::vector<WaypointSettings> waypoints) {
-  const Background& background = recipe.backgrounds[cast.background];
-  const Aircraft& aircraft = recipe.aircraft[cast.aircraft];
-  Project project = recipe.base;
-  project.name = cast.name;
-  project.footage = background.footage;
-  project.footage.first_frame = frames.first;
-  project.footage.last_frame = frames.last;
-  project.camera = background.camera;
-  project.light = background.light;
-  project.output.categories = categories_of(recipe);
-  IntruderSettings& intruder = project.intruders.front();
-  intruder.name = aircraft.name;
-  intruder.category = aircraft.category;
-  intruder.model = aircraft.model;
-  intruder.trajectory.waypoints = std::move(waypoints);
-  return project;
-}
-
-tl::expected<PlannedVideo, std::string> planned(const Recipe& recipe, const Cast& cast,
-                                                const OpenedBackground& background) {
-  const VideoGroup& group = recipe.groups[cast.group];
-  const FlightPlan& flight = group.flights[cast.flight];
-  const tl::expected<FrameRange, std::string> frames = frames_of(group, cast.name, recipe.seed, background.frames);
-  if (!frames) return tl::unexpected(frames.error());
-  PlannedVideo video{.name = cast.name, .split = group.split, .tags = tags_of(recipe, cast)};
-  video.drawn = values_of(flight, recipe.seed, cast.name);
-  tl::expected<PlannedFlight, std::string> flown =
-      planned_flight(flight.kind, video.drawn,
-                     {.camera = recipe.backgrounds[cast.background].camera,
-                      .lens = background.lens,
-                      .footage = background.footage,
-                      .frames = *frames,
-                      .speed_limits_mps = recipe.aircraft[cast.aircraft].speed_limits_mps});
-  if (!flown) return tl::unexpected(flown.error());
-  video.drawn.merge(flown->facts);
-  if (group.first_frame.kind != Quantity::Kind::fixed)
-    video.drawn["first_frame"] = frames->first - background.frames.first;
-  video.project = project_of(recipe, cast, *frames, std::move(flown->waypoints));
-  return video;
 }
 
 Result<void> check_projects(const Recipe& recipe, const Plan& plan) {
@@ -171,30 +82,106 @@ Result<void> split_up(const Recipe& recipe, Plan& plan) {
   return {};
 }
 
+// What stood against a draw: the quantity that its reason begins with.
+std::string condition_of(const std::string& why) {
+  return why.substr(0, std::min(why.find(':'), why.find(" in frame")));
+}
+
+// Draws the recipe's videos one by one.
+class Planner {
+ public:
+  Planner(const Recipe& recipe, const std::vector<Result<OpenedBackground>>& backgrounds)
+      : recipe_(recipe), backgrounds_(backgrounds) {
+    for (std::size_t i = 0; i < backgrounds.size(); ++i)
+      if (backgrounds[i]) viewer_.remember(recipe.backgrounds[i].footage.video, backgrounds[i]->footage);
+  }
+
+  void add(const Cast& cast, Plan& plan);
+
+ private:
+  // A draw, or why it is none; where a video may be drawn again it must be seen, too.
+  [[nodiscard]] tl::expected<PlannedVideo, std::string> one_draw(const Cast& cast, const OpenedBackground& background,
+                                                                 int again);
+
+  const Recipe& recipe_;
+  const std::vector<Result<OpenedBackground>>& backgrounds_;
+  VideoViewer viewer_;
+};
+
+tl::expected<PlannedVideo, std::string> Planner::one_draw(const Cast& cast, const OpenedBackground& background,
+                                                          int again) {
+  tl::expected<PlannedVideo, std::string> video = drawn_video(recipe_, cast, background, again);
+  if (!video || !recipe_.groups[cast.group].redraws) return video;
+  const std::optional<Visibility> view = viewer_.view_of(video->project, kFramesLookedAt);
+  if (view && view->visible == 0)
+    return tl::unexpected(std::string("never in the picture: the intruder is beside it or behind the own body"));
+  return video;
+}
+
+void Planner::add(const Cast& cast, Plan& plan) {
+  const std::optional<int>& redraws = recipe_.groups[cast.group].redraws;
+  std::map<std::string, int> failed;
+  std::string why;
+  for (int again = 0; again <= redraws.value_or(0); ++again) {
+    const Cast drawn = drawn_cast(recipe_, cast, again);
+    const Result<OpenedBackground>& background = backgrounds_.at(drawn.background);
+    if (!background) {
+      plan.unopened.push_back({cast.name, background.error()});
+      return;
+    }
+    tl::expected<PlannedVideo, std::string> video = one_draw(drawn, *background, again);
+    if (video) {
+      video->redraws = std::move(failed);
+      plan.videos.push_back(*std::move(video));
+      return;
+    }
+    why = video.error();
+    ++failed[condition_of(why)];
+  }
+  if (redraws)
+    why = "none of " + std::to_string(*redraws + 1) + " draws can be used: " + redraws_text(failed) +
+          "; change what is drawn from, or raise videos[" + std::to_string(cast.group) +
+          "].redraws; the last one: " + why;
+  plan.impossible.push_back({cast.name, why});
+}
+
 }  // namespace
 
-Result<Plan> plan_of(const Recipe& recipe) {
+Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
   const Result<std::vector<Cast>> casts = all_casts(recipe);
   if (!casts) return fail(casts.error());
   const Result<std::vector<Result<OpenedBackground>>> backgrounds = opened_backgrounds(recipe);
   if (!backgrounds) return fail(backgrounds.error());
   Plan plan{.name = recipe.name};
+  Planner planner(recipe, *backgrounds);
   for (const Cast& cast : *casts) {
-    const Result<OpenedBackground>& background = backgrounds->at(cast.background);
-    if (!background) {
-      plan.unopened.push_back({cast.name, background.error()});
-      continue;
-    }
-    tl::expected<PlannedVideo, std::string> video = planned(recipe, cast, *background);
-    if (video)
-      plan.videos.push_back(*std::move(video));
-    else
-      plan.impossible.push_back({cast.name, video.error()});
+    if (cancel != nullptr && *cancel) return fail("", "interrupted", ErrorKind::interrupted);
+    planner.add(cast, plan);
   }
   Result<void> step = check_projects(recipe, plan);
   if (step) step = split_up(recipe, plan);
   if (!step) return fail(step.error());
   return plan;
+}
+
+std::map<std::string, int> redraws_of(const std::vector<const PlannedVideo*>& videos) {
+  std::map<std::string, int> redraws;
+  for (const PlannedVideo* const video : videos)
+    for (const auto& [condition, count] : video->redraws) redraws[condition] += count;
+  return redraws;
+}
+
+std::string redraws_text(const std::map<std::string, int>& redraws) {
+  std::vector<std::pair<std::string, int>> list(redraws.begin(), redraws.end());
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [condition, count] : list) {
+    if (!text.empty()) text += "; ";
+    text += condition;
+    text += count == 1 ? " once" : " ";
+    if (count > 1) text += std::to_string(count) + " times";
+  }
+  return text;
 }
 
 }  // namespace sigs

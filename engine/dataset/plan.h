@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct PlannedVideo {
   std::string split;
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
   std::map<std::string, double> drawn;      // what was drawn or fixed for it: "miss_distance_m", ...
+  std::map<std::string, int> redraws;       // how often it was drawn again, by what stood against the draw
 };
 
 // A video that cannot be: the intruder under the ground, a closing speed that cannot meet the miss distance, ...
@@ -41,8 +43,15 @@ struct Plan {
 
 // Expands a recipe. Draws depend on seed, video and quantity alone: not on order, nor on how many videos there are.
 // Opens the footage that the recipe names, to know its length; where a
-// clip cannot be opened its videos are `unopened`, where none can it is an error. Errors: what is wrong with the
-// recipe as a whole.
-[[nodiscard]] Result<Plan> plan_of(const Recipe& recipe);
+// clip cannot be opened its videos are `unopened`, where none can it is an error. A video that cannot be flown or is
+// never seen is drawn again, as often as its group allows; one that is not made after that is impossible, with what
+// stood against it and how often. Errors: what is wrong with the recipe as a whole; interrupted.
+[[nodiscard]] Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel = nullptr);
+
+// Of several videos together.
+[[nodiscard]] std::map<std::string, int> redraws_of(const std::vector<const PlannedVideo*>& videos);
+
+// "never in the picture 4 times; speed_mps once"; the most frequent one first.
+[[nodiscard]] std::string redraws_text(const std::map<std::string, int>& redraws);
 
 }  // namespace sigs

@@ -106,7 +106,7 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
   check_names(recipe.backgrounds, "backgrounds", node.log());
   check_names(recipe.aircraft, "aircraft", node.log());
   read_splits(node, recipe);
-  recipe.groups = read_groups(node, recipe);
+  recipe.groups = read_groups(node, recipe, settings);
   node.done();
 }
 

@@ -38,16 +38,26 @@ struct FlightPlan {
   std::map<std::string, Quantity> quantities;  // those that the recipe gives: dataset/flight_quantities.h
 };
 
-// A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each.
+// What a group says of the light: numbers that stand in for the background's ("light_x_m", ..., light_draw.h).
+struct LightPlan {
+  std::map<std::string, Quantity> quantities;
+};
+
+// A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each; or `count` videos
+// whose background, aircraft and flight are drawn.
 struct VideoGroup {
   std::string name;  // pattern: {background} {aircraft} {flight} {number}
   std::vector<std::string> backgrounds;
   std::vector<std::string> aircraft;
   std::vector<FlightPlan> flights;
+  bool is_drawn = false;
   int count = 1;
-  std::optional<int> frames;  // length; none: to the end of what the background has
-  Quantity first_frame;       // counted from the background's first one; the whole part is taken
-  std::string split;          // fixed; empty: drawn
+  std::optional<int> redraws;  // how often at most a video that cannot be flown or is never seen is drawn again; none:
+                               // it is drawn once, and made though it is never seen
+  std::vector<LightPlan> lights;  // one of them is drawn; empty: the background's light
+  std::optional<int> frames;      // length; none: to the end of what the background has
+  Quantity first_frame;           // counted from the background's first one; the whole part is taken
+  std::string split;              // fixed; empty: drawn
   std::map<std::string, std::string> tags;
 };
 

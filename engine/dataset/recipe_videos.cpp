@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "dataset/light_draw.h"
 #include "dataset/quantity_json.h"
 #include "dataset/short_text.h"
 #include "dataset/video_name.h"
@@ -15,6 +16,14 @@ namespace {
 
 constexpr int kMostVideos = 100'000;
 constexpr int kMostFrames = 1'000'000'000;
+constexpr int kRedraws = 100;  // of drawn groups that do not say
+constexpr int kMostRedraws = 10'000;
+
+// What a drawn group flies that does not say. docs/dataset.md shows it.
+constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
+  "miss_distance_m": {"uniform": [0, 150]}, "miss_angle_deg": {"uniform": [-180, 180]},
+  "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},
+  "closing_speed_mps": {"uniform": [40, 160]}}])";
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -95,9 +104,11 @@ FlightPlan read_flight(RecipeNode node) {
 }
 
 // A flight that is a text is its kind, all else as it comes.
-std::vector<FlightPlan> read_flights(RecipeNode& group) {
+std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_drawn) {
+  static const Json random_encounter = Json::parse(kRandomEncounter);
   std::vector<FlightPlan> flights;
-  const Json* const list = group.value("flights");
+  const Json* list = group.value("flights");
+  if (list == nullptr && is_drawn) list = &random_encounter;
   if (list == nullptr || !list->is_array() || list->empty()) {
     group.log().wrong(group.key_of("flights"), "expected a list of at least one flight");
     return flights;
@@ -119,14 +130,41 @@ void check_split(const std::string& split, RecipeNode& group, const Recipe& reci
     group.log().wrong(group.key_of("split"), "no such split: \"" + split + "\"; there are " + listed(there));
 }
 
-VideoGroup read_group(RecipeNode node, const Recipe& recipe) {
+// How many videos, of each combination or in all.
+void read_count(RecipeNode& node, VideoGroup& group) {
+  const std::optional<int> videos = node.whole("videos", 1, kMostVideos);
+  const std::optional<int> count = node.whole("count", 1, kMostVideos);
+  group.is_drawn = node.value("videos") != nullptr;
+  if (group.is_drawn && node.value("count") != nullptr)
+    node.log().wrong(node.key_of("count"), "counts each combination, videos draws so many in all; give one of the two");
+  group.count = videos.value_or(count.value_or(1));
+  group.redraws = node.whole("redraws", 0, kMostRedraws);
+  if (group.is_drawn && !group.redraws) group.redraws = kRedraws;
+}
+
+std::string standard_name(const VideoGroup& group) {
+  if (group.is_drawn) return "video-{number}";
+  return group.count > 1 ? "{background}-{aircraft}-{flight}-{number}" : "{background}-{aircraft}-{flight}";
+}
+
+// Draws belong to the video's name, so that cannot hold what is drawn.
+void check_drawn_name(const VideoGroup& group, RecipeNode& node) {
+  for (const char* const part : {"{background}", "{aircraft}", "{flight}"})
+    if (group.name.find(part) != std::string::npos)
+      node.log().wrong(node.key_of("name"),
+                       std::string("has ") + part + ", which is drawn for each name; use {number} alone");
+  if (group.count > 1 && group.name.find("{number}") == std::string::npos)
+    node.log().wrong(node.key_of("name"), "is the same for " + std::to_string(group.count) + " videos; add {number}");
+}
+
+VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<std::string>& settings) {
   VideoGroup group;
+  read_count(node, group);
   group.backgrounds = picked(node, "backgrounds", names_of(recipe.backgrounds));
   group.aircraft = picked(node, "aircraft", names_of(recipe.aircraft));
-  group.flights = read_flights(node);
-  group.count = node.whole("count", 1, kMostVideos).value_or(1);
-  group.name = node.text("name").value_or(group.count > 1 ? "{background}-{aircraft}-{flight}-{number}"
-                                                          : "{background}-{aircraft}-{flight}");
+  group.flights = read_flights(node, group.is_drawn);
+  group.lights = read_lights(node, settings);
+  group.name = node.text("name").value_or(standard_name(group));
   group.frames = node.whole("frames", 1, kMostFrames);
   group.first_frame = read_quantity(node, "first_frame").value_or(Quantity{});
   if (span_of(group.first_frame).low < 0) node.log().wrong(node.key_of("first_frame"), "must not be less than 0");
@@ -134,6 +172,7 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe) {
   group.tags = node.text_map("tags");
   if (const std::string wrong = wrong_with_pattern(group.name); !wrong.empty())
     node.log().wrong(node.key_of("name"), wrong);
+  if (group.is_drawn) check_drawn_name(group, node);
   check_split(group.split, node, recipe);
   check_tags(group.tags, node);
   node.done();
@@ -147,14 +186,21 @@ void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node
     if (tags.contains(own)) node.log().wrong(node.key_of("tags") + "." + own, "is set by itself; choose another name");
 }
 
-std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe) {
+std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
+                                    const std::vector<std::string>& settings) {
+  const Json* const number = recipe_node.value("videos");
+  if (number != nullptr && number->is_number()) {  // one group that says nothing else
+    const Json group{{"videos", *number}};
+    return {read_group(RecipeNode(group, "", recipe_node.log()), recipe, settings)};
+  }
   std::vector<VideoGroup> groups;
   double videos = 0;
   for (const RecipeNode& node : recipe_node.nodes("videos")) {
-    groups.push_back(read_group(node, recipe));
+    groups.push_back(read_group(node, recipe, settings));
     const VideoGroup& group = groups.back();
-    videos += double(group.count) * double(group.backgrounds.size()) * double(group.aircraft.size()) *
-              double(group.flights.size());
+    const double combinations =
+        double(group.backgrounds.size()) * double(group.aircraft.size()) * double(group.flights.size());
+    videos += group.count * (group.is_drawn ? 1 : combinations);
   }
   if (videos > kMostVideos)
     recipe_node.log().wrong("videos",

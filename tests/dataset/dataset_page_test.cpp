@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/partial_file.h"
 #include "dataset/flight_quantities.h"
+#include "dataset/plan.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_folder.h"
 #include "dataset/short_text.h"
@@ -26,6 +28,25 @@ Rows rows_in_code(FlightKind kind) {
                                         : "none",
                     std::string(quantity.help)});
   return rows;
+}
+
+// A plan of the page's n-th recipe, with the sample's files under the names that it uses.
+Plan plan_of_example(std::size_t n) {
+  const TemporaryFolder folder;
+  const std::filesystem::path assets = source_dir() / "assets";
+  std::filesystem::create_symlink(assets / "footage/sample.mp4", folder / "flight.mp4");
+  std::filesystem::create_symlink(assets / "calibrations/sample.xml", folder / "camera.xml");
+  std::filesystem::create_symlink(assets / "footage/sample_own_body.png", folder / "own_body.png");
+  std::filesystem::create_symlink(assets / "models/airliner/airliner.obj", folder / "airliner.obj");
+  const std::vector<std::string> examples = blocks(page("dataset.md"), "json");
+  REQUIRE(examples.size() == 2);
+  const Result<ReadRecipe> read = parse_recipe(examples.at(n), folder / "recipe.json");
+  REQUIRE_MESSAGE(read, read.error().text());
+  CHECK(read->warnings.empty());
+  Result<Plan> plan = plan_of(read->recipe);
+  REQUIRE_MESSAGE(plan, plan.error().text());
+  for (const ImpossibleVideo& video : plan->impossible) FAIL_CHECK(video.name << ": " << video.why);
+  return *std::move(plan);
 }
 
 }  // namespace
@@ -50,21 +71,23 @@ TEST_CASE("the flights that the dataset's page calls alike differ in what it say
 }
 
 TEST_CASE("the recipe on the dataset's page makes its videos") {
-  const TemporaryFolder folder;
-  const std::filesystem::path assets = source_dir() / "assets";
-  std::filesystem::create_symlink(assets / "footage/sample.mp4", folder / "flight.mp4");
-  std::filesystem::create_symlink(assets / "calibrations/sample.xml", folder / "camera.xml");
-  std::filesystem::create_symlink(assets / "footage/sample_own_body.png", folder / "own_body.png");
-  std::filesystem::create_symlink(assets / "models/airliner/airliner.obj", folder / "airliner.obj");
-  const std::vector<std::string> examples = blocks(page("dataset.md"), "json");
-  REQUIRE(examples.size() == 1);
-  const Result<ReadRecipe> read = parse_recipe(examples[0], folder / "recipe.json");
-  REQUIRE_MESSAGE(read, read.error().text());
-  CHECK(read->warnings.empty());
-  const Result<Plan> plan = plan_of(read->recipe);
-  REQUIRE_MESSAGE(plan, plan.error().text());
-  for (const ImpossibleVideo& video : plan->impossible) FAIL_CHECK(video.name << ": " << video.why);
-  CHECK(plan->videos.size() == 48);
+  CHECK(plan_of_example(0).videos.size() == 48);
+}
+
+TEST_CASE("the recipe of random encounters on the dataset's page makes all its videos") {
+  const Plan plan = plan_of_example(1);
+  CHECK(plan.videos.size() == 30);
+  std::map<std::string, int> of_tag;
+  int redraws = 0;
+  for (const PlannedVideo& video : plan.videos) {
+    for (const char* const tag : {"background", "aircraft"}) ++of_tag[video.tags.at(tag)];
+    for (const auto& [condition, count] : video.redraws) redraws += count;
+    CHECK(video.project.light.ambient >= 0.2);
+    CHECK(video.project.light.ambient < 0.5);
+    CHECK(video.project.light.position_m.x == video.drawn.at("light_x_m"));
+  }
+  for (const char* const name : {"morning", "noon", "jet", "small"}) CHECK(of_tag[name] > 0);
+  CHECK(redraws > 0);
 }
 
 }  // namespace sigs::test

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/partial_file.h"
+#include "cli/tiny_recipe.h"
+
+using namespace sigs;
+using namespace sigs::test;
+using Json = nlohmann::json;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Six random crossings, of which many are never in the picture or too fast.
+constexpr const char* kRandom = R"({
+  "sigs_dataset": 1, "name": "random", "seed": 5,
+  "settings": {"export.labels": ["xml", "csv"]},
+  "backgrounds": [{"name": "sky", "footage": {"video": "clip.mkv", "calibration": "lens.xml"}},
+                  {"name": "end", "footage": {"video": "clip.mkv", "calibration": "lens.xml", "first_frame": 2}}],
+  "aircraft": [{"name": "red", "model": {"file": "cube.obj"}, "speed_limits_mps": [0, 150]},
+               {"name": "large", "model": {"file": "cube.obj", "scale": 2}}],
+  "videos": [{"name": "v{number}", "videos": 6, "frames": 6,
+    "light": {"ambient": {"uniform": [0.2, 0.6]}},
+    "flights": [{"kind": "left_right", "distance_m": {"uniform": [15, 40]},
+                 "from_x_percent": {"uniform": [-250, 100]}, "to_x_percent": {"uniform": [-150, 200]}}]}]
+})";
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+int sum_of(const Json& redraws) {
+  int sum = 0;
+  for (const auto& [what, count] : redraws.items()) sum += count.get<int>();
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("random videos are as many as asked for, and what was drawn again is told everywhere") {
+  const TinyRecipe recipe;
+  put_text(recipe.file("recipe.json"), kRandom);
+  const Run dry = recipe.run("out", "--dry-run");
+  CHECK_MESSAGE(dry.status == 0, dry.err);
+  CHECK_MESSAGE(has(dry.out, "6 videos, 36 frames, about "), dry.out);
+  CHECK_MESSAGE(has(dry.out, "drawn again: "), dry.out);
+  CHECK_MESSAGE(has(dry.out, " redraws "), dry.out);
+  CHECK_FALSE(has(dry.out.substr(0, dry.out.find("drawn again: ")), " never "));
+  const Run run = recipe.run("out");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(has(run.err, "drawn again: "), run.err);
+  CHECK_FALSE(has(run.err, "never in the picture in "));
+  const Json index = Json::parse(read_text(recipe.out("out") + "/index.json").value());
+  CHECK(index.at("videos").size() == 6);
+  int sum = 0;
+  for (const Json& video : index.at("videos")) {
+    sum += video.contains("redraws") ? sum_of(video.at("redraws")) : 0;
+    const std::string name = video.at("name");
+    CHECK(Json::parse(read_text(recipe.out("out") + "/" + name + "/entry.json").value()).value("redraws", Json()) ==
+          video.value("redraws", Json()));
+  }
+  CHECK(sum > 0);
+  CHECK(sum_of(index.at("redraws")) == sum);
+  CHECK(index.at("redraws").contains("never in the picture"));
+}
+
+TEST_CASE("random videos are the same to the byte with any jobs, shards, resumption and by name") {
+  const TinyRecipe recipe;
+  put_text(recipe.file("recipe.json"), kRandom);
+  CHECK(recipe.run("one", "--jobs 1").status == 0);
+  const auto whole = contents_of(recipe.out("one"));
+  CHECK(recipe.run("jobs", "--jobs 3").status == 0);
+  CHECK(contents_of(recipe.out("jobs")) == whole);
+  for (const char* const part : {"2/3", "1/3", "3/3"})
+    CHECK(recipe.run("shards", std::string("--shard ") + part).status == 0);
+  CHECK(recipe.run("shards", "--merge").status == 0);
+  CHECK(contents_of(recipe.out("shards")) == whole);
+  CHECK(recipe.run("names", "--only v0004,v0002").status == 0);
+  for (const auto& [path, content] : contents_of(recipe.out("names"))) {
+    REQUIRE(whole.contains(path));
+    CHECK_MESSAGE(whole.at(path) == content, path);
+  }
+  CHECK(recipe.run("names", "--resume").status == 0);
+  CHECK(contents_of(recipe.out("names")) == whole);
+}
+
+TEST_CASE("random videos of which no draw can be used end with 65 and what failed") {
+  const TinyRecipe recipe;
+  put_text(recipe.file("recipe.json"), kRandom);
+  recipe.change("\"videos\": 6,", "\"videos\": 6, \"redraws\": 9,");
+  recipe.change("[-150, 200]", "[-150, -140]");
+  recipe.change("[-250, 100]", "[-250, -140]");
+  const Run run = recipe.run("out");
+  CHECK(run.status == 65);
+  CHECK_MESSAGE(has(run.err, "v0001: none of 10 draws can be used: "), run.err);
+  CHECK_MESSAGE(has(run.err, "never in the picture 10 times"), run.err);
+  CHECK_FALSE(fs::exists(recipe.out("out")));
+}
