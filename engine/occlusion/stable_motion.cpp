@@ -14,6 +14,8 @@ constexpr double kQuietShare = 0.05;     // of the picture that at least shows n
 constexpr double kQuietestShare = 0.01;  // of the picture, shown by any body that is worth masking
 constexpr double kNothing = 5e-4;        // less variation than any camera's: letterbox bars, clipped black
 constexpr double kLeastNoise = 0.005;    // rounding to whole gray levels alone gives as much
+constexpr double kMostGrain = 8;         // gray levels, of a frame: what varies more than such grain does moves
+constexpr double kGrainEnergy = 0.117;   // of white noise of variance 1: its blurred gradient's variance, both ways
 constexpr double kNoiseMargin = 4;       // codecs make noise uneven: twice the amplitude is still noise
 constexpr double kShakeSquare = 0.22;    // mean square along an axis, of what shakes by up to 1 in any direction
 constexpr double kSpotSquare = 1.3;      // pixels: variance of a point as the blurred gradient sees it
@@ -39,6 +41,13 @@ cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
   return kept;
 }
 
+// Variation where the picture is stillest. Where everything moves alike, no part of it is still, and the stillest part
+// tells of the world: then it is no more than the strongest grain gives, a mean of some frames having the less of it.
+double stillest(const cv::Mat& variation, double share, double picture_frames) {
+  const double most = kMostGrain * kMostGrain * kGrainEnergy / picture_frames;
+  return std::clamp<double>(quantile(variation, share, kNothing), kLeastNoise, std::max(most, kLeastNoise));
+}
+
 // How much more a shaken spot's gradient varies than its mean has energy: spread by the shaking, that falls with the
 // variance. A mean of some frames shakes the less.
 double shaken_share(double vibration, double picture_frames) {
@@ -59,8 +68,8 @@ Motion motion_of(const GradientMoments& moments, double vibration) {
   motion.variation = cv::max(moments.mean_square - motion.mean_square, 0.0);
   cv::Mat variation;
   cv::GaussianBlur(motion.variation, variation, {5, 5}, 0);
-  motion.noise = std::max<double>(kLeastNoise, quantile(variation, kQuietShare, kNothing));
-  motion.quietest = std::max<double>(kLeastNoise, quantile(variation, kQuietestShare, kNothing));
+  motion.noise = stillest(variation, kQuietShare, moments.picture_frames);
+  motion.quietest = stillest(variation, kQuietestShare, moments.picture_frames);
   cv::Mat shaken;
   cv::GaussianBlur(motion.mean_square, shaken, {}, 1 + vibration);
   const double share = std::max(kLeastShaken, shaken_share(vibration, moments.picture_frames));
