@@ -20,6 +20,10 @@ void measure_early_stop(const accuracy::Call& call);
 // Real clips, and shapes laid over one of them: real.csv, overlays in real/. Says so where there are none.
 void measure_real_clips(const accuracy::Call& call);
 
+// How often a pixel is body by the confidence that it is, tenth by tenth, over flights that the weights were set by and
+// over flights that nothing was set by: reliability.csv; agreement on these: reflections.csv, pictures in reliability/.
+void measure_reliability(const accuracy::Call& call);
+
 // What the page shows: flights.jpg of what measure_flights left, stages-paper.jpg, stages-stable.jpg, real-masks.png of
 // what measure_real_clips left.
 void draw_pictures(const accuracy::Call& call);

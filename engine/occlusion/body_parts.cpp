@@ -143,7 +143,7 @@ BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence&
     std::ranges::move(more, std::back_inserter(parts));
   }
   std::ranges::stable_sort(parts, std::greater{}, &Part::odds);
-  BodyParts sorted{cv::Mat::zeros(size, CV_8UC1), cv::Mat::zeros(size, CV_8UC1)};
+  BodyParts sorted{.kept = cv::Mat::zeros(size, CV_8UC1), .doubtful = cv::Mat::zeros(size, CV_8UC1)};
   cv::Mat best = cv::Mat::zeros(size, CV_32FC1);  // odds of the part that a pixel was first kept with
   for (const Part& part : parts) {
     sorted.doubtful(part.box).setTo(255, part.mask);
@@ -155,6 +155,7 @@ BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence&
     best(part.box).setTo(std::max(part.odds, rival), part.mask);
   }
   sorted.doubtful.setTo(0, sorted.kept);
+  sorted.odds = best;
   return sorted;
 }
 

@@ -18,6 +18,7 @@ struct PartEvidence {
 struct BodyParts {
   cv::Mat kept;      // CV_8UC1, 255
   cv::Mat doubtful;  // CV_8UC1, 255: large enough, but for another reason not kept
+  cv::Mat odds;      // CV_32FC1, natural logarithm: of the part that a pixel was kept with; 0 elsewhere
 };
 
 // Those connected parts of a labelling that can be the carrying aircraft's:

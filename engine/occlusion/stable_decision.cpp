@@ -48,6 +48,11 @@ constexpr double kNothingPercent = 0.1;
 constexpr double kUnsureBorder = 3;  // pixels beside the border where its place is not sure
 constexpr double kPlainWorld = 0.5;  // certainty of world that is not seen to move
 
+// The odds that parts of made flights and reflections had, and which of them were body, give how likely a part is body:
+// reflections that stay in the picture are mostly kept with odds below 3, bodies with 3 and more (docs/own-body.md).
+constexpr double kEvenOdds = 2.6;  // as often body as not
+constexpr double kOddsUnit = 0.5;  // more odds by which its likelihood grows e-fold
+
 cv::Mat disc(int reach) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
 }
@@ -88,14 +93,31 @@ std::vector<cv::Mat> labellings_of(const StableDecision& decision, const cv::Mat
           cheapest_cut(costs_of(decision, drift_away, kMostSparing))};
 }
 
-cv::Mat confidence_of(const cv::Mat& moving, const cv::Mat& body, const cv::Mat& doubtful) {
+// How much more likely than not a part is body, 0..1: 0 where it is not.
+cv::Mat certainty_of_parts(const cv::Mat& odds) {
+  cv::Mat against;
+  cv::exp((kEvenOdds - odds) / kOddsUnit, against);
+  return cv::max(2.0 / cv::Mat(1.0 + against) - 1.0, 0.0);
+}
+
+// The final border is placed anew, up to kTrustReach away: what it adds to a part has that part's odds.
+cv::Mat odds_nearby(const cv::Mat& odds, const cv::Mat& body) {
+  cv::Mat near;
+  cv::dilate(odds, near, disc(kTrustReach));
+  odds.copyTo(near, odds > 0);
+  near.setTo(0, ~body);
+  return near;
+}
+
+cv::Mat confidence_of(const cv::Mat& moving, const cv::Mat& body, const BodyParts& parts) {
   cv::Mat inside;
   cv::Mat outside;
   cv::distanceTransform(body, inside, cv::DIST_L2, 3);
   cv::distanceTransform(~body, outside, cv::DIST_L2, 3);
   cv::Mat certainty = cv::max(moving, kPlainWorld) * -0.5;
-  cv::Mat((1.0 - moving) * 0.5).copyTo(certainty, body);
-  certainty.setTo(0, doubtful & ~body);
+  const cv::Mat odds = odds_nearby(parts.odds, body);
+  cv::Mat((1.0 - moving).mul(certainty_of_parts(odds)) * 0.5).copyTo(certainty, body);
+  certainty.setTo(0, parts.doubtful & ~body);
   return certainty.mul(cv::min(cv::Mat(inside + outside) / kUnsureBorder, 1.0)) + 0.5;
 }
 
@@ -141,7 +163,7 @@ StableDecision stable_decision(const GradientMoments& moments, const std::vector
   const BodyParts parts =
       body_parts(labellings, inside, settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
   decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, away, kTrusting));
-  decision.confidence = confidence_of(decision.moving, decision.body, parts.doubtful);
+  decision.confidence = confidence_of(decision.moving, decision.body, parts);
   decision.undecided = why_undecided(decision, settings);
   return decision;
 }

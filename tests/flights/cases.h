@@ -7,6 +7,7 @@
 #include "flights/body.h"
 #include "flights/camera_path.h"
 #include "flights/country.h"
+#include "flights/reflection.h"
 
 namespace sigs::flights {
 
@@ -25,6 +26,7 @@ struct Case {
   bool small_mover = false;
   double shake = 1;  // factor on how far the body trembles
   double grain_codes = kGrain_codes;
+  Reflection reflection;
 };
 
 // frames: how many are meant to be looked at.
@@ -32,6 +34,12 @@ struct Case {
 
 // Harder than can be asked for: where finding the body ends.
 [[nodiscard]] std::vector<Case> hard_cases();
+
+// What the confidence is set by, beside cases() and hard_cases(): reflections, and bodies seen through them.
+[[nodiscard]] std::vector<Case> reflecting_cases();
+
+// What nothing is set by: bodies of other shapes, other reflections, other seeds. For the honest figure alone.
+[[nodiscard]] std::vector<Case> unseen_cases();
 
 [[nodiscard]] std::vector<cv::Rect> bars(const Case& scene, cv::Size size_px);
 

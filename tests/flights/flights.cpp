@@ -44,12 +44,13 @@ Shake shake_of(const Case& scene, cv::Size size_px, int frame) {
   return shake;
 }
 
-cv::Mat drawn(const Case& scene, const Country& country, const Body& body, const Grain& grain, cv::Size size_px,
-              int frame) {
+cv::Mat drawn(const Case& scene, const Country& country, const Body& body, const Grain& grain,
+              const cv::Mat& reflection, cv::Size size_px, int frame) {
   cv::Mat picture = scenery(country, view_at(scene.path, size_px, frame), scene.cloudiness);
   if (scene.small_mover) draw_mover(picture, frame);
   lay_over(picture, scene.propeller, frame);
   lay_over(picture, body, shake_of(scene, size_px, frame));
+  add_to(picture, reflection, scene.reflection, frame);
   if (scene.exposure_drifts) picture *= drifting_gain(frame);
   grain.add_to(picture, frame);
   for (const cv::Rect& bar : bars(scene, size_px)) picture(bar).setTo(cv::Scalar::all(0));
@@ -59,12 +60,14 @@ cv::Mat drawn(const Case& scene, const Country& country, const Body& body, const
 Flight flight(const Case& scene, const Making& making, std::shared_ptr<const Country> country) {
   const auto body = std::make_shared<const Body>(body_of(scene.parts, making.size_px, scene.path.seed));
   const auto grain = std::make_shared<const Grain>(scene.grain_codes);
+  const cv::Mat reflection = painted(scene.reflection, making.size_px);
   cv::Mat truth = body->truth.clone();
   for (const cv::Rect& bar : bars(scene, making.size_px)) truth(bar).setTo(255);
   return {.name = scene.name,
           .size_px = making.size_px,
           .own_body = truth,
-          .bgr = [=, size_px = making.size_px](int n) { return drawn(scene, *country, *body, *grain, size_px, n); },
+          .bgr = [=, size_px = making.size_px](
+                     int n) { return drawn(scene, *country, *body, *grain, reflection, size_px, n); },
           .can_be_told = !scene.path.still};
 }
 
@@ -88,6 +91,14 @@ std::vector<Flight> all(const Making& making) {
 
 std::vector<Flight> hard(const Making& making) {
   return flights_of(hard_cases(), making);
+}
+
+std::vector<Flight> reflecting(const Making& making) {
+  return flights_of(reflecting_cases(), making);
+}
+
+std::vector<Flight> unseen(const Making& making) {
+  return flights_of(unseen_cases(), making);
 }
 
 std::vector<std::string> names() {

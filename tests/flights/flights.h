@@ -29,6 +29,10 @@ struct Making {
 // Flights beyond what finding the body is asked to do; by_name does not know them.
 [[nodiscard]] std::vector<Flight> hard(const Making& making = {});
 
+// Reflections that stay in the picture (cases.h): what the confidence is set by, and what nothing is set by.
+[[nodiscard]] std::vector<Flight> reflecting(const Making& making = {});
+[[nodiscard]] std::vector<Flight> unseen(const Making& making = {});
+
 [[nodiscard]] std::vector<std::string> names();  // of all()
 
 // One case; stops where there is none of that name.

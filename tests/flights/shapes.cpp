@@ -104,6 +104,38 @@ Part windscreen() {
       .panel_lines = 12};
 }
 
+Part bonnet() {
+  return {
+      .outlines =
+          {{{-0.2, 1.3}, {-0.2, 0.9}, {0.1, 0.85}, {0.3, 0.82}, {0.55, 0.815}, {0.8, 0.84}, {1.2, 0.92}, {1.2, 1.3}}},
+      .color = {176, 170, 168},
+      .panel_lines = 4};
+}
+
+Part pod() {
+  return {.outlines = {{{0.66, -0.3}, {0.67, 0.08}, {0.7, 0.2}, {0.77, 0.24}, {0.85, 0.2}, {0.88, 0.07}, {0.89, -0.3}}},
+          .color = {70, 74, 80},
+          .relief = 0.4,
+          .panel_lines = 3};
+}
+
+Part side_float() {
+  return {
+      .outlines = {{{-0.2, 0.72}, {0.12, 0.74}, {0.26, 0.79}, {0.31, 0.85}, {0.24, 0.9}, {0.05, 0.93}, {-0.2, 0.94}}},
+      .color = {210, 206, 196},
+      .panel_lines = 5};
+}
+
+std::vector<Part> skids() {
+  const Part left{.outlines = {{{0.1, 1.2}, {0.17, 0.8}, {0.2, 0.7}, {0.235, 0.69}, {0.23, 0.82}, {0.19, 1.2}}},
+                  .color = {96, 96, 100},
+                  .panel_lines = 2};
+  const Part right{.outlines = {{{0.81, 1.2}, {0.78, 0.83}, {0.775, 0.7}, {0.805, 0.7}, {0.84, 0.8}, {0.9, 1.2}}},
+                   .color = {96, 96, 100},
+                   .panel_lines = 2};
+  return {left, right};
+}
+
 Propeller propeller() {
   return {.middle = {0.5, 0.7}, .radius = 0.3, .blades = 3};
 }
