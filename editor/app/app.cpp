@@ -190,6 +190,7 @@ void App::take(const Request& request) {
   if (take_results(request) || desk_.take(request)) return;
   if (std::holds_alternative<ToggleFullScreen>(request)) window_.toggle_full_screen();
   if (std::holds_alternative<ShowOwnBody>(request)) layout_.show_own_body();
+  if (std::holds_alternative<ShowHorizon>(request)) layout_.show_horizon();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
   if (const auto* loop = std::get_if<SetLoop>(&request)) settings_.loop = loop->loop;

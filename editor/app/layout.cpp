@@ -53,7 +53,8 @@ void Layout::draw_tabs(const Studio& studio, OwnBodyWork& own_body) {
     ImGui::EndTabItem();
     return true;
   };
-  tab("Footage", "tab/footage", ImGuiTabItemFlags_None, [&] {
+  const bool footage_is_wanted = std::exchange(wants_footage_, false);
+  tab("Footage", "tab/footage", footage_is_wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None, [&] {
     viewport_.draw(studio);
     const glm::dvec2 low(ImGui::GetWindowPos().x, ImGui::GetWindowPos().y);
     first_steps_.draw(studio, {low, low + glm::dvec2(ImGui::GetWindowSize().x, ImGui::GetWindowSize().y)});

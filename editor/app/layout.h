@@ -22,6 +22,10 @@ class Layout {
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
   // From the next turn on.
   void show_own_body() { wants_own_body_ = true; }
+  void show_horizon() {
+    wants_footage_ = true;
+    viewport_.show_horizon();
+  }
 
  private:
   void draw_pictures(const Studio& studio, OwnBodyWork& own_body, Settings& settings);
@@ -35,6 +39,7 @@ class Layout {
   OwnBodyView own_body_;
   FirstSteps first_steps_;
   bool wants_own_body_ = false;
+  bool wants_footage_ = false;
   bool shows_own_body_ = false;
 };
 

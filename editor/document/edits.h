@@ -84,6 +84,7 @@ struct ShowHelp {};
 struct ShowSettings {};
 struct ShowAbout {};
 struct ShowOwnBody {};       // where the own body's mask is found and painted
+struct ShowHorizon {};       // its line over the footage, to be laid onto the footage's own
 struct ShowMissingFiles {};  // to tell where they are
 struct ToggleFullScreen {};
 struct LoadResults {           // of a tracker, to be shown beside the truth
@@ -104,7 +105,7 @@ struct Say {              // a passing message above the timeline
 
 using Request =
     std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
-                 SetLoop, ShowExport, ShowOwnBody, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
+                 SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
                  ToggleFullScreen, LoadResults, RemoveResults, ShowResults, ClearMessages, Say>;
 
 // Views put what they want here while they draw. Afterwards the document takes the edits and the program the requests,

@@ -48,6 +48,10 @@ std::string unit_text(std::string_view unit) {
   return unit == "deg" ? "°" : std::string(" ").append(unit);
 }
 
+std::string word_for_none(std::string_view key) {
+  return key.starts_with("camera.attitude_deg.") ? "not set" : "none";
+}
+
 struct Words {
   const Field& field;
 
@@ -55,7 +59,7 @@ struct Words {
   std::string operator()(int value) const { return number_text(value, field.unit); }
   template <class Number>
   std::string operator()(const std::optional<Number>& value) const {
-    return value ? (*this)(*value) : "none";
+    return value ? (*this)(*value) : word_for_none(field.key);
   }
   std::string operator()(const std::string& value) const { return value.empty() ? "none" : value; }
   std::string operator()(const glm::dvec3& v) const {

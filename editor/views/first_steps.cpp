@@ -32,11 +32,15 @@ struct FirstStep {
   std::string key;   // of the field
   std::string file;  // chosen, "": none yet
   std::vector<std::string> extensions;
-  std::function<void(const fs::path&)> choose;
-  std::string problem;  // with the file that was chosen
+  std::function<void(const fs::path&)> choose;  // none: nothing is chosen, the line over the footage is dragged
+  std::string problem = {};                     // with the file that was chosen
 
   [[nodiscard]] bool is_done() const { return !file.empty() && problem.empty(); }
 };
+
+// Three files, then the horizon.
+using Steps = std::array<FirstStep, 4>;
+constexpr std::size_t kFiles = 3;
 
 // The first that has no model; else as many as there are: one more is wanted.
 std::size_t intruder_without_model(const Project& project) {
@@ -65,7 +69,7 @@ std::function<void(const fs::path&)> put_aircraft(const Studio& studio) {
 }
 
 // What is wrong with files that were chosen, by the newest scene that is open.
-std::array<FirstStep, 3> with_problems(std::array<FirstStep, 3> steps, const Shown& shown) {
+Steps with_problems(Steps steps, const Shown& shown) {
   if (!shown.scene) return steps;
   for (FirstStep& step : steps)
     for (const Problem& problem : shown.scene->draft.problems)
@@ -74,31 +78,50 @@ std::array<FirstStep, 3> with_problems(std::array<FirstStep, 3> steps, const Sho
   return steps;
 }
 
-std::array<FirstStep, 3> steps_of(const Studio& studio) {
+// "": not known yet.
+std::string horizon_text(const CameraSettings& camera) {
+  if (!knows_horizon(camera)) return "";
+  if (!camera.attitude_file.empty()) return camera.attitude_file;
+  return "roll " + number_text(camera.roll_deg.value_or(0), "deg") + ", pitch " +
+         number_text(camera.pitch_deg.value_or(0), "deg");
+}
+
+Steps steps_of(const Studio& studio) {
   const Project& project = studio.project();
   const bool has_aircraft = !project.intruders.empty() && intruder_without_model(project) == project.intruders.size();
-  std::array<FirstStep, 3> steps{{{.name = "Footage",
-                                   .what = "The video of a real flight",
-                                   .key = "footage.video",
-                                   .file = project.footage.video,
-                                   .extensions = extensions_for("footage.video"),
-                                   .choose = put_file(studio, "choose video", "footage.video")},
-                                  {.name = "Calibration",
-                                   .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
-                                   .key = "footage.calibration",
-                                   .file = project.footage.calibration,
-                                   .extensions = extensions_for("footage.calibration"),
-                                   .choose = put_file(studio, "choose calibration", "footage.calibration")},
-                                  {.name = "Aircraft",
-                                   .what = "A model as Wavefront OBJ; it is put 300 m ahead",
-                                   .key = "intruders[0].model.file",
-                                   .file = has_aircraft ? project.intruders.front().model.file : "",
-                                   .extensions = extensions_for("intruders[0].model.file"),
-                                   .choose = put_aircraft(studio)}}};
+  Steps steps{{{.name = "Footage",
+                .what = "The video of a real flight",
+                .key = "footage.video",
+                .file = project.footage.video,
+                .extensions = extensions_for("footage.video"),
+                .choose = put_file(studio, "choose video", "footage.video")},
+               {.name = "Calibration",
+                .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
+                .key = "footage.calibration",
+                .file = project.footage.calibration,
+                .extensions = extensions_for("footage.calibration"),
+                .choose = put_file(studio, "choose calibration", "footage.calibration")},
+               {.name = "Aircraft",
+                .what = "A model as Wavefront OBJ; it is put 300 m ahead",
+                .key = "intruders[0].model.file",
+                .file = has_aircraft ? project.intruders.front().model.file : "",
+                .extensions = extensions_for("intruders[0].model.file"),
+                .choose = put_aircraft(studio)},
+               {.name = "Horizon",
+                .what = "Drag its line onto the footage's, its ends to tilt it",
+                .key = "camera.attitude_deg",
+                .file = horizon_text(project.camera),
+                .extensions = {},
+                .choose = {}}}};
   return with_problems(std::move(steps), studio.shown);
 }
 
+const char* button_of(const FirstStep& step) {
+  return step.choose ? "Choose..." : "Show line";
+}
+
 void ask(const Studio& studio, const FirstStep& step) {
+  if (!step.choose) return studio.edits.ask(ShowHorizon{});
   // Calibration and model often lie near the footage: the browser starts where it was last.
   studio.edits.ask(
       AskForFile{.title = std::string("Choose: ") + step.name, .extensions = step.extensions, .chosen = step.choose});
@@ -126,7 +149,7 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::PushID(number);
   draw_number(number, is_done, is_next);
   ImGui::SameLine();
-  const float button = is_done ? 0 : dialog_button_width("Choose...") + scaled(8);
+  const float button = is_done ? 0 : dialog_button_width(button_of(step)) + scaled(8);
   const float room = ImGui::GetContentRegionAvail().x - button;
   const float left = ImGui::GetCursorPosX();
   const float top = ImGui::GetCursorPosY();
@@ -148,7 +171,7 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::EndGroup();
   if (!is_done) {
     ImGui::SetCursorPos({left + room + scaled(8), top + scaled(3)});
-    if (dialog_button("Choose...", is_next)) ask(studio, step);
+    if (dialog_button(button_of(step), is_next)) ask(studio, step);
     studio.places.note_item(std::string("first steps/") + step.name);
   }
   ImGui::PopID();
@@ -157,34 +180,41 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
 }  // namespace
 
 void FirstSteps::draw(const Studio& studio, const ScreenRect& room) {
-  const std::array<FirstStep, 3> steps = steps_of(studio);
+  const Steps steps = steps_of(studio);
   const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return !step.is_done(); });
   const std::uint64_t document = studio.document.first_number();
-  if (std::any_of(steps.begin(), steps.end(), [](const FirstStep& step) { return step.file.empty(); }))
+  if (std::any_of(steps.begin(), steps.begin() + kFiles, [](const FirstStep& step) { return step.file.empty(); }))
     begun_ = document;
   if (next == steps.end() || put_away_ == document || begun_ != document) return;
+  // With all files there, the picture is to be seen: the step that is left lies at its lower edge.
+  const bool is_last = next == steps.end() - 1;
+  if (is_last && std::exchange(shown_, document) != document) studio.edits.ask(ShowHorizon{});
   const float line = ImGui::GetFrameHeight();
-  const float gaps = 4 * ImGui::GetStyle().ItemSpacing.y;
+  const auto rows = static_cast<float>(is_last ? 1 : steps.size());
+  const float gaps = (rows + 1) * ImGui::GetStyle().ItemSpacing.y;
+  const float below = is_last ? 0 : ImGui::GetTextLineHeight();
   const ImVec2 size{std::min(scaled(480), static_cast<float>(room.size().x) - scaled(16)),
-                    std::ceil(scaled(28) + line + 3 * 1.5F * line + gaps + ImGui::GetTextLineHeight())};
+                    std::ceil(scaled(28) + line + rows * 1.5F * line + gaps + below)};
   if (size.x < scaled(220) || size.y > static_cast<float>(room.size().y)) return;
   const glm::dvec2 middle = (room.low + room.high) / 2.0;
-  ImGui::SetCursorScreenPos(
-      {std::floor(static_cast<float>(middle.x) - size.x / 2), std::floor(static_cast<float>(middle.y) - size.y / 2)});
+  const float top =
+      is_last ? static_cast<float>(room.high.y) - size.y - scaled(44) : static_cast<float>(middle.y) - size.y / 2;
+  ImGui::SetCursorScreenPos({std::floor(static_cast<float>(middle.x) - size.x / 2), std::floor(top)});
   ImGui::PushStyleColor(ImGuiCol_ChildBg, color::kPanel);
   ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, scaled(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(16), scaled(14)});
   ImGui::BeginChild("first steps", size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted("First steps");
+  ImGui::TextUnformatted(is_last ? "Last step" : "First steps");
   ImGui::PopFont();
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - icon_button_width());
   if (icon_button("put away", Icon::cross, "Put this away; the inspector has all of it")) put_away_ = document;
   studio.places.note_item("first steps/close");
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  for (std::size_t i = is_last ? kFiles : 0; i < steps.size(); ++i)
     draw_step(studio, steps[i], static_cast<int>(i) + 1, &steps[i] == &*next);
-  ImGui::TextDisabled("%s", elided("Or drop the files onto this window.", ImGui::GetContentRegionAvail().x).c_str());
+  if (!is_last)
+    ImGui::TextDisabled("%s", elided("Or drop the files onto this window.", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
   ImGui::PopStyleColor();

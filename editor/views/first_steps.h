@@ -9,7 +9,8 @@
 namespace sigs::editor {
 
 // What a project needs before there is anything to see, in the order in which it is usually chosen: a card over the
-// picture, until all of it is there or the person puts the card away.
+// picture, until all of it is there or the person puts the card away. Then where the horizon lies, at the picture's
+// lower edge, so that its line can be dragged.
 class FirstSteps {
  public:
   // In the middle of `room`, in the current ImGui window.
@@ -17,6 +18,7 @@ class FirstSteps {
 
  private:
   std::uint64_t begun_ = 0;     // the document that had not all of it
+  std::uint64_t shown_ = 0;     // the document whose horizon was shown
   std::uint64_t put_away_ = 0;  // the document for which it is not wanted
 };
 

@@ -177,7 +177,7 @@ struct Input {
     const float room = width - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
     if (!value) {
       ImGui::AlignTextToFramePadding();
-      ImGui::TextDisabled("none");
+      ImGui::TextDisabled("%s", value_text(field, PlainValue(std::optional<Number>())).c_str());
       return std::nullopt;
     }
     if (!any_number_input(*value, field, room)) return std::nullopt;

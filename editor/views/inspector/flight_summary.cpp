@@ -56,10 +56,17 @@ void frame_link(const Studio& studio, const std::string& text, double frame, ImU
 
 }  // namespace
 
+Visibility visibility_of(const Survey& survey, int frames) {
+  Visibility visibility{.frames = frames};
+  for (const Outlook& outlook : survey.outlooks) add(visibility, outlook);
+  return visibility;
+}
+
 void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
   if (survey == measured_) return;
   measured_ = survey;
   if (survey->flight.empty()) return;
+  visibility_ = text_of(visibility_of(*survey, static_cast<int>(survey->outlooks.size())));
   const auto span = [&](auto value) {
     const auto [least, most] = std::minmax_element(survey->flight.begin(), survey->flight.end(),
                                                    [&](const auto& a, const auto& b) { return value(a) < value(b); });
@@ -83,6 +90,7 @@ void FlightSummary::draw(const Studio& studio, FieldRows& rows, int intruder) {
   told(rows, "Load factor", tenths(load_.least, 0.01) + " to " + tenths(load_.most, 0.01) + " g",
        "Lift by weight; 1 in level flight");
   told(rows, "Climb", tenths(climb_mps_.least) + " to " + tenths(climb_mps_.most) + " m/s", "Up is positive");
+  told(rows, "Seen", visibility_, "Estimated without drawing; size: the longer side of its silhouette");
   (void)rows.begin_row("Closest");
   frame_link(studio, tenths(survey.closest.distance_m) + " m, frame " + tenths(survey.closest.frame),
              survey.closest.frame, color::kAccent);

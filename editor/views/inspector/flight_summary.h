@@ -2,10 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "editor/views/inspector/field_rows.h"
 
 namespace sigs::editor {
+
+// In how many of the film's frames it is visible, by the survey's, which may not be all.
+[[nodiscard]] Visibility visibility_of(const Survey& survey, int frames);
 
 // How an intruder flies, from the newest survey: least and most of what a pilot watches, the closest approach, and what
 // no such aircraft could fly; frames are gone to with a click.
@@ -20,7 +24,8 @@ class FlightSummary {
   };
   void measure(const std::shared_ptr<const Survey>& survey);
 
-  std::shared_ptr<const Survey> measured_;  // what the spans are of
+  std::shared_ptr<const Survey> measured_;  // what the spans and the text are of
+  std::string visibility_;
   Span speed_mps_;
   Span load_;
   Span climb_mps_;

@@ -49,6 +49,17 @@ void draw_own_body(const Studio& studio, FieldRows& rows) {
   tooltip_for_item("Finds the aircraft that carries the camera in its footage");
 }
 
+void draw_camera(const Studio& studio, FieldRows& rows) {
+  rows.rows("camera.");
+  const CameraSettings& camera = studio.project().camera;
+  if (!camera.attitude_file.empty()) return;
+  ImGui::Spacing();
+  if (!knows_horizon(camera)) note("Horizon: not set. Labels call the intruders' side of it unknown.");
+  if (ImGui::Button("Horizon...")) studio.edits.ask(ShowHorizon{});
+  studio.places.note_item("inspector/horizon");
+  tooltip_for_item("Shows the horizon's line over the footage, to be dragged onto the footage's own");
+}
+
 void draw_compositing(const Studio& studio, FieldRows& rows) {
   const bool is_direct = studio.project().compositing.method == MethodChoice::direct;
   rows.rows("compositing.", [&](const Field& field) {
@@ -164,7 +175,7 @@ void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
   if (studio.scored != nullptr) block(studio, "Tracker results", true, [&] { draw_results_panel(studio); });
   block(studio, "Inputs", true, [&] { draw_inputs(studio, rows); });
   block(studio, "Own body", false, [&] { draw_own_body(studio, rows); });
-  block(studio, "Camera", true, [&] { rows.rows("camera."); });
+  block(studio, "Camera", true, [&] { draw_camera(studio, rows); });
   block(studio, "Light", false, [&] { light_.draw(studio, rows); });
   block(studio, "Intruders", true, [&] { model_.draw(studio, rows); });
   block(studio, "Trajectory", true, [&] { trajectory_.draw(studio, rows); });

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "editor/document/field_texts.h"
+#include "editor/views/inspector/flight_summary.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
@@ -23,6 +24,42 @@ std::optional<std::size_t> index_in(std::string_view key, std::string_view name)
   const std::size_t at = key.find(name);
   if (at == std::string_view::npos) return std::nullopt;
   return std::strtoul(std::string(key.substr(at + name.size())).c_str(), nullptr, 10);
+}
+
+std::optional<std::string> draw_list(const Studio& studio, const ProblemsByField& problems, const std::string& name,
+                                     ImU32 shade) {
+  if (problems.empty()) return std::nullopt;
+  const std::size_t count = problems.size();
+  const std::string title = std::to_string(count) + " " + name + (count == 1 ? "" : "s");
+  std::optional<std::string> clicked;
+  ImGui::PushStyleColor(ImGuiCol_Text, shade);
+  const std::string id = name + "s";
+  const bool is_open = ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth, "%s", title.c_str());
+  studio.places.note_item("inspector/" + id);
+  ImGui::PopStyleColor();
+  if (!is_open) return std::nullopt;
+  int shown = 0;
+  for (const auto& [field, problem] : problems) {
+    if (++shown > kMostShown) break;
+    const std::string text = place_of(studio.project(), field) + ": " + problem.what;
+    ImGui::PushID(shown);
+    const std::string line = elided(text, ImGui::GetContentRegionAvail().x);
+    if (ImGui::Selectable(line.empty() ? "..." : line.c_str())) clicked = field;
+    tooltip_for_item(text.c_str());
+    ImGui::PopID();
+  }
+  if (count > kMostShown) note(std::to_string(count - kMostShown) + " more", true);
+  ImGui::TreePop();
+  return clicked;
+}
+
+// Of all frames, once all have been looked at.
+std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Survey* survey) {
+  const Scene& scene = opened.draft.scene;
+  const int frames = scene.last_frame - scene.first_frame + 1;
+  const bool is_whole =
+      survey != nullptr && survey->revision == opened.revision && static_cast<int>(survey->outlooks.size()) == frames;
+  return is_whole ? std::optional(visibility_of(*survey, frames)) : std::nullopt;
 }
 
 }  // namespace
@@ -50,9 +87,28 @@ std::string place_of(const Project& project, std::string_view key) {
   return place + ", " + label_of(key);
 }
 
+void ProblemList::find_doubts(const Studio& studio) {
+  doubts_.clear();
+  if (!scene_) return;
+  for (const Problem& doubt : scene_->draft.scene.doubts) doubts_.emplace(doubt.field, doubt);
+  const std::vector<std::shared_ptr<const Survey>>& surveys = studio.shown.surveys;
+  for (std::size_t i = 0; i < surveys.size() && i < scene_->project->intruders.size(); ++i) {
+    const std::optional<Visibility> visibility = whole_visibility(*scene_, surveys[i].get());
+    if (!visibility) continue;
+    if (const auto never = never_visible(*visibility, scene_->project->intruders[i].name, i))
+      doubts_.emplace(never->field, *never);
+  }
+}
+
 void ProblemList::refresh(const Studio& studio) {
-  if (studio.shown.scene == scene_) return;
+  const auto survey = studio.shown.surveys.empty() ? nullptr : studio.shown.surveys.front();
+  const bool is_same_scene = studio.shown.scene == scene_;
   scene_ = studio.shown.scene;
+  if (!is_same_scene || survey != survey_) {
+    survey_ = survey;
+    find_doubts(studio);
+  }
+  if (is_same_scene) return;
   by_field_.clear();
   counts_.clear();
   if (!scene_) return;
@@ -68,28 +124,9 @@ int ProblemList::count_in(const std::string& block) const {
 }
 
 std::optional<std::string> ProblemList::draw(const Studio& studio) const {
-  if (by_field_.empty()) return std::nullopt;
-  const std::size_t count = by_field_.size();
-  const std::string title = count == 1 ? "1 problem" : std::to_string(count) + " problems";
-  std::optional<std::string> clicked;
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-  const bool is_open = ImGui::TreeNodeEx("problems", ImGuiTreeNodeFlags_SpanAvailWidth, "%s", title.c_str());
-  studio.places.note_item("inspector/problems");
-  ImGui::PopStyleColor();
-  if (!is_open) return std::nullopt;
-  int shown = 0;
-  for (const auto& [field, problem] : by_field_) {
-    if (++shown > kMostShown) break;
-    const std::string text = place_of(studio.project(), field) + ": " + problem.what;
-    ImGui::PushID(shown);
-    const std::string line = elided(text, ImGui::GetContentRegionAvail().x);
-    if (ImGui::Selectable(line.empty() ? "..." : line.c_str())) clicked = field;
-    tooltip_for_item(text.c_str());
-    ImGui::PopID();
-  }
-  if (count > kMostShown) note(std::to_string(count - kMostShown) + " more", true);
-  ImGui::TreePop();
-  return clicked;
+  const std::optional<std::string> problem = draw_list(studio, by_field_, "problem", color::kBad);
+  const std::optional<std::string> doubt = draw_list(studio, doubts_, "warning", color::kPartly);
+  return problem ? problem : doubt;
 }
 
 }  // namespace sigs::editor

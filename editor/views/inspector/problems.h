@@ -15,20 +15,25 @@ namespace sigs::editor {
 // A problem's place in words: "light-aircraft, waypoint 2: frame".
 [[nodiscard]] std::string place_of(const Project& project, std::string_view key);
 
-// What is wrong with the project, from the newest scene that is open.
+// What is wrong with the project, and what can be used but is hardly meant, from the newest scene that is open and its
+// surveys: what `sigs check` says of it.
 class ProblemList {
  public:
   void refresh(const Studio& studio);
   [[nodiscard]] const ProblemsByField& by_field() const { return by_field_; }
   [[nodiscard]] int count_in(const std::string& block) const;
 
-  // "2 problems", to be opened as a list; the key of the one that was clicked.
+  // "2 problems" and "3 warnings", to be opened as lists; the key of the one that was clicked.
   [[nodiscard]] std::optional<std::string> draw(const Studio& studio) const;
 
  private:
+  void find_doubts(const Studio& studio);
+
   std::shared_ptr<const OpenedScene> scene_;  // what they are of
   ProblemsByField by_field_;
-  std::map<std::string, int> counts_;  // by block
+  std::map<std::string, int> counts_;     // by block
+  std::shared_ptr<const Survey> survey_;  // of the first intruder, when doubts_ were made
+  ProblemsByField doubts_;
 };
 
 }  // namespace sigs::editor

@@ -23,9 +23,17 @@ void ViewportView::take_press(const PictureCanvas& canvas, const ToolTurn* turn)
     if (!on_waypoint && wipe_.is_at(canvas, mouse))
       grip_ = Grip::line;
     else
-      grip_ = turn != nullptr && tool_.press(*turn) ? Grip::waypoint : Grip::ground;
+      grip_ = grip_of_press(turn);
   }
   if (grip_ == Grip::ground) look_.begin_pan();
+}
+
+// Waypoints lie over the horizon, which lies over intruders' boxes.
+ViewportView::Grip ViewportView::grip_of_press(const ToolTurn* turn) {
+  if (turn == nullptr) return Grip::ground;
+  const bool on_waypoint = waypoint_at(*turn) != nullptr;
+  if (overlays_.horizon && !on_waypoint && horizon_.press(*turn)) return Grip::horizon;
+  return tool_.press(*turn) ? Grip::waypoint : Grip::ground;
 }
 
 void ViewportView::take_mouse(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn) {
@@ -33,18 +41,23 @@ void ViewportView::take_mouse(const Studio& studio, const PictureCanvas& canvas,
   const bool down = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle);
   const bool on_line = grip_ == Grip::line || (grip_ == Grip::nothing && hovered_ && wipe_.is_at(canvas, mouse));
   if (on_line) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  const bool may_hold = grip_ == Grip::horizon || (grip_ == Grip::nothing && hovered_ && overlays_.horizon);
+  if (may_hold && !on_line && turn != nullptr && horizon_.part_at(*turn))
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
   if (hovered_ && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) take_double_click(studio, canvas, turn);
   if (tool_.is_active() && turn != nullptr && down) tool_.drag(*turn);
+  if (horizon_.is_active() && turn != nullptr && down) horizon_.drag(*turn);
   if (grip_ == Grip::line) wipe_.drag_to(canvas, mouse);
   const bool drags = glm::distance(mouse, grip_mouse_) >= scaled(3) || !look_.is_fitted();
   if (grip_ == Grip::ground && down && drags && mouse != grip_mouse_) look_.pan(mouse - grip_mouse_);
   if (down) return;
   tool_.release(studio);
+  horizon_.release(studio);
   grip_ = Grip::nothing;
 }
 
 void ViewportView::take_double_click(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn) {
-  if (grip_ == Grip::line || (turn != nullptr && waypoint_at(*turn) != nullptr)) return;
+  if (grip_ == Grip::line || grip_ == Grip::horizon || (turn != nullptr && waypoint_at(*turn) != nullptr)) return;
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
   if (turn == nullptr || !overlays_.waypoints || !current_intruder(studio) || !canvas.pixel_at(mouse)) {
     look_.fit();

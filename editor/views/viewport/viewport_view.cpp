@@ -77,7 +77,7 @@ void ViewportView::draw_canvas(const Studio& studio, const ScreenRect& rect) {
   pixel_ = hovered_ ? canvas.pixel_at(dv(ImGui::GetMousePos())) : std::nullopt;
   over_footage_ = footage_alone_ || wipe_.is_left_of_line(canvas, dv(ImGui::GetMousePos()));
   draw_picture_layers(studio, canvas);
-  draw_overlays(studio, canvas, eye ? &*eye : nullptr, marks);
+  draw_overlays(studio, canvas, tools, marks);
   if (tools != nullptr) tool_.draw(*tools);
   wipe_.draw_line(canvas, grip_ == Grip::line || (hovered_ && wipe_.is_at(canvas, dv(ImGui::GetMousePos()))));
   banner_.draw(canvas.draw);
@@ -102,8 +102,9 @@ void ViewportView::draw_opening(const ScreenRect& rect, const Studio& studio) co
   ImGui::GetWindowDrawList()->AddText(im(at), color::kQuiet, text);
 }
 
-void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canvas, const FootageEye* eye,
+void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn,
                                  std::span<const WaypointMark> marks) {
+  const FootageEye* const eye = turn != nullptr ? &turn->eye : nullptr;
   if (overlays_.own_body && studio.shown.scene)
     own_body_.draw(canvas, studio.textures, studio.shown.scene->draft.scene.own_body);
   draw_pixel_grid(canvas);
@@ -116,7 +117,8 @@ void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canv
   if (footage_alone_) return;
   PictureLabels labels;
   keep_waypoints_free(canvas, studio, marks, labels);
-  if (overlays_.horizon && eye != nullptr) draw_horizon(canvas, *eye);
+  if (overlays_.horizon && turn != nullptr)
+    horizon_.draw(*turn, grip_ == Grip::horizon || (hovered_ && horizon_.part_at(*turn)));
   if (overlays_.path && eye != nullptr) path_.draw(canvas, studio, *eye);
   if (overlays_.box && picture != nullptr) {
     draw_boxes(canvas, studio, *picture, labels);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "editor/views/studio.h"
+#include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/views/viewport/path.h"
 #include "editor/views/viewport/problem_banner.h"
@@ -19,19 +20,23 @@ class ViewportView {
   // Into what is left of the current ImGui window.
   void draw(const Studio& studio);
 
+  // The horizon's line over the picture, to be dragged.
+  void show_horizon() { overlays_.horizon = true; }
+
  private:
-  enum class Grip { nothing, line, waypoint, ground };
+  enum class Grip { nothing, line, waypoint, horizon, ground };
 
   void draw_canvas(const Studio& studio, const ScreenRect& rect);
   void draw_opening(const ScreenRect& rect, const Studio& studio) const;
   void take_mouse(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn);
+  [[nodiscard]] Grip grip_of_press(const ToolTurn* turn);
   void take_press(const PictureCanvas& canvas, const ToolTurn* turn);
   void take_double_click(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn);
   void draw_menu(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn);
   void draw_waypoint_menu(const Studio& studio);
   void draw_picture_menu(const Studio& studio, const ToolTurn* turn);
   void draw_picture_layers(const Studio& studio, const PictureCanvas& canvas);
-  void draw_overlays(const Studio& studio, const PictureCanvas& canvas, const FootageEye* eye,
+  void draw_overlays(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn,
                      std::span<const WaypointMark> marks);
 
   ZoomablePicture look_;
@@ -41,6 +46,7 @@ class ViewportView {
   PathOverlay path_;
   WaypointMarks marks_;
   WaypointTool tool_;
+  HorizonTool horizon_;
   ViewportWipe wipe_;
   ProblemBanner banner_;
 
