@@ -42,7 +42,7 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   const Result<Scene> scene = open_scene(project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kQuickLook_frames);
-  for (const Warning& warning : warnings_of(*project, *scene, visibilities)) print_warning(warning);
+  for (const Warning& warning : warnings_of(project, *scene, visibilities)) print_warning(warning);
   Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
   Bench bench;

@@ -41,7 +41,7 @@ struct Frame {
   ColorInfo color;
   std::array<cv::Mat, 3> planes{};
   double time_s = 0;     // presentation time, 0 at the footage's first frame
-  bool damaged = false;  // the decoder reported an error in it, or could not make it and the frame before stands in
+  bool damaged = false;  // the footage's own frame is damaged: another one, which is sound, stands in for it
 
   [[nodiscard]] cv::Size size_px() const { return planes[0].size(); }
   [[nodiscard]] int plane_count() const { return layout == PixelLayout::gray ? 1 : 3; }

@@ -51,6 +51,21 @@ Result<libav::Picture> first_picture(libav::PictureStream& stream, const libav::
   return std::move(**first);
 }
 
+// A file as it was when it was opened.
+struct FileState {
+  uintmax_t bytes = 0;
+  fs::file_time_type written;
+
+  [[nodiscard]] bool operator==(const FileState&) const = default;
+};
+
+FileState state_of(const fs::path& path) {
+  std::error_code code;
+  FileState state{.bytes = fs::file_size(path, code)};
+  state.written = fs::last_write_time(path, code);
+  return state;
+}
+
 std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
@@ -62,6 +77,7 @@ struct FrameSource::State {
   VideoInfo info;
   std::optional<PictureSeeker> seeker;
   const std::atomic<bool>* cancel = nullptr;  // null: none
+  FileState file;
 
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
   [[nodiscard]] Result<Frame> read(int n);
@@ -81,6 +97,9 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
     info.warnings.push_back(
         {info.path.string(), std::to_string(dropped) + " pictures before the first that can be decoded are left out"});
   seeker.emplace(std::move(stream), std::move(*order), table, kBytesToKeep);
+  const Result<PictureSeeker::Found> sound = seeker->find(0);
+  if (!sound) return fail(sound.error());
+  if (sound->picture == nullptr) return fail("", "every frame of this video is damaged");
   return {};
 }
 
@@ -90,6 +109,7 @@ Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bo
     if (!demuxer) return fail(demuxer.error());
     auto state = std::make_unique<State>();
     state->info.path = path;
+    state->file = state_of(path);
     state->cancel = cancel;
     const Result<void> opened = state->open(std::move(*demuxer));
     if (!opened) return fail(named(opened.error(), path));
@@ -106,20 +126,11 @@ const VideoInfo& FrameSource::info() const {
   return state_->info;
 }
 
-Result<Frame> FrameSource::read(int n) {
-  Result<Frame> frame = guarded([&] { return state_->read(n); });
-  // What the reading gave may then be less than is there.
-  if (state_->cancel != nullptr && state_->cancel->load())
-    return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-  return frame;
-}
-
 Result<Frame> FrameSource::State::read(int n) {
-  ENSURE(n >= 0 && n < info.frame_count());
   const std::string where = info.path.string() + ": frame " + std::to_string(n);
   const Result<PictureSeeker::Found> found = seeker->find(n);
   if (!found) return fail(named(found.error(), info.path));
-  if (found->picture == nullptr) return fail(where, "cannot be decoded, nor any frame before it");
+  if (found->picture == nullptr) return fail(where, "is damaged, and so are all others");
   const AVFrame& picture = *found->picture->frame;
   const cv::Size size(picture.width, picture.height);
   if (size != info.size_px)
@@ -127,7 +138,20 @@ Result<Frame> FrameSource::State::read(int n) {
   Result<Frame> frame = libav::frame_of(picture, info.layout, info.color);
   if (!frame) return fail(where, frame.error().what);
   frame->time_s = info.times_s[static_cast<size_t>(n)];
-  frame->damaged = found->picture->damaged || found->stands_in;
+  frame->damaged = found->n != n;
+  return frame;
+}
+
+Result<Frame> FrameSource::read(int n) {
+  ENSURE(n >= 0 && n < state_->info.frame_count());
+  Result<Frame> frame = guarded([&] { return state_->read(n); });
+  // What the reading gave may then be less than is there.
+  if (state_->cancel != nullptr && state_->cancel->load())
+    return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+  // Behind the reading: what was read may be neither the file of before nor that of after.
+  if (!(state_of(state_->info.path) == state_->file))
+    return fail(state_->info.path.string(), "changed while it was being read; start again when nothing writes to it",
+                ErrorKind::cannot_read);
   return frame;
 }
 

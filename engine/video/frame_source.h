@@ -41,8 +41,8 @@ class FrameSource {
  public:
   // Reads the container's packets once to build the index; nothing is decoded but what is needed for the format.
   //   cancel  set: opening and reading end soon with the error interrupted; null or longer alive than the source
-  // Errors: cannot_read (missing, no regular file, no video in it, a play list), bad_data (no frame can be decoded),
-  // interrupted.
+  // Errors: cannot_read (missing, no regular file, no video in it, a play list), bad_data (no frame can be decoded
+  // soundly), interrupted.
   [[nodiscard]] static Result<FrameSource> open(const std::filesystem::path& path,
                                                 const std::atomic<bool>* cancel = nullptr);
 
@@ -52,8 +52,10 @@ class FrameSource {
 
   [[nodiscard]] const VideoInfo& info() const;
 
-  // Frame n, 0 <= n < frame_count(). Reading in order decodes straight on; anything else seeks. A frame that the
-  // decoder could not make is the picture before it, marked damaged. Error bad_data where not even that exists.
+  // Frame n, 0 <= n < frame_count(). It depends on the file and n alone. Where the file is damaged so that the frame
+  // itself cannot be decoded soundly, the last sound frame before it is given in its place (before the first sound one:
+  // that one), marked damaged. Errors: bad_data (the picture's size changes), cannot_read (the file was changed since
+  // it was opened).
   [[nodiscard]] Result<Frame> read(int n);
 
  private:

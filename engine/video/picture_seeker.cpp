@@ -12,11 +12,6 @@ namespace {
 
 using libav::Picture;
 
-// Going on costs decoding, seeking costs a decoder's start-up: about as much as this many pictures. Where each stands
-// alone nothing but the picture asked for is decoded after a seek, and start-up is less than one of them.
-constexpr int kWorthASeek = 16;
-constexpr int kWorthASeekIntraOnly = 1;
-
 size_t bytes_of(const AVFrame& frame) {
   const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, 1);
   return bytes > 0 ? static_cast<size_t>(bytes) : 1;
@@ -30,23 +25,46 @@ PictureSeeker::PictureSeeker(libav::PictureStream stream, libav::PictureOrder or
       order_(std::move(order)),
       first_place_(static_cast<size_t>(table.size()), -1),
       bytes_to_keep_(bytes_to_keep),
-      threads_(table.any_corrupt() ? 1 : 2) {
-  for (int n = 0; n < static_cast<int>(order_.ordinals.size()); ++n) {
-    const int ordinal = order_.ordinals[static_cast<size_t>(n)];
-    int& first = first_place_.at(static_cast<size_t>(ordinal));
+      shown_(order_.ordinals.size(), -1) {
+  for (int n = 0; n < count(); ++n) {
+    int& first = first_place_.at(static_cast<size_t>(ordinal_of(n)));
     if (first < 0) first = n;
-    if (order_.can_start[static_cast<size_t>(n)] && ordinal > 0) starts_.push_back({n, ordinal});
+    last_ordinals_.push_back(n == 0 ? ordinal_of(n) : std::max(last_ordinals_.back(), ordinal_of(n)));
   }
+  list_starts();
+  damage_.assign(starts_.size(), kNone);
 }
 
-PictureSeeker::Start PictureSeeker::nearest_start(int n) const {
-  auto it = std::upper_bound(starts_.begin(), starts_.end(), n, [](int value, const Start& s) { return value < s.n; });
-  while (it != starts_.begin())
-    if (--it; !wrong_starts_.contains(it->ordinal)) return *it;
-  return {};
+void PictureSeeker::list_starts() {
+  const int first = *std::min_element(order_.ordinals.begin(), order_.ordinals.end());
+  const int first_n = first_place_[static_cast<size_t>(first)];
+  starts_.push_back({first_n, 0});
+  for (int n = first_n; n < count(); ++n)
+    if (order_.can_start[static_cast<size_t>(n)] && ordinal_of(n) > std::max(first, starts_.back().ordinal))
+      starts_.push_back({n, ordinal_of(n)});
+  head_end_ = first + 1;
+  while (head_end_ < static_cast<int>(first_place_.size()) && first_place_[static_cast<size_t>(head_end_)] < 0)
+    ++head_end_;
+}
+
+size_t PictureSeeker::nearest_start(int n) const {
+  const auto behind =
+      std::upper_bound(starts_.begin(), starts_.end(), n, [](int value, const Start& s) { return value < s.n; });
+  return behind == starts_.begin() ? 0 : static_cast<size_t>(behind - starts_.begin()) - 1;
+}
+
+// Behind the next start lie, in decoding, pictures that are shown before it.
+int PictureSeeker::end_of_group(size_t start) const {
+  if (start + 1 >= starts_.size()) return static_cast<int>(first_place_.size());
+  const Start& next = starts_[start + 1];
+  int end = std::max(next.ordinal, last_ordinals_[static_cast<size_t>(next.n) - 1] + 1);
+  if (end == next.ordinal) return end;
+  while (end < static_cast<int>(first_place_.size()) && first_place_[static_cast<size_t>(end)] < 0) ++end;
+  return end;
 }
 
 const PictureSeeker::Placed* PictureSeeker::kept(int n) const {
+  if (substitute_ && substitute_->n == n) return &*substitute_;
   const auto it = std::find_if(kept_.begin(), kept_.end(), [n](const Placed& placed) { return placed.n == n; });
   return it == kept_.end() ? nullptr : &*it;
 }
@@ -57,94 +75,165 @@ void PictureSeeker::keep(Placed placed) {
   while (kept_.size() > most) kept_.pop_front();
 }
 
-bool PictureSeeker::can_go_on_to(int n) const {
-  if (!started_ || kept_.empty() || n < kept_.back().n) return false;
-  if (ahead_ && n <= ahead_->n) return true;
-  const int worth_a_seek = order_.intra_only ? kWorthASeekIntraOnly : kWorthASeek;
-  return nearest_start(n).ordinal <= stream_.fed() + worth_a_seek;
+// Pictures that are shown before the start but decoded behind it lean on what was not decoded, and none behind the
+// start leans on them.
+bool PictureSeeker::is_excused(int ordinal) const {
+  const int n = first_place_[static_cast<size_t>(ordinal)];
+  if (n < 0) return start_ == 0 && ordinal < head_end_;
+  return n < starts_[start_].n;
 }
 
-Result<void> PictureSeeker::restart(int n) {
-  start_ = nearest_start(n);
-  kept_.clear();
-  ahead_.reset();
-  started_ = true;
-  start_seen_ = start_.ordinal == 0;
-  ended_ = false;
-  last_ordinal_ = -1;
-  return stream_.start(start_.ordinal, {.threads = threads_, .reorder_depth = order_.reorder_depth});
+bool PictureSeeker::is_sound(size_t start, int n) const {
+  const int ordinal = ordinal_of(n);
+  if (n < starts_[start].n && head_damage_ <= ordinal) return false;
+  return damage_[start] > ordinal && !missing_.contains({start, n});
+}
+
+bool PictureSeeker::got_over_a_group(size_t start, int n) const {
+  const int stopped = std::min(damage_[start], ordinal_of(n));
+  return start + 1 < starts_.size() && starts_[start + 1].ordinal <= stopped;
+}
+
+Result<void> PictureSeeker::begin(size_t start, int from, int end) {
+  start_ = start;
+  end_ = end;
+  running_ = true;
+  newest_ = start == 0 ? -1 : starts_[start].n - 1;
+  return stream_.start(from, {.threads = 2, .reorder_depth = order_.reorder_depth}, end);
+}
+
+void PictureSeeker::note_damage() {
+  for (int ordinal : stream_.damaged()) {
+    while (order_.in_fields && ordinal > 0 && first_place_[static_cast<size_t>(ordinal)] < 0) --ordinal;
+    if (order_.intra_only)
+      damaged_.insert(ordinal);
+    else if (is_excused(ordinal))
+      head_damage_ = start_ == 0 ? std::min(head_damage_, ordinal) : head_damage_;
+    else
+      damage_[start_] = std::min(damage_[start_], ordinal);
+  }
+}
+
+void PictureSeeker::miss_up_to(int n) {
+  for (int m = newest_ + 1; m <= n; ++m) {
+    if (order_.intra_only)
+      damaged_.insert(ordinal_of(m));
+    else
+      missing_.insert({start_, m});
+    if (start_ > 0 && m == starts_[start_].n) damage_[start_] = starts_[start_].ordinal;  // no start at all
+  }
+  newest_ = std::max(newest_, n);
 }
 
 // One packet may make several pictures; they come out one after the other.
-std::optional<int> PictureSeeker::place_of(int ordinal) {
-  int n = first_place_.at(static_cast<size_t>(ordinal));
-  if (n < 0) return {};
-  const int newest = ahead_ ? ahead_->n : kept_.empty() ? -1 : kept_.back().n;
-  if (ordinal == last_ordinal_ && newest + 1 < static_cast<int>(order_.ordinals.size()) &&
-      order_.ordinals[static_cast<size_t>(newest) + 1] == ordinal)
-    n = newest + 1;
-  return n;
+void PictureSeeker::place(Picture picture) {
+  int n = first_place_.at(static_cast<size_t>(picture.ordinal));
+  if (newest_ + 1 < count() && ordinal_of(newest_ + 1) == picture.ordinal) n = newest_ + 1;
+  if (n <= newest_) return;
+  miss_up_to(n - 1);
+  newest_ = n;
+  if (start_ > 0 && picture.ordinal == starts_[start_].ordinal && !libav::is_key(*picture.frame))
+    damage_[start_] = picture.ordinal;
+  const bool sound = order_.intra_only ? !damaged_.contains(picture.ordinal) : is_sound(start_, n);
+  if (sound) keep({std::move(picture), n});
 }
 
-Result<void> PictureSeeker::look_ahead() {
-  while (!ahead_ && !ended_) {
+Result<void> PictureSeeker::run_on_to(int n) {
+  while (running_ && newest_ < n) {
     Result<std::optional<Picture>> picture = stream_.next();
     if (!picture) return fail(picture.error());
-    if (!*picture) {
-      ended_ = true;
-      break;
+    note_damage();
+    if (*picture) {
+      place(std::move(**picture));
+    } else {
+      running_ = false;
+      miss_up_to(n);
     }
-    const std::optional<int> n = place_of((*picture)->ordinal);
-    last_ordinal_ = (*picture)->ordinal;
-    if ((*picture)->ordinal == start_.ordinal && (order_.intra_only || libav::is_key(*(*picture)->frame)))
-      start_seen_ = true;
-    // Before the start: shown earlier but decoded later, it may lean on what was not decoded.
-    if (!n || *n < start_.n || (!kept_.empty() && *n <= kept_.back().n)) continue;
-    ahead_ = Placed{std::move(**picture), *n};
+    if (!order_.intra_only && damage_[start_] <= ordinal_of(n)) return {};
   }
   return {};
 }
 
-Result<void> PictureSeeker::advance_to(int n) {
-  while (kept_.empty() || kept_.back().n < n) {
-    if (const Result<void> looked = look_ahead(); !looked) return looked;
-    if (!ahead_ || ahead_->n > n || !start_seen_) return {};
-    keep(std::move(*ahead_));
-    ahead_.reset();
+bool PictureSeeker::goes_on_to(size_t start, int n) const {
+  return running_ && start_ == start && n > newest_ && ordinal_of(n) < end_;
+}
+
+Result<void> PictureSeeker::run(size_t start, int n) {
+  if (!goes_on_to(start, n))
+    if (const Result<void> begun = begin(start, starts_[start].ordinal, end_of_group(nearest_start(n))); !begun)
+      return begun;
+  return run_on_to(n);
+}
+
+// A decoder that works on one picture at a time is a fresh one for each: some keep tables of those before.
+Result<void> PictureSeeker::run_alone(int n) {
+  const int ordinal = ordinal_of(n);
+  const bool goes_on = running_ && order_.decodes_ahead && n > newest_ && ordinal <= stream_.fed() + 1;
+  if (!goes_on) {
+    const int end = order_.decodes_ahead ? static_cast<int>(first_place_.size()) : ordinal + 1;
+    if (const Result<void> begun = begin(0, ordinal, end); !begun) return begun;
+    newest_ = first_place_[static_cast<size_t>(ordinal)] - 1;
   }
-  return {};
+  return run_on_to(n);
 }
 
-// How a decoder patches a damaged picture depends on those before it. Only if a whole group of pictures was sound is
-// the patch that of a whole decode.
-bool PictureSeeker::is_damaged_at_once() const {
-  const std::optional<int> damaged = stream_.first_damage();
-  return damaged && std::none_of(starts_.begin(), starts_.end(), [&](const Start& start) {
-           return start.ordinal > start_.ordinal && start.ordinal <= *damaged;
-         });
+// Makes the n-th picture, which is kept then. False: it is damaged.
+Result<bool> PictureSeeker::show(int n) {
+  if (kept(n) != nullptr) return true;
+  if (order_.intra_only) {
+    if (damaged_.contains(ordinal_of(n))) return false;
+    if (const Result<void> ran = run_alone(n); !ran) return fail(ran.error());
+    return kept(n) != nullptr;
+  }
+  for (size_t start = nearest_start(n);; --start) {
+    if (is_sound(start, n)) {
+      if (const Result<void> ran = run(start, n); !ran) return fail(ran.error());
+      if (is_sound(start, n)) return kept(n) != nullptr;
+    }
+    if (start == 0 || got_over_a_group(start, n)) return false;
+  }
 }
 
-bool PictureSeeker::start_was_wrong() const {
-  return !start_seen_ || kept_.empty() || is_damaged_at_once();
+// The last sound picture before the n-th, else the first behind it; -1: there is none.
+Result<int> PictureSeeker::substitute_of(int n) {
+  const auto known = [this](int m) { return shown_[static_cast<size_t>(m)]; };
+  for (int m = n - 1; m >= 0;) {
+    const Result<bool> sound = show(m);
+    if (!sound) return fail(sound.error());
+    if (*sound) return m;
+    if (known(m) > m) break;  // there is none before it
+    m = known(m) >= 0 && known(m) < m ? known(m) : m - 1;
+  }
+  for (int m = n > 0 && known(n - 1) > n ? known(n - 1) : n + 1; m < count(); ++m) {
+    const Result<bool> sound = show(m);
+    if (!sound) return fail(sound.error());
+    if (*sound) return m;
+  }
+  return -1;
+}
+
+// Held beside the pictures kept, so that a long damaged stretch does not make it again and again.
+void PictureSeeker::hold_as_substitute(int n) {
+  const Placed* placed = kept(n);
+  if (placed == nullptr || (substitute_ && substitute_->n == n)) return;
+  libav::FramePtr frame = libav::new_frame();
+  if (av_frame_ref(frame.get(), placed->picture.frame.get()) >= 0)
+    substitute_ = Placed{{std::move(frame), placed->picture.ordinal}, n};
 }
 
 Result<PictureSeeker::Found> PictureSeeker::find(int n) {
-  if (const Placed* placed = kept(n)) return Found{&placed->picture, false};
-  bool go_on = can_go_on_to(n);
-  while (true) {
-    Result<void> moved = go_on ? Result<void>() : restart(n);
-    if (moved) moved = advance_to(n);
-    if (!moved) return fail(moved.error());
-    go_on = false;
-    if (stream_.first_damage() && threads_ > 1) {
-      threads_ = 1;  // what two threads make of a damaged stream can depend on which of them is ahead
-    } else if (start_was_wrong() && start_.ordinal > 0) {
-      wrong_starts_.insert(start_.ordinal);
-    } else {
-      if (kept_.empty()) return Found{};
-      return Found{&kept_.back().picture, kept_.back().n != n};
-    }
+  const Result<bool> sound = show(n);
+  if (!sound) return fail(sound.error());
+  int& shown = shown_[static_cast<size_t>(n)];
+  shown = n;
+  if (!*sound) {
+    const Result<int> substitute = substitute_of(n);
+    if (!substitute) return fail(substitute.error());
+    shown = *substitute;
+    if (shown < 0) return Found{};
+    hold_as_substitute(shown);
   }
+  return Found{&kept(shown)->picture, shown};
 }
 
 }  // namespace sigs

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -12,17 +14,21 @@
 
 namespace sigs {
 
-// The n-th picture of a whole decode, by the shortest way that is known to give just that: going on from the last one,
-// or from the nearest picture at which decoding can begin. Where a start turns out not to be what the container said,
-// the one before it is taken, in the end the file's own start.
+// The picture that is shown as the n-th, which depends on the file and n alone. A *run* is what a fresh decoder makes
+// of the packets from a start, a keyframe, on; up to the first packet that is damaged its pictures are sound.
+//   1. The n-th picture is taken from the nearest start at or before it whose run has it sound.
+//   2. Starts are gone back over until there is one, or until a run got over a whole group of pictures before its
+//      damage: then the start was right and the footage is damaged. Starts that are no keyframes have no run.
+//   3. A picture that no run has sound is substituted by the last sound one before it, or the first sound one at all.
+// Where pictures stand alone each has a run of its own, and there is nothing to go back to.
 class PictureSeeker {
  public:
   PictureSeeker(libav::PictureStream stream, libav::PictureOrder order, const libav::PacketTable& table,
                 size_t bytes_to_keep);
 
   struct Found {
-    const libav::Picture* picture = nullptr;  // null: neither the n-th picture nor any before it can be made
-    bool stands_in = false;                   // it is one before the n-th, which the decoder did not give
+    const libav::Picture* picture = nullptr;  // null: no picture of the file is sound
+    int n = 0;                                // which picture it is
   };
 
   // Valid until the next call.
@@ -34,36 +40,53 @@ class PictureSeeker {
     int n = 0;
   };
   struct Start {
-    int n = 0;  // 0 with ordinal 0: the file's start, always right
+    int n = 0;
     int ordinal = 0;
   };
+  static constexpr int kNone = std::numeric_limits<int>::max();
 
-  [[nodiscard]] Start nearest_start(int n) const;
-  [[nodiscard]] bool can_go_on_to(int n) const;
-  [[nodiscard]] Result<void> restart(int n);
-  [[nodiscard]] Result<void> advance_to(int n);
-  [[nodiscard]] Result<void> look_ahead();
-  [[nodiscard]] bool start_was_wrong() const;
-  [[nodiscard]] bool is_damaged_at_once() const;
+  void list_starts();
+  [[nodiscard]] int ordinal_of(int n) const { return order_.ordinals[static_cast<size_t>(n)]; }
+  [[nodiscard]] int count() const { return static_cast<int>(order_.ordinals.size()); }
+  [[nodiscard]] size_t nearest_start(int n) const;
+  [[nodiscard]] int end_of_group(size_t start) const;
+  [[nodiscard]] bool is_excused(int ordinal) const;
+  [[nodiscard]] bool is_sound(size_t start, int n) const;
+  [[nodiscard]] bool got_over_a_group(size_t start, int n) const;
+  [[nodiscard]] Result<bool> show(int n);
+  [[nodiscard]] Result<int> substitute_of(int n);
+  void hold_as_substitute(int n);
+  [[nodiscard]] Result<void> run(size_t start, int n);
+  [[nodiscard]] Result<void> run_alone(int n);
+  [[nodiscard]] Result<void> run_on_to(int n);
+  [[nodiscard]] bool goes_on_to(size_t start, int n) const;
+  [[nodiscard]] Result<void> begin(size_t start, int from, int end);
+  void note_damage();
+  void place(libav::Picture picture);
+  void miss_up_to(int n);
   [[nodiscard]] const Placed* kept(int n) const;
   void keep(Placed placed);
-  [[nodiscard]] std::optional<int> place_of(int ordinal);
 
   libav::PictureStream stream_;
   libav::PictureOrder order_;
-  std::vector<int> first_place_;  // n by ordinal; -1: makes no picture
-  std::vector<Start> starts_;     // by n
-  std::set<int> wrong_starts_;    // ordinals
+  std::vector<int> first_place_;    // n by ordinal; -1: makes no picture
+  std::vector<int> last_ordinals_;  // by n: the last packet, in decoding, of the pictures up to the n-th
+  std::vector<Start> starts_;       // the first is where the file begins
+  int head_end_ = 0;                // packets before it that make no picture lean on what lies before the file
   size_t bytes_to_keep_ = 0;
-  int threads_ = 2;
 
-  std::deque<Placed> kept_;      // the last pictures in order, the newest is where the decoder stands
-  std::optional<Placed> ahead_;  // decoded, behind the picture that was asked for
-  Start start_;
-  bool started_ = false;
-  bool start_seen_ = false;  // the picture at start_ came out and is one to start at
-  bool ended_ = false;
-  int last_ordinal_ = -1;
+  std::vector<int> damage_;  // by start: the first damaged packet of its run as far as it is known; kNone: none
+  int head_damage_ = kNone;  // the first damaged packet of those before the first start in presentation
+  std::set<std::pair<size_t, int>> missing_;  // start and n: its run does not make the picture
+  std::set<int> damaged_;                     // where pictures stand alone: ordinals
+  std::vector<int> shown_;                    // by n: which picture is shown; -1: not known yet
+
+  std::deque<Placed> kept_;           // sound pictures, the newest last
+  std::optional<Placed> substitute_;  // the one used last
+  size_t start_ = 0;                  // of the run that the decoder is in
+  bool running_ = false;
+  int newest_ = -1;  // the last picture of the run that came out
+  int end_ = 0;      // ordinal before which the run stops
 };
 
 }  // namespace sigs

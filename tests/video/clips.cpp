@@ -9,6 +9,7 @@ extern "C" {
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -87,6 +88,27 @@ WholeDecode whole_decode(const std::filesystem::path& path) {
   avcodec_free_context(&decoder);
   avformat_close_input(&input);
   return decode;
+}
+
+std::vector<PacketPlace> packets_of(const std::filesystem::path& path) {
+  const std::vector<uint8_t> bytes = bytes_of(path);
+  std::vector<PacketPlace> places;
+  AVFormatContext* input = nullptr;
+  REQUIRE(avformat_open_input(&input, path.c_str(), nullptr, nullptr) >= 0);
+  REQUIRE(avformat_find_stream_info(input, nullptr) >= 0);
+  const int index = av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  AVPacket* packet = av_packet_alloc();
+  while (av_read_frame(input, packet) >= 0) {
+    if (packet->stream_index == index) {
+      const auto found = std::search(bytes.begin(), bytes.end(), packet->data, packet->data + packet->size);
+      REQUIRE(found != bytes.end());
+      places.push_back({static_cast<size_t>(found - bytes.begin()), static_cast<size_t>(packet->size)});
+    }
+    av_packet_unref(packet);
+  }
+  av_packet_free(&packet);
+  avformat_close_input(&input);
+  return places;
 }
 
 bool run_ffmpeg(const std::string& arguments) {

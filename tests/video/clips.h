@@ -24,6 +24,13 @@ struct WholeDecode {
 };
 [[nodiscard]] WholeDecode whole_decode(const std::filesystem::path& path);
 
+// Where the data of each packet of the video stream lie in the file. Only for containers that store them in one piece.
+struct PacketPlace {
+  size_t offset = 0;
+  size_t size = 0;
+};
+[[nodiscard]] std::vector<PacketPlace> packets_of(const std::filesystem::path& path);
+
 // Runs the ffmpeg program on a moving test picture. False, and SKIPPED printed, where there is none or it lacks a
 // codec.
 //   filter   of the test picture, "testsrc2=size=128x96:rate=25:duration=2" if empty

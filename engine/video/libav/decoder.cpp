@@ -7,8 +7,7 @@
 
 namespace sigs::libav {
 
-Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings,
-                              Complaint& complaint) {
+Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings) {
   const AVCodec* codec = avcodec_find_decoder(parameters.codec_id);
   if (codec == nullptr)
     return fail("", std::string("no decoder for the codec ") + avcodec_get_name(parameters.codec_id),
@@ -16,8 +15,8 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   CodecPtr context(avcodec_alloc_context3(codec));
   if (context == nullptr) throw std::bad_alloc();
   int error = avcodec_parameters_to_context(context.get(), &parameters);
-  context->opaque = &complaint;
-  context->thread_count = settings.threads;
+  // Which macroblocks of a damaged MPEG-4 picture FFmpeg misses depends on which of its threads is ahead.
+  context->thread_count = parameters.codec_id == AV_CODEC_ID_MPEG4 ? 1 : settings.threads;
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
   if (error < 0 && settings.threads > 1)  // there may be no more threads to be had; one gives the same pictures
@@ -44,6 +43,11 @@ bool is_key(const AVFrame& frame) {
 bool is_intra_only(AVCodecID codec) {
   const AVCodecDescriptor* descriptor = avcodec_descriptor_get(codec);
   return descriptor != nullptr && (descriptor->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
+}
+
+bool decodes_ahead(AVCodecID codec) {
+  const AVCodec* decoder = avcodec_find_decoder(codec);
+  return decoder != nullptr && (decoder->capabilities & AV_CODEC_CAP_FRAME_THREADS) != 0;
 }
 
 }  // namespace sigs::libav

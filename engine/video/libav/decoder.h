@@ -11,15 +11,16 @@ struct DecoderSettings {
   int reorder_depth = 0;  // how many pictures can overtake another, where the time stamps tell more than the stream
 };
 
-// Raises complaint whenever the decoder reports an error; it must outlive the decoder.
 // Errors: cannot_read (no decoder for this codec, or it refuses the stream).
-[[nodiscard]] Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings,
-                                            Complaint& complaint);
+[[nodiscard]] Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings);
 
 // What the decoder says of a picture.
 [[nodiscard]] bool is_damaged(const AVFrame& frame);
 [[nodiscard]] bool is_key(const AVFrame& frame);
 
 [[nodiscard]] bool is_intra_only(AVCodecID codec);
+
+// Whether pictures of this codec are decoded several at a time.
+[[nodiscard]] bool decodes_ahead(AVCodecID codec);
 
 }  // namespace sigs::libav

@@ -5,21 +5,30 @@
 #include <cstdarg>
 #include <new>
 #include <string_view>
+#include <utility>
 
 namespace sigs::libav {
 namespace {
 
+constexpr std::string_view kGap = "Frame num gap";  // H.264: a reference picture is missing; FFmpeg fills in another
+
+// What FFmpeg calls errors and sound footage has too: supplemental information of a kind it cannot parse, references
+// that lie before a start in the middle.
+constexpr std::string_view kHarmless[] = {"SEI type", "mmco: unref", "number of reference frames"};
+
 // Patching up the macroblocks of a damaged picture is no more than information to FFmpeg.
-bool is_complaint(int level, const char* format) {
-  return level <= AV_LOG_ERROR || std::string_view(format).starts_with("concealing");
+bool is_complaint(int level, std::string_view format) {
+  for (const std::string_view begin : kHarmless)
+    if (format.starts_with(begin)) return false;
+  return level <= AV_LOG_ERROR || format.starts_with("concealing") || format.starts_with(kGap);
 }
 
 // Called from FFmpeg's own threads. A threaded decoder's contexts are copies of the one that was opened.
 void note_complaint(void* source, int level, const char* format, va_list /*values*/) {
   if (source == nullptr || !is_complaint(level, format)) return;
   if (*static_cast<const AVClass**>(source) != avcodec_get_class()) return;
-  const auto* context = static_cast<const AVCodecContext*>(source);
-  if (context->opaque != nullptr) static_cast<Complaint*>(context->opaque)->store(true);
+  void* tag = static_cast<const AVCodecContext*>(source)->opaque;
+  if (tag != nullptr) Complaints::report(tag, std::string_view(format).starts_with(kGap));
 }
 
 }  // namespace
@@ -68,6 +77,30 @@ std::string url_of(const std::filesystem::path& path) {
 
 void silence() {
   av_log_set_callback(note_complaint);
+}
+
+void Complaints::restart(int first) {
+  const std::lock_guard lock(mutex_);
+  first_ = first;
+  ordinals_.clear();
+}
+
+void* Complaints::tag_of(int ordinal) {
+  Tag& tag = tags_[static_cast<size_t>(ordinal) % tags_.size()];
+  tag = {this, ordinal};
+  return &tag;
+}
+
+std::vector<int> Complaints::taken() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(ordinals_, {});
+}
+
+void Complaints::report(void* tag, bool of_a_gap) {
+  const Tag named = *static_cast<const Tag*>(tag);
+  const std::lock_guard lock(named.complaints->mutex_);
+  if (of_a_gap && named.ordinal <= named.complaints->first_) return;
+  named.complaints->ordinals_.push_back(named.ordinal);
 }
 
 }  // namespace sigs::libav

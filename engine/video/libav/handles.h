@@ -11,10 +11,12 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-#include <atomic>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 namespace sigs::libav {
 
@@ -46,9 +48,34 @@ void check_memory(int error);
 // The path as FFmpeg takes it literally: "a:b.mkv" is a file, not a protocol.
 [[nodiscard]] std::string url_of(const std::filesystem::path& path);
 
-// FFmpeg reports to stderr, which belongs to the program's own log and progress. Errors come back as values; those a
-// decoder only talks of raise the flag that its context's `opaque` points to, if any.
-using Complaint = std::atomic<bool>;
+// FFmpeg reports to stderr, which belongs to the program's own log and progress. silence() turns that off; what a
+// decoder reports goes to the Complaints of the packet it is about, if any.
 void silence();
+
+// The packets of which a decoder reports that something is wrong with them. Its worker threads report too.
+class Complaints {
+ public:
+  // Forgets all. first: ordinal of the packet that decoding begins at; what is missing before it is not missed.
+  void restart(int first);
+
+  // To be a decoder's `opaque` while a packet goes into it, so that reports name the packet. FFmpeg hands it on to the
+  // thread that decodes that packet.
+  [[nodiscard]] void* tag_of(int ordinal);
+
+  // The ordinals of the packets complained of since the last call.
+  [[nodiscard]] std::vector<int> taken();
+
+  static void report(void* tag, bool of_a_gap);
+
+ private:
+  struct Tag {
+    Complaints* complaints = nullptr;
+    int ordinal = 0;
+  };
+  std::array<Tag, 64> tags_;  // more than a decoder has threads
+  int first_ = 0;
+  std::mutex mutex_;
+  std::vector<int> ordinals_;
+};
 
 }  // namespace sigs::libav

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 
+#include "base/ensure.h"
+
 namespace sigs::libav {
 namespace {
 
 constexpr int kMostSeeks = 5;
+constexpr size_t kMostRecent = 64;
+constexpr size_t kMostRecentBytes = 8 << 20;
 
 // Before the keyframe's own packet in decode order; some containers seek by decode time, some by presentation time.
 std::optional<int64_t> seek_time(const PacketMark& mark) {
@@ -52,28 +56,59 @@ bool PacketReader::seek_before(int ordinal) {
 
 Result<void> PacketReader::go_to(int ordinal) {
   wanted_ = ordinal;
+  if (ordinal <= read_ && ordinal >= read_ - static_cast<int>(recent_.size())) return {};
+  recent_.clear();
+  recent_bytes_ = 0;
+  read_ = ordinal;
   if (ordinal > 0 && seek_before(ordinal)) return {};
   return reopen();
 }
 
-Result<std::optional<int>> PacketReader::next(AVPacket& packet) {
-  while (wanted_ < table_->size()) {
+Error PacketReader::changed() const {
+  return {path_.string(), "changed while it was being read"};
+}
+
+// Packet read_ into packet_; false: the file ends before it.
+Result<bool> PacketReader::read_on() {
+  while (read_ < table_->size()) {
     if (!held_) {
       const bool more = demuxer_.next(*packet_);
-      if (!more && !sought_) break;
       ++met_;
-      if (sought_ && (!more || met_ >= table_->size() || !table_->matches(met_, *packet_))) {
+      if (!more || met_ >= table_->size() || !table_->looks_like(met_, *packet_)) {
+        if (!sought_) return fail(changed());
         if (const Result<void> opened = reopen(); !opened) return fail(opened.error());
         continue;
       }
     }
     held_ = false;
-    if (met_ < wanted_) continue;
-    av_packet_unref(&packet);
-    av_packet_move_ref(&packet, packet_.get());
-    return wanted_++;
+    if (met_ >= read_) return true;
   }
-  return std::optional<int>();
+  return false;
+}
+
+void PacketReader::keep() {
+  PacketPtr kept = new_packet();
+  recent_bytes_ += static_cast<size_t>(packet_->size);
+  av_packet_move_ref(kept.get(), packet_.get());
+  recent_.push_back(std::move(kept));
+  ++read_;
+  while (recent_.size() > 1 && (recent_.size() > kMostRecent || recent_bytes_ > kMostRecentBytes)) {
+    recent_bytes_ -= static_cast<size_t>(recent_.front()->size);
+    recent_.pop_front();
+  }
+}
+
+Result<std::optional<int>> PacketReader::next(AVPacket& packet) {
+  if (wanted_ == read_) {
+    const Result<bool> more = read_on();
+    if (!more) return fail(more.error());
+    if (!*more) return std::optional<int>();
+    keep();
+  }
+  av_packet_unref(&packet);
+  const auto place = recent_.end() - (read_ - wanted_);
+  ENSURE(av_packet_ref(&packet, place->get()) >= 0);
+  return wanted_++;
 }
 
 }  // namespace sigs::libav

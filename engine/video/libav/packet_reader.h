@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 
@@ -26,13 +27,19 @@ class PacketReader {
 
  private:
   [[nodiscard]] bool seek_before(int ordinal);
+  [[nodiscard]] Result<bool> read_on();
+  [[nodiscard]] Error changed() const;
+  void keep();
   [[nodiscard]] Result<void> reopen();
 
   std::filesystem::path path_;
   Demuxer demuxer_;
   const PacketTable* table_;
-  int met_ = -1;        // ordinal of the packet last taken from the demuxer
-  int wanted_ = 0;      // ordinal that next() gives
+  int met_ = -1;                  // ordinal of the packet last taken from the demuxer
+  int wanted_ = 0;                // ordinal that next() gives
+  int read_ = -1;                 // ordinal behind the newest packet in recent_; -1: nothing is read
+  std::deque<PacketPtr> recent_;  // the last packets, so that a step back needs no seek
+  size_t recent_bytes_ = 0;
   bool held_ = false;   // the packet met_ was read to see where a seek landed
   bool sought_ = true;  // not read straight from the file's start; the first pass leaves the demuxer at the end
   PacketPtr packet_ = new_packet();

@@ -2,8 +2,10 @@
 #include "video/libav/packet_table.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
+#include "base/ensure.h"
 #include "video/libav/ffv1_check.h"
 
 namespace sigs::libav {
@@ -19,6 +21,34 @@ PacketMark mark_of(const AVPacket& packet) {
           .corrupt = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0};
 }
 
+// Whether a picture that the container calls a keyframe is one by its own header, as far as FFmpeg has a parser for it.
+// Containers call pictures of an intra refresh so, or all of them.
+class KeyCheck {
+ public:
+  explicit KeyCheck(const AVCodecParameters& parameters) : context_(avcodec_alloc_context3(nullptr)) {
+    ENSURE(context_ != nullptr && avcodec_parameters_to_context(context_.get(), &parameters) >= 0);
+    parser_.reset(av_parser_init(static_cast<int>(parameters.codec_id)));
+    if (parser_ != nullptr) parser_->flags |= PARSER_FLAG_COMPLETE_FRAMES;
+  }
+
+  [[nodiscard]] bool allows(const AVPacket& packet) {
+    if (parser_ == nullptr) return true;
+    uint8_t* data = nullptr;
+    int size = 0;
+    parser_->pict_type = AV_PICTURE_TYPE_NONE;
+    av_parser_parse2(parser_.get(), context_.get(), &data, &size, packet.data, packet.size, packet.pts, packet.dts,
+                     packet.pos);
+    return parser_->pict_type != AV_PICTURE_TYPE_P && parser_->pict_type != AV_PICTURE_TYPE_B;
+  }
+
+ private:
+  struct Close {
+    void operator()(AVCodecParserContext* parser) const { av_parser_close(parser); }
+  };
+  CodecPtr context_;
+  std::unique_ptr<AVCodecParserContext, Close> parser_;
+};
+
 // Only a stream in which some packet's checksums match has checksums at all.
 void mark_corrupt(std::vector<PacketMark>& marks, const std::vector<bool>& checksums_match) {
   if (std::find(checksums_match.begin(), checksums_match.end(), true) == checksums_match.end()) return;
@@ -32,9 +62,11 @@ PacketTable PacketTable::read(Demuxer& demuxer) {
   PacketTable table;
   const bool is_ffv1 = demuxer.stream().codecpar->codec_id == AV_CODEC_ID_FFV1;
   std::vector<bool> checksums_match;
+  KeyCheck key_check(*demuxer.stream().codecpar);
   const PacketPtr packet = new_packet();
   while (demuxer.next(*packet)) {
     table.marks_.push_back(mark_of(*packet));
+    if (table.marks_.back().key && packet->size > 0) table.marks_.back().key = key_check.allows(*packet);
     if (is_ffv1) checksums_match.push_back(ffv1_checksums_match({packet->data, static_cast<size_t>(packet->size)}));
   }
   table.broke_off_ = demuxer.broke_off();
@@ -54,10 +86,13 @@ bool PacketTable::any_corrupt() const {
   return std::any_of(marks_.begin(), marks_.end(), [](const PacketMark& mark) { return mark.corrupt; });
 }
 
-bool PacketTable::matches(int ordinal, const AVPacket& packet) const {
+bool PacketTable::looks_like(int ordinal, const AVPacket& packet) const {
   const PacketMark& mark = (*this)[ordinal];
-  return mark.file_position >= 0 && mark.file_position == packet.pos && mark.size == packet.size &&
-         mark.pts == packet.pts;
+  return mark.file_position == packet.pos && mark.size == packet.size && mark.pts == packet.pts;
+}
+
+bool PacketTable::matches(int ordinal, const AVPacket& packet) const {
+  return packet.pos >= 0 && looks_like(ordinal, packet);
 }
 
 std::optional<int> PacketTable::ordinal_of(const AVPacket& packet) const {

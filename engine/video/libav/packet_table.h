@@ -35,6 +35,9 @@ class PacketTable {
   [[nodiscard]] std::optional<int> ordinal_of(const AVPacket& packet) const;
   [[nodiscard]] bool matches(int ordinal, const AVPacket& packet) const;
 
+  // The same where the file position is unknown: whether the packet can be the one of this ordinal.
+  [[nodiscard]] bool looks_like(int ordinal, const AVPacket& packet) const;
+
  private:
   void sort_by_position();
 

@@ -23,10 +23,23 @@ bool one_picture_per_packet(const AVCodecParameters& parameters) {
   }
 }
 
+bool is_in_fields(const AVCodecParameters& parameters) {
+  return parameters.field_order != AV_FIELD_PROGRESSIVE && parameters.field_order != AV_FIELD_UNKNOWN;
+}
+
 // Time stamps and key flags of the others are guesses.
 bool has_true_time_stamps(const AVFormatContext& format) {
   const std::string_view name = format.iformat->name;
   return name.starts_with("mov,mp4") || name.starts_with("matroska");
+}
+
+// FFV1 and PNG may lean on the picture before, but only in packets that are no keyframes.
+bool each_stands_alone(const PacketTable& table, AVCodecID codec) {
+  if (is_intra_only(codec)) return true;
+  if (codec != AV_CODEC_ID_FFV1 && codec != AV_CODEC_ID_PNG) return false;
+  for (int i = 0; i < table.size(); ++i)
+    if (!table[i].key) return false;
+  return true;
 }
 
 bool is_shown(const PacketMark& mark) {
@@ -86,7 +99,8 @@ void set_times(PictureOrder& order, const PacketTable& table, const StreamBasics
 std::optional<PictureOrder> order_from_packets(const PacketTable& table, const AVFormatContext& format,
                                                const AVStream& stream) {
   if (!one_picture_per_packet(*stream.codecpar) || !has_true_time_stamps(format)) return {};
-  PictureOrder order{.intra_only = is_intra_only(stream.codecpar->codec_id)};
+  const AVCodecID codec = stream.codecpar->codec_id;  // its pictures are whole: one a packet
+  PictureOrder order{.intra_only = each_stands_alone(table, codec), .decodes_ahead = decodes_ahead(codec)};
   for (int i = 0; i < table.size(); ++i)
     if (is_shown(table[i])) order.ordinals.push_back(i);
   std::stable_sort(order.ordinals.begin(), order.ordinals.end(),
@@ -103,10 +117,12 @@ Result<PictureOrder> order_from_decoding(const PacketTable& table, PictureStream
   // Taken out first: each start may open the file anew, and then the stream of the last opening is gone.
   const AVStream& stream = pictures.demuxer().stream();
   const StreamBasics basics{.tick_s = av_q2d(stream.time_base), .frame_period_s = 1 / av_q2d(frame_rate)};
-  const bool intra_only = is_intra_only(stream.codecpar->codec_id);
+  const AVCodecID codec = stream.codecpar->codec_id;
+  const bool in_fields = is_in_fields(*stream.codecpar);
   PictureOrder order;
   const auto decode_all = [&](int threads) -> Result<void> {
-    order = {.intra_only = intra_only};
+    order = {
+        .intra_only = each_stands_alone(table, codec), .in_fields = in_fields, .decodes_ahead = decodes_ahead(codec)};
     if (const Result<void> started = pictures.start(0, {.threads = threads}); !started) return fail(started.error());
     while (true) {
       Result<std::optional<Picture>> picture = pictures.next();
@@ -118,7 +134,7 @@ Result<PictureOrder> order_from_decoding(const PacketTable& table, PictureStream
   };
   Result<void> decoded = decode_all(2);
   // What two threads make of a damaged stream can depend on which of them is ahead.
-  if (decoded && pictures.first_damage()) decoded = decode_all(1);
+  if (decoded && !pictures.damaged().empty()) decoded = decode_all(1);
   if (!decoded) return fail(decoded.error());
   set_times(order, table, basics);
   return order;

@@ -16,7 +16,9 @@ struct PictureOrder {
       can_start{};  // decoding can begin at this picture's packet; all before it in presentation is not needed
   std::vector<double> times_s{};   // 0 for the first, increasing
   bool times_are_nominal = false;  // the container's time stamps are missing or do not increase
-  bool intra_only = false;         // every picture stands alone
+  bool intra_only = false;         // every packet makes its pictures alone
+  bool in_fields = false;          // a picture may be made of two packets; it has the ordinal of the first
+  bool decodes_ahead = false;      // the decoder works on several pictures at a time
   int reorder_depth = 0;           // DecoderSettings::reorder_depth
 };
 

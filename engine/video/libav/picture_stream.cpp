@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/picture_stream.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace sigs::libav {
 
-Result<void> PictureStream::start(int ordinal, const DecoderSettings& settings) {
+Result<void> PictureStream::start(int ordinal, const DecoderSettings& settings, std::optional<int> end) {
   // A fresh decoder for each start: what a flushed one keeps of its past differs from codec to codec.
-  Result<CodecPtr> decoder = open_decoder(*reader_.demuxer().stream().codecpar, settings, *complaint_);
+  Result<CodecPtr> decoder = open_decoder(*reader_.demuxer().stream().codecpar, settings);
   if (!decoder) return fail(decoder.error());
-  decoder_ = std::move(*decoder);
+  decoder_ = std::move(*decoder);  // the threads of the one before have ended
   fed_ = ordinal - 1;
-  first_damage_.reset();
-  complaint_->store(false);
-  complained_of_ = -1;
+  end_ = end.value_or(table_->size());
+  complaints_->restart(ordinal);
+  in_work_.clear();
+  damaged_.clear();
   return reader_.go_to(ordinal);
 }
 
 Result<void> PictureStream::feed() {
-  Result<std::optional<int>> ordinal = reader_.next(*packet_);
+  Result<std::optional<int>> ordinal = std::optional<int>();
+  if (fed_ + 1 < end_) ordinal = reader_.next(*packet_);
   if (!ordinal) return fail(ordinal.error());
   if (!*ordinal) {
     avcodec_send_packet(decoder_.get(), nullptr);
@@ -27,53 +28,55 @@ Result<void> PictureStream::feed() {
   }
   fed_ = **ordinal;
   if (packet_->size == 0) return {};  // a frame left out; to the decoder an empty packet means the end
+  if ((*table_)[fed_].corrupt) note_damage(fed_);
   // The decoder hands time stamps through to the pictures. Ours is the ordinal: every container has it, and it is
   // unique.
   packet_->pts = packet_->dts = fed_;
+  decoder_->opaque = complaints_->tag_of(fed_);
+  // FFmpeg waits for each picture of FFV1, threads or not.
+  const bool one_by_one =
+      (decoder_->active_thread_type & FF_THREAD_FRAME) == 0 || decoder_->codec_id == AV_CODEC_ID_FFV1;
+  while (in_work_.size() >= static_cast<size_t>(one_by_one ? 1 : decoder_->thread_count)) in_work_.pop_front();
+  in_work_.push_back(fed_);
   const int sent = avcodec_send_packet(decoder_.get(), packet_.get());
   check_memory(sent);
-  if (sent < 0) note_damage(fed_);
-  note_complaint();
+  if (sent < 0) note_refusal();
+  note_complaints();
   return {};
 }
 
 void PictureStream::note_damage(int ordinal) {
-  first_damage_ = std::min(first_damage_.value_or(ordinal), ordinal);
+  damaged_.insert(ordinal);
 }
 
-// With one thread the packet that went in last is meant; with more it is one of the last few.
-void PictureStream::note_complaint() {
-  if (!complaint_->exchange(false)) return;
-  const bool flags_pictures = !is_intra_only(decoder_->codec_id);
-  if (!flags_pictures) complained_of_ = fed_;
-  if (!flags_pictures || decoder_->thread_count > 1) note_damage(fed_);
+void PictureStream::note_complaints() {
+  for (const int ordinal : complaints_->taken()) note_damage(ordinal);
 }
 
-Picture PictureStream::taken(FramePtr frame) {
-  const int64_t stamp = frame->pts != AV_NOPTS_VALUE ? frame->pts : frame->pkt_dts;
-  const bool known = stamp >= 0 && stamp < table_->size();
-  Picture picture{.frame = std::move(frame), .ordinal = known ? static_cast<int>(stamp) : -1};
-  picture.damaged = is_damaged(*picture.frame) ||
-                    (known && ((*table_)[picture.ordinal].corrupt || picture.ordinal == complained_of_));
-  if (picture.damaged) note_damage(picture.ordinal);
-  return picture;
+// An error that comes back is about the packet that has been in work for longest.
+void PictureStream::note_refusal() {
+  note_damage(in_work_.empty() ? fed_ : in_work_.front());
 }
 
 Result<std::optional<Picture>> PictureStream::next() {
   while (true) {
     FramePtr frame = new_frame();
     const int result = avcodec_receive_frame(decoder_.get(), frame.get());
-    note_complaint();
+    note_complaints();
     check_memory(result);
     if (result == 0) {
-      Picture picture = taken(std::move(frame));
-      if (picture.ordinal >= 0) return std::optional<Picture>(std::move(picture));
-    } else if (result == AVERROR_EOF) {
-      return std::optional<Picture>();
-    } else if (result == AVERROR(EAGAIN)) {
+      const int64_t stamp = frame->pts != AV_NOPTS_VALUE ? frame->pts : frame->pkt_dts;
+      if (stamp < 0 || stamp >= table_->size()) continue;
+      Picture picture{.frame = std::move(frame), .ordinal = static_cast<int>(stamp)};
+      if (is_damaged(*picture.frame)) note_damage(picture.ordinal);
+      return std::optional<Picture>(std::move(picture));
+    }
+    if (result == AVERROR_EOF) return std::optional<Picture>();
+    if (result == AVERROR(EAGAIN)) {
       if (const Result<void> fed = feed(); !fed) return fail(fed.error());
     } else {
-      note_damage(fed_);
+      note_refusal();
+      if (fed_ + 1 >= end_ && !in_work_.empty()) in_work_.pop_front();
     }
   }
 }

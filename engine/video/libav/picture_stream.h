@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
+#include <memory>
 #include <optional>
+#include <set>
 
 #include "video/libav/decoder.h"
 #include "video/libav/packet_reader.h"
@@ -12,7 +15,6 @@ namespace sigs::libav {
 struct Picture {
   FramePtr frame;
   int ordinal = 0;
-  bool damaged = false;
 };
 
 // Pictures in order of presentation, from any packet on.
@@ -22,30 +24,35 @@ class PictureStream {
 
   [[nodiscard]] const Demuxer& demuxer() const { return reader_.demuxer(); }
 
-  [[nodiscard]] Result<void> start(int ordinal, const DecoderSettings& settings);
+  // A fresh decoder gets the packets from this one on, as far as the one before `end`; none: all.
+  [[nodiscard]] Result<void> start(int ordinal, const DecoderSettings& settings, std::optional<int> end = {});
 
   // Empty at the end.
   [[nodiscard]] Result<std::optional<Picture>> next();
 
-  // Ordinal of the last packet that went in since start(), and of the first that was damaged, as far as met.
+  // Ordinal of the last packet that went in since start().
   [[nodiscard]] int fed() const { return fed_; }
-  [[nodiscard]] std::optional<int> first_damage() const { return first_damage_; }
+
+  // The packets since start() that are damaged: the decoder complains of them, or the container or a checksum does.
+  // Complete for all packets up to that of a picture once it came out.
+  [[nodiscard]] const std::set<int>& damaged() const { return damaged_; }
 
  private:
   [[nodiscard]] Result<void> feed();
-  [[nodiscard]] Picture taken(FramePtr frame);
   void note_damage(int ordinal);
-  void note_complaint();
+  void note_complaints();
+  void note_refusal();
 
   PacketReader reader_;
   const PacketTable* table_;
-  // What the decoder talks of. With several threads flags on pictures get lost in FFmpeg 5.1; this does not.
-  std::unique_ptr<Complaint> complaint_ = std::make_unique<Complaint>(false);
+  // With several threads flags on pictures get lost in FFmpeg 5.1; what the decoder talks of does not.
+  std::unique_ptr<Complaints> complaints_ = std::make_unique<Complaints>();
   CodecPtr decoder_;
   PacketPtr packet_ = new_packet();
   int fed_ = -1;
-  std::optional<int> first_damage_;
-  int complained_of_ = -1;  // an intra-only codec's packet; others flag their pictures themselves
+  int end_ = 0;
+  std::deque<int> in_work_;  // packets whose outcome is not known yet, one a thread
+  std::set<int> damaged_;
 };
 
 }  // namespace sigs::libav
