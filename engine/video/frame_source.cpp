@@ -8,6 +8,7 @@
 #include "base/guarded.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_facts.h"
+#include "video/libav/turn.h"
 #include "video/picture_seeker.h"
 
 namespace sigs {
@@ -78,6 +79,7 @@ struct FrameSource::State {
   std::optional<PictureSeeker> seeker;
   const std::atomic<bool>* cancel = nullptr;  // null: none
   FileState file;
+  libav::Turn turn;
 
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
   [[nodiscard]] Result<Frame> read(int n);
@@ -92,7 +94,11 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   const Result<libav::Picture> first = first_picture(stream, *order);
   if (!first) return fail(first.error());
   const int dropped = drop_undecodable_head(*order, first->ordinal);
-  info = libav::facts_of(info.path, stream.demuxer(), table, *order, *first->frame);
+  const Result<libav::Turn> asked = libav::turn_of(stream.demuxer().stream());
+  if (!asked) return fail(asked.error());
+  turn = *asked;
+  info = libav::facts_of(info.path, stream.demuxer(), table, *order, *first->frame, turn);
+  if (const Result<void> possible = libav::check_turn(turn, info.layout); !possible) return possible;
   if (dropped > 0)
     info.warnings.push_back(
         {info.path.string(), std::to_string(dropped) + " pictures before the first that can be decoded are left out"});
@@ -132,11 +138,12 @@ Result<Frame> FrameSource::State::read(int n) {
   if (!found) return fail(named(found.error(), info.path));
   if (found->picture == nullptr) return fail(where, "is damaged, and so are all others");
   const AVFrame& picture = *found->picture->frame;
-  const cv::Size size(picture.width, picture.height);
+  const cv::Size size = libav::turned(cv::Size(picture.width, picture.height), turn);
   if (size != info.size_px)
     return fail(where, "the picture's size changes from " + size_text(info.size_px) + " to " + size_text(size));
   Result<Frame> frame = libav::frame_of(picture, info.layout, info.color);
   if (!frame) return fail(where, frame.error().what);
+  if (!(turn == libav::Turn{})) frame = libav::turned(*frame, turn);
   frame->time_s = info.times_s[static_cast<size_t>(n)];
   frame->damaged = found->n != n;
   return frame;

@@ -192,13 +192,13 @@ TEST_CASE("what a file says of its colours is read and what it leaves open is as
   }
 }
 
-TEST_CASE("a picture that players turn is used as stored and said so") {
+TEST_CASE("a picture that players turn is turned and said so") {
   const TemporaryFolder folder;
   if (!make_clip("-c:v libx264", folder / "flat.mp4")) return;
   REQUIRE(run_ffmpeg("-i \"" + (folder / "flat.mp4").string() + "\" -c copy -metadata:s:v rotate=90 \"" +
                      (folder / "turned.mp4").string() + "\""));
   const FrameSource source = opened(folder / "turned.mp4");
-  CHECK(source.info().size_px == cv::Size(128, 96));
+  CHECK(source.info().size_px == cv::Size(96, 128));
   REQUIRE(source.info().warnings.size() == 1);
   CHECK(source.info().warnings[0].what.find("rotate") != std::string::npos);
   CHECK(opened(folder / "flat.mp4").info().warnings.empty());

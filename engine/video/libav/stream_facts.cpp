@@ -2,39 +2,19 @@
 #include "video/libav/stream_facts.h"
 
 extern "C" {
-#include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
 }
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "video/libav/color_tags.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {
 namespace {
-
-const int32_t* display_matrix(const AVStream& stream) {
-  constexpr size_t kMatrixBytes = 9 * sizeof(int32_t);
-#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
-  const AVPacketSideData* data = av_packet_side_data_get(
-      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
-  return data != nullptr && data->size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data->data) : nullptr;
-#else
-  size_t size = 0;
-  const uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
-  return data != nullptr && size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data) : nullptr;
-#endif
-}
-
-bool is_turned(const AVStream& stream) {
-  const int32_t* matrix = display_matrix(stream);
-  if (matrix == nullptr) return false;
-  return matrix[0] <= 0 || matrix[1] != 0 || matrix[3] != 0 || matrix[4] <= 0;
-}
 
 // The container rounds time stamps to its tick; more than that is a rate that varies.
 bool is_variable(const std::vector<double>& times_s, AVRational time_base) {
@@ -88,8 +68,16 @@ void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& ta
   if (is_picture(demuxer) && info.frame_count() == 1)
     warn("is one picture, so the film has one frame; of a sequence make a video first: ffmpeg -framerate 25 -i " +
          sequence_pattern(info.path.filename()) + " -c:v ffv1 sequence.mkv");
-  if (is_turned(demuxer.stream()))
-    warn("the file asks players to rotate or mirror the picture; it is used as it is stored");
+}
+
+void set_turned(VideoInfo& info, cv::Size stored_px, const Turn& turn) {
+  if (turn == Turn{}) return;
+  const TurnedSite site = turned_site(info.color.chroma_site, info.layout, stored_px, turn);
+  info.color.chroma_site = site.site;
+  info.warnings.push_back(
+      {info.path.string(),
+       "is " + words_of(turn) + ", as the file asks" +
+           (site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
 }
 
 }  // namespace
@@ -100,14 +88,14 @@ AVRational frame_rate_of(const Demuxer& demuxer) {
 }
 
 VideoInfo facts_of(const std::filesystem::path& path, const Demuxer& demuxer, const PacketTable& table,
-                   const PictureOrder& order, const AVFrame& first) {
+                   const PictureOrder& order, const AVFrame& first, const Turn& turn) {
   const AVStream& stream = demuxer.stream();
   const AVPixelFormat pixel_format = static_cast<AVPixelFormat>(first.format);
   const Conversion conversion = conversion_of(pixel_format);
   const ColorReading reading = color_of(first, stream.codecpar->codec_id, conversion.layout);
   VideoInfo info;
   info.path = path;
-  info.size_px = {first.width, first.height};
+  info.size_px = turned(cv::Size(first.width, first.height), turn);
   info.layout = conversion.layout;
   info.color = reading.color;
   info.times_s = order.times_s;
@@ -119,6 +107,7 @@ VideoInfo facts_of(const std::filesystem::path& path, const Demuxer& demuxer, co
   if (aspect.num > 0 && aspect.den > 0) {
     info.pixel_aspect_num = aspect.num;
     info.pixel_aspect_den = aspect.den;
+    if (turn.transpose) std::swap(info.pixel_aspect_num, info.pixel_aspect_den);
   }
   info.variable_frame_rate = is_variable(order.times_s, stream.time_base);
   info.codec = avcodec_get_name(stream.codecpar->codec_id);
@@ -127,6 +116,7 @@ VideoInfo facts_of(const std::filesystem::path& path, const Demuxer& demuxer, co
   info.container = demuxer.format().iformat->name;
   info.declared_frames = stream.nb_frames;
   add_warnings(info, demuxer, table, order);
+  set_turned(info, {first.width, first.height}, turn);
   if (!reading.remark.empty()) info.warnings.push_back({path.string(), reading.remark});
   return info;
 }
