@@ -45,6 +45,9 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   for (const Warning& warning : warnings_of(project, *scene, visibilities)) print_warning(warning);
   Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
+  if (background->damaged)
+    print_warning({source->info().path.string(), "frame " + std::to_string(options.frame) +
+                                                     " is damaged; another frame of the footage stands in for it"});
   Bench bench;
   return compose_frame(*scene, options.frame, std::move(*background), bench,
                        options.stages ? Stages::keep : Stages::leave_out);

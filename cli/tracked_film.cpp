@@ -128,7 +128,7 @@ Result<TrackedFilm> on_project(const TrackRequest& request, TrackerGroup group) 
   if (!damaged) return fail(damaged.error());
   if (*damaged > 0)
     print_warning({film->footage().video, std::to_string(*damaged) + " of " + std::to_string(total) +
-                                              " frames are damaged; what could be decoded of them is used"});
+                                              " frames are damaged; the last sound one before each stands in"});
   return finished(request, std::move(tracked), group);
 }
 

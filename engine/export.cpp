@@ -2,6 +2,8 @@
 #include "export.h"
 
 #include <algorithm>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "annotation/labels.h"
@@ -34,8 +36,23 @@ void count(const ComposedFrame& frame, ExportReport& report) {
   report.times.composite_s += frame.times.composite_s;
 }
 
-Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, ExportFiles& files,
-                          const ExportControl& control, ExportReport& report) {
+std::string damaged_text(const ExportReport& report, int total) {
+  return std::to_string(report.damaged_frames) + " of " + std::to_string(total) + " frames of the footage are damaged";
+}
+
+// As soon as there are too many: the rest cannot make it better.
+Result<void> check_substituted(const ExportReport& report, int total, const OpenedProject& opened, double max_percent) {
+  if (report.damaged_frames * 100.0 <= max_percent * total) return {};
+  std::ostringstream limit;
+  limit << max_percent;
+  return fail(opened.source.info().path.string(),
+              "at least " + damaged_text(report, total) + ", more than footage.max_substituted_percent, " +
+                  limit.str() + ", allows; nothing was written. Repair or cut the footage, or raise the limit: --set " +
+                  "footage.max_substituted_percent=100");
+}
+
+Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, const OpenedProject& opened,
+                          double max_percent, ExportFiles& files, const ExportControl& control, ExportReport& report) {
   const int total = range.last - range.first + 1;
   for (int done = 1; done <= total; ++done) {
     if (const Result<void> on = check_interrupt(control.cancel); !on) return on;
@@ -45,6 +62,7 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, Expo
       return fail(before ? frame.error() : before.error());
     }
     count(*frame, report);
+    if (const Result<void> sound = check_substituted(report, total, opened, max_percent); !sound) return sound;
     if (const Result<void> step = files.write(std::move(*frame)); !step) return step;
     if (control.progress) control.progress(done, total);
   }
@@ -100,7 +118,9 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   if (!files) return fail(files.error());
   {
     FramePipeline pipeline(scene, opened->source, *range, std::max(1, request.jobs));
-    if (const Result<void> step = write_frames(pipeline, *range, *files, control, report); !step)
+    if (const Result<void> step =
+            write_frames(pipeline, *range, *opened, project.footage.max_substituted_percent, *files, control, report);
+        !step)
       return fail(step.error());
   }
   Result<std::vector<std::filesystem::path>> written = files->keep();
@@ -111,8 +131,8 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   warn_of_missing_pictures(project.output, control, report);
   if (report.damaged_frames > 0)
     say(control, report,
-        {video.path.string(), std::to_string(report.damaged_frames) + " of " + std::to_string(report.frames) +
-                                  " frames are damaged; " + "what could be decoded of them is used"});
+        {video.path.string(), damaged_text(report, report.frames) +
+                                  ": the last sound one before each stands in; labels mark them as substituted"});
   return report;
 }
 

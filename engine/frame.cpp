@@ -75,6 +75,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   ComposedFrame composed = laid_on(std::move(background), scene, seen, bench, stages);
   for (const SeenIntruder& intruder : seen) composed.work += intruder.work;
   composed.truth = truth_of(moment, frame, measured(scene, moment, seen, composed.mask));
+  composed.truth.substituted = composed.picture.damaged;
   composed.times = {draw_s, watch.elapsed_s() - draw_s};
   return composed;
 }

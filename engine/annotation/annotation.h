@@ -60,6 +60,7 @@ struct FootageTruth {
 struct FrameTruth {
   int index = 0;  // counts the footage's frames from 0
   double time_s = 0;
+  bool substituted = false;               // the footage's own frame is damaged, another one of it stands in
   glm::dvec3 camera_position_m{0, 0, 0};  // in the world
   Attitude camera_attitude;
   std::vector<IntruderTruth> intruders;  // by id

@@ -25,7 +25,7 @@ constexpr std::string_view kHeader =
     "x_m,y_m,z_m,distance_m,roll_deg,pitch_deg,yaw_deg,"
     "box_x_px,box_y_px,box_width_px,box_height_px,visible_pixels,"
     "silhouette_x_px,silhouette_y_px,silhouette_width_px,silhouette_height_px,"
-    "sequence,video,picture_width_px,picture_height_px,frame_rate\r\n";
+    "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted\r\n";
 
 class Row {
  public:
@@ -91,6 +91,7 @@ class CsvLabels : public LabelWriter {
     row.add(truth.attitude);
     add_boxes(row, truth);
     add_footage(row);
+    row.add(frame.substituted ? "true" : "false");
     return row.line();
   }
 

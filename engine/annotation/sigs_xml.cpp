@@ -90,6 +90,7 @@ std::string xml_of(const FrameTruth& truth) {
   pugi::xml_node frame = document.append_child("frame");
   frame.append_attribute("index") = truth.index;
   set(frame, "time_s", truth.time_s, kSecondDecimals);
+  if (truth.substituted) frame.append_attribute("substituted") = true;
   pugi::xml_node camera = frame.append_child("camera");
   set_position(camera, truth.camera_position_m);
   set_attitude(camera, truth.camera_attitude);

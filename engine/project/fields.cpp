@@ -53,6 +53,8 @@ void add_footage(FieldList list, FootageSettings& footage) {
            "lens model of the calibration's numbers; auto: as the file says, else as they look");
   list.path("own_body_mask", footage.own_body_mask, false,
             "picture of the footage's size, white where the UAV's own body hides the intruder; empty: none");
+  list.number("max_substituted_percent", &footage.max_substituted_percent, "%", 0, 100,
+              "how many of the exported frames may be damaged, a sound one standing in; more are an error");
 }
 
 void add_own_body(FieldList list, OwnBodySettings& own_body) {

@@ -25,6 +25,7 @@ struct FootageSettings {
   std::string calibration;
   std::string own_body_mask;  // empty: none
   LensModelChoice lens_model = LensModelChoice::automatic;
+  double max_substituted_percent = 1;  // of the exported frames; more damaged ones are an error
 
   [[nodiscard]] bool operator==(const FootageSettings&) const = default;
 };

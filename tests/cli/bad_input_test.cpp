@@ -12,6 +12,7 @@
 #include "base/partial_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "video/clips.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -193,4 +194,56 @@ TEST_CASE("waypoints spread over too few frames are told in frames") {
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
   CHECK(run.status == 78);
   CHECK_MESSAGE(has(run.err, "waypoints[2].frame: is 30, not after waypoints[0]"), run.err);
+}
+
+namespace {
+
+// A bit flipped in the last byte, the checksum, of these frames' packets.
+void damage_frames(const std::filesystem::path& clip, int first, int count) {
+  std::vector<uint8_t> bytes = bytes_of(clip);
+  const std::vector<PacketPlace> packets = packets_of(clip);
+  for (int i = first; i < first + count; ++i) {
+    const PacketPlace& packet = packets.at(static_cast<std::size_t>(i));
+    bytes[packet.offset + packet.size - 1] ^= 0x04;
+  }
+  write_bytes(clip, bytes);
+}
+
+}  // namespace
+
+TEST_CASE("more damaged frames than are allowed are an error that says how to allow them") {
+  const TinyProject tiny;
+  damage_frames(tiny.file("clip.mkv"), 4, 2);
+  const Run refused = run_sigs("export " + tiny.project() + " --out " + tiny.out());
+  CHECK(refused.status == 65);
+  CHECK_MESSAGE(has(refused.err, "damaged"), refused.err);
+  CHECK_MESSAGE(has(refused.err, "footage.max_substituted_percent"), refused.err);
+  CHECK(tiny.files_out() == 0);
+
+  const Run allowed =
+      run_sigs("export " + tiny.project() + " --set footage.max_substituted_percent=20 --out " + tiny.out());
+  CHECK_MESSAGE(allowed.status == 0, allowed.err);
+  CHECK_MESSAGE(has(allowed.err, "2 of 10 frames of the footage are damaged"), allowed.err);
+}
+
+TEST_CASE("a frame that another one stands in for is named in the labels") {
+  const TinyProject tiny;
+  damage_frames(tiny.file("clip.mkv"), 4, 2);
+  const Run run = run_sigs("export " + tiny.project() + " --set footage.max_substituted_percent=20 --labels xml,csv" +
+                           " --set name=x --out " + tiny.out());
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  const std::string xml = read_text(std::filesystem::path(tiny.out()) / "x.xml").value();
+  for (int n = 0; n < 10; ++n) {
+    CAPTURE(n);
+    const std::size_t begin = xml.find("<frame index=\"" + std::to_string(n) + "\"");
+    REQUIRE(begin != std::string::npos);
+    const std::string element = xml.substr(begin, xml.find('>', begin) - begin);
+    CHECK(has(element, "substituted=\"true\"") == (n == 4 || n == 5));
+  }
+  const std::string csv = read_text(std::filesystem::path(tiny.out()) / "x.csv").value();
+  CHECK(has(csv.substr(0, csv.find('\n')), ",substituted"));
+  CHECK(has(csv, ",true\r\n"));
+  const Run frame = run_sigs("frame " + tiny.project() + " --frame 4 --out " + tiny.out());
+  CHECK(frame.status == 0);
+  CHECK_MESSAGE(has(frame.err, "frame 4 is damaged"), frame.err);
 }
