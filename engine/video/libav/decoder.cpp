@@ -20,7 +20,7 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
   if (error < 0 && settings.threads > 1)  // there may be no more threads to be had; one gives the same pictures
-    return open_decoder(parameters, {.threads = 1, .reorder_depth = settings.reorder_depth}, complaint);
+    return open_decoder(parameters, {.threads = 1, .reorder_depth = settings.reorder_depth});
   check_memory(error);
   if (error < 0)
     return fail("", std::string("the ") + codec->name + " decoder cannot be opened: " + text_of(error),
