@@ -51,8 +51,8 @@ TEST_CASE("an export writes every format that is asked for and names what it wro
 TEST_CASE("labels that name pictures which a video's export does not write are warned of") {
   const TinyProject tiny;
   const auto warning = [&](const std::string& options) {
-    const Run run =
-        run_sigs("export " + tiny.project() + " --out '" + tiny.out() + "' --force --masks none " + options);
+    const Run run = run_sigs("export " + tiny.project() + " --out '" + tiny.out() +
+                             "' --force --masks none --progress none " + options);
     CHECK_MESSAGE(run.status == 0, run.err);
     return run.err;
   };
