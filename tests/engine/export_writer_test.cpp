@@ -123,7 +123,9 @@ TEST_CASE("of several outputs that fail the first frame's error is told and of o
       const ExportRequest request{.project = lot.project, .folder = lot.path("out")};
       Result<ExportFiles> files = ExportFiles::open(request, footage_info(), empty_scene(), {0, 8});
       REQUIRE(files.has_value());
-      for (const auto& entry : fs::directory_iterator(lot.path("out"))) {
+      // Pictures on their way lie in the staging folder, under their final names.
+      for (const auto& entry : fs::recursive_directory_iterator(lot.path("out"))) {
+        if (!entry.is_directory() || entry.path().parent_path().filename() != "new") continue;
         const bool is_masks = entry.path().filename().string().find("masks") != std::string::npos;
         block(entry.path(), is_masks ? masks_fail_at : video_fails_at);
       }

@@ -92,7 +92,8 @@ TEST_CASE("the own body hides its part of an intruder from picture and mask and 
   CHECK(cv::countNonZero(frame.mask.colRange(160, 320)) == 0);
   CHECK(frame.mask.at<uchar>(120, 150) == 255);
   CHECK(same_bytes(frame.picture.planes[0].colRange(160, 320), background.planes[0].colRange(160, 320)));
-  CHECK(same_bytes(frame.picture.planes[1].colRange(80, 160), background.planes[1].colRange(80, 160)));
+  // The chroma sample that lies on column 160 has a quarter of its weight on column 159, which is covered.
+  CHECK(same_bytes(frame.picture.planes[1].colRange(81, 160), background.planes[1].colRange(81, 160)));
   CHECK(!same_bytes(frame.picture.planes[0], background.planes[0]));
 }
 
