@@ -41,6 +41,9 @@ Decoded grey_because(const VideoInfo& video, int frame, std::string problem) {
 
 Decoded decoded_frame(FrameSource& source, int number) {
   Result<Frame> frame = guarded([&] { return source.read(number); });
+  const std::string where = source.info().path.string() + ": frame " + std::to_string(number);
+  if (frame && frame->damaged)
+    return {std::move(*frame), where + " is damaged; another frame of the footage stands in for it"};
   if (frame) return {std::move(*frame), ""};
   return grey_because(source.info(), number, frame.error().text());
 }

@@ -45,7 +45,8 @@ struct Picture {
   cv::Mat mask;                        // CV_8UC1 or empty, as ComposedFrame::mask
   FrameTruth truth;
   std::vector<Stage> stages;  // where asked for
-  std::string problem;        // not empty: bgr is the untouched footage, or grey stands in for it, and this is why
+  std::string problem;        // not empty: bgr is the untouched footage, or another frame or grey stands in for it, and
+                              // this is why
   FrameTimes times;
 };
 

@@ -67,15 +67,19 @@ TEST_CASE("the nose points to the viewer's right and comes nearer, seen from abo
 TEST_CASE("the ends of the axes that are drawn over the model are where its tip is drawn") {
   Renderer renderer = Renderer::create().value();
   const cv::Size size(401, 401);
-  Mesh far_tip = spike();
-  const float radius_m = 10 * std::sqrt(3.0F);  // of the sphere around the bounds
-  far_tip.vertices[2].position_m = {radius_m, 0, 0};
+  Mesh wedge = spike();                         // upright, and broad at its tip, so that the last pixels are covered
+  const double radius_m = 10 * std::sqrt(3.0);  // of the sphere around the bounds, which the axes are as long as
+  wedge.vertices[0].position_m = {0, 0, 0};
+  wedge.vertices[1].position_m = {10, 0, -0.5F};
+  wedge.vertices[2].position_m = {10, 0, 0.5F};
   for (const double turn_rad : {0.0, 1.0, 2.5, std::numbers::pi, 5.0}) {
     CAPTURE(turn_rad);
-    const cv::Rect box = seen_box(turntable_picture(far_tip, turn_rad, size, renderer).value());
-    const glm::dvec2 tip = turntable_point_px({1, 0, 0}, turn_rad, size);
+    const cv::Rect box = seen_box(turntable_picture(wedge, turn_rad, size, renderer).value());
+    const glm::dvec2 tip = turntable_point_px({10 / radius_m, 0, 0}, turn_rad, size);
     const double nearest_x = std::min(std::abs(tip.x - box.x), std::abs(tip.x - (box.x + box.width)));
-    CHECK(nearest_x < 4);  // the last pixels of a tip thinner than a pixel are not drawn
+    CHECK(nearest_x < 3);  // a pixel, and the wedge's upper end is nearer to the camera
+    CHECK(tip.y >= box.y - 2);
+    CHECK(tip.y <= box.y + box.height + 2);
   }
   const glm::dvec2 middle = turntable_point_px({0, 0, 0}, 1.0, size);
   CHECK(middle.x == doctest::Approx(200));
