@@ -20,21 +20,21 @@ source bench/own_body/tables.sh
 if [ "$mode" != draw ]; then
   effort=()
   [ "$mode" = quick ] && effort=(quick)
-  for what in flights limits real time early pictures; do
+  for what in flights limits real time early pictures reliability; do
     echo "measuring: $what"
     "$build/bench_own_body" "$what" "$folder" "${effort[@]}"
   done
 fi
 
-tables=(flights limits time early real by_frames machine)
+tables=(flights limits time early real by_frames machine reliability)
 for table in "${tables[@]}"; do "table_$table" >"$folder/$table.md"; done
 gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; picture='$folder/time.png'" bench/own_body/time.gp
 echo "tables, plot and pictures: $folder"
 broken=
-awk -F, -f bench/own_body/claims.awk "$folder"/{flights,limits,real,time,early}.csv || broken=1
+awk -F, -f bench/own_body/claims.awk "$folder"/{flights,limits,real,time,early,reliability}.csv || broken=1
 
 if [ -n "$write" ] && [ "$mode" != quick ]; then
-  for table in flights limits time early real machine; do bench/fill.sh docs/own-body.md "$table" "$folder/$table.md"; done
+  for table in flights limits time early real machine reliability; do bench/fill.sh docs/own-body.md "$table" "$folder/$table.md"; done
   bench/fill.sh docs/accuracy.md own_body "$folder/by_frames.md"
   cp "$folder/time.png" docs/pictures/own-body-time.png
   for picture in flights stages-paper stages-stable; do

@@ -25,6 +25,7 @@ FILENAME ~ /time\.csv$/ && $1 == "stable" && $2 == 1500 && $3 == 1 && $4 == 0 {
   claim($11 <= 1.3, "1500 frames take at most 1.3 times what decoding takes")
   claim($7 >= 0.95, "1500 frames of 1280 x 960: stable agrees by 0.95 and more")
 }
+FILENAME ~ /reliability\.csv$/ && $2 == 0.9 { claim($4 >= 0.95 * $3, $1 ": of what is 0.9 sure and more, 0.95 are body") }
 FILENAME ~ /early\.csv$/ { claim($5 >= $6 - 0.01, $1 ": stopping early costs less than 0.01") }
 FILENAME ~ /early\.csv$/ && $1 == "plain sky first" { claim($3 > $4 / 2, $1 ": no stop before the ground is seen") }
 END { exit broken }

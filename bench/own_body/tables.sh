@@ -75,3 +75,21 @@ table_by_frames() {
       printf "| %d | **%.4f** | %.2f | %.4f | %.2f |\n", n, error[n, "stable"], time[n, "stable"], error[n, "paper"], time[n, "paper"] } }
   ' "$folder/time.csv"
 }
+
+# Of the pixels of each tenth of the confidence: their share of the picture, their mean confidence, and how many are body.
+table_reliability() {
+  awk -F, '
+    NR == 1 { next }
+    { all[$1] += $3; n = $1 SUBSEP $2; pixels[n] = $3; body[n] = $4; sum[n] = $5; if (!($2 in seen)) { seen[$2] = 1; from[++count] = $2 } }
+    function share(n) { return pixels[n] > 0 ? sprintf("%.2f", body[n] / pixels[n]) : "" }
+    function mean(n) { return pixels[n] > 0 ? sprintf("%.2f", sum[n] / pixels[n]) : "" }
+    function part(set, n) { return all[set] > 0 ? sprintf("%.2f %%", 100 * pixels[n] / all[set]) : "" }
+    END {
+      print "| confidence | unseen: of the picture | mean confidence | **truly body** | known: of the picture | mean confidence | **truly body** |"
+      print "|---|---|---|---|---|---|---|"
+      for (i = 1; i <= count; ++i) {
+        u = "unseen" SUBSEP from[i]; k = "known" SUBSEP from[i]
+        printf "| %.1f to %.1f | %s | %s | **%s** | %s | %s | **%s** |\n", from[i], from[i] + 0.1, part("unseen", u), mean(u), share(u), part("known", k), mean(k), share(k)
+      }
+    }' "$folder/reliability.csv"
+}
