@@ -227,7 +227,8 @@ void App::turn(double now_s, bool something_happened) {
   window_.begin(settings_);
   draw(shown);
   window_.end();
-  textures_.end_turn();
+  textures_.end_turn(PreviewLimits().texture_bytes());
+  previewer_.set_texture_bytes(textures_.bytes());
   probe_.tell(document_, shown, places_, {desk_.has_project() ? "project" : "start", turns_a_second_});
   take_edits();
   for (const std::filesystem::path& path : window_.take_dropped()) desk_.take_dropped(path, edits_);

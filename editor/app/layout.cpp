@@ -59,7 +59,7 @@ void Layout::draw_tabs(const Studio& studio, OwnBodyWork& own_body) {
     const glm::dvec2 low(ImGui::GetWindowPos().x, ImGui::GetWindowPos().y);
     first_steps_.draw(studio, {low, low + glm::dvec2(ImGui::GetWindowSize().x, ImGui::GetWindowSize().y)});
   });
-  tab("Stages", "tab/stages", ImGuiTabItemFlags_None, [&] { stages_.draw(studio); });
+  if (!tab("Stages", "tab/stages", ImGuiTabItemFlags_None, [&] { stages_.draw(studio); })) stages_.forget();
   const bool is_wanted = std::exchange(wants_own_body_, false);
   shows_own_body_ = tab("Own body", "tab/own body", is_wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None,
                         [&] { own_body_.draw(studio, own_body); });

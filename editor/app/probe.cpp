@@ -31,6 +31,9 @@ void Probe::tell(const Document& document, const Shown& shown, const Places& pla
   json["busy"] = shown.busy;
   json["page"] = window.page;
   json["problems"] = problems_of(shown);
+  const MemoryUse& memory = shown.memory;
+  json["memory"] = {{"pictures", memory.pictures}, {"decoded", memory.decoded}, {"shown", memory.shown},
+                    {"textures", memory.textures}, {"sum", memory.sum()},       {"limit", memory.limit}};
   json["turns_a_second"] = window.turns_a_second;
   for (const auto& [name, rect] : places.all())
     json["places"][name] = {rect.low.x, rect.low.y, rect.size().x, rect.size().y};

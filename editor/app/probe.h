@@ -13,7 +13,8 @@ namespace sigs::editor {
 // Tells whoever drives the window from outside what it shows: a JSON file, written anew after each turn that changed
 // it.
 //   {"turn": 12, "frame": 3, "revision": 4, "unsaved": true, "current": true, "busy": false, "page": "project",
-//    "problems": ["footage.video: ..."], "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...}}
+//    "problems": ["footage.video: ..."], "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...},
+//    "memory": {"pictures": 1000, "decoded": ..., "shown": ..., "textures": ..., "sum": ..., "limit": ...}}, in bytes
 struct ProbedWindow {
   std::string page;           // "start" or "project"
   double turns_a_second = 0;  // of the loop, over the last second

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/preview/frame_bytes.h"
+
 namespace sigs::editor {
 
 namespace {
@@ -12,18 +14,9 @@ constexpr std::chrono::milliseconds kSoon(250);          // how long the window 
 constexpr std::chrono::milliseconds kStillEditing(200);  // after an edit the next one is likely
 constexpr std::size_t kRevisionsKnown = 4096;
 
-std::size_t bytes_of(const cv::Mat& picture) {
-  return picture.total() * picture.elemSize();
-}
-
-std::size_t bytes_of(const Picture& picture) {
-  return bytes_of(picture.bgr) + bytes_of(picture.mask);
-}
-
-std::size_t bytes_of(const Decoded& decoded) {
-  std::size_t sum = 0;
-  for (const cv::Mat& plane : decoded.frame.planes) sum += bytes_of(plane);
-  return sum;
+template <class T>
+std::size_t held_bytes(const std::shared_ptr<const T>& kept) {
+  return kept ? bytes_of(*kept) : 0;
 }
 
 bool is_same(const std::optional<Wanted::Turntable>& a, const std::optional<Wanted::Turntable>& b) {
@@ -57,7 +50,9 @@ std::vector<int> frames_ahead(const Wanted& wanted, int frame_count, int most) {
 }
 
 Board::Board(PreviewLimits limits, std::function<void()> wake)
-    : wake_(std::move(wake)), limits_(limits), decoded_(limits.cache_bytes / 2), pictures_(limits.cache_bytes) {}
+    : wake_(std::move(wake)), limits_(limits), decoded_(0), pictures_(0) {
+  share_memory();
+}
 
 void Board::look_up() {
   ++version_;
@@ -79,6 +74,7 @@ void Board::put(bool at_once, const Change& change) {
   {
     const std::lock_guard lock(mutex_);
     change();
+    share_memory();
     call = tells_now(at_once);
   }
   if (call && wake_) wake_();
@@ -113,12 +109,41 @@ void Board::follow_playhead() {
   if (wanted_) decoded_.set_playhead({footage_.id, clamped(wanted_->frame)});
 }
 
+// Of what the board holds beside its caches. also_cached: even where a cache holds it too.
+std::size_t Board::shown_bytes(bool also_cached) const {
+  std::size_t sum = held_bytes(untouched_.value) + held_bytes(staged_.value) + held_bytes(compared_.value);
+  if (also_cached || pictures_.find(newest_.key) != newest_.value) sum += held_bytes(newest_.value);
+  if (also_cached || decoded_.find(fresh_.key) != fresh_.value) sum += held_bytes(fresh_.value);
+  return sum + (model_ ? bytes_of(model_->rgba) : 0);
+}
+
+MemoryUse Board::memory() const {
+  return {.pictures = pictures_.bytes(),
+          .decoded = decoded_.bytes(),
+          .shown = shown_bytes(false),
+          .textures = texture_bytes_,
+          .limit = limits_.cache_bytes};
+}
+
+// The caches share what textures and the view leave. What is shown has its room even while a cache holds it: it may go
+// there at any time. A decoded frame has 1.5 bytes a pixel, a picture 4: a quarter holds about as many frames.
+void Board::share_memory() {
+  const std::size_t taken = std::max(texture_bytes_, limits_.texture_bytes()) + shown_bytes(true);
+  const std::size_t room = limits_.cache_bytes - std::min(limits_.cache_bytes, taken);
+  decoded_.set_limit(room / 4);
+  pictures_.set_limit(room - room / 4);
+}
+
 void Board::want(const Wanted& wanted) {
   const std::lock_guard lock(mutex_);
   if (wanted_ && is_same(*wanted_, wanted)) return;
   if (!wanted_ || wanted_->revision.number != wanted.revision.number) revised_ = Clock::now();
   wanted_ = wanted;
+  if (!wanted.footage) untouched_ = {};
+  if (!wanted.stages) staged_ = {};
+  if (!wanted.compare_with) compared_ = {};
   follow_playhead();
+  share_memory();
   look_up();
 }
 
@@ -143,8 +168,16 @@ Shown Board::shown() const {
   if (key)
     for (const int frame : pictures_.frames_of(key->state))
       if (static_cast<std::size_t>(frame) < shown.cached.size()) shown.cached[static_cast<std::size_t>(frame)] = true;
+  shown.memory = memory();
   shown.busy = wanted_ && (!shown.picture_is_current || composing_ || decoding_ || shown.opening);
   return shown;
+}
+
+void Board::set_texture_bytes(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (texture_bytes_ == bytes) return;
+  texture_bytes_ = bytes;
+  share_memory();
 }
 
 void Board::set_modest(bool modest) {
@@ -220,6 +253,7 @@ void Board::put_decoded(FrameKey key, std::shared_ptr<const Decoded> decoded) {
   if (!wanted_ || key.frame == clamped(wanted_->frame) || !is_decoded({footage_.id, clamped(wanted_->frame)}))
     fresh_ = {key, decoded};
   decoded_.put(key, std::move(decoded), decoded_bytes_);
+  share_memory();
   look_up();
 }
 
@@ -315,15 +349,21 @@ void Board::put_picture(FrameKey key, std::shared_ptr<const Picture> picture, do
 }
 
 void Board::put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr) {
-  put(true, [&] { untouched_ = {key, std::move(bgr)}; });
+  put(true, [&] {
+    if (wanted_ && wanted_->footage) untouched_ = {key, std::move(bgr)};
+  });
 }
 
 void Board::put_staged(FrameKey key, std::shared_ptr<const Picture> picture) {
-  put(true, [&] { staged_ = {key, std::move(picture)}; });
+  put(true, [&] {
+    if (wanted_ && wanted_->stages) staged_ = {key, std::move(picture)};
+  });
 }
 
 void Board::put_compared(FrameKey key, std::shared_ptr<const Picture> picture) {
-  put(true, [&] { compared_ = {key, std::move(picture)}; });
+  put(true, [&] {
+    if (wanted_ && wanted_->compare_with) compared_ = {key, std::move(picture)};
+  });
 }
 
 bool Board::has_untouched(FrameKey key) const {

@@ -52,6 +52,7 @@ class Board {
   // The window's side.
   void want(const Wanted& wanted);
   [[nodiscard]] Shown shown() const;
+  void set_texture_bytes(std::size_t bytes);
   void set_modest(bool modest);
   void stop();
 
@@ -104,6 +105,9 @@ class Board {
   [[nodiscard]] bool may_fetch_ahead() const;
   [[nodiscard]] std::optional<FrameKey> next_to_decode() const;
   void follow_playhead();
+  [[nodiscard]] std::size_t shown_bytes(bool also_cached) const;
+  [[nodiscard]] MemoryUse memory() const;
+  void share_memory();
   void remember_name(std::uint64_t revision, std::uint64_t state);
 
   mutable std::mutex mutex_;
@@ -136,6 +140,7 @@ class Board {
   std::shared_ptr<const OpenedScene> scene_;
   FrameCache<Picture> pictures_;
   std::size_t picture_bytes_ = 0;  // of one
+  std::size_t texture_bytes_ = 0;  // the window's
   Kept<Picture> newest_;
   Kept<cv::Mat> untouched_;
   Kept<Picture> staged_;

@@ -64,6 +64,15 @@ std::vector<FrameKey> CacheOrder::put(FrameKey key, std::size_t bytes) {
   std::size_t& known = bytes_of_[key];
   bytes_ += bytes - known;
   known = bytes;
+  return shrink();
+}
+
+std::vector<FrameKey> CacheOrder::set_limit(std::size_t limit_bytes) {
+  limit_bytes_ = limit_bytes;
+  return shrink();
+}
+
+std::vector<FrameKey> CacheOrder::shrink() {
   std::vector<FrameKey> gone;
   while (bytes_ > limit_bytes_) {
     const FrameKey least = *this->least();

@@ -28,6 +28,9 @@ class CacheOrder {
 
   void set_playhead(FrameKey playhead) { playhead_ = playhead; }
 
+  // Another limit; names those that must go.
+  [[nodiscard]] std::vector<FrameKey> set_limit(std::size_t limit_bytes);
+
   // Whether a frame of that size would be kept when it came: there is room, or what is worth less makes room.
   [[nodiscard]] bool would_keep(FrameKey key, std::size_t bytes) const;
 
@@ -38,6 +41,7 @@ class CacheOrder {
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
+  [[nodiscard]] std::vector<FrameKey> shrink();
   [[nodiscard]] bool is_worth_less(FrameKey a, FrameKey b) const;
   [[nodiscard]] std::optional<FrameKey> least() const;
   [[nodiscard]] std::size_t bytes_worth_less(FrameKey key, std::size_t enough) const;
@@ -55,6 +59,11 @@ class FrameCache {
   explicit FrameCache(std::size_t limit_bytes) : order_(limit_bytes) {}
 
   void set_playhead(FrameKey playhead) { order_.set_playhead(playhead); }
+
+  // What no longer fits goes at once.
+  void set_limit(std::size_t limit_bytes) {
+    for (const FrameKey& gone : order_.set_limit(limit_bytes)) values_.erase(gone);
+  }
 
   // Null where it is not there.
   [[nodiscard]] std::shared_ptr<const Value> find(FrameKey key) const {

@@ -5,7 +5,6 @@
 #include <deque>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include "project/project.h"
 
@@ -25,9 +24,11 @@ struct FileStamp {
 // All that the pictures of a project depend on. Two projects with equal names have the same pictures: the project's own
 // name, its place, how its own body is looked for, its export settings and what this program does not know are left
 // out.
+// A digest (FNV-1a, 128 bits) of the project's text with resolved paths and of its files' stamps: thousands of names
+// take no room to speak of, however large the projects are.
 struct PictureName {
-  Project project;  // paths resolved
-  std::vector<FileStamp> files;
+  std::uint64_t high = 0;
+  std::uint64_t low = 0;
 
   [[nodiscard]] bool operator==(const PictureName&) const = default;
 };

@@ -46,6 +46,10 @@ Shown Previewer::shown() const {
   return state_->board->shown();
 }
 
+void Previewer::set_texture_bytes(std::size_t bytes) {
+  state_->board->set_texture_bytes(bytes);
+}
+
 void Previewer::set_modest(bool modest) {
   state_->board->set_modest(modest);
 }

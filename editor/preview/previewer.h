@@ -88,6 +88,18 @@ struct Wanted {
   std::optional<Turntable> turntable;
 };
 
+// Bytes that are kept so that they need not be made again, by who keeps them; what is on the screen counts too. Files
+// that were read, working memory and the steps of undo do not.
+struct MemoryUse {
+  std::size_t pictures = 0;  // composited frames
+  std::size_t decoded = 0;   // frames of the footage
+  std::size_t shown = 0;     // what the view asked for at this moment, where no cache holds it
+  std::size_t textures = 0;  // the window's, as it says
+  std::size_t limit = 0;     // for all of them
+
+  [[nodiscard]] std::size_t sum() const { return pictures + decoded + shown + textures; }
+};
+
 // What there is to show at this moment. Pointers are never changed behind the reader's back; any may be null at first.
 struct Shown {
   std::shared_ptr<const OpenedScene> scene;            // newest revision that is open
@@ -102,11 +114,16 @@ struct Shown {
   bool opening = false;      // the wanted footage is still being opened; the scene is the one before, or null
   double compose_ms = 0;     // of the newest picture
   bool busy = false;
+  MemoryUse memory;
 };
 
 struct PreviewLimits {
-  std::size_t cache_bytes = std::size_t(1) << 30;  // pictures; half as much again for decoded frames
-  int ahead = 48;                                  // frames composited ahead of the playhead at most
+  // All of MemoryUse. Caches make room for what is shown; only that may be more.
+  std::size_t cache_bytes = std::size_t(3) << 29;
+  int ahead = 48;  // frames composited ahead of the playhead at most
+
+  // What textures that are not on the screen may hold.
+  [[nodiscard]] std::size_t texture_bytes() const { return cache_bytes / 16; }
 };
 
 // Opens, decodes and composes on threads of its own; every call here returns at once.
@@ -121,6 +138,9 @@ class Previewer {
 
   void want(const Wanted& wanted);
   [[nodiscard]] Shown shown() const;
+
+  // What the window holds in textures; the caches keep so much less.
+  void set_texture_bytes(std::size_t bytes);
 
   // Exporting shares the machine: while set, nothing is fetched ahead.
   void set_modest(bool modest);

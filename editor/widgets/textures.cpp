@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 
@@ -12,7 +13,13 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr int kTurnsKept = 30;
+cv::Size reduced_size(const cv::Mat& picture, int divisor) {
+  return {std::max(1, picture.cols / divisor), std::max(1, picture.rows / divisor)};
+}
+
+std::size_t bytes_on_card(const cv::Mat& picture, int divisor) {
+  return 4 * static_cast<std::size_t>(reduced_size(picture, divisor).area());
+}
 
 // Three channels are widened here: drivers that draw in software do it sample by sample.
 cv::Mat uploadable(const cv::Mat& picture) {
@@ -54,29 +61,34 @@ void set_filter(unsigned int name, Filter filter) {
 }  // namespace
 
 Textures::~Textures() {
-  for (const auto& [data, entry] : entries_) glDeleteTextures(1, &entry.name);
+  for (const auto& [key, entry] : entries_) glDeleteTextures(1, &entry.name);
 }
 
-ImTextureID Textures::of(const cv::Mat& picture, Filter filter) {
+ImTextureID Textures::of(const cv::Mat& picture, Filter filter, int divisor) {
   ENSURE(!picture.empty());
-  const auto [place, is_new] = entries_.try_emplace(picture.data);
+  const TextureKey key{picture.data, divisor};
+  const auto [place, is_new] = entries_.try_emplace(key);
   Entry& entry = place->second;
-  if (is_new) entry = {.picture = picture, .name = uploaded(picture)};
+  if (is_new) entry = {.picture = picture, .name = uploaded(reduced_copy(picture, divisor))};
   if (is_new || entry.filter != filter) set_filter(entry.name, filter);
   entry.filter = filter;
-  entry.unused_turns = 0;
+  order_.use(key, bytes_on_card(picture, divisor) + picture.total() * picture.elemSize());
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(entry.name));
 }
 
-void Textures::end_turn() {
-  for (auto place = entries_.begin(); place != entries_.end();) {
-    if (++place->second.unused_turns <= kTurnsKept) {
-      ++place;
-      continue;
-    }
+void Textures::end_turn(std::size_t most_bytes) {
+  for (const TextureKey& gone : order_.end_turn(most_bytes)) {
+    const auto place = entries_.find(gone);
     glDeleteTextures(1, &place->second.name);
-    place = entries_.erase(place);
+    entries_.erase(place);
   }
+}
+
+cv::Mat reduced_copy(const cv::Mat& picture, int divisor) {
+  if (divisor < 2) return picture;
+  cv::Mat reduced;
+  cv::resize(picture, reduced, reduced_size(picture, divisor), 0, 0, cv::INTER_AREA);
+  return reduced;
 }
 
 }  // namespace sigs::editor

@@ -3,8 +3,11 @@
 
 #include <imgui.h>
 
+#include <cstddef>
 #include <map>
 #include <opencv2/core.hpp>
+
+#include "editor/widgets/texture_order.h"
 
 namespace sigs::editor {
 
@@ -19,19 +22,26 @@ class Textures {
   Textures& operator=(const Textures&) = delete;
 
   // CV_8UC1 (shown grey), CV_8UC3 (BGR) or CV_8UC4 (RGBA, straight). The picture's samples must not change any more.
-  [[nodiscard]] ImTextureID of(const cv::Mat& picture, Filter filter);
+  // divisor  a copy so many times smaller each way, averaged
+  [[nodiscard]] ImTextureID of(const cv::Mat& picture, Filter filter, int divisor = 1);
 
-  // Once a turn, after drawing: what was not drawn for some turns goes.
-  void end_turn();
+  // Once a turn, after drawing: what was not drawn for some turns goes, and sooner where all hold more than that.
+  void end_turn(std::size_t most_bytes);
+
+  // On the graphics card, and the pictures they were made of: these are kept with them.
+  [[nodiscard]] std::size_t bytes() const { return order_.bytes(); }
 
  private:
   struct Entry {
     cv::Mat picture;  // keeps the samples, and so their address, from being used for another one
     unsigned int name = 0;
     Filter filter = Filter::smooth;
-    int unused_turns = 0;
   };
-  std::map<const unsigned char*, Entry> entries_;
+  TextureOrder order_;
+  std::map<TextureKey, Entry> entries_;
 };
+
+// A copy that is so many times smaller each way, of at least one pixel; the picture itself at 1.
+[[nodiscard]] cv::Mat reduced_copy(const cv::Mat& picture, int divisor);
 
 }  // namespace sigs::editor

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "editor/widgets/keys.h"
 
@@ -12,7 +11,6 @@ namespace sigs::editor {
 namespace {
 
 constexpr double kZoomPerNotch = 1.25;
-constexpr std::size_t kReducedKept = 24;
 
 }  // namespace
 
@@ -82,19 +80,8 @@ bool take_zoom_input(ZoomablePicture& look, const glm::dvec2& room_corner) {
   return true;
 }
 
-cv::Mat ReducedPictures::of(const cv::Mat& picture, double zoom) {
-  const int divisor = static_cast<int>(std::floor(1 / zoom + 1e-9));
-  if (divisor < 2) return picture;
-  const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.picture.data == picture.data && entry.divisor == divisor;
-  });
-  if (known != entries_.end()) return known->reduced;
-  Entry entry{.picture = picture, .divisor = divisor};
-  const cv::Size size(std::max(1, picture.cols / divisor), std::max(1, picture.rows / divisor));
-  cv::resize(picture, entry.reduced, size, 0, 0, cv::INTER_AREA);
-  entries_.push_front(entry);
-  if (entries_.size() > kReducedKept) entries_.pop_back();
-  return entry.reduced;
+int divisor_at(double zoom) {
+  return std::max(1, static_cast<int>(std::floor(1 / zoom + 1e-9)));
 }
 
 cv::Rect pixels_in_sight(const PictureView& view, const cv::Size& picture_px, const ScreenRect& rect) {
@@ -105,8 +92,8 @@ cv::Rect pixels_in_sight(const PictureView& view, const cv::Size& picture_px, co
           cv::Point(static_cast<int>(high.x), static_cast<int>(high.y))};
 }
 
-void draw_picture(ImDrawList& draw, Textures& textures, ReducedPictures& reduced, const cv::Mat& picture,
-                  const PictureView& view, const ScreenRect& rect) {
+void draw_picture(ImDrawList& draw, Textures& textures, const cv::Mat& picture, const PictureView& view,
+                  const ScreenRect& rect) {
   if (picture.empty()) return;
   // The part in sight alone: a quad of 80,000 screen pixels has no exact texture coordinates.
   const cv::Rect part = pixels_in_sight(view, picture.size(), rect);
@@ -116,7 +103,7 @@ void draw_picture(ImDrawList& draw, Textures& textures, ReducedPictures& reduced
   const glm::dvec2 high(part.x + part.width, part.y + part.height);
   const Filter filter = view.zoom >= 1 ? Filter::nearest : Filter::smooth;
   draw.PushClipRect(im(rect.low), im(rect.high), true);
-  draw.AddImage(textures.of(reduced.of(picture, view.zoom), filter), im(view.screen_of(low - 0.5)),
+  draw.AddImage(textures.of(picture, filter, divisor_at(view.zoom)), im(view.screen_of(low - 0.5)),
                 im(view.screen_of(high - 0.5)), im(low / size), im(high / size));
   draw.PopClipRect();
 }

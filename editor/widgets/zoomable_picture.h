@@ -3,7 +3,6 @@
 
 #include <imgui.h>
 
-#include <deque>
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 
@@ -50,25 +49,13 @@ class ZoomablePicture {
 // The mouse wheel and the keys 1, F and 0 over a room; true where one of them did something.
 bool take_zoom_input(ZoomablePicture& look, const glm::dvec2& room_corner);
 
-// Smaller copies for looking from afar, where showing every third pixel would lose small things. Kept for the pictures
-// shown last.
-class ReducedPictures {
- public:
-  // The picture itself at zoom 1/2 and above.
-  [[nodiscard]] cv::Mat of(const cv::Mat& picture, double zoom);
-
- private:
-  struct Entry {
-    cv::Mat picture;
-    int divisor = 1;
-    cv::Mat reduced;
-  };
-  std::deque<Entry> entries_;  // newest first
-};
+// How many times smaller a picture is drawn from when it is looked at from afar: showing every third pixel would lose
+// small things. 1 at zoom 1/2 and above.
+[[nodiscard]] int divisor_at(double zoom);
 
 // The part of a picture that lies within a rect: pixel by pixel from zoom 1 on, smooth below.
-void draw_picture(ImDrawList& draw, Textures& textures, ReducedPictures& reduced, const cv::Mat& picture,
-                  const PictureView& view, const ScreenRect& rect);
+void draw_picture(ImDrawList& draw, Textures& textures, const cv::Mat& picture, const PictureView& view,
+                  const ScreenRect& rect);
 
 // The picture's pixels that show in a rect.
 [[nodiscard]] cv::Rect pixels_in_sight(const PictureView& view, const cv::Size& picture_px, const ScreenRect& rect);

@@ -100,8 +100,7 @@ void OwnBodyCanvas::draw_layers(const Studio& studio, const OwnBodyWork& work, c
   const cv::Mat* const footage = studio.shown.footage.get();
   studio.wishes.footage = true;
   canvas.draw.AddRectFilled(im(canvas.rect.low), im(canvas.rect.high), color::kCanvas);
-  if (footage != nullptr && work.fits())
-    draw_picture(canvas.draw, studio.textures, reduced_, *footage, canvas.view, canvas.rect);
+  if (footage != nullptr && work.fits()) draw_picture(canvas.draw, studio.textures, *footage, canvas.view, canvas.rect);
   if (!footage_alone && look == CanvasLook::confidence) draw_confidence(studio, work, canvas);
   if (!footage_alone && look != CanvasLook::confidence && !work.painting().empty())
     tiles_.draw(canvas, studio.textures, work.painting().mask(),
@@ -118,7 +117,7 @@ void OwnBodyCanvas::draw_confidence(const Studio& studio, const OwnBodyWork& wor
   }
   if (shown_confidence_of_ != found) confidence_ = confidence_picture(found->confidence);
   shown_confidence_of_ = found;
-  draw_picture(canvas.draw, studio.textures, reduced_, confidence_, canvas.view, canvas.rect);
+  draw_picture(canvas.draw, studio.textures, confidence_, canvas.view, canvas.rect);
   draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
              "blue: world    grey: nobody can tell    violet: own body", color::kText);
 }

@@ -35,7 +35,6 @@ class OwnBodyCanvas {
   void draw_brush(const Studio& studio, const PictureCanvas& canvas) const;
 
   ZoomablePicture look_;
-  ReducedPictures reduced_;
   MaskTiles tiles_;
   std::shared_ptr<const OwnBody> shown_confidence_of_;
   cv::Mat confidence_;

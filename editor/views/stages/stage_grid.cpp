@@ -121,7 +121,7 @@ void StageGrid::draw_picture_of(const StageTile& tile, bool linked, const Screen
   const PictureCanvas canvas{*ImGui::GetWindowDrawList(), room, linked ? look_.view(room.low) : fitted(size, room),
                              tile.picture.size()};
   canvas.draw.AddRectFilled(im(room.low), im(room.high), IM_COL32(12, 13, 15, 255));
-  draw_picture(canvas.draw, textures, reduced_, tile.picture, canvas.view, room);
+  draw_picture(canvas.draw, textures, tile.picture, canvas.view, room);
   if (!linked) return;
   draw_pixel_grid(canvas);
   if (pixel_) {

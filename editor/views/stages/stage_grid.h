@@ -42,7 +42,6 @@ class StageGrid {
   void take_mouse(const StageTile& tile, bool linked, const ScreenRect& room);
 
   ZoomablePicture look_;
-  ReducedPictures reduced_;
   std::string large_;               // label of the tile that fills the room; "": none
   std::optional<cv::Point> pixel_;  // marked, of the frame
   std::optional<cv::Point> next_pixel_;

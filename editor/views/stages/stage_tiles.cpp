@@ -10,7 +10,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::size_t kDifferencesKept = 4;
+constexpr std::size_t kDifferencesKept = 1;
 
 struct Words {
   const char* stage;

@@ -90,6 +90,11 @@ void StagesView::wish(const Studio& studio) {
   if (!studio.shown.scene) staged_ = compared_ = nullptr;
 }
 
+void StagesView::forget() {
+  staged_ = compared_ = nullptr;
+  differences_ = {};
+}
+
 const Picture* StagesView::looked_at(const Studio& studio) const {
   const bool other = look_ != Look::against_method && other_method(studio) != own_method(studio);
   return other ? compared_.get() : staged_.get();

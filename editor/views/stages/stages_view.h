@@ -18,6 +18,8 @@ class StagesView {
  public:
   // Into what is left of the current ImGui window.
   void draw(const Studio& studio);
+  // While it is not drawn: a frame's stages are a dozen frames.
+  void forget();
 
  private:
   enum class Look { stages, against_input, against_method };

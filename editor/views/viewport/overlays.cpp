@@ -122,7 +122,7 @@ void OwnBodyTint::draw(const PictureCanvas& canvas, Textures& textures, const cv
       tint_.at<cv::Vec4b>(at[0], at[1]) = {part(tone.x), part(tone.y), part(tone.z), part(tone.w * share)};
     });
   }
-  draw_picture(canvas.draw, textures, reduced_, tint_, canvas.view, canvas.rect);
+  draw_picture(canvas.draw, textures, tint_, canvas.view, canvas.rect);
 }
 
 void draw_picture_grid(const PictureCanvas& canvas, PictureGrid grid) {

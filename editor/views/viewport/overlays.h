@@ -30,7 +30,6 @@ class OwnBodyTint {
  private:
   cv::Mat made_for_;  // CV_32FC1; kept, so that its address stays its own
   cv::Mat tint_;
-  ReducedPictures reduced_;
 };
 
 void draw_picture_grid(const PictureCanvas& canvas, PictureGrid grid);

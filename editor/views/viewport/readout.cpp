@@ -29,6 +29,10 @@ std::string formatted(const char* format, double a, double b = 0) {
   return text;
 }
 
+double mebibytes(std::size_t bytes) {
+  return static_cast<double>(bytes) / (1 << 20);
+}
+
 const cv::Mat* picture_of(const Studio& studio, const ViewportReadout& readout) {
   if (readout.of_footage) return studio.shown.footage.get();
   return studio.shown.picture ? &studio.shown.picture->bgr : nullptr;
@@ -57,6 +61,9 @@ void add_picture(std::vector<Part>& parts, const Studio& studio, const ViewportR
   if (!studio.shown.picture || !studio.shown.picture_is_current)
     parts.push_back({"updating...", "updating...", 2, color::kAccent});
   if (!studio.shown.picture) return;
+  const MemoryUse& memory = studio.shown.memory;
+  parts.push_back({formatted("memory %.0f of %.0f MiB", mebibytes(memory.sum()), mebibytes(memory.limit)),
+                   "memory 0000 of 0000 MiB", 5});
   const Picture& picture = *studio.shown.picture;
   parts.push_back({formatted("%.0f%%", readout.zoom * 100), "0000%", 0, color::kText});
   parts.push_back({formatted("%.0f x %.0f", picture.bgr.cols, picture.bgr.rows), "0000 x 0000", 3});

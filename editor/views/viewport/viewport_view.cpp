@@ -90,7 +90,7 @@ void ViewportView::draw_picture_layers(const Studio& studio, const PictureCanvas
   if (picture == nullptr || picture->bgr.empty())
     canvas.draw.AddRectFilled(im(whole.low), im(whole.high), IM_COL32(58, 60, 66, 255));
   else
-    draw_picture(canvas.draw, studio.textures, reduced_, picture->bgr, canvas.view, canvas.rect);
+    draw_picture(canvas.draw, studio.textures, picture->bgr, canvas.view, canvas.rect);
   if (canvas.picture_px.empty() || (picture == nullptr && studio.shown.busy)) draw_opening(canvas.rect, studio);
   wipe_.draw_footage(canvas, studio, footage_alone_);
   canvas.draw.PopClipRect();

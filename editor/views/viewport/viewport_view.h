@@ -40,7 +40,6 @@ class ViewportView {
                      std::span<const WaypointMark> marks);
 
   ZoomablePicture look_;
-  ReducedPictures reduced_;
   OverlayChoice overlays_;
   OwnBodyTint own_body_;
   PathOverlay path_;

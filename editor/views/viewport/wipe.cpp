@@ -47,7 +47,7 @@ void ViewportWipe::draw_footage(const PictureCanvas& canvas, const Studio& studi
   if (!studio.shown.footage) return;
   ScreenRect left = canvas.rect;
   if (!everywhere) left.high.x = line_x(canvas);
-  draw_picture(canvas.draw, studio.textures, reduced_, *studio.shown.footage, canvas.view, left);
+  draw_picture(canvas.draw, studio.textures, *studio.shown.footage, canvas.view, left);
 }
 
 void ViewportWipe::draw_line(const PictureCanvas& canvas, bool lit) const {

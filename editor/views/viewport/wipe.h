@@ -27,7 +27,6 @@ class ViewportWipe {
 
   bool on_ = false;
   double share_ = 0.5;  // of the rect's width
-  ReducedPictures reduced_;
 };
 
 }  // namespace sigs::editor

@@ -76,6 +76,18 @@ TEST_CASE("putting a frame again replaces it and counts it once") {
   CHECK_FALSE(cache.would_keep({1, 6}, 101));
 }
 
+TEST_CASE("a lower limit lets go at once what no longer fits") {
+  Cache cache(40);
+  cache.set_playhead({1, 10});
+  for (const int frame : {10, 7, 12, 14}) put(cache, {1, frame}, 10);
+  cache.set_limit(25);
+  CHECK(cache.frames_of(1) == std::vector<int>{10, 12});
+  CHECK(cache.bytes() == 20);
+  cache.set_limit(30);
+  CHECK(cache.would_keep({1, 11}, 10));
+  CHECK_FALSE(cache.would_keep({1, 90}, 20));
+}
+
 TEST_CASE("one frame larger than the whole cache is not kept and a cache of nothing keeps nothing") {
   Cache cache(50);
   put(cache, {0, 1}, 51);

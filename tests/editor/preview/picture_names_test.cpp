@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <functional>
+#include <type_traits>
 
 #include "base/partial_file.h"
 #include "project/json.h"
@@ -78,6 +79,23 @@ TEST_CASE("a file that appears or changes on disk changes the name") {
   CHECK_FALSE(footage_name_of(project) == footage_without);
   REQUIRE(write_text(folder / "a.mp4", "ab", true));
   CHECK_FALSE(picture_name_of(project) == with);
+}
+
+TEST_CASE("a name keeps nothing of its project, so that thousands of them take no room") {
+  CHECK(std::is_trivially_copyable_v<PictureName>);
+  CHECK(sizeof(PictureName) <= 32);
+}
+
+TEST_CASE("names of bytes that are no UTF-8 are told apart") {
+  Project one = head_on();
+  Project other = head_on();
+  one.intruders[0].name = "\xE9";
+  other.intruders[0].name = "\xE8";
+  CHECK_FALSE(picture_name_of(one) == picture_name_of(other));
+  one = other;
+  one.intruders[0].model.file = "/nowhere/\xE9.obj";
+  other.intruders[0].model.file = "/nowhere/\xE8.obj";
+  CHECK_FALSE(picture_name_of(one) == picture_name_of(other));
 }
 
 TEST_CASE("relative paths of a project without a file start at the current directory") {

@@ -131,13 +131,12 @@ TEST_CASE("the pixels in sight are those whose squares meet the rect") {
 TEST_CASE("from afar a picture is averaged, so that a single bright pixel leaves a trace") {
   cv::Mat picture(12, 12, CV_8UC1, cv::Scalar(0));
   picture.at<uchar>(4, 7) = 160;
-  ReducedPictures reduced;
-  CHECK(reduced.of(picture, 1).data == picture.data);
-  CHECK(reduced.of(picture, 0.51).data == picture.data);
-  const cv::Mat quarter = reduced.of(picture, 0.25);
+  const auto from = [&picture](double zoom) { return reduced_copy(picture, divisor_at(zoom)); };
+  CHECK(from(1).data == picture.data);
+  CHECK(from(0.51).data == picture.data);
+  const cv::Mat quarter = from(0.25);
   CHECK(quarter.size() == cv::Size(3, 3));
   CHECK(quarter.at<uchar>(1, 1) == 10);  // 160 / 16
   CHECK(cv::countNonZero(quarter) == 1);
-  CHECK(reduced.of(picture, 0.25).data == quarter.data);
-  CHECK(reduced.of(picture, 1e-6).size() == cv::Size(1, 1));
+  CHECK(from(1e-6).size() == cv::Size(1, 1));
 }
