@@ -14,6 +14,7 @@
 #include "editor/document/field_edits.h"
 #include "editor/document/field_texts.h"
 #include "editor/document/moved_paths.h"
+#include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"
@@ -116,12 +117,14 @@ Steps steps_of(const Studio& studio) {
   return with_problems(std::move(steps), studio.shown);
 }
 
-const char* button_of(const FirstStep& step) {
-  return step.choose ? "Choose..." : "Show line";
+// Once the horizon is next, its line is shown.
+const char* button_of(const FirstStep& step, bool is_next) {
+  if (step.choose) return "Choose...";
+  return is_next ? "It fits" : "Show line";
 }
 
-void ask(const Studio& studio, const FirstStep& step) {
-  if (!step.choose) return studio.edits.ask(ShowHorizon{});
+void ask(const Studio& studio, const FirstStep& step, bool is_next) {
+  if (!step.choose) return is_next ? keep_horizon(studio) : studio.edits.ask(ShowHorizon{});
   // Calibration and model often lie near the footage: the browser starts where it was last.
   studio.edits.ask(
       AskForFile{.title = std::string("Choose: ") + step.name, .extensions = step.extensions, .chosen = step.choose});
@@ -149,7 +152,7 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::PushID(number);
   draw_number(number, is_done, is_next);
   ImGui::SameLine();
-  const float button = is_done ? 0 : dialog_button_width(button_of(step)) + scaled(8);
+  const float button = is_done ? 0 : dialog_button_width(button_of(step, is_next)) + scaled(8);
   const float room = ImGui::GetContentRegionAvail().x - button;
   const float left = ImGui::GetCursorPosX();
   const float top = ImGui::GetCursorPosY();
@@ -171,8 +174,9 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::EndGroup();
   if (!is_done) {
     ImGui::SetCursorPos({left + room + scaled(8), top + scaled(3)});
-    if (dialog_button(button_of(step), is_next)) ask(studio, step);
+    if (dialog_button(button_of(step, is_next), is_next)) ask(studio, step, is_next);
     studio.places.note_item(std::string("first steps/") + step.name);
+    if (!step.choose && is_next) tooltip_for_item("The line lies on the footage's horizon as it is");
   }
   ImGui::PopID();
 }

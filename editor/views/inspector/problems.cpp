@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdlib>
+#include <filesystem>
+#include <set>
 #include <utility>
 
 #include "editor/document/field_texts.h"
@@ -12,6 +14,7 @@
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "export.h"
 
 namespace sigs::editor {
 
@@ -45,12 +48,36 @@ std::optional<std::string> draw_list(const Studio& studio, const ProblemsByField
     ImGui::PushID(shown);
     const std::string line = elided(text, ImGui::GetContentRegionAvail().x);
     if (ImGui::Selectable(line.empty() ? "..." : line.c_str())) clicked = field;
+    studio.places.note_item("inspector/" + name + "/" + field);
     tooltip_for_item(text.c_str());
     ImGui::PopID();
   }
   if (count > kMostShown) note(std::to_string(count - kMostShown) + " more", true);
   ImGui::TreePop();
   return clicked;
+}
+
+// The list is of fields; of the path that a file's warning names, its last part is enough.
+Problem in_field(const std::string& field, const Warning& warning) {
+  return {field, Warning{std::filesystem::path(warning.where).filename().string(), warning.what}.text()};
+}
+
+// Of footage and models.
+std::vector<Problem> doubts_of_files(const OpenedScene& opened) {
+  std::vector<Problem> doubts;
+  if (opened.footage && opened.footage->video)
+    for (const Warning& warning : warnings_of(*opened.footage->video))
+      doubts.push_back(in_field("footage.video", warning));
+  std::set<const Model*> told;
+  const std::vector<int>& numbers = opened.draft.intruder_of_project;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] < 0) continue;
+    const Model* const model = opened.draft.scene.intruders[static_cast<std::size_t>(numbers[i])].model;
+    if (model == nullptr || !told.insert(model).second) continue;
+    for (const Warning& warning : model->mesh.warnings)
+      doubts.push_back(in_field("intruders[" + std::to_string(i) + "].model.file", warning));
+  }
+  return doubts;
 }
 
 // Of all frames, once all have been looked at.
@@ -87,27 +114,31 @@ std::string place_of(const Project& project, std::string_view key) {
   return place + ", " + label_of(key);
 }
 
-void ProblemList::find_doubts(const Studio& studio) {
+void ProblemList::find_doubts() {
   doubts_.clear();
-  if (!scene_) return;
-  for (const Problem& doubt : scene_->draft.scene.doubts) doubts_.emplace(doubt.field, doubt);
-  const std::vector<std::shared_ptr<const Survey>>& surveys = studio.shown.surveys;
-  for (std::size_t i = 0; i < surveys.size() && i < scene_->project->intruders.size(); ++i) {
-    const std::optional<Visibility> visibility = whole_visibility(*scene_, surveys[i].get());
-    if (!visibility) continue;
-    if (const auto never = never_visible(*visibility, scene_->project->intruders[i].name, i))
-      doubts_.emplace(never->field, *never);
+  if (!scene_) {
+    never_visible_.clear();
+    return;
+  }
+  const auto add = [&](const Problem& doubt) { doubts_.emplace(doubt.field, doubt); };
+  for (const Problem& doubt : doubts_of_files(*scene_)) add(doubt);
+  for (const Problem& doubt : scene_->draft.scene.doubts) add(doubt);
+  const std::vector<IntruderSettings>& intruders = scene_->project->intruders;
+  never_visible_.resize(intruders.size());
+  for (std::size_t i = 0; i < intruders.size(); ++i) {
+    const Survey* const survey = i < surveys_.size() ? surveys_[i].get() : nullptr;
+    if (const std::optional<Visibility> visibility = whole_visibility(*scene_, survey))
+      never_visible_[i] = never_visible(*visibility, intruders[i].name, i);
+    if (never_visible_[i]) add(*never_visible_[i]);
   }
 }
 
 void ProblemList::refresh(const Studio& studio) {
-  const auto survey = studio.shown.surveys.empty() ? nullptr : studio.shown.surveys.front();
   const bool is_same_scene = studio.shown.scene == scene_;
+  const bool has_same_surveys = studio.shown.surveys == surveys_;
   scene_ = studio.shown.scene;
-  if (!is_same_scene || survey != survey_) {
-    survey_ = survey;
-    find_doubts(studio);
-  }
+  surveys_ = studio.shown.surveys;
+  if (!is_same_scene || !has_same_surveys) find_doubts();
   if (is_same_scene) return;
   by_field_.clear();
   counts_.clear();

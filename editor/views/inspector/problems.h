@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "editor/views/inspector/field_rows.h"
 
@@ -27,13 +28,15 @@ class ProblemList {
   [[nodiscard]] std::optional<std::string> draw(const Studio& studio) const;
 
  private:
-  void find_doubts(const Studio& studio);
+  void find_doubts();
 
-  std::shared_ptr<const OpenedScene> scene_;  // what they are of
+  std::shared_ptr<const OpenedScene> scene_;            // what they are of
+  std::vector<std::shared_ptr<const Survey>> surveys_;  // likewise
   ProblemsByField by_field_;
-  std::map<std::string, int> counts_;     // by block
-  std::shared_ptr<const Survey> survey_;  // of the first intruder, when doubts_ were made
+  std::map<std::string, int> counts_;  // by block
   ProblemsByField doubts_;
+  // By intruder: that it is never visible, as of the last survey that was whole. While a drag lasts none is.
+  std::vector<std::optional<Problem>> never_visible_;
 };
 
 }  // namespace sigs::editor

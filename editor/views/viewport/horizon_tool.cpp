@@ -70,6 +70,10 @@ void draw_handle(const PictureCanvas& canvas, const glm::dvec2& pixel, ImU32 col
 
 }  // namespace
 
+void keep_horizon(const Studio& studio) {
+  put_tilt(studio, tilt_of(studio.project()), {});
+}
+
 bool HorizonTool::press(const ToolTurn& turn) {
   const std::optional<HorizonGrip> grip = grip_at(turn);
   if (!grip) return false;
@@ -85,9 +89,12 @@ bool HorizonTool::press(const ToolTurn& turn) {
 
 void HorizonTool::drag(const ToolTurn& turn) {
   Taken& taken = *taken_;
+  if (turn.studio.document.has_other_changes(taken.revision_before, taken.gesture)) {
+    taken_.reset();
+    return;
+  }
   if (pressed(Key::escape)) {
-    turn.studio.edits.end_gesture();
-    if (turn.studio.document.revision().number != taken.revision_before) turn.studio.edits.undo();
+    if (taken.is_moving) turn.studio.edits.cancel_gesture(taken.gesture);
     taken_.reset();
     return;
   }
@@ -101,9 +108,7 @@ void HorizonTool::drag(const ToolTurn& turn) {
 }
 
 void HorizonTool::release(const Studio& studio) {
-  if (!taken_) return;
-  if (!taken_->is_moving) put_tilt(studio, taken_->start, taken_->gesture);
-  studio.edits.end_gesture();
+  if (taken_ && taken_->is_moving) studio.edits.end_gesture();
   taken_.reset();
 }
 

@@ -10,9 +10,12 @@
 
 namespace sigs::editor {
 
+// Says that the line lies right where it is: roll and pitch are set from then on.
+void keep_horizon(const Studio& studio);
+
 // Lays the horizon's line over the footage's own: its middle half is dragged for pitch, its ends for roll about the
-// line's middle. A click without a drag says that it lies right. One drag is one step of undo; Esc takes it back. Where
-// an attitude file says how the camera is turned, the line stays where it is.
+// line's middle. A click without a drag changes nothing. One drag is one step of undo; Esc takes it back. Where an
+// attitude file says how the camera is turned, the line stays where it is.
 class HorizonTool {
  public:
   // Whether the press took hold of the line.

@@ -45,7 +45,9 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
                 "Waypoints with their frames. Drag: move at constant distance; with Shift or Alt: nearer and farther. "
                 "Double click on the picture: add one",
                 overlays.waypoints),
-      switch_of("horizon", picture_icon::horizon, "Horizon", "Where the world is level. Drag the line onto the footage's own horizon: its middle up and down, its ends to tilt it",
+      switch_of("horizon", picture_icon::horizon, "Horizon",
+                "Where the world is level. Drag the line onto the footage's own horizon: its middle up and down, its "
+                "ends to tilt it",
                 overlays.horizon),
       switch_of("own body", picture_icon::own_body, "Own body", "The mask of the aircraft that carries the camera",
                 overlays.own_body),
