@@ -109,7 +109,7 @@ Steps steps_of(const Studio& studio) {
                 .extensions = extensions_for("intruders[0].model.file"),
                 .choose = put_aircraft(studio)},
                {.name = "Horizon",
-                .what = "Drag its line onto the footage's, its ends to tilt it",
+                .what = "Drag the line onto the footage's horizon, its ends to tilt it",
                 .key = "camera.attitude_deg",
                 .file = horizon_text(project.camera),
                 .extensions = {},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/horizon_tool.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -62,10 +63,20 @@ std::string readout(const Project& project) {
   return text;
 }
 
-void draw_handle(const PictureCanvas& canvas, const glm::dvec2& pixel, ImU32 color) {
+void draw_handle(const PictureCanvas& canvas, const glm::dvec2& pixel) {
   const ImVec2 at = im(canvas.view.screen_of(pixel));
   canvas.draw.AddCircleFilled(at, scaled(6), IM_COL32(16, 18, 22, 220));
-  canvas.draw.AddCircle(at, scaled(6), color, 0, scaled(1.4));
+  canvas.draw.AddCircleFilled(at, scaled(4), color::kHorizon | IM_COL32_A_MASK);
+}
+
+// Beside the line's left handle, where intruders are seldom.
+void draw_text(const PictureCanvas& canvas, const HorizonGrip& grip, const std::string& text, PictureLabels& labels) {
+  const glm::dvec2 left = canvas.view.screen_of(grip.first_px) - glm::dvec2(scaled(6), 0);
+  const glm::dvec2 right = canvas.view.screen_of(grip.last_px) + glm::dvec2(scaled(6) - label_size(text).x, 0);
+  const glm::dvec2 below(0, scaled(10) + label_size(text).y);
+  const glm::dvec2 above(0, -scaled(10));
+  const std::array places{left + below, left + above, right + below, right + above};
+  labels.draw(canvas, places, text, color::kText, true);
 }
 
 }  // namespace
@@ -118,7 +129,7 @@ std::optional<HorizonPart> HorizonTool::part_at(const ToolTurn& turn) const {
   return grip ? std::optional(grip->part) : std::nullopt;
 }
 
-void HorizonTool::draw(const ToolTurn& turn, bool lit) const {
+void HorizonTool::draw(const ToolTurn& turn, bool lit, PictureLabels& labels) const {
   draw_horizon(turn.canvas, turn.eye);
   const bool is_known = knows_horizon(turn.studio.project().camera);
   if (is_known && !lit && !taken_) return;
@@ -129,13 +140,11 @@ void HorizonTool::draw(const ToolTurn& turn, bool lit) const {
   const auto handle = static_cast<double>(scaled(6));
   turn.studio.places.note("viewport/horizon", {middle - handle, middle + handle});
   if (turn.studio.project().camera.attitude_file.empty())
-    for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px})
-      draw_handle(turn.canvas, pixel, color::kHorizon);
-  const glm::dvec2 below = middle + glm::dvec2(scaled(12), scaled(30));
+    for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px}) draw_handle(turn.canvas, pixel);
   if (!is_known)
-    draw_label(turn.canvas, below, "Horizon not set: drag this line onto it, its ends to tilt it", color::kText);
+    draw_text(turn.canvas, *grip, "Horizon not set: drag this line onto it, its ends to tilt it", labels);
   else if (taken_ && taken_->is_moving)
-    draw_label(turn.canvas, below, readout(turn.studio.project()), color::kText);
+    draw_text(turn.canvas, *grip, readout(turn.studio.project()), labels);
 }
 
 }  // namespace sigs::editor

@@ -28,7 +28,7 @@ class HorizonTool {
   [[nodiscard]] std::optional<HorizonPart> part_at(const ToolTurn& turn) const;
 
   // The line, its handles, and what to do with it while nobody has said where it is.
-  void draw(const ToolTurn& turn, bool lit) const;
+  void draw(const ToolTurn& turn, bool lit, PictureLabels& labels) const;
 
  private:
   struct Taken {

@@ -118,7 +118,7 @@ void ViewportView::draw_overlays(const Studio& studio, const PictureCanvas& canv
   PictureLabels labels;
   keep_waypoints_free(canvas, studio, marks, labels);
   if (overlays_.horizon && turn != nullptr)
-    horizon_.draw(*turn, grip_ == Grip::horizon || (hovered_ && horizon_.part_at(*turn)));
+    horizon_.draw(*turn, grip_ == Grip::horizon || (hovered_ && horizon_.part_at(*turn)), labels);
   if (overlays_.path && eye != nullptr) path_.draw(canvas, studio, *eye);
   if (overlays_.box && picture != nullptr) {
     draw_boxes(canvas, studio, *picture, labels);
