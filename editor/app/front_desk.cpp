@@ -6,6 +6,7 @@
 
 #include "editor/app/layout.h"
 #include "editor/views/menu_bar.h"
+#include "editor/views/viewport/readout.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/theme.h"
 
@@ -161,9 +162,11 @@ void FrontDesk::draw_over_all(const Studio& studio) {
   draw_dialog(studio);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
   const float inspector = has_project() && settings_.show_inspector ? scaled(settings_.inspector_width) : 0;
-  const float timeline = has_project() ? Layout::timeline_height_px(settings_, screen.WorkSize.y) : 0;
+  // Neither the timeline nor what is read off the picture above it is covered.
+  const float below =
+      has_project() ? Layout::timeline_height_px(settings_, screen.WorkSize.y) + readout_height() + scaled(6) : 0;
   const float width = screen.Size.x - inspector;
-  toasts_.draw(studio.places, now_s_, {screen.Pos.x + width / 2, screen.Pos.y + screen.Size.y - timeline - scaled(18)},
+  toasts_.draw(studio.places, now_s_, {screen.Pos.x + width / 2, screen.Pos.y + screen.Size.y - below - scaled(18)},
                width);
 }
 

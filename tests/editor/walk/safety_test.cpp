@@ -105,6 +105,10 @@ TEST_CASE("a project whose files are missing opens, says what is missing and can
   const fs::path project = put(broken_project(), walk.folder() / "broken.json");
   editor.start({project.string()});
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  // What is said of it covers neither the timeline nor the line that is read off the picture.
+  const ScreenPlace message = editor.place("toast/0");
+  const ScreenPlace picture = editor.place("viewport");
+  CHECK(message.y + message.height <= picture.y + picture.height);
   for (const char* text : {"flight.mp4", "lens.xml", "glider.obj", "waypoints"})
     editor.wait_for(std::string("a word on ") + text, [&](const Json& now) { return mentions(now, text); });
   walk.picture("missing");
