@@ -136,8 +136,14 @@ void RulerRow::scrub(const Studio& studio, const TimelineStrip& strip, bool pres
 
 void RulerRow::scrub_on_item(const Studio& studio, const TimelineStrip& strip) {
   if (ImGui::IsItemActivated()) held_ = Held::playhead;
-  if (ImGui::IsItemActive() && held_ == Held::playhead) scrub(studio, strip, ImGui::IsItemActivated());
+  scrub_while_held(studio, strip);
   if (ImGui::IsItemDeactivated()) held_ = Held::none;
+}
+
+// Also in the turn in which the button is let go: the mouse may have moved since the turn before.
+void RulerRow::scrub_while_held(const Studio& studio, const TimelineStrip& strip) {
+  if (held_ == Held::playhead && (ImGui::IsItemActive() || ImGui::IsItemDeactivated()))
+    scrub(studio, strip, ImGui::IsItemActivated());
 }
 
 void RulerRow::take_mouse(const Studio& studio, const TimelineStrip& strip, float bar_top_y) {
@@ -154,11 +160,11 @@ void RulerRow::take_mouse(const Studio& studio, const TimelineStrip& strip, floa
   const Held under = near_out && (!near_in || out_nearer) ? Held::out : near_in ? Held::in : Held::playhead;
   if (ImGui::IsItemHovered() && under != Held::playhead) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated()) held_ = under;
+  scrub_while_held(studio, strip);
   if (ImGui::IsItemActive()) {
     const int edge = static_cast<int>(std::lround(std::clamp(strip.ruler.frame_at(mouse.x), -1e6, 1e9)));
     const int first = document.first_frame();
     const int last = document.last_frame();
-    if (held_ == Held::playhead) scrub(studio, strip, ImGui::IsItemActivated());
     if (held_ == Held::in && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2)) {
       const int in = std::clamp(edge, first, document.range_last());
       studio.edits.set_in_out(in == first ? std::nullopt : std::optional(in), document.out());

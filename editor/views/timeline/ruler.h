@@ -23,6 +23,7 @@ class RulerRow {
  private:
   enum class Held { none, playhead, in, out };
 
+  void scrub_while_held(const Studio& studio, const TimelineStrip& strip);
   void take_mouse(const Studio& studio, const TimelineStrip& strip, float bar_top_y);
   void scrub(const Studio& studio, const TimelineStrip& strip, bool pressed);
   void draw_menu(const Studio& studio, const TimelineStrip& strip);
