@@ -1,0 +1,69 @@
+# What every target of ours compiles with: strict warnings, and the engine's folder as include root.
+add_library(sigs_flags INTERFACE)
+target_include_directories(sigs_flags INTERFACE "${CMAKE_SOURCE_DIR}/engine")
+target_include_directories(sigs_flags SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+target_compile_options(sigs_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
+  -Wnon-virtual-dtor
+  # Leaving a field at its default is what designated initialisers are for.
+  -Wno-missing-field-initializers)
+# The same sum in the same order everywhere: a fused multiply-add on one machine alone would change the bytes.
+target_compile_options(sigs_flags INTERFACE -ffp-contract=off)
+target_link_libraries(sigs_flags INTERFACE glm::glm tl::expected)
+
+# How much a target is optimised in a release build. Nine tenths of the sources are not met in any profile; for them
+# and for the tests the time to compile counts.
+set(sigs_option_fast "")
+set(sigs_option_light $<$<CONFIG:Release>:-O1>)
+set(sigs_option_test $<$<CONFIG:Release>:-O0>)
+
+# Headers of others that nearly every source reads are compiled once for each of the three. GCC takes them only where
+# the options are the same.
+if(SIGS_PRECOMPILE)
+  foreach(kind fast light test)
+    set(headers "${CMAKE_SOURCE_DIR}/cmake/precompiled.h")
+    if(kind STREQUAL test)
+      list(APPEND headers <doctest/doctest.h>)
+    endif()
+    file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp" CONTENT "")
+    add_library(sigs_precompiled_${kind} OBJECT EXCLUDE_FROM_ALL "${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp")
+    target_link_libraries(sigs_precompiled_${kind} PRIVATE sigs_flags)
+    target_compile_options(sigs_precompiled_${kind} PRIVATE ${sigs_option_${kind}})
+    target_precompile_headers(sigs_precompiled_${kind} PRIVATE ${headers})
+  endforeach()
+endif()
+
+# sigs_compile(TARGET fast|light|test): optimised so, with precompiled headers, several sources at a time.
+function(sigs_compile target kind)
+  target_compile_options(${target} PRIVATE ${sigs_option_${kind}})
+  if(SIGS_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM sigs_precompiled_${kind})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF UNITY_BUILD_BATCH_SIZE 10)
+  endif()
+endfunction()
+
+# sigs_module(NAME [LIGHT] LINKS other libraries [PRIVATE_LINKS ...] [SOURCES made by the build]): the static library
+# sigs_NAME of all .cpp of this folder and of the folders in it.
+function(sigs_module name)
+  cmake_parse_arguments(MODULE "LIGHT" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  add_library(sigs_${name} STATIC ${sources} ${MODULE_SOURCES})
+  target_link_libraries(sigs_${name} PUBLIC sigs_flags ${MODULE_LINKS} PRIVATE ${MODULE_PRIVATE_LINKS})
+  if(MODULE_LIGHT)
+    sigs_compile(sigs_${name} light)
+  else()
+    sigs_compile(sigs_${name} fast)
+  endif()
+endfunction()
+
+# sigs_test(NAME [SERIAL] SOURCES a_test.cpp ... LINKS libraries): one doctest program, each test case known to ctest by
+# name. A case that prints "SKIPPED" counts as skipped. SERIAL: nothing else runs beside its cases.
+function(sigs_test name)
+  cmake_parse_arguments(TEST "SERIAL" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(test_${name} ${TEST_SOURCES})
+  target_link_libraries(test_${name} PRIVATE sigs_test_support ${TEST_LINKS})
+  sigs_compile(test_${name} test)
+  doctest_discover_tests(test_${name} TEST_PREFIX "${name}: "
+    PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED" TIMEOUT 600 RUN_SERIAL ${TEST_SERIAL})
+endfunction()
+
+# sigs_bench(NAME SOURCES ... LINKS ...): the program bench_NAME.
