@@ -10,11 +10,11 @@ build=${1:-build/release}
 mode=${2:-whole}
 folder=$build/accuracy
 page=docs/accuracy.md
-pictures=docs/pictures
+images=docs/images
 if [ "$mode" = quick ]; then
   folder=$build/accuracy-quick
   page=$folder/accuracy.md
-  pictures=$folder
+  images=$folder
 fi
 mkdir -p "$folder"
 source bench/accuracy/tables.sh
@@ -29,7 +29,7 @@ if [ "$mode" != draw ]; then
 fi
 
 for plot in frames sizes lens lens_table spline; do
-  gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; picture='$pictures/accuracy-${plot//_/-}.png'" \
+  gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; image='$images/accuracy-${plot//_/-}.png'" \
     "bench/accuracy/$plot.gp"
 done
 
@@ -40,4 +40,4 @@ if ! awk -F, -f bench/accuracy/claims.awk "$folder"/{machine,frames,chroma,sizes
   echo "error: $page says what the figures do not" >&2
   exit 1
 fi
-echo "$page, $pictures/accuracy-*.png"
+echo "$page, $images/accuracy-*.png"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What drawing an intruder takes, by its size in the picture: the renderer alone, no lens and no background.
+// What drawing an intruder takes, by its size in the image: the renderer alone, no lens and no background.
 //   bench_draw [--csv] [--supersampling N] [--samples N] [--size PX] [OBJ FORWARD UP]...
 // The two sample models where none is named.
 
@@ -52,7 +52,7 @@ Pose<frame::Camera, frame::Body> pose_of(const Mesh& mesh, int turn) {
   return {rotation_of({0.6 * share - 0.3, 1.1 * share - 0.5, 6.2 * share}), {kAway * mesh.radius_m, 0, 0}};
 }
 
-VirtualView view_of(double size_px, double supersampling) {
+VirtualCamera view_of(double size_px, double supersampling) {
   const double side_px = size_px * supersampling;
   const int side = static_cast<int>(side_px) + 2 * kMargin_px;
   return {.focal_px = side_px * kAway / 2, .center_px = glm::dvec2((side - 1) / 2.0), .size_px = {side, side}};
@@ -68,13 +68,13 @@ struct Cost {
 
 // Nothing where the driver fails.
 std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px, double supersampling) {
-  const VirtualView view = view_of(size_px, supersampling);
+  const VirtualCamera view = view_of(size_px, supersampling);
   const Light light{.p_in_camera = {-2000, 1000, -3000}};
   const auto draw = [&](int i) { return renderer.draw(mesh, pose_of(mesh, i % kTurns), light, view).has_value(); };
   for (int i = 0; i < kTurns; ++i)
     if (!draw(i)) return std::nullopt;
   std::vector<double> ms;
-  const RenderWork before = renderer.work();
+  const RenderCounts before = renderer.counts();
   const double start_ms = process_ms();
   for (int i = 0; i < kTurns * kRounds; ++i) {
     const Clock::time_point start = Clock::now();
@@ -83,7 +83,7 @@ std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px
   }
   const double count = kTurns * kRounds;
   const double used_ms = (process_ms() - start_ms) / count;
-  const RenderWork after = renderer.work();
+  const RenderCounts after = renderer.counts();
   std::sort(ms.begin(), ms.end());
   return Cost{ms[ms.size() / 2], ms.front(), used_ms, double(after.triangles_drawn - before.triangles_drawn) / count,
               double(after.draw_calls - before.draw_calls) / count};

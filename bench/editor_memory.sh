@@ -55,7 +55,7 @@ key() { xdotool keydown "$1"; sleep 0.1; xdotool keyup "$1"; sleep 0.1; }
 watch_memory() {
   touch "$work/going"
   (while [ -e "$work/going" ]; do
-    echo "$(told sum) $(told shown) $(told textures) $(told pictures) $(told decoded) $(told limit) $(resident)"
+    echo "$(told sum) $(told shown) $(told textures) $(told images) $(told decoded) $(told limit) $(resident)"
     sleep 0.2
   done) >"$work/readings" &
   watching=$!

@@ -31,7 +31,7 @@ double ms_since(Clock::time_point start) {
 
 struct Spread {
   double median = 0;
-  double most = 0;  // 95 of 100 are below
+  double maximum = 0;  // 95 of 100 are below
 };
 
 Spread spread_of(std::vector<double> values) {
@@ -41,7 +41,7 @@ Spread spread_of(std::vector<double> values) {
 
 void print(const char* what, const std::vector<double>& ms, const char* wanted) {
   const Spread spread = spread_of(ms);
-  std::printf("%-58s %7.2f ms median %7.2f ms 95 %%   %s\n", what, spread.median, spread.most, wanted);
+  std::printf("%-58s %7.2f ms median %7.2f ms 95 %%   %s\n", what, spread.median, spread.maximum, wanted);
 }
 
 // A window's part in it: asks, and looks when it is woken.
@@ -50,32 +50,32 @@ class Window {
   Window(const Document& document, PreviewLimits limits)
       : document_(document), previewer_(limits, [this] { wake(); }) {}
 
-  // Milliseconds until the frame's own picture is there.
+  // Milliseconds until the frame's own image is there.
   double go_to(int frame, bool playing) {
     const Clock::time_point start = Clock::now();
     ask(frame, playing);
-    wait([](const Shown& shown) { return shown.picture_is_current; });
+    wait([](const PreviewOutput& shown) { return shown.image_is_current; });
     return ms_since(start);
   }
 
   void ask(int frame, bool playing) {
-    Wanted wanted{.revision = document_.revision(),
-                  .frame = frame,
-                  .range_first = document_.range_first(),
-                  .range_last = document_.range_last(),
-                  .playing = playing};
-    const Shown shown = previewer_.shown();
+    PreviewRequest wanted{.revision = document_.revision(),
+                          .frame = frame,
+                          .range_first = document_.range_first(),
+                          .range_last = document_.range_last(),
+                          .playing = playing};
+    const PreviewOutput shown = previewer_.shown();
     if (shown.scene && wanted.range_last <= wanted.range_first)
       wanted.range_last = static_cast<int>(shown.scene->footage->shape.times_s.size()) - 1;
     previewer_.want(wanted);
   }
 
-  void wait(const std::function<bool(const Shown&)>& is_there) {
+  void wait(const std::function<bool(const PreviewOutput&)>& is_there) {
     std::unique_lock lock(mutex_);
     woken_.wait(lock, [&] { return is_there(previewer_.shown()); });
   }
 
-  [[nodiscard]] Shown shown() const { return previewer_.shown(); }
+  [[nodiscard]] PreviewOutput shown() const { return previewer_.shown(); }
 
  private:
   void wake() {
@@ -141,7 +141,7 @@ void measure_drag(Document& document, int frame) {
   open(document, window);
   window.go_to(frame, false);
   std::vector<double> gaps_ms;
-  std::uint64_t seen = 0;
+  std::uint64_t observed = 0;
   Clock::time_point last = Clock::now();
   const Clock::time_point end = last + kDrag;
   for (int turn = 0; Clock::now() < end; ++turn) {
@@ -153,15 +153,15 @@ void measure_drag(Document& document, int frame) {
                                  "drag"});
     window.ask(frame, false);
     std::this_thread::sleep_for(kWindowTurn);
-    const Shown shown = window.shown();
-    if (!shown.picture || shown.picture->revision == seen) continue;
-    if (seen != 0) gaps_ms.push_back(ms_since(last));
-    seen = shown.picture->revision;
+    const PreviewOutput shown = window.shown();
+    if (!shown.image || shown.image->revision == observed) continue;
+    if (observed != 0) gaps_ms.push_back(ms_since(last));
+    observed = shown.image->revision;
     last = Clock::now();
   }
   const double rate_hz = static_cast<double>(gaps_ms.size()) / std::chrono::duration<double>(kDrag).count();
-  std::printf("drag a waypoint, frame %-35d %7.1f pictures/s, %.1f ms apart (median)   (wanted: >= 20)\n", frame,
-              rate_hz, spread_of(gaps_ms).median);
+  std::printf("drag a waypoint, frame %-35d %7.1f images/s, %.1f ms apart (median)   (wanted: >= 20)\n", frame, rate_hz,
+              spread_of(gaps_ms).median);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # How well and how fast the own body is found: both methods on every made flight, agreement by run time, real clips.
 #   bench/own_body.sh [--write] [quick|draw] [BUILD]     default: build/release; some fifteen minutes on two processors
-#   --write   puts tables, plot and pictures into docs/
+#   --write   puts tables, plot and images into docs/
 #   quick     few small frames: shows that it runs, proves nothing; writes nothing into docs/
 #   draw      measures nothing: tables and plot of the last run
-# Tables (CSV), pictures and the masks laid over the clips are left in BUILD/own-body.
+# Tables (CSV), images and the masks laid over the clips are left in BUILD/own-body.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 write=
@@ -20,7 +20,7 @@ source bench/own_body/tables.sh
 if [ "$mode" != draw ]; then
   effort=()
   [ "$mode" = quick ] && effort=(quick)
-  for what in flights limits real time early pictures reliability; do
+  for what in flights limits real time early images reliability; do
     echo "measuring: $what"
     "$build/bench_own_body" "$what" "$folder" "${effort[@]}"
   done
@@ -28,20 +28,20 @@ fi
 
 tables=(flights limits time early real by_frames machine reliability)
 for table in "${tables[@]}"; do "table_$table" >"$folder/$table.md"; done
-gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; picture='$folder/time.png'" bench/own_body/time.gp
-echo "tables, plot and pictures: $folder"
+gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; image='$folder/time.png'" bench/own_body/time.gp
+echo "tables, plot and images: $folder"
 broken=
 awk -F, -f bench/own_body/claims.awk "$folder"/{flights,limits,real,time,early,reliability}.csv || broken=1
 
 if [ -n "$write" ] && [ "$mode" != quick ]; then
   for table in flights limits time early real machine reliability; do bench/fill.sh docs/own-body.md "$table" "$folder/$table.md"; done
   bench/fill.sh docs/accuracy.md own_body "$folder/by_frames.md"
-  cp "$folder/time.png" docs/pictures/own-body-time.png
-  for picture in flights stages-paper stages-stable; do
-    cp "$folder/$picture.jpg" "docs/pictures/own-body-$picture.jpg"
+  cp "$folder/time.png" docs/images/own-body-time.png
+  for image in flights stages-paper stages-stable; do
+    cp "$folder/$image.jpg" "docs/images/own-body-$image.jpg"
   done
-  # Without the real clips the page keeps the picture of their masks that it has.
-  if [ -e "$folder/real-masks.png" ]; then cp "$folder/real-masks.png" docs/pictures/own-body-real-masks.png; fi
+  # Without the real clips the page keeps the image of their masks that it has.
+  if [ -e "$folder/real-masks.png" ]; then cp "$folder/real-masks.png" docs/images/own-body-real-masks.png; fi
 fi
 if [ -n "$broken" ] && [ "$mode" != quick ]; then
   echo "error: docs/own-body.md says what the figures do not" >&2

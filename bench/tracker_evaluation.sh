@@ -35,7 +35,7 @@ if [ -n "$write" ]; then
   done
   for video in "$calm" "$shaken"; do
     for plot in center_error x_error y_error; do
-      cp "$folder/$video/$plot.png" "docs/pictures/trackers-$video-${plot//_/-}.png"
+      cp "$folder/$video/$plot.png" "docs/images/trackers-$video-${plot//_/-}.png"
     done
   done
 fi

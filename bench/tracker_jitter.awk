@@ -18,17 +18,17 @@ FNR == 1 {
     ++count[key]
   }
   if (!(tracker in seen)) { seen[tracker] = 1; order[++trackers] = tracker }
-  if (!(video in seen_video)) { seen_video[video] = 1; videos[++films] = video }
+  if (!(video in seen_video)) { seen_video[video] = 1; videos[++videos_counted] = video }
   last_tracker = tracker; last_x = x; last_y = y
 }
 function rms(sum, key) { return count[key] > 0 ? sprintf("%.2f", sqrt(sum / count[key])) : "" }
 END {
   head = "| tracker |"; rule = "|---|"
-  for (f = 1; f <= films; ++f) { head = head " X, " videos[f] " | Y, " videos[f] " |"; rule = rule "---|---|" }
+  for (f = 1; f <= videos_counted; ++f) { head = head " X, " videos[f] " | Y, " videos[f] " |"; rule = rule "---|---|" }
   print head; print rule
   for (t = 1; t <= trackers; ++t) {
     row = "| " order[t] " |"
-    for (f = 1; f <= films; ++f) {
+    for (f = 1; f <= videos_counted; ++f) {
       key = order[t] SUBSEP videos[f]
       row = row " " rms(x2[key], key) " | " rms(y2[key], key) " |"
     }

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "export.h"
-#include "opened_project.h"
-#include "outlook.h"
+#include "export/export_project.h"
 #include "project/validate.h"
-#include "scene/path_stiffness.h"
+#include "scene/opened_project.h"
+#include "scene/path_conditioning.h"
 #include "scene/scene.h"
+#include "scene/visibility_estimate.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -31,7 +31,7 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-// Two lines an intruder. The condition is that of spline/stiffness.h.
+// Two lines an intruder. The condition is that of spline/conditioning.h.
 void print_intruders(const Project& project, const Scene& scene, const std::vector<Visibility>& visibilities) {
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const IntruderSettings& intruder = project.intruders[i];
@@ -51,8 +51,7 @@ Result<void> check(const ProjectOptions& options) {
   const std::vector<Problem> problems = validate(*project);
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
-    return fail(project->file.string(),
-                counted(problems.size(), "problem"), problems.front().kind);
+    return fail(project->file.string(), counted(problems.size(), "problem"), problems.front().kind);
   const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());

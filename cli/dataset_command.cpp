@@ -12,15 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "allocator.h"
 #include "cli/dataset_table.h"
 #include "cli/interrupt.h"
-#include "cli/kept_memory.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
 #include "dataset/run.h"
-#include "dataset/video_view.h"
+#include "dataset/video_visibility.h"
 
 namespace sigs::cli {
 
@@ -65,9 +65,9 @@ std::string count_text(std::size_t count, const char* thing) {
 }
 
 // What several videos share is said once.
-class Teller {
+class ConsoleReporter {
  public:
-  explicit Teller(ProgressStyle style) : progress_(style) {}
+  explicit ConsoleReporter(ProgressStyle style) : progress_(style) {}
 
   [[nodiscard]] DatasetControl control() {
     return {.progress =
@@ -76,7 +76,7 @@ class Teller {
                 },
             .warn =
                 [this](const Warning& warning) {
-                  if (!said_.insert(warning.what).second) return;
+                  if (!printed_.insert(warning.what).second) return;
                   progress_.end();
                   print_warning(warning);
                 },
@@ -86,7 +86,7 @@ class Teller {
 
  private:
   Progress progress_;
-  std::set<std::string> said_;
+  std::set<std::string> printed_;
 };
 
 std::set<std::string> names_in(const std::string& comma_separated) {
@@ -125,7 +125,7 @@ Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
 }
 
 // Videos that cannot be are the recipe's fault, whatever else has been done.
-Result<void> judged(const Plan& plan, const std::filesystem::path& recipe) {
+Result<void> check_impossible(const Plan& plan, const std::filesystem::path& recipe) {
   for (const ImpossibleVideo& video : plan.impossible)
     print_error({video.name, video.why + "; nothing is generated for it", ErrorKind::bad_data});
   if (plan.impossible.empty()) return {};
@@ -137,32 +137,33 @@ Result<void> judged(const Plan& plan, const std::filesystem::path& recipe) {
 }
 
 void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
-                    const std::vector<std::optional<Visibility>>& views) {
+                    const std::vector<std::optional<Visibility>>& visibilities) {
   constexpr std::size_t kNamed = 20;
   std::size_t count = 0;
   std::string names;
   for (std::size_t i = 0; i < videos.size(); ++i)
-    if (views[i] && views[i]->visible == 0 && ++count <= kNamed) names += (count > 1 ? ", " : "") + videos[i]->name;
+    if (visibilities[i] && visibilities[i]->visible == 0 && ++count <= kNamed)
+      names += (count > 1 ? ", " : "") + videos[i]->name;
   if (count > 0)
-    print_warning({"", "the intruder is never in the picture in " + count_text(count, "video") + ": " + names +
+    print_warning({"", "the intruder is never in the image in " + count_text(count, "video") + ": " + names +
                            (count > kNamed ? ", ..." : "")});
 }
 
 // The table, and what is wrong with what is asked for.
 Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& videos,
-                  const std::vector<std::optional<Visibility>>& views, const std::filesystem::path& recipe) {
-  const Result<std::string> table = table_of(videos, views);
+                  const std::vector<std::optional<Visibility>>& visibilities, const std::filesystem::path& recipe) {
+  const Result<std::string> table = table_of(videos, visibilities);
   if (!table) return fail(table.error());
   std::fputs(table->c_str(), stdout);
   if (std::fflush(stdout) != 0) return fail("stdout", "could not be written", ErrorKind::write_failed);
-  warn_of_unseen(videos, views);
-  const Result<void> possible = judged(plan, recipe);
+  warn_of_unseen(videos, visibilities);
+  const Result<void> possible = check_impossible(plan, recipe);
   if (plan.unopened.empty()) return possible;
   for (const UnopenedVideo& video : plan.unopened) print_error({video.name, video.error.text(), video.error.kind});
   return fail("", count_text(plan.unopened.size(), "video") + " cannot be made", plan.unopened.front().error.kind);
 }
 
-Result<void> told(const DatasetReport& report) {
+Result<void> print_report(const DatasetReport& report) {
   for (const std::filesystem::path& path : report.written) std::printf("%s\n", path.c_str());
   const double rate = report.frames / std::max(report.seconds, 1e-6);
   std::fprintf(stderr, "%s made, %d kept; %d frames in %s, %.1f frames/s\n",
@@ -191,25 +192,25 @@ Result<void> run(const DatasetOptions& options) {
   const Result<Plan> plan = planned(options, request.source);
   if (!plan) return fail(plan.error());
   const std::vector<const PlannedVideo*> videos = videos_of(*plan, request.shard.value_or(Shard{}));
-  std::vector<std::optional<Visibility>> views;
-  if (!options.merge) views = views_of(videos, kFramesLookedAt, &interrupt_flag());
+  std::vector<std::optional<Visibility>> visibilities;
+  if (!options.merge) visibilities = visibilities_of(videos, kVisibilityFrames, &interrupt_flag());
   if (options.dry_run) {
-    if (options.merge) views.resize(videos.size());
-    return list(*plan, videos, views, options.recipe);
+    if (options.merge) visibilities.resize(videos.size());
+    return list(*plan, videos, visibilities, options.recipe);
   }
-  if (plan->videos.empty() && plan->unopened.empty()) return judged(*plan, options.recipe);
-  if (!options.merge) warn_of_unseen(videos, views);
-  std::fputs(redraws_line(videos).c_str(), stderr);
+  if (plan->videos.empty() && plan->unopened.empty()) return check_impossible(*plan, options.recipe);
+  if (!options.merge) warn_of_unseen(videos, visibilities);
+  std::fputs(resamples_line(videos).c_str(), stderr);
   request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
   defer_interrupts();
-  keep_freed_memory();
-  Teller teller(progress_style(options.progress));
-  const Result<DatasetReport> report = make_dataset(*plan, request, teller.control());
-  teller.end();
+  tune_allocator();
+  ConsoleReporter reporter(progress_style(options.progress));
+  const Result<DatasetReport> report = make_dataset(*plan, request, reporter.control());
+  reporter.end();
   if (!report) return fail(report.error());
-  const Result<void> made = told(*report);
+  const Result<void> made = print_report(*report);
   // The run that makes the index answers for what the recipe asks; a share of it for its videos.
-  const Result<void> possible = request.shard ? Result<void>() : judged(*plan, options.recipe);
+  const Result<void> possible = request.shard ? Result<void>() : check_impossible(*plan, options.recipe);
   return made ? possible : made;
 }
 

@@ -75,15 +75,15 @@ std::string aligned(const std::vector<Column>& columns) {
 
 // Columns that tell videos apart, and a line of what they share.
 std::string table_text(const std::vector<Column>& columns) {
-  std::vector<Column> told;
+  std::vector<Column> varying;
   std::string shared;
   for (const Column& column : columns) {
     if (&column == &columns.front() || !is_constant(column))
-      told.push_back(column);
+      varying.push_back(column);
     else if (column.cells.front() != "-")
       shared += (shared.empty() ? "all: " : ", ") + column.title + " " + column.cells.front();
   }
-  return aligned(told) + (shared.empty() ? "" : shared + "\n") + "\n";
+  return aligned(varying) + (shared.empty() ? "" : shared + "\n") + "\n";
 }
 
 // Four digits that count, none of them lost before the point.
@@ -94,8 +94,8 @@ std::string rounded_text(double value) {
   return short_text(rounded);
 }
 
-// Sizes of pictures, each footage opened once.
-class PictureSizes {
+// Sizes of images, each footage opened once.
+class ImageSizes {
  public:
   Result<double> pixels_of(const Project& project) {
     const std::string path = resolved(project, project.footage.video).string();
@@ -117,7 +117,7 @@ std::string or_dash(const std::map<std::string, std::string>& tags, const char* 
 
 std::string view_text(const std::optional<Visibility>& view) {
   if (!view) return "?";
-  const std::string share = std::to_string(view->visible) + "/" + std::to_string(view->looked_at);
+  const std::string share = std::to_string(view->visible) + "/" + std::to_string(view->frames_checked);
   return view->visible > 0 ? share : "never";
 }
 
@@ -128,9 +128,9 @@ std::string size_range_text(const std::optional<Visibility>& view) {
   return low == high ? low : low + ".." + high;
 }
 
-std::string redraws_count(const PlannedVideo& video) {
+std::string resamples_count(const PlannedVideo& video) {
   int count = 0;
-  for (const auto& [condition, times] : video.redraws) count += times;
+  for (const auto& [condition, times] : video.resamples) count += times;
   return count > 0 ? std::to_string(count) : "-";
 }
 
@@ -144,7 +144,7 @@ std::vector<Block> blocks_of(const std::vector<const PlannedVideo*>& videos) {
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < videos.size(); ++i) {
     std::set<std::string> quantities;
-    for (const auto& [quantity, value] : videos[i]->drawn) quantities.insert(quantity);
+    for (const auto& [quantity, value] : videos[i]->sampled) quantities.insert(quantity);
     auto block =
         std::find_if(blocks.begin(), blocks.end(), [&](const Block& one) { return one.quantities == quantities; });
     if (block == blocks.end()) block = blocks.insert(block, {quantities, {}});
@@ -155,7 +155,7 @@ std::vector<Block> blocks_of(const std::vector<const PlannedVideo*>& videos) {
 
 struct Measured {
   const std::vector<const PlannedVideo*>& videos;
-  const std::vector<std::optional<Visibility>>& views;
+  const std::vector<std::optional<Visibility>>& visibilities;
   std::vector<int> frames;
 };
 
@@ -175,11 +175,11 @@ std::vector<Column> columns_of(const Block& block, const Measured& all) {
     const PlannedVideo& video = *all.videos[i];
     Row row{video.name, video.split.empty() ? "-" : video.split};
     for (const char* const tag : {"background", "aircraft", "flight"}) row.push_back(or_dash(video.tags, tag));
-    row.insert(row.end(), {std::to_string(all.frames[i]), view_text(all.views[i]), size_range_text(all.views[i]),
-                           redraws_count(video)});
+    row.insert(row.end(), {std::to_string(all.frames[i]), view_text(all.visibilities[i]),
+                           size_range_text(all.visibilities[i]), resamples_count(video)});
     for (std::size_t c = 0; c < fixed; ++c) columns[c].cells.push_back(row[c]);
     std::size_t c = fixed;
-    for (const auto& [quantity, value] : video.drawn) columns[c++].cells.push_back(rounded_text(value));
+    for (const auto& [quantity, value] : video.sampled) columns[c++].cells.push_back(rounded_text(value));
   }
   return columns;
 }
@@ -193,15 +193,15 @@ std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard)
   return videos;
 }
 
-std::string redraws_line(const std::vector<const PlannedVideo*>& videos) {
-  const std::string text = redraws_text(redraws_of(videos));
-  return text.empty() ? text : "drawn again: " + text + "\n";
+std::string resamples_line(const std::vector<const PlannedVideo*>& videos) {
+  const std::string text = resamples_text(resamples_of(videos));
+  return text.empty() ? text : "sampled again: " + text + "\n";
 }
 
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
-                             const std::vector<std::optional<Visibility>>& views) {
-  Measured all{.videos = videos, .views = views, .frames = {}};
-  PictureSizes sizes;
+                             const std::vector<std::optional<Visibility>>& visibilities) {
+  Measured all{.videos = videos, .visibilities = visibilities, .frames = {}};
+  ImageSizes sizes;
   long long frames = 0;
   double bytes = 0;
   for (const PlannedVideo* const video : videos) {
@@ -215,8 +215,9 @@ Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));
-  return text + redraws_line(videos) + std::to_string(videos.size()) + (videos.size() == 1 ? " video, " : " videos, ") +
-         std::to_string(frames) + (frames == 1 ? " frame, about " : " frames, about ") + size_text(bytes) + "\n";
+  return text + resamples_line(videos) + std::to_string(videos.size()) +
+         (videos.size() == 1 ? " video, " : " videos, ") + std::to_string(frames) +
+         (frames == 1 ? " frame, about " : " frames, about ") + size_text(bytes) + "\n";
 }
 
 }  // namespace sigs::cli

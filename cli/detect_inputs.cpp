@@ -8,7 +8,7 @@
 
 #include "base/folder_contents.h"
 #include "base/nesting.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/options.h"
 
 namespace sigs::cli {
@@ -20,7 +20,7 @@ using Paths = std::vector<fs::path>;
 
 // A video of an index, where it says what is needed.
 Result<void> add_video(const fs::path& index, const nlohmann::json& video, const std::string& split,
-                       std::vector<FilmFiles>& films) {
+                       std::vector<ClipFiles>& clips) {
   if (!video.is_object() || !video.contains("name") || !video["name"].is_string())
     return fail(index.string() + ": videos", "a video without a name");
   if (!split.empty() && (!video.contains("split") || video["split"] != split)) return {};
@@ -28,7 +28,7 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
   const fs::path labels = index.parent_path() / name / (name + ".xml");
   if (std::error_code code; !fs::exists(labels, code))
     return fail(labels.string(), "no such file; the dataset needs xml among its labels", ErrorKind::cannot_read);
-  films.push_back(
+  clips.push_back(
       {.name = name,
        .labels = labels,
        .split = video.value("split", nlohmann::json()).is_string() ? video["split"] : nlohmann::json(""),
@@ -36,7 +36,7 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
   return {};
 }
 
-Result<std::vector<FilmFiles>> films_of_dataset(const fs::path& folder, const std::string& split) {
+Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const std::string& split) {
   const fs::path index = folder / "index.json";
   if (std::error_code code; !fs::exists(index, code))
     return fail(
@@ -46,40 +46,40 @@ Result<std::vector<FilmFiles>> films_of_dataset(const fs::path& folder, const st
         ErrorKind::cannot_read);
   const Result<std::string> text = read_text(index);
   if (!text) return fail(text.error());
-  if (json_depth(*text) > kDeepestNesting) return fail(index.string(), "is no index of a dataset");
+  if (json_depth(*text) > kMaxNesting) return fail(index.string(), "is no index of a dataset");
   const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
   if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
       !json["videos"].is_array())
     return fail(index.string(), "is no index of a dataset");
-  std::vector<FilmFiles> films;
+  std::vector<ClipFiles> clips;
   for (const nlohmann::json& video : json["videos"])
-    if (const Result<void> added = add_video(index, video, split, films); !added) return fail(added.error());
-  if (films.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
-  return films;
+    if (const Result<void> added = add_video(index, video, split, clips); !added) return fail(added.error());
+  if (clips.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
+  return clips;
 }
 
-Result<void> check_labels(const fs::path& labels, const std::vector<FilmFiles>& before) {
+Result<void> check_labels(const fs::path& labels, const std::vector<ClipFiles>& before) {
   if (labels.extension() == ".json")
     return fail(labels.string(), "is not labels (.xml); of a project sigs export makes them", ErrorKind::usage);
-  for (const FilmFiles& film : before)
-    if (std::error_code code; fs::equivalent(film.labels, labels, code))
-      return fail(labels.string(), "is named twice; each film counts once", ErrorKind::usage);
+  for (const ClipFiles& clip : before)
+    if (std::error_code code; fs::equivalent(clip.labels, labels, code))
+      return fail(labels.string(), "is named twice; each clip counts once", ErrorKind::usage);
   return {};
 }
 
-Result<std::vector<FilmFiles>> films_of(const Paths& inputs, const std::string& split) {
-  if (inputs.size() == 1 && is_folder(inputs.front())) return films_of_dataset(inputs.front(), split);
+Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& split) {
+  if (inputs.size() == 1 && is_folder(inputs.front())) return clips_of_dataset(inputs.front(), split);
   if (!split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
-  std::vector<FilmFiles> films;
+  std::vector<ClipFiles> clips;
   std::vector<std::string> names;
   for (const fs::path& labels : inputs) {
     if (is_folder(labels))
       return fail(labels.string(), "is a folder; name label files, or one dataset alone", ErrorKind::usage);
-    if (const Result<void> good = check_labels(labels, films); !good) return fail(good.error());
+    if (const Result<void> good = check_labels(labels, clips); !good) return fail(good.error());
     names.push_back(free_name(labels.stem().string(), names));
-    films.push_back({.name = names.back(), .labels = labels});
+    clips.push_back({.name = names.back(), .labels = labels});
   }
-  return films;
+  return clips;
 }
 
 // What a missing file would end with: as those that are there.
@@ -91,16 +91,16 @@ std::string endings_in(const Paths& there) {
   return endings.size() == 1 ? *endings.begin() : ".csv, .json or .txt";
 }
 
-// The one file in a detector's folder that is called like the film.
-Result<fs::path> results_of(const fs::path& folder, const FilmFiles& film) {
+// The one file in a detector's folder that is called like the clip.
+Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
   const Result<Paths> there = folder_contents(folder);
   if (!there) return fail(there.error());
   Paths found;
   for (const fs::path& path : *there)
-    if (std::error_code code; path.stem() == film.name && fs::is_regular_file(path, code)) found.push_back(path);
+    if (std::error_code code; path.stem() == clip.name && fs::is_regular_file(path, code)) found.push_back(path);
   if (found.empty())
-    return fail((folder / film.name).string() + endings_in(*there),
-                "no results for this film; where nothing was detected, they are a file without boxes",
+    return fail((folder / clip.name).string() + endings_in(*there),
+                "no results for this clip; where nothing was detected, they are a file without boxes",
                 ErrorKind::cannot_read);
   if (found.size() > 1)
     return fail(folder.string(), "has both " + found[0].filename().string() + " and " + found[1].filename().string());
@@ -114,70 +114,70 @@ std::string name_of_folder(const fs::path& folder) {
   return name.empty() || name == "." || name == ".." ? "detector" : name.string();
 }
 
-Result<DetectInputs> by_folders(std::vector<FilmFiles> films, const Paths& folders) {
-  DetectInputs inputs{.films = std::move(films)};
+Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folders) {
+  DetectInputs inputs{.clips = std::move(clips)};
   for (const fs::path& folder : folders) {
     inputs.detectors.push_back(free_name(name_of_folder(folder), inputs.detectors));
-    for (FilmFiles& film : inputs.films) {
-      if (film.labels.stem() != film.name)
-        return fail(film.labels.string(), "another film is called so too; name their results' files in order",
+    for (ClipFiles& clip : inputs.clips) {
+      if (clip.labels.stem() != clip.name)
+        return fail(clip.labels.string(), "another clip is called so too; name their results' files in order",
                     ErrorKind::usage);
-      const Result<fs::path> file = results_of(folder, film);
+      const Result<fs::path> file = results_of(folder, clip);
       if (!file) return fail(file.error());
-      film.results.push_back(*file);
+      clip.results.push_back(*file);
     }
   }
   return inputs;
 }
 
-// Each detector's file tells of all films: its image_id are those of the labels of all videos of the split together.
-Result<DetectInputs> by_shared_files(std::vector<FilmFiles> films, const Paths& files) {
-  DetectInputs inputs{.films = std::move(films)};
+// Each detector's file tells of all clips: its image_id are those of the labels of all videos of the split together.
+Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& files) {
+  DetectInputs inputs{.clips = std::move(clips)};
   int images = 0;
-  for (FilmFiles& film : inputs.films) {
-    if (film.split != inputs.films.front().split)
+  for (ClipFiles& clip : inputs.clips) {
+    if (clip.split != inputs.clips.front().split)
       return fail("--results",
-                  "one file for all films is in COCO's layout with the image_id of one split; choose it with --split",
+                  "one file for all clips is in COCO's layout with the image_id of one split; choose it with --split",
                   ErrorKind::usage);
-    if (std::error_code code; !fs::exists(fs::path(film.labels).replace_extension(".coco.json"), code))
-      return fail(film.labels.string(),
-                  "has no coco labels beside it, so no image_id tells of it; name a file for each film");
-    film.results = files;
-    film.first_image_id = images + 1;
-    images += film.frames;
+    if (std::error_code code; !fs::exists(fs::path(clip.labels).replace_extension(".coco.json"), code))
+      return fail(clip.labels.string(),
+                  "has no coco labels beside it, so no image_id tells of it; name a file for each clip");
+    clip.results = files;
+    clip.first_image_id = images + 1;
+    images += clip.frames;
   }
-  for (FilmFiles& film : inputs.films) film.last_image_id = images;
+  for (ClipFiles& clip : inputs.clips) clip.last_image_id = images;
   for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
   return inputs;
 }
 
-Result<DetectInputs> by_files(std::vector<FilmFiles> films, const Paths& files) {
-  DetectInputs inputs{.films = std::move(films)};
-  if (inputs.films.size() == 1) {
+Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) {
+  DetectInputs inputs{.clips = std::move(clips)};
+  if (inputs.clips.size() == 1) {
     for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
-    inputs.films.front().results = files;
+    inputs.clips.front().results = files;
     return inputs;
   }
   const bool is_json = std::ranges::all_of(files, [](const fs::path& file) { return file.extension() == ".json"; });
-  if (files.size() != inputs.films.size() && inputs.films.front().frames > 0 && is_json)
-    return by_shared_files(std::move(inputs.films), files);
-  if (files.size() != inputs.films.size())
+  if (files.size() != inputs.clips.size() && inputs.clips.front().frames > 0 && is_json)
+    return by_shared_files(std::move(inputs.clips), files);
+  if (files.size() != inputs.clips.size())
     return fail("--results",
-                "there are " + std::to_string(inputs.films.size()) + " films and " + std::to_string(files.size()) +
+                "there are " + std::to_string(inputs.clips.size()) + " clips and " + std::to_string(files.size()) +
                     (files.size() == 1 ? " file" : " files") +
                     " of results; name one for each, in order, or a folder for each detector",
                 ErrorKind::usage);
   inputs.detectors = {name_of_folder(files.front().parent_path())};
-  for (std::size_t i = 0; i < files.size(); ++i) inputs.films[i].results = {files[i]};
+  for (std::size_t i = 0; i < files.size(); ++i) inputs.clips[i].results = {files[i]};
   return inputs;
 }
 
 }  // namespace
 
-void warn_of_other_film(const Results& results, const fs::path& file, const std::string& film) {
-  if (!results.film.empty() && results.film != film)
+void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
+  if (!results.clip.empty() && results.clip != clip)
     print_warning(
-        {file.string(), "its img_name is of " + results.film + ", the film is " + film + ": are these its results?"});
+        {file.string(), "its img_name is of " + results.clip + ", the clip is " + clip + ": are these its results?"});
 }
 
 std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
@@ -192,12 +192,12 @@ Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, co
     for (const fs::path& path : *paths)
       if (std::error_code code; !fs::exists(path, code))
         return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
-  Result<std::vector<FilmFiles>> films = films_of(inputs, split);
-  if (!films) return fail(films.error());
+  Result<std::vector<ClipFiles>> clips = clips_of(inputs, split);
+  if (!clips) return fail(clips.error());
   const auto folders = std::count_if(results.begin(), results.end(), is_folder);
-  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*films), results);
+  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
   if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
-  return by_files(std::move(*films), results);
+  return by_files(std::move(*clips), results);
 }
 
 }  // namespace sigs::cli

@@ -11,35 +11,35 @@
 
 namespace sigs::cli {
 
-// A film's labels and what each detector says of it.
-struct FilmFiles {
+// A clip's labels and what each detector says of it.
+struct ClipFiles {
   std::string name;  // no two are alike
   std::filesystem::path labels;
   std::vector<std::filesystem::path> results;  // one for each detector
-  std::string split;                           // of a dataset's film
-  int frames = 0;                              // of a dataset's film; 0: not known
+  std::string split;                           // of a dataset's clip
+  int frames = 0;                              // of a dataset's clip; 0: not known
   int first_image_id = 1;                      // see ResultsOptions, as the next
   std::optional<int> last_image_id;
 };
 
 struct DetectInputs {
   std::vector<std::string> detectors;  // no two are alike
-  std::vector<FilmFiles> films;
+  std::vector<ClipFiles> clips;
 };
 
 // Which results go with which labels.
 //   inputs   label files, or one folder of a dataset
-//   results  a folder for each detector, in which NAME.csv or the like tells of the film NAME; or, for label files, one
+//   results  a folder for each detector, in which NAME.csv or the like tells of the clip NAME; or, for label files, one
 //            file for each in the same order; or, for one label file, a file for each detector; or, for one split of a
 //            dataset, a file in COCO's layout for each detector, with the image_id of the split's coco labels
-//   split    only these films of a dataset; empty: all
+//   split    only these clips of a dataset; empty: all
 // Errors name what is missing or left over.
 [[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,
                                                  const std::vector<std::filesystem::path>& results,
                                                  const std::string& split);
 
-// A warning where results name a film of another name. Layouts that name none say nothing.
-void warn_of_other_film(const Results& results, const std::filesystem::path& file, const std::string& film);
+// A warning where results name a clip of another name. Layouts that name none say nothing.
+void warn_of_other_clip(const Results& results, const std::filesystem::path& file, const std::string& clip);
 
 // The name, or with a number behind it where it is taken.
 [[nodiscard]] std::string free_name(const std::string& name, const std::vector<std::string>& taken);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFooter =
     "Examples:\n"
     "  sigs evaluate detect out/crossing.xml --results found.csv --out report\n"
-    "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --least-score 0.3\n"
+    "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --min-score 0.3\n"
     "  sigs evaluate detect datasets/mine --split test --results runs/one runs/two --out report\n"
     "  sigs evaluate detect datasets/mine --split test --results coco_results.json";
 
@@ -39,33 +39,33 @@ struct DetectOptions {
 };
 
 // Everything that is read: truths once, then the results of each detector.
-Result<std::vector<std::vector<DetectedFilm>>> films_by_detector(const DetectInputs& inputs, ResultsFormat format) {
-  std::vector<std::vector<DetectedFilm>> films(inputs.detectors.size());
-  for (const FilmFiles& files : inputs.films) {
+Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs, ResultsFormat format) {
+  std::vector<std::vector<DetectedClip>> clips(inputs.detectors.size());
+  for (const ClipFiles& files : inputs.clips) {
     if (interrupt_flag().load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-    const Result<FilmTruth> truth = read_truth(files.labels);
+    const Result<ClipTruth> truth = read_truth(files.labels);
     if (!truth) return fail(truth.error());
-    for (std::size_t i = 0; i < films.size(); ++i) {
+    for (std::size_t i = 0; i < clips.size(); ++i) {
       Result<Results> results = read_results(files.results[i], truth->footage,
                                              ResultsOptions{.format = format,
-                                                            .may_hold_many = true,
+                                                            .multiple_per_frame = true,
                                                             .first_image_id = files.first_image_id,
                                                             .last_image_id = files.last_image_id});
       if (!results) return fail(results.error());
-      warn_of_other_film(*results, files.results[i], files.labels.stem().string());
-      films[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
+      warn_of_other_clip(*results, files.results[i], files.labels.stem().string());
+      clips[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
     }
   }
-  return films;
+  return clips;
 }
 
 Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
-  const Result<std::vector<std::vector<DetectedFilm>>> films = films_by_detector(inputs, options.format);
-  if (!films) return fail(films.error());
+  const Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.format);
+  if (!clips) return fail(clips.error());
   DetectionReport report{.policy = options.policy};
-  for (const FilmFiles& files : inputs.films) report.films.push_back(files.name);
-  for (std::size_t i = 0; i < films->size(); ++i)
-    report.scores.push_back(score_detections(inputs.detectors[i], (*films)[i], options.policy));
+  for (const ClipFiles& files : inputs.clips) report.clips.push_back(files.name);
+  for (std::size_t i = 0; i < clips->size(); ++i)
+    report.scores.push_back(score_detections(inputs.detectors[i], (*clips)[i], options.policy));
   return report;
 }
 
@@ -77,10 +77,10 @@ void print(const DetectionReport& report) {
 }
 
 Result<void> write(EvaluationFolder& folder, const DetectionReport& report) {
-  const Result<WrittenReport> written = write_report(folder.part(), report);
+  const Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
   for (const Warning& warning : written->warnings) print_warning(warning);
-  const Result<std::vector<fs::path>> kept = folder.keep(written->files);
+  const Result<std::vector<fs::path>> kept = folder.commit(written->files);
   if (!kept) return fail(kept.error());
   for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());
   return {};
@@ -96,9 +96,9 @@ Result<void> run(const DetectOptions& options) {
   if (!options.folder.empty()) {
     std::vector<fs::path> read = options.inputs;
     read.insert(read.end(), options.results.begin(), options.results.end());
-    for (const FilmFiles& film : inputs->films) {
-      read.push_back(film.labels);
-      read.insert(read.end(), film.results.begin(), film.results.end());
+    for (const ClipFiles& clip : inputs->clips) {
+      read.push_back(clip.labels);
+      read.insert(read.end(), clip.results.begin(), clip.results.end());
     }
     Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, read);
     if (!reserved) return fail(reserved.error());
@@ -120,20 +120,21 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
   };
   constexpr double kLarge = 1e9;
   for (const Number& number :
-       {Number{"--least-score", &policy.least_score, kLarge, "SCORE", "reports below it are left out"},
-        Number{"--least-area", &policy.least_area_px2, kLarge, "PX2", "smaller true boxes are grown to it"},
+       {Number{"--min-score", &policy.min_score, kLarge, "SCORE", "reports below it are left out"},
+        Number{"--min-area", &policy.min_area_px2, kLarge, "PX2", "smaller true boxes are grown to it"},
         Number{"--match-overlap", &policy.match_overlap, 1, "SHARE", "extended overlap of a match"},
         Number{"--false-overlap", &policy.false_overlap, 1, "SHARE", "less with every true box: a false alarm"},
-        Number{"--longest-range", &policy.longest_range_m, kLarge, "M", "an encounter is within it"},
-        Number{"--nearest-range", &policy.nearest_range_m, kLarge, "M", "an encounter that counts comes so near"},
-        Number{"--least-encounter", &policy.least_encounter_s, kLarge, "S", "shorter encounters do not count"},
-        Number{"--longest-gap", &policy.longest_gap_s, kLarge, "S", "longer gaps end an encounter"},
+        Number{"--max-range", &policy.max_range_m, kLarge, "M", "an encounter is within it"},
+        Number{"--max-closest-range", &policy.max_closest_range_m, kLarge, "M",
+               "an encounter that counts comes so near"},
+        Number{"--min-encounter", &policy.min_encounter_s, kLarge, "S", "shorter encounters do not count"},
+        Number{"--max-gap", &policy.max_gap_s, kLarge, "S", "longer gaps end an encounter"},
         Number{"--detect-range", &policy.detect_range_m, kLarge, "M", "detected in time: before it comes nearer"},
         Number{"--window", &policy.window_s, kLarge, "S", "detected: within a window of this length"},
-        Number{"--window-share", &policy.least_window_share, 1, "SHARE", "... in this share of its frames"}}) {
+        Number{"--window-share", &policy.min_window_share, 1, "SHARE", "... in this share of its frames"}}) {
     command.add_option(number.name, *number.value, number.help)
         ->type_name(number.unit)
-        ->check(from_to(number.value == &policy.least_score ? -kLarge : 0.0, number.largest))
+        ->check(from_to(number.value == &policy.min_score ? -kLarge : 0.0, number.largest))
         ->capture_default_str();
   }
 }
@@ -142,19 +143,19 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
 
 std::function<Result<void>()> add_evaluate_detect(CLI::App& evaluate) {
   CLI::App* const command =
-      evaluate.add_subcommand("detect", "measure detectors on films: encounters detected, false alarms");
+      evaluate.add_subcommand("detect", "measure detectors on clips: encounters detected, false alarms");
   const auto options = std::make_shared<DetectOptions>();
-  command->add_option("LABELS", options->inputs, "exported films' NAME.xml, or the folder of a dataset")
+  command->add_option("LABELS", options->inputs, "exported clips' NAME.xml, or the folder of a dataset")
       ->required()
       ->check(not_empty());
   command
       ->add_option("--results", options->results,
-                   "what a detector reports: a file for each film in order, a folder for each detector, or one file in "
-                   "COCO's layout for all films of a split")
+                   "what a detector reports: a file for each clip in order, a folder for each detector, or one file in "
+                   "COCO's layout for all clips of a split")
       ->option_text("FILES|DIRS ...")
       ->required()
       ->check(not_empty());
-  command->add_option("--split", options->split, "only the films of this split of a dataset")->option_text("NAME");
+  command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
   add_format_option(*command, options->format);
   add_policy_options(*command, options->policy);
   add_report_options(*command, options->folder, options->force);

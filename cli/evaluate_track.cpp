@@ -11,12 +11,12 @@
 #include "cli/evaluate_options.h"
 #include "cli/evaluation_folder.h"
 #include "cli/interrupt.h"
-#include "cli/track_request.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 #include "evaluation/results_text.h"
 #include "project/json.h"
-#include "project_inputs.h"
+#include "scene/project_inputs.h"
+#include "tracked_clip.h"
 
 namespace sigs::cli {
 
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFooter =
     "Examples:\n"
     "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf,mosse --out report\n"
-    "  sigs evaluate track out/crossing.xml --tracker all --least-side 8\n"
+    "  sigs evaluate track out/crossing.xml --tracker all --min-side 8\n"
     "  sigs evaluate track out/crossing.xml --results mine.txt --format otb --out report";
 
 struct TrackOptions {
@@ -45,7 +45,7 @@ Result<TrackRequest> request_of(const TrackOptions& options) {
     request.trackers.assign(tracker_names().begin(), tracker_names().end());
   if (request.trackers.empty() && request.results.empty())
     return fail("evaluate track", "name what is to be measured: --tracker or --results", ErrorKind::usage);
-  request.policy.truth = options.truth == "visible" ? TruthBox::visible : TruthBox::silhouette;
+  request.policy.truth = options.truth == "visible" ? TruthBox::visible : TruthBox::amodal;
   if (!options.frames.empty()) {
     const Result<FrameRange> range = frame_range_of(options.frames);
     if (!range) return fail(range.error());
@@ -60,15 +60,15 @@ Result<TrackRequest> request_of(const TrackOptions& options) {
   return request;
 }
 
-Result<std::vector<Results>> all_results(const TrackRequest& request, const TrackedFilm& film) {
-  std::vector<Results> all = film.results;
+Result<std::vector<Results>> all_results(const TrackRequest& request, const TrackedClip& clip) {
+  std::vector<Results> all = clip.results;
   std::vector<std::string> names;
   for (const Results& results : all) names.push_back(results.name);
   for (const fs::path& file : request.results) {
     Result<Results> read =
-        read_results(file, film.truth.footage, {.format = request.format, .start_frame = film.policy.from_frame});
+        read_results(file, clip.truth.footage, {.format = request.format, .start_frame = clip.policy.from_frame});
     if (!read) return fail(read.error());
-    warn_of_other_film(*read, file, film.name);
+    warn_of_other_clip(*read, file, clip.name);
     read->name = free_name(read->name, names);
     names.push_back(read->name);
     all.push_back(std::move(*read));
@@ -76,20 +76,20 @@ Result<std::vector<Results>> all_results(const TrackRequest& request, const Trac
   return all;
 }
 
-TrackReport report_of(const TrackedFilm& film, const std::vector<Results>& all) {
-  const TargetTruth& target = film.truth.targets[static_cast<std::size_t>(film.target)];
-  TrackReport report{.film = film.name,
-                     .footage = film.truth.footage,
+TrackReport report_of(const TrackedClip& clip, const std::vector<Results>& all) {
+  const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
+  TrackReport report{.clip = clip.name,
+                     .footage = clip.truth.footage,
                      .target = "intruder " + std::to_string(target.id) + " (" + target.name + ")",
-                     .policy = film.policy,
-                     .remarks = film.remarks};
-  for (const Results& results : all) report.scores.push_back(score_track(film.truth, target, results, report.policy));
+                     .policy = clip.policy,
+                     .remarks = clip.remarks};
+  for (const Results& results : all) report.scores.push_back(score_track(clip.truth, target, results, report.policy));
   return report;
 }
 
 // Where scoring begins, in a line above the table.
 std::string heading_of(const TrackReport& report) {
-  return report.film + ": " + report.target + ", box of " +
+  return report.clip + ": " + report.target + ", box of " +
          (report.policy.truth == TruthBox::visible ? "what can be seen" : "the whole") + ", frames " +
          std::to_string(report.policy.from_frame) + " to " + std::to_string(report.footage.last_frame) + "\n";
 }
@@ -108,14 +108,14 @@ Result<std::vector<fs::path>> write_results(const fs::path& folder, const std::v
   return files;
 }
 
-Result<void> write(EvaluationFolder& folder, const TrackReport& report, const TrackedFilm& film) {
-  Result<WrittenReport> written = write_report(folder.part(), report);
+Result<void> write(EvaluationFolder& folder, const TrackReport& report, const TrackedClip& clip) {
+  Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
   for (const Warning& warning : written->warnings) print_warning(warning);
-  const Result<std::vector<fs::path>> results = write_results(folder.part() / "results", film.results);
+  const Result<std::vector<fs::path>> results = write_results(folder.staging_path() / "results", clip.results);
   if (!results) return fail(results.error());
   written->files.insert(written->files.end(), results->begin(), results->end());
-  const Result<std::vector<fs::path>> kept = folder.keep(written->files);
+  const Result<std::vector<fs::path>> kept = folder.commit(written->files);
   if (!kept) return fail(kept.error());
   for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());
   return {};
@@ -143,14 +143,14 @@ Result<void> run(const TrackOptions& options) {
     if (!reserved) return fail(reserved.error());
     folder.emplace(std::move(*reserved));
   }
-  const Result<TrackedFilm> film = tracked_film(*request);
-  if (!film) return fail(film.error());
-  for (const std::string& remark : film->remarks) print_warning({"", remark});
-  const Result<std::vector<Results>> all = all_results(*request, *film);
+  const Result<TrackedClip> clip = tracked_clip(*request);
+  if (!clip) return fail(clip.error());
+  for (const std::string& remark : clip->remarks) print_warning({"", remark});
+  const Result<std::vector<Results>> all = all_results(*request, *clip);
   if (!all) return fail(all.error());
-  const TrackReport report = report_of(*film, *all);
+  const TrackReport report = report_of(*clip, *all);
   std::printf("%s%s", heading_of(report).c_str(), table_text(report).c_str());
-  return folder ? write(*folder, report, *film) : Result<void>();
+  return folder ? write(*folder, report, *clip) : Result<void>();
 }
 
 void add_scoring_options(CLI::App& command, TrackOptions& options) {
@@ -161,12 +161,12 @@ void add_scoring_options(CLI::App& command, TrackOptions& options) {
       ->option_text("NAME=visible")
       ->check(CLI::IsMember({"visible", "silhouette"}));
   command
-      .add_option("--least-visible", request.policy.least_visible_fraction,
+      .add_option("--min-visible", request.policy.min_visible_fraction,
                   "frames in which a smaller share of the intruder can be seen are not scored, 0 to 1")
       ->option_text("SHARE=0")
       ->check(from_to(0, 1));
   command
-      .add_option("--least-side", request.least_side_px,
+      .add_option("--min-side", request.min_side_px,
                   "trackers start, and scoring begins, where both sides of the true box are at least this long")
       ->option_text("PX=1")
       ->check(from_to(0, 1e6));
@@ -175,10 +175,10 @@ void add_scoring_options(CLI::App& command, TrackOptions& options) {
 }  // namespace
 
 std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
-  CLI::App* const command = evaluate.add_subcommand("track", "measure trackers on one film: centre error, overlap");
+  CLI::App* const command = evaluate.add_subcommand("track", "measure trackers on one clip: centre error, overlap");
   const auto options = std::make_shared<TrackOptions>();
   TrackRequest& request = options->request;
-  command->add_option("PROJECT_OR_LABELS", request.input.file, "a project, or an exported film's NAME.xml")
+  command->add_option("PROJECT_OR_LABELS", request.input.file, "a project, or an exported clip's NAME.xml")
       ->required()
       ->check(not_empty());
   std::string known = "all";
@@ -192,7 +192,7 @@ std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
       ->check(not_empty());
   add_format_option(*command, request.format);
   add_scoring_options(*command, *options);
-  command->add_option("--video", request.video, "pictures of the labels; else those beside them")
+  command->add_option("--video", request.video, "images of the labels; else those beside them")
       ->option_text("FILE")
       ->check(not_empty());
   add_report_options(*command, options->folder, options->force);

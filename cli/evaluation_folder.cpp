@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "base/folder_contents.h"
-#include "base/kept_inputs.h"
+#include "base/overwrite_check.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 
@@ -30,7 +30,7 @@ bool is_result_file(const fs::path& path) {
 }
 
 // The first thing in the folder that no evaluation writes; empty: there is none.
-Result<std::string> strange_in(const fs::path& folder) {
+Result<std::string> foreign_content_of(const fs::path& folder) {
   const Result<std::vector<fs::path>> paths = folder_contents(folder);
   if (!paths) return fail(paths.error());
   for (const fs::path& path : *paths) {
@@ -53,10 +53,10 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
     return fail(not_free(shown, "is the current folder; name one that is to be made"));
   if (fs::is_empty(place, code)) return {};
   if (!overwrite) return fail(not_free(shown, "exists already; --force overwrites it"));
-  const Result<std::string> strange = strange_in(place);
-  if (!strange) return fail(strange.error());
-  if (!strange->empty())
-    return fail(not_free(shown, "holds " + *strange + ", which no evaluation wrote; choose another folder"));
+  const Result<std::string> foreign = foreign_content_of(place);
+  if (!foreign) return fail(foreign.error());
+  if (!foreign->empty())
+    return fail(not_free(shown, "holds " + *foreign + ", which no evaluation wrote; choose another folder"));
   return {};
 }
 
@@ -64,21 +64,21 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
 
 Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
                                                     const std::vector<fs::path>& inputs) {
-  const fs::path place = place_of(folder);
-  if (const Result<void> kept = check_inputs_kept({folder}, inputs); !kept) return fail(kept.error());
+  const fs::path place = canonical_path(folder);
+  if (const Result<void> kept = check_inputs_not_overwritten({folder}, inputs); !kept) return fail(kept.error());
   if (const Result<void> free = check_free(folder, place, overwrite); !free) return fail(free.error());
-  MadeFolders above;
+  CreatedFolders above;
   if (const Result<void> made = above.make(place.parent_path()); !made) return fail(made.error());
-  Result<PartialFile> file = PartialFile::create_folder(
+  Result<TemporaryFile> file = TemporaryFile::create_folder(
       place, true, [overwrite](const fs::path& there) { return check_free(there, there, overwrite); });
   if (!file) return fail(file.error());
   return EvaluationFolder(folder, std::move(above), std::move(*file));
 }
 
-Result<std::vector<fs::path>> EvaluationFolder::keep(const std::vector<fs::path>& written) {
+Result<std::vector<fs::path>> EvaluationFolder::commit(const std::vector<fs::path>& written) {
   std::vector<fs::path> final_paths;
-  for (const fs::path& path : written) final_paths.push_back(shown_ / path.lexically_relative(file_.part()));
-  if (const Result<void> kept = file_.keep(); !kept) return fail(kept.error());
+  for (const fs::path& path : written) final_paths.push_back(shown_ / path.lexically_relative(file_.temporary_path()));
+  if (const Result<void> kept = file_.commit(); !kept) return fail(kept.error());
   return final_paths;
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/partial_file.h"
 #include "base/result.h"
-#include "cli/made_folders.h"
+#include "base/temporary_file.h"
+#include "created_folders.h"
 
 namespace sigs::cli {
 
@@ -20,18 +20,18 @@ class EvaluationFolder {
                                                          const std::vector<std::filesystem::path>& inputs);
 
   // Where its files are written to.
-  [[nodiscard]] const std::filesystem::path& part() const { return file_.part(); }
+  [[nodiscard]] const std::filesystem::path& staging_path() const { return file_.temporary_path(); }
 
-  // Gives it its name. Returns where the files lie that were written to part().
-  [[nodiscard]] Result<std::vector<std::filesystem::path>> keep(const std::vector<std::filesystem::path>& written);
+  // Gives it its name. Returns where the files lie that were written to staging_path().
+  [[nodiscard]] Result<std::vector<std::filesystem::path>> commit(const std::vector<std::filesystem::path>& written);
 
  private:
-  EvaluationFolder(std::filesystem::path shown, MadeFolders folders, PartialFile file)
+  EvaluationFolder(std::filesystem::path shown, CreatedFolders folders, TemporaryFile file)
       : shown_(std::move(shown)), folders_(std::move(folders)), file_(std::move(file)) {}
 
   std::filesystem::path shown_;  // as the user calls it
-  MadeFolders folders_;          // those above it
-  PartialFile file_;
+  CreatedFolders folders_;       // those above it
+  TemporaryFile file_;
 };
 
 }  // namespace sigs::cli

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <thread>
 
-#include "annotation/labels.h"
+#include "allocator.h"
 #include "cli/interrupt.h"
-#include "cli/kept_memory.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "export.h"
+#include "export/export_project.h"
+#include "labels/labels.h"
 #include "project/set_field.h"
 #include "project/validate.h"
 
@@ -26,7 +26,7 @@ struct ExportOptions {
   ProjectOptions project;
   std::filesystem::path folder = ".";
   std::string frames;
-  GivenSettings settings;
+  OptionSettings settings;
   std::string labels;
   int jobs = 0;
   bool force = false;
@@ -48,8 +48,8 @@ constexpr SettingText kSettings[] = {
     {"--container", "export.video.container", "NAME", "mkv, mp4 or avi"},
     {"--method", "compositing.method", "NAME", "direct, classic or plain"},
     {"--masks", "export.masks", "NAME", "video, png or none"},
-    {"--least-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible; not for xml, csv"},
-    {"--least-visible", "export.label_least_visible_fraction", "F",
+    {"--min-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible; not for xml, csv"},
+    {"--min-visible", "export.label_least_visible_fraction", "F",
      "no label where less of the intruder is visible, 0 to 1; not for xml, csv"},
 };
 
@@ -116,15 +116,15 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
 }
 
 void print_times(const ExportReport& report) {
-  const StopTimes& times = report.times;
+  const StageTimes& times = report.times;
   const double per_frame_ms = 1000.0 / std::max(1, report.frames);
   std::fprintf(stderr,
                "%d frames in %s, %.1f frames/s; per frame: decode %.2f ms, draw %.2f ms, composite %.2f ms, "
                "encode %.2f ms%s%s\n",
                report.frames, clock_text(times.wall_s).c_str(), report.frames / std::max(times.wall_s, 1e-6),
                times.decode_s * per_frame_ms, times.draw_s * per_frame_ms, times.composite_s * per_frame_ms,
-               times.encode_s * per_frame_ms, report.drawn_with.empty() ? "" : "; drawn with ",
-               report.drawn_with.c_str());
+               times.encode_s * per_frame_ms, report.renderer_description.empty() ? "" : "; drawn with ",
+               report.renderer_description.c_str());
 }
 
 // A line for each intruder, the first few where there are many.
@@ -144,7 +144,7 @@ Result<void> run(const ExportOptions& options) {
   const Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
   defer_interrupts();
-  keep_freed_memory();
+  tune_allocator();
   Progress progress(progress_style(options.progress));
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                               .warn =
@@ -182,7 +182,7 @@ std::function<Result<void>()> add_export_command(CLI::App& program) {
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--force", options->force, "overwrite what is there");
-  command->add_flag("--times", options->times, "say at the end how long each stop took");
+  command->add_flag("--times", options->times, "say at the end how long each stage took");
   add_progress_option(*command, options->progress);
   return [options] { return run(*options); };
 }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "cli/interrupt.h"
-#include "cli/made_folders.h"
 #include "cli/options.h"
-#include "cli/picture_files.h"
-#include "export.h"
-#include "frame.h"
-#include "opened_project.h"
-#include "outlook.h"
-#include "project_inputs.h"
+#include "created_folders.h"
+#include "export/export_project.h"
+#include "frame/compose_frame.h"
+#include "image_files.h"
+#include "scene/opened_project.h"
+#include "scene/project_inputs.h"
+#include "scene/visibility_estimate.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -41,40 +41,40 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
                 ErrorKind::usage);
   const Result<Scene> scene = open_scene(project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
-  const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kQuickLook_frames);
+  const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kVisibilitySampleFrames);
   for (const Warning& warning : warnings_of(project, *scene, visibilities)) print_warning(warning);
   Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
   if (background->damaged)
     print_warning({source->info().path.string(), "frame " + std::to_string(options.frame) +
                                                      " is damaged; another frame of the footage stands in for it"});
-  Bench bench;
-  return compose_frame(*scene, options.frame, std::move(*background), bench,
+  ComposeContext context;
+  return compose_frame(*scene, options.frame, std::move(*background), context,
                        options.stages ? Stages::keep : Stages::leave_out);
 }
 
-using Pictures = std::vector<std::pair<fs::path, cv::Mat>>;
+using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;
 
 // By the names that they will have.
-Pictures pictures_of(const ComposedFrame& frame, const FrameOptions& options) {
+NamedImages stage_images(const ComposedFrame& frame, const FrameOptions& options) {
   const std::string base = "frame_" + std::to_string(options.frame);
-  Pictures pictures{{options.folder / (base + ".png"), bgr_of(frame.picture)}};
+  NamedImages images{{options.folder / (base + ".png"), bgr_of(frame.image)}};
   for (std::size_t i = 0; i < frame.stages.size(); ++i) {
     const std::string number = (i < 10 ? "0" : "") + std::to_string(i);
-    pictures.emplace_back(options.folder / (base + "_" + number + "_" + frame.stages[i].name + ".png"),
-                          frame.stages[i].picture);
+    images.emplace_back(options.folder / (base + "_" + number + "_" + frame.stages[i].name + ".png"),
+                        frame.stages[i].image);
   }
-  return pictures;
+  return images;
 }
 
-Result<void> write(const Pictures& pictures, const Project& project, bool overwrite) {
+Result<void> write(const NamedImages& images, const Project& project, bool overwrite) {
   std::vector<fs::path> paths;
-  for (const auto& [path, picture] : pictures) paths.push_back(path);
-  if (const Result<void> kept = check_inputs_kept(project, paths); !kept) return kept;
-  PictureFiles files(overwrite);
-  for (const auto& [path, picture] : pictures)
-    if (const Result<void> step = files.write(path, picture); !step) return step;
-  const Result<std::vector<fs::path>> written = files.keep();
+  for (const auto& [path, image] : images) paths.push_back(path);
+  if (const Result<void> kept = check_inputs_not_overwritten(project, paths); !kept) return kept;
+  ImageFiles files(overwrite);
+  for (const auto& [path, image] : images)
+    if (const Result<void> step = files.write(path, image); !step) return step;
+  const Result<std::vector<fs::path>> written = files.commit();
   if (!written) return fail(written.error());
   for (const fs::path& path : *written) std::printf("%s\n", path.c_str());
   return {};
@@ -86,9 +86,9 @@ Result<void> run(const FrameOptions& options) {
   const Result<ComposedFrame> frame = composed(*project, options);
   if (!frame) return fail(frame.error());
   defer_interrupts();
-  MadeFolders folders;
+  CreatedFolders folders;
   if (const Result<void> made = folders.make(options.folder); !made) return made;
-  return write(pictures_of(*frame, options), *project, options.force);
+  return write(stage_images(*frame, options), *project, options.force);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ std::function<Result<void>()> add_frame_command(CLI::App& program) {
   command->add_option("--out", options->folder, "folder to write into; made where it is not there")
       ->capture_default_str()
       ->check(output_path());
-  command->add_flag("--stages", options->stages, "write every intermediate picture too");
+  command->add_flag("--stages", options->stages, "write every intermediate image too");
   command->add_flag("--force", options->force, "overwrite what is there");
   return [options] { return run(*options); };
 }

@@ -113,7 +113,7 @@ void print_camera(const Camera& camera) {
   for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(size.width - 1, 0), glm::dvec2(0, size.height - 1),
                                   glm::dvec2(size.width - 1, size.height - 1)})
     unreachable += camera.lens.ray(corner) ? 0 : 1;
-  if (unreachable > 0) std::printf("corners of the picture without a ray: %d of 4\n", unreachable);
+  if (unreachable > 0) std::printf("corners of the image without a ray: %d of 4\n", unreachable);
   for (const Warning& warning : camera.warnings) print_warning(warning);
 }
 

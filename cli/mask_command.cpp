@@ -14,7 +14,7 @@
 #include "cli/mask_outputs.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "export.h"
+#include "export/export_project.h"
 #include "occlusion/detect.h"
 #include "project/validate.h"
 #include "scene/scene_parts.h"
@@ -38,7 +38,7 @@ constexpr const char* kFooter =
 struct MaskOptions {
   ProjectOptions project;  // its file may be a video too
   MaskPaths paths;         // mask empty: named after the video
-  GivenSettings settings;
+  OptionSettings settings;
   bool force = false;
   std::string progress = "auto";
 };
@@ -60,7 +60,7 @@ Result<Project> read(const ProjectOptions& options) {
 }
 
 // The detection needs neither calibration nor intruders; what is wrong with them is no matter here.
-bool matters(const Problem& problem) {
+bool concerns_detection(const Problem& problem) {
   return problem.field.starts_with("own_body.") || problem.field == "footage.video" ||
          problem.field == "footage.first_frame" || problem.field == "footage.last_frame";
 }
@@ -74,9 +74,9 @@ Error error_in(const Project& project, const Problem& problem) {
 Result<Project> project_of(const MaskOptions& options) {
   Result<Project> project = read(options.project);
   if (!project) return project;
-  if (const Result<void> set = set_given(*project, options.settings); !set) return fail(set.error());
+  if (const Result<void> set = set_option_settings(*project, options.settings); !set) return fail(set.error());
   for (const Problem& problem : validate(*project))
-    if (matters(problem)) return fail(error_in(*project, problem));
+    if (concerns_detection(problem)) return fail(error_in(*project, problem));
   return project;
 }
 
@@ -113,31 +113,31 @@ Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Pr
 }
 
 Result<void> write(MaskOutputs& out, const OwnBody& found, FrameSource& footage, int first_frame) {
-  cv::Mat picture;
+  cv::Mat image;
   if (out.has_stages()) {
     const Result<Frame> middle = footage.read(first_frame + found.frames_passed / 2);
     if (!middle) return fail(middle.error());
-    picture = bgr_of(*middle);
+    image = bgr_of(*middle);
   }
-  const Result<std::vector<fs::path>> written = out.write(found, picture);
+  const Result<std::vector<fs::path>> written = out.write(found, image);
   if (!written) return fail(written.error());
   for (const fs::path& path : *written) std::printf("%s\n", path.c_str());
   return {};
 }
 
-void say(const OwnBody& found, const Project& project) {
+void print_summary(const OwnBody& found, const Project& project) {
   for (const Warning& warning : found.warnings) print_warning(warning);
   if (found.share > 0)
-    std::fprintf(stderr, "own body: %.1f %% of the picture, %d frames used\n", 100 * found.share, found.frames_used);
+    std::fprintf(stderr, "own body: %.1f %% of the image, %d frames used\n", 100 * found.share, found.frames_used);
   else
     std::fprintf(stderr, "own body: none found, %d frames used; the mask is black\n", found.frames_used);
-  if (found.settled)
-    std::fprintf(stderr, "settled after %d of at most %d frames; the last look changed %.2g %% of the mask\n",
+  if (found.converged)
+    std::fprintf(stderr, "converged after %d of at most %d frames; the last check changed %.2g %% of the mask\n",
                  found.frames_passed, project.own_body.frames, 100 * found.last_change);
 }
 
 // Where what was found may well be wrong, and only a look can tell.
-void say_doubts(const OwnBody& found, const VideoInfo& footage, int first_frame) {
+void warn_of_doubtful_mask(const OwnBody& found, const VideoInfo& footage, int first_frame) {
   constexpr double kRounding_s = 0.05;  // 9.95 is printed as 10.0
   const auto first = static_cast<std::size_t>(first_frame);
   const auto steps = static_cast<std::size_t>(found.frames_passed - 1);
@@ -152,8 +152,7 @@ void say_doubts(const OwnBody& found, const VideoInfo& footage, int first_frame)
     print_warning({footage.path.string(), text});
   }
   if (found.share > kLargeShare)
-    print_warning(
-        {footage.path.string(), "more than half of the picture is masked; look whether all of it is the UAV"});
+    print_warning({footage.path.string(), "more than half of the image is masked; look whether all of it is the UAV"});
 }
 
 Result<void> run(const MaskOptions& options) {
@@ -161,7 +160,7 @@ Result<void> run(const MaskOptions& options) {
   if (!project) return fail(project.error());
   Result<FrameSource> footage = footage_of(*project);
   if (!footage) return fail(footage.error());
-  const Made<FrameRange> range = made_range(project->footage, shape_of(footage->info()));
+  const OrProblem<FrameRange> range = scene_range(project->footage, shape_of(footage->info()));
   if (!range) return fail(error_in(*project, range.error()));
   defer_interrupts();
   Result<MaskOutputs> out = reserved(options, *project, footage->info().path);
@@ -169,8 +168,8 @@ Result<void> run(const MaskOptions& options) {
   const Result<OwnBody> found = found_in(*footage, *range, *project, options);
   if (!found) return fail(found.error());
   if (const Result<void> written = write(*out, *found, *footage, range->first); !written) return written;
-  say(*found, *project);
-  say_doubts(*found, footage->info(), range->first);
+  print_summary(*found, *project);
+  warn_of_doubtful_mask(*found, footage->info(), range->first);
   return {};
 }
 
@@ -194,7 +193,7 @@ std::function<Result<void>()> add_mask_command(CLI::App& program) {
                                       SettingOption{"--method", "own_body.method", "NAME", "stable or paper"}})
     add_setting_option(*command, option, options->settings);
   add_path("--confidence", options->paths.confidence, "FILE", "write how sure each pixel is too: a 16-bit PNG");
-  add_path("--stages", options->paths.stages, "DIR", "write the picture of every step into this folder");
+  add_path("--stages", options->paths.stages, "DIR", "write the image of every step into this folder");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
   command->footer(kFooter);

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/kept_inputs.h"
+#include "base/overwrite_check.h"
 #include "cli/overlay.h"
 
 namespace sigs::cli {
@@ -24,24 +24,24 @@ constexpr std::string_view kStages[] = {
     "mean_gradient", "coherence", "variation", "drift", "moving", "walls", "labels", "own_body", "confidence"};
 
 bool is_taken_by_a_stage(const fs::path& file, const fs::path& stages) {
-  if (!lies_at_or_below(file, stages) || file == stages) return false;
+  if (!is_at_or_below(file, stages) || file == stages) return false;
   const fs::path first = *file.lexically_relative(stages).begin();
   return is_stage_name(first.string());
 }
 
 // Two outputs that want the same place.
-Result<void> check_apart(const MaskPaths& paths) {
-  const fs::path mask = place_of_name(paths.mask);
-  const fs::path confidence = paths.confidence.empty() ? fs::path() : place_of_name(paths.confidence);
-  if (!confidence.empty() && (lies_at_or_below(confidence, mask) || lies_at_or_below(mask, confidence)))
+Result<void> check_distinct(const MaskPaths& paths) {
+  const fs::path mask = canonical_name(paths.mask);
+  const fs::path confidence = paths.confidence.empty() ? fs::path() : canonical_name(paths.confidence);
+  if (!confidence.empty() && (is_at_or_below(confidence, mask) || is_at_or_below(mask, confidence)))
     return fail("--confidence " + paths.confidence.string(), "is where the mask goes", ErrorKind::usage);
   if (paths.stages.empty()) return {};
-  const fs::path stages = place_of(paths.stages);
+  const fs::path stages = canonical_path(paths.stages);
   const std::pair<std::string, fs::path> files[] = {{"--out " + paths.mask.string(), mask},
                                                     {"--confidence " + paths.confidence.string(), confidence}};
   for (const auto& [option, file] : files) {
     if (file.empty()) continue;
-    if (lies_at_or_below(stages, file))
+    if (is_at_or_below(stages, file))
       return fail(option, "is the folder that --stages makes; choose another name", ErrorKind::usage);
     if (is_taken_by_a_stage(file, stages))
       return fail(option, "is a name that --stages writes; choose another", ErrorKind::usage);
@@ -52,7 +52,7 @@ Result<void> check_apart(const MaskPaths& paths) {
 Result<void> check_name(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
   const std::string where = std::string(option) + " " + path.string();
   if (path.extension() != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (const Result<void> kept = check_inputs_kept({path}, inputs); !kept)
+  if (const Result<void> kept = check_inputs_not_overwritten({path}, inputs); !kept)
     return fail(where, kept.error().what, ErrorKind::cannot_create);
   return {};
 }
@@ -82,7 +82,7 @@ fs::path MaskOutputs::stage(std::size_t number, std::string_view name) const {
   return paths_.stages / file.append("_").append(name).append(".png");
 }
 
-// Takes the name of a picture, in a folder that is made where it is not there.
+// Takes the name of an image, in a folder that is made where it is not there.
 Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
   Result<void> step = check_name(option, path, inputs);
   if (step) step = folders_.make(path.parent_path());
@@ -97,12 +97,12 @@ Result<void> MaskOutputs::reserve_stages(const std::vector<fs::path>& inputs) {
   if (!overwrite_ && !there.empty())
     return fail(there.front().string(), "exists already; --force replaces the stages that are there",
                 ErrorKind::cannot_create);
-  if (const Result<void> kept = check_inputs_kept(there, inputs); !kept) return kept;
+  if (const Result<void> kept = check_inputs_not_overwritten(there, inputs); !kept) return kept;
   return files_.reserve(stage(0, "frame"));
 }
 
 Result<MaskOutputs> MaskOutputs::reserved(MaskPaths paths, const std::vector<fs::path>& inputs, bool overwrite) {
-  if (const Result<void> apart = check_apart(paths); !apart) return fail(apart.error());
+  if (const Result<void> apart = check_distinct(paths); !apart) return fail(apart.error());
   MaskOutputs out(std::move(paths), overwrite);
   Result<void> step = out.reserve("--out", out.paths_.mask, inputs);
   if (step && !out.paths_.confidence.empty()) step = out.reserve("--confidence", out.paths_.confidence, inputs);
@@ -116,7 +116,7 @@ Result<void> MaskOutputs::write_stages(const OwnBody& found, const cv::Mat& bgr)
   Result<void> step = files_.write(stage(0, "frame"), bgr);
   std::size_t number = 1;
   for (const DetectionStage& made : found.stages)
-    if (step) step = files_.write(stage(number++, made.name), made.picture);
+    if (step) step = files_.write(stage(number++, made.name), made.image);
   if (step) step = files_.write(stage(number, "overlay"), tinted(bgr, found.mask));
   return step;
 }
@@ -126,7 +126,7 @@ Result<std::vector<fs::path>> MaskOutputs::write(const OwnBody& found, const cv:
   if (step && !paths_.confidence.empty()) step = files_.write(paths_.confidence, found.confidence);
   if (step && has_stages()) step = write_stages(found, bgr);
   if (!step) return fail(step.error());
-  Result<std::vector<fs::path>> written = files_.keep();
+  Result<std::vector<fs::path>> written = files_.commit();
   if (!written || !has_stages() || !overwrite_) return written;
   std::error_code code;
   for (const fs::path& there : stages_in(paths_.stages))

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "cli/made_folders.h"
-#include "cli/picture_files.h"
+#include "created_folders.h"
+#include "image_files.h"
 #include "occlusion/detect.h"
 
 namespace sigs::cli {
@@ -21,7 +21,7 @@ struct MaskPaths {
   std::filesystem::path stages;      // a folder; empty: not asked for
 };
 
-// The pictures of one run. They get their names together, or none of them and no folder is left.
+// The images of one run. They get their names together, or none of them and no folder is left.
 class MaskOutputs {
  public:
   // Before the work begins: finding that a file stands in the way after minutes would be late. inputs: what the command
@@ -32,7 +32,7 @@ class MaskOutputs {
   [[nodiscard]] bool has_stages() const { return !paths_.stages.empty(); }
 
   // Writes all; what the files are called. bgr: a frame of the footage, for the stages; empty where there are none.
-  // Pictures of stages that another run has left in the folder go: they would look like steps of this one.
+  // Images of stages that another run has left in the folder go: they would look like steps of this one.
   [[nodiscard]] Result<std::vector<std::filesystem::path>> write(const OwnBody& found, const cv::Mat& bgr);
 
  private:
@@ -45,11 +45,11 @@ class MaskOutputs {
 
   MaskPaths paths_;
   bool overwrite_ = false;
-  MadeFolders folders_;  // outlives the files: a folder can go only once it is empty
-  PictureFiles files_;
+  CreatedFolders folders_;  // outlives the files: a folder can go only once it is empty
+  ImageFiles files_;
 };
 
-// Whether a picture of a step, of any method, may have this name: "03_canny.png".
+// Whether an image of a step, of any method, may have this name: "03_canny.png".
 [[nodiscard]] bool is_stage_name(std::string_view file_name);
 
 }  // namespace sigs::cli

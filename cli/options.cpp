@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "annotation/number_text.h"
 #include "base/ensure.h"
+#include "base/number_text.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "project/set_field.h"
@@ -43,7 +43,7 @@ std::string default_of(const char* key) {
   return std::to_string(*std::get<int*>(field.value));
 }
 
-std::string wrong_choice(const Choice& choice, const std::string& text) {
+std::string choice_error(const Choice& choice, const std::string& text) {
   std::string names;
   for (const std::string_view name : choice.names) {
     if (name == text) return "";
@@ -52,7 +52,7 @@ std::string wrong_choice(const Choice& choice, const std::string& text) {
   return "is " + text + ", must be " + names;
 }
 
-std::string wrong_number(const Field& field, const std::string& text) {
+std::string number_error(const Field& field, const std::string& text) {
   int64_t number = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_negative = text.starts_with('-');
@@ -67,12 +67,12 @@ std::string wrong_number(const Field& field, const std::string& text) {
 }
 
 // Empty: the setting can be this.
-std::string wrong_value(const std::string& key, const std::string& text) {
+std::string value_error(const std::string& key, const std::string& text) {
   if (text.empty()) return "is empty";
   Project project;
   const Field field = field_of(project, key);
-  if (const auto* const choice = std::get_if<Choice>(&field.value)) return wrong_choice(*choice, text);
-  return wrong_number(field, text);
+  if (const auto* const choice = std::get_if<Choice>(&field.value)) return choice_error(*choice, text);
+  return number_error(field, text);
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ Result<void> set_all(Project& project, const std::vector<std::string>& assignmen
   return {};
 }
 
-Result<void> set_given(Project& project, const GivenSettings& settings) {
+Result<void> set_option_settings(Project& project, const OptionSettings& settings) {
   for (const auto& [key, value] : settings)
     if (!value.empty())
       if (const Result<void> set = set_field(project, key + "=" + value); !set)
@@ -112,12 +112,12 @@ Result<void> set_given(Project& project, const GivenSettings& settings) {
   return {};
 }
 
-void add_setting_option(CLI::App& command, const SettingOption& option, GivenSettings& settings) {
+void add_setting_option(CLI::App& command, const SettingOption& option, OptionSettings& settings) {
   const std::string key = option.key;
   command.add_option(option.name, settings[key], option.help)
       ->type_name(option.value)
       ->default_str(default_of(option.key))
-      ->check(CLI::Validator([key](const std::string& text) { return wrong_value(key, text); }, ""));
+      ->check(CLI::Validator([key](const std::string& text) { return value_error(key, text); }, ""));
 }
 
 CLI::Validator not_empty() {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "export.h"
+#include "export/export_project.h"
 #include "project/project.h"
 
 namespace sigs::cli {
@@ -29,8 +29,8 @@ void add_set_option(CLI::App& command, ProjectOptions& options);  // --set alone
 [[nodiscard]] Result<void> set_all(Project& project, const std::vector<std::string>& assignments);
 
 // What options say that stand for one setting of the project each, by its key; empty: not given.
-using GivenSettings = std::map<std::string, std::string>;
-[[nodiscard]] Result<void> set_given(Project& project, const GivenSettings& settings);
+using OptionSettings = std::map<std::string, std::string>;
+[[nodiscard]] Result<void> set_option_settings(Project& project, const OptionSettings& settings);
 
 // An option that stands for one setting: a whole number or a choice.
 struct SettingOption {
@@ -41,7 +41,7 @@ struct SettingOption {
 };
 
 // Adds it, its default shown. A value that the setting cannot have is the command line's fault, whatever the project.
-void add_setting_option(CLI::App& command, const SettingOption& option, GivenSettings& settings);
+void add_setting_option(CLI::App& command, const SettingOption& option, OptionSettings& settings);
 
 // For paths: an option or argument that is given says something.
 [[nodiscard]] CLI::Validator not_empty();

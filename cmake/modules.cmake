@@ -37,15 +37,15 @@ function(sigs_compile target kind)
   target_compile_options(${target} PRIVATE ${sigs_option_${kind}})
   if(SIGS_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM sigs_precompiled_${kind})
-    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF UNITY_BUILD_BATCH_SIZE 10)
   endif()
 endfunction()
 
 # sigs_module(NAME [LIGHT] LINKS other libraries [PRIVATE_LINKS ...] [SOURCES made by the build]): the static library
-# sigs_NAME of all .cpp of this folder and of the folders in it.
+# sigs_NAME of all .cpp of this folder and of the folders in it but main.cpp.
 function(sigs_module name)
   cmake_parse_arguments(MODULE "LIGHT" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   add_library(sigs_${name} STATIC ${sources} ${MODULE_SOURCES})
   target_link_libraries(sigs_${name} PUBLIC sigs_flags ${MODULE_LINKS} PRIVATE ${MODULE_PRIVATE_LINKS})
   if(MODULE_LIGHT)
@@ -55,15 +55,17 @@ function(sigs_module name)
   endif()
 endfunction()
 
-# sigs_test(NAME [SERIAL] SOURCES a_test.cpp ... LINKS libraries): one doctest program, each test case known to ctest by
-# name. A case that prints "SKIPPED" counts as skipped. SERIAL: nothing else runs beside its cases.
+# sigs_test(NAME [SERIAL] [SOURCES a_test.cpp ...] [ALSO files of other folders] LINKS libraries): one doctest program
+# of the sources given or of all .cpp of this folder; ctest knows each test case by its name. A case that prints
+# "SKIPPED" counts as skipped. SERIAL: nothing else runs beside its cases.
 function(sigs_test name)
-  cmake_parse_arguments(TEST "SERIAL" "" "SOURCES;LINKS" ${ARGN})
-  add_executable(test_${name} ${TEST_SOURCES})
+  cmake_parse_arguments(TEST "SERIAL" "" "SOURCES;ALSO;LINKS" ${ARGN})
+  if(NOT TEST_SOURCES)
+    file(GLOB TEST_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  endif()
+  add_executable(test_${name} ${TEST_SOURCES} ${TEST_ALSO})
   target_link_libraries(test_${name} PRIVATE sigs_test_support ${TEST_LINKS})
   sigs_compile(test_${name} test)
   doctest_discover_tests(test_${name} TEST_PREFIX "${name}: "
     PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED" TIMEOUT 600 RUN_SERIAL ${TEST_SERIAL})
 endfunction()
-
-# sigs_bench(NAME SOURCES ... LINKS ...): the program bench_NAME.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kCube = 96;              // cells along one side of the noise cube
 constexpr float kExtinction = 0.026F;  // 1/m in the thick of a cloud
-constexpr double kReach_m = 42000;
-constexpr float kNoMoreThan = 1.5F;  // the noise that clouds follow never gets there
+constexpr double kExtent_m = 42000;
+constexpr float kMaxNoise = 1.5F;  // the noise that clouds follow never gets there
 
 // Distance to the nearest of one jittered point in each of count^3 boxes of a cube of side 1 that repeats.
 float nearest_point(const glm::vec3& p, int count, std::uint32_t seed) {
@@ -35,8 +35,8 @@ float nearest_point(const glm::vec3& p, int count, std::uint32_t seed) {
   return std::sqrt(best);
 }
 
-// Round heaps upon heaps: cumulus is made of bubbles of many sizes.
-float heaps(const glm::vec3& p) {
+// Round billows upon billows: cumulus is made of bubbles of many sizes.
+float cumulus_density(const glm::vec3& p) {
   float sum = 0, strength = 0.58F;
   int count = 4;
   for (std::uint32_t octave = 0; octave < 4; ++octave) {
@@ -48,18 +48,18 @@ float heaps(const glm::vec3& p) {
 }
 
 // Light that a thickness of cloud passes on: the straight part, and the part that wanders through by many bounces.
-float passed(float thickness) {
+float transmittance(float thickness) {
   return 0.62F * std::exp(-thickness) + 0.38F * std::exp(-0.16F * thickness);
 }
 
 }  // namespace
 
 Clouds::Clouds(const CloudCover& cover) : cover_(cover), billows_(static_cast<std::size_t>(kCube) * kCube * kCube) {
-  for_each_row(kCube, [&](int z) {
+  parallel_rows(kCube, [&](int z) {
     for (int y = 0; y < kCube; ++y)
       for (int x = 0; x < kCube; ++x)
         billows_[(static_cast<std::size_t>(z) * kCube + y) * kCube + x] =
-            heaps(glm::vec3(x, y, z) / static_cast<float>(kCube));
+            cumulus_density(glm::vec3(x, y, z) / static_cast<float>(kCube));
   });
 }
 
@@ -123,9 +123,9 @@ float Clouds::sun_share(const glm::dvec2& p_m) const {
 
 glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dvec3& ray, double dither) const {
   const double climb = -ray.z;
-  if (climb < 0.02 || cover_.clear_below > kNoMoreThan) return glm::vec4(0);
-  const double enter_m = (kBase_m - height_m) / climb, leave_m = std::min((kTop_m - height_m) / climb, kReach_m);
-  if (enter_m >= kReach_m) return glm::vec4(0);
+  if (climb < 0.02 || cover_.clear_below > kMaxNoise) return glm::vec4(0);
+  const double enter_m = (kBase_m - height_m) / climb, leave_m = std::min((kTop_m - height_m) / climb, kExtent_m);
+  if (enter_m >= kExtent_m) return glm::vec4(0);
   const double step_m = std::max((leave_m - enter_m) / 90, 20.0);
   const float detail = std::min(1.0F, 60.0F / static_cast<float>(step_m));  // finer than the steps would be speckle
   glm::vec3 light{0};
@@ -136,7 +136,7 @@ glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dve
     const float here = density(p, cover(glm::dvec2(p)), detail);
     if (here <= 0) continue;
     const float h = static_cast<float>((p.z - kBase_m) / (kTop_m - kBase_m));
-    const glm::vec3 sun = kSunlight * (1.12F * passed(depth_to_sun(p)));
+    const glm::vec3 sun = kSunlight * (1.12F * transmittance(depth_to_sun(p)));
     const glm::vec3 sky =
         glm::mix(glm::vec3(0.20F, 0.235F, 0.28F), glm::vec3(0.36F, 0.42F, 0.52F), smooth(0.0F, 0.7F, h));
     const float kept = std::exp(-here * kExtinction * static_cast<float>(step_m));
@@ -149,7 +149,7 @@ glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dve
   if (depth_weight <= 0) return glm::vec4(0);
   const double distance_m = depth_sum / depth_weight;
   const float opacity =
-      (1 - clear) * (1 - smooth(0.55F * float(kReach_m), float(kReach_m), static_cast<float>(distance_m)));
+      (1 - clear) * (1 - smooth(0.55F * float(kExtent_m), float(kExtent_m), static_cast<float>(distance_m)));
   const glm::vec3 through = clear_share(0.55 * distance_m);  // the air up there is thinner than at the ground
   const glm::vec3 behind = clear_sky(static_cast<float>(climb));
   return {(light / (1 - clear) * through + behind * (1.0F - through)) * opacity, opacity};

@@ -9,14 +9,14 @@ namespace sigs::footage {
 
 namespace {
 
-// A pixel of the lens in calibrations/sample.xml is 1.8 mrad wide in the middle of the picture.
+// A pixel of the lens in calibrations/sample.xml is 1.8 mrad wide in the middle of the image.
 
 // Less than a pixel.
 constexpr std::array kTrembleRoll{Wave{0.0011, 5 / 8.0, 0.1}, Wave{0.0006, 19 / 8.0, 0.5}, Wave{0.0003, 71 / 8.0, 0.9}};
 constexpr std::array kTremblePitch{Wave{0.0007, 4 / 8.0, 0.3}, Wave{0.0004, 23 / 8.0, 0.2},
                                    Wave{0.00035, 83 / 8.0, 0.6}};
 constexpr std::array kTrembleYaw{Wave{0.0006, 3 / 8.0, 0.7}, Wave{0.0003, 17 / 8.0, 0.4}, Wave{0.00025, 61 / 8.0, 0.1}};
-constexpr Shake kTremble{kTrembleRoll, kTremblePitch, kTrembleYaw};
+constexpr Shake kJitter{kTrembleRoll, kTremblePitch, kTrembleYaw};
 
 // A few pixels, most of all sideways, as the paper's section 5.2 has it.
 constexpr std::array kShakeRoll{Wave{0.0040, 5.1, 0.2}, Wave{0.0020, 8.4, 0.6}, Wave{0.0016, 1.4, 0.9}};
@@ -25,19 +25,19 @@ constexpr std::array kShakeYaw{Wave{0.0058, 6.4, 0.8}, Wave{0.0034, 9.3, 0.3}, W
 constexpr Shake kVibration{kShakeRoll, kShakePitch, kShakeYaw, 0.4, 0.26};
 
 const std::array kConditions{
-    Condition{.name = "sample", .shake = kTremble},
+    Condition{.name = "sample", .shake = kJitter},
     Condition{.name = "table1_clouds",
               .frames = 190,
               .country_m = {78000, 15500},
               .clouds = {-0.7F, 0.5F, 1600},
               .exposure = 1.2F,
-              .shake = kTremble},
+              .shake = kJitter},
     Condition{.name = "table1_clear",
               .frames = 190,
               .country_m = {-52000, -9100},
               .clouds = {9.0F, 10.0F},
               .cirrus = 0.05F,
-              .shake = kTremble},
+              .shake = kJitter},
     Condition{
         .name = "table1_vibration", .frames = 190, .country_m = {31000, 4200}, .cirrus = 0.25F, .shake = kVibration}};
 

@@ -17,7 +17,7 @@ double flight_m(const Condition& condition) {
 
 cv::Mat_<cv::Vec3d> rays_of(const Camera& camera) {
   cv::Mat_<cv::Vec3d> rays(camera.size_px.height + 1, camera.size_px.width + 1);
-  for_each_row(rays.rows, [&](int y) {
+  parallel_rows(rays.rows, [&](int y) {
     for (int x = 0; x < rays.cols; ++x) {
       const glm::dvec3 ray = camera.lens.ray({x, y}).value_or(glm::dvec3(0, 0, -1));
       rays(y, x) = {ray.x, ray.y, ray.z};
@@ -65,18 +65,18 @@ cv::Mat_<cv::Vec3f> Flight::light(int frame) {
   const glm::dmat3 world_from_camera = glm::mat3_cast(rotation_of(attitude_at(condition_, frame)));
   const double x_m = kSpeed_mps * frame / kFrameRate_hz;
   ground_.prepare(x_m);
-  cv::Mat_<cv::Vec3f> picture(body_.cover.size());
-  for_each_row(picture.rows, [&](int y) {
-    for (int x = 0; x < picture.cols; ++x) {
+  cv::Mat_<cv::Vec3f> image(body_.cover.size());
+  parallel_rows(image.rows, [&](int y) {
+    for (int x = 0; x < image.cols; ++x) {
       const float hidden = body_.cover(y, x);
-      cv::Vec3f& pixel = picture(y, x);
+      cv::Vec3f& pixel = image(y, x);
       pixel = body_.color(y, x);
       if (hidden >= 0.999F) continue;
       const glm::vec3 seen = scenery(x, y, x_m, world_from_camera) * (1 - hidden);
       pixel += cv::Vec3f(seen.r, seen.g, seen.b);
     }
   });
-  return picture;
+  return image;
 }
 
 }  // namespace sigs::footage

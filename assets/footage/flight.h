@@ -26,7 +26,7 @@ class Flight {
 
   Condition condition_;
   OwnBody body_;
-  cv::Mat_<cv::Vec3d> rays_;  // camera axes; one column and row more than the picture
+  cv::Mat_<cv::Vec3d> rays_;  // camera axes; one column and row more than the image
   Clouds clouds_;
   SkyMap sky_;
   Ground ground_;

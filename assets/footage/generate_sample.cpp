@@ -15,7 +15,7 @@ namespace {
 
 using namespace sigs::footage;
 
-struct Wishes {
+struct GeneratorOptions {
   std::string calibration;
   std::string mask;
   int first = 0;
@@ -25,21 +25,21 @@ struct Wishes {
   std::string attitudes;
 };
 
-void describe(CLI::App& app, Wishes& wishes) {
-  app.add_option("CALIBRATION", wishes.calibration, "the lens")->required();
-  app.add_option("MASK", wishes.mask, "PNG to write: what the own body hides")->required();
-  CLI::Option* first = app.add_option("FIRST", wishes.first, "first frame to draw")->check(CLI::NonNegativeNumber);
-  CLI::Option* last = app.add_option("LAST", wishes.last, "last frame to draw")->check(CLI::NonNegativeNumber);
+void describe(CLI::App& app, GeneratorOptions& options) {
+  app.add_option("CALIBRATION", options.calibration, "the lens")->required();
+  app.add_option("MASK", options.mask, "PNG to write: what the own body hides")->required();
+  CLI::Option* first = app.add_option("FIRST", options.first, "first frame to draw")->check(CLI::NonNegativeNumber);
+  CLI::Option* last = app.add_option("LAST", options.last, "last frame to draw")->check(CLI::NonNegativeNumber);
   first->needs(last);
-  app.add_option("--clip", wishes.clip, "sample, table1_clouds, table1_clear or table1_vibration");
-  app.add_option("--length", wishes.length, "frames of the whole clip")->check(CLI::Range(1, 10000));
-  app.add_option("--attitudes", wishes.attitudes, "CSV to write: the attitude at each frame of the whole clip");
+  app.add_option("--clip", options.clip, "sample, table1_clouds, table1_clear or table1_vibration");
+  app.add_option("--length", options.length, "frames of the whole clip")->check(CLI::Range(1, 10000));
+  app.add_option("--attitudes", options.attitudes, "CSV to write: the attitude at each frame of the whole clip");
 }
 
-std::optional<Condition> condition_of(const Wishes& wishes) {
+std::optional<Condition> condition_of(const GeneratorOptions& options) {
   for (Condition condition : conditions()) {
-    if (condition.name != wishes.clip) continue;
-    if (wishes.length > 0) condition.frames = wishes.length;
+    if (condition.name != options.clip) continue;
+    if (options.length > 0) condition.frames = options.length;
     return condition;
   }
   return std::nullopt;
@@ -81,31 +81,31 @@ int write_frames(Flight& flight, const Condition& condition, int first, int last
   return std::fflush(stdout) == 0 ? 0 : 74;
 }
 
-int generate(const Wishes& wishes) {
-  const std::optional<Condition> condition = condition_of(wishes);
-  if (!condition) return failed(wishes.clip + ": there is no such clip", 64);
-  const int last = wishes.last < 0 ? condition->frames - 1 : wishes.last;
-  if (last >= condition->frames || wishes.first > last)
+int generate(const GeneratorOptions& options) {
+  const std::optional<Condition> condition = condition_of(options);
+  if (!condition) return failed(options.clip + ": there is no such clip", 64);
+  const int last = options.last < 0 ? condition->frames - 1 : options.last;
+  if (last >= condition->frames || options.first > last)
     return failed("the clip has the frames 0 to " + std::to_string(condition->frames - 1), 64);
-  const auto camera = sigs::read_calibration(wishes.calibration);
+  const auto camera = sigs::read_calibration(options.calibration);
   if (!camera) return failed(camera.error().text(), 66);
-  if (!wishes.attitudes.empty() && !write_attitudes(wishes.attitudes, *condition))
-    return failed(wishes.attitudes + ": cannot be written", 73);
+  if (!options.attitudes.empty() && !write_attitudes(options.attitudes, *condition))
+    return failed(options.attitudes + ": cannot be written", 73);
   Flight flight(*camera, *condition);
-  if (!write_mask(wishes.mask, flight.body().cover)) return failed(wishes.mask + ": cannot be written", 73);
-  return write_frames(flight, *condition, wishes.first, last);
+  if (!write_mask(options.mask, flight.body().cover)) return failed(options.mask + ": cannot be written", 73);
+  return write_frames(flight, *condition, options.first, last);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   CLI::App app("Draws the sample footage.");
-  Wishes wishes;
-  describe(app, wishes);
+  GeneratorOptions options;
+  describe(app, options);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 64;
   }
-  return generate(wishes);
+  return generate(options);
 }

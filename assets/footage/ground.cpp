@@ -11,7 +11,7 @@ namespace sigs::footage {
 
 namespace {
 
-constexpr double kLongestStretch_m = 180;
+constexpr double kMaxStep_m = 180;
 constexpr double kFade_m = 20;
 
 // The same cells, named by where they lie in the country.
@@ -42,7 +42,7 @@ std::vector<glm::vec3> painted_row(const Clouds& clouds, const GroundMap::Layer&
 
 Ground::Ground(const Clouds& clouds, const glm::dvec2& country_m, double flight_m)
     : clouds_(clouds), country_m_(country_m) {
-  const double count = std::max(1.0, std::ceil(flight_m / kLongestStretch_m));
+  const double count = std::max(1.0, std::ceil(flight_m / kMaxStep_m));
   stretch_m_ = flight_m / count;
   maps_.resize(static_cast<std::size_t>(count));
 }

@@ -10,11 +10,11 @@ namespace sigs::footage {
 
 namespace {
 
-constexpr double kFinestReach_m = 420;
+constexpr double kMinExtent_m = 420;
 constexpr float kUnit = 65535.0F / 2;
 
 GroundMap::Layer empty_layer(int k, double flight_m) {
-  const double cell_m = GroundMap::kFinestCell_m * (1 << k), reach_m = kFinestReach_m * (1 << k);
+  const double cell_m = GroundMap::kFinestCell_m * (1 << k), reach_m = kMinExtent_m * (1 << k);
   const int rows = static_cast<int>((flight_m + reach_m) / cell_m) + 4,
             columns = static_cast<int>(2 * reach_m / cell_m) + 4;
   return {cell_m, {-2 * cell_m, -0.5 * cell_m * columns}, cv::Mat_<cv::Vec3w>(rows, columns)};
@@ -26,7 +26,7 @@ GroundMap::GroundMap(double flight_m, const PaintRow& paint, const Finish& finis
   for (int k = 0; k < kLayers; ++k) {
     Layer layer = empty_layer(k, flight_m);
     cv::Mat color(layer.color.size(), CV_32FC3);
-    for_each_row(color.rows, [&](int row) {
+    parallel_rows(color.rows, [&](int row) {
       const std::vector<glm::vec3> painted = paint(layer, row);
       for (int i = 0; i < color.cols; ++i) color.at<cv::Vec3f>(row, i) = {painted[i].r, painted[i].g, painted[i].b};
     });
@@ -67,7 +67,7 @@ glm::vec3 GroundMap::mean(const glm::dvec2& p_m, const glm::dvec2& step_right_m,
   const double width_m = std::max(area_m2 / length_m, length_m / 16);
   const int taps = std::clamp(static_cast<int>(std::ceil(length_m / width_m)), 1, 16);
   // The finer of the two layers that are mixed must reach as far as p.
-  const double reach = std::max({std::abs(p_m.y), p_m.x, 1.0}) / kFinestReach_m;
+  const double reach = std::max({std::abs(p_m.y), p_m.x, 1.0}) / kMinExtent_m;
   const double level = std::max(std::log2(width_m / kFinestCell_m), std::log2(reach) + 1);
   glm::vec3 sum{0};
   for (int i = 0; i < taps; ++i) sum += between_layers(p_m + longer * ((i + 0.5) / taps - 0.5), level);

@@ -103,7 +103,7 @@ void draw_house(Brush& brush, const glm::dvec2& middle_m, std::uint32_t id) {
   });
 }
 
-bool tree_stands(const glm::dvec2& p_m, float draw) {
+bool has_tree(const glm::dvec2& p_m, float draw) {
   if (distance_to_road_m(p_m) < 6 || distance_to_river_m(p_m) < river_half_width_m(p_m) + 2) return false;
   if (village_at(p_m) > 0.1F) return draw < 0.30F;
   if (distance_to_river_m(p_m) < river_half_width_m(p_m) + 22) return draw < 0.5F;
@@ -114,7 +114,7 @@ bool tree_stands(const glm::dvec2& p_m, float draw) {
   return draw < 0.0015F;
 }
 
-bool house_stands(const glm::dvec2& p_m, float draw) {
+bool has_house(const glm::dvec2& p_m, float draw) {
   if (distance_to_road_m(p_m) < 14 || wood_at(p_m) > -0.05F) return false;
   if (distance_to_river_m(p_m) < river_half_width_m(p_m) + 20 || field_at(p_m).to_lane_m < 12) return false;
   return draw < 0.75F * village_at(p_m) || draw > 0.9994F;
@@ -138,11 +138,10 @@ void draw_objects(const GroundMap::Layer& layer, const glm::dvec2& eye_m, cv::Ma
   if (layer.cell_m > 6) return;
   Brush brush(layer, color);
   for_each_place(layer, 7.5, 95, [&](const glm::dvec2& p_m, std::uint32_t id) {
-    if (const float draw = chance(hash(id, 3, 1)); draw < 0.8F && tree_stands(p_m, draw))
-      draw_tree(brush, p_m, eye_m, id);
+    if (const float draw = chance(hash(id, 3, 1)); draw < 0.8F && has_tree(p_m, draw)) draw_tree(brush, p_m, eye_m, id);
   });
   for_each_place(layer, 23, 96, [&](const glm::dvec2& p_m, std::uint32_t id) {
-    if (house_stands(p_m, chance(hash(id, 3, 1)))) draw_house(brush, p_m, id);
+    if (has_house(p_m, chance(hash(id, 3, 1)))) draw_house(brush, p_m, id);
   });
 }
 

@@ -6,7 +6,7 @@
 
 namespace sigs::footage {
 
-// Repeatable chance: everything in the picture grows out of these, without state and without a clock.
+// Repeatable chance: everything in the image grows out of these, without state and without a clock.
 
 // Mixes bits, so that neighbouring inputs have nothing in common any more.
 [[nodiscard]] inline std::uint32_t hash(std::uint32_t x) {

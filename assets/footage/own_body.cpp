@@ -24,12 +24,12 @@ double nose_distance(const glm::dvec3& p) {
   return size < 1e-9 ? -0.088 : size * (size - 1) / slope;
 }
 
-struct BoomPlace {
+struct BoomPoint {
   double distance = 0;
   double along = 0;  // 0 root, 1 tip
 };
 
-BoomPlace boom_at(const glm::dvec3& p) {
+BoomPoint boom_at(const glm::dvec3& p) {
   const glm::dvec3 axis = kBoomTip - kBoomRoot;
   const double along = std::clamp(glm::dot(p - kBoomRoot, axis) / glm::dot(axis, axis), 0.0, 1.0);
   const double radius = along > 0.62 ? kTipRadius_m : kBoomRadius_m;
@@ -53,7 +53,7 @@ glm::dvec3 normal_at(const glm::dvec3& p) {
 }
 
 glm::vec3 paint_at(const glm::dvec3& p) {
-  if (const BoomPlace boom = boom_at(p); boom.distance < nose_distance(p)) {
+  if (const BoomPoint boom = boom_at(p); boom.distance < nose_distance(p)) {
     if (boom.along > 0.62) return glm::vec3(0.42F, 0.42F, 0.43F);
     return boom.along < 0.10 ? glm::vec3(0.45F) : glm::vec3(0.035F);
   }
@@ -95,7 +95,7 @@ OwnBody own_body(const Camera& camera) {
   constexpr int kFine = 4;
   constexpr double kDefocus_px = 1.3;
   OwnBody body{cv::Mat_<cv::Vec3f>(camera.size_px, cv::Vec3f()), cv::Mat_<float>(camera.size_px, 0.0F)};
-  for_each_row(camera.size_px.height, [&](int y) {
+  parallel_rows(camera.size_px.height, [&](int y) {
     for (int x = 0; x < camera.size_px.width; ++x) {
       glm::vec4 sum{0};
       for (int i = 0; i < kFine * kFine; ++i) {

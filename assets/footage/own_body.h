@@ -8,7 +8,7 @@
 namespace sigs::footage {
 
 // What of the aircraft itself the camera on its back sees: the nose with its pitot boom. It stands still in the
-// picture.
+// image.
 struct OwnBody {
   cv::Mat_<cv::Vec3f> color;  // linear light, premultiplied
   cv::Mat_<float> cover;      // 0..1; the lens is focused far away, so the edges are soft

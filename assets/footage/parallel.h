@@ -10,7 +10,7 @@ namespace sigs::footage {
 
 // Calls work(i) once for every i in 0..count-1 on all cores. Calls must not depend on each other.
 template <class Work>
-void for_each_row(int count, const Work& work) {
+void parallel_rows(int count, const Work& work) {
   std::atomic<int> next{0};
   const auto run = [&] {
     for (int i = next++; i < count; i = next++) work(i);

@@ -65,7 +65,7 @@ struct Planes {
 Planes ycbcr(const cv::Mat_<cv::Vec3f>& light, float exposure) {
   static const ToneTable tone;
   Planes planes{cv::Mat_<float>(light.size()), cv::Mat_<float>(light.size()), cv::Mat_<float>(light.size())};
-  for_each_row(light.rows, [&](int y) {
+  parallel_rows(light.rows, [&](int y) {
     for (int x = 0; x < light.cols; ++x) {
       const float dim = exposure * vignette(x, y, light.size());
       const cv::Vec3f& c = light(y, x);
@@ -90,7 +90,7 @@ cv::Mat_<float> sharpened(const cv::Mat_<float>& luma) {
 
 // Half size in both ways: 1 2 1 across on the even columns, the mean of two rows.
 void write_chroma(const cv::Mat_<float>& plane, std::uint32_t seed, std::uint8_t* out) {
-  for_each_row(plane.rows / 2, [&](int row) {
+  parallel_rows(plane.rows / 2, [&](int row) {
     for (int i = 0; i < plane.cols / 2; ++i) {
       const int left = std::max(2 * i - 1, 0), middle = 2 * i, right = 2 * i + 1;
       float sum = 0;
@@ -109,7 +109,7 @@ std::vector<std::uint8_t> developed(const cv::Mat_<cv::Vec3f>& light, float expo
   const std::size_t pixels = light.total();
   std::vector<std::uint8_t> bytes(pixels * 3 / 2);
   const std::uint32_t seed = 1000U + 3U * static_cast<std::uint32_t>(frame);
-  for_each_row(light.rows, [&](int y) {
+  parallel_rows(light.rows, [&](int y) {
     for (int x = 0; x < light.cols; ++x) {
       const float value = std::clamp(luma(y, x), 0.0F, 1.0F);
       const float deviation = 1.7F - 1.0F * value;  // the curve lifts the shadows, and their noise with them

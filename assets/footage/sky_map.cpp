@@ -42,32 +42,32 @@ SkyMap::SkyMap(const Clouds& clouds, const Setting& setting) : setting_(setting)
 }
 
 cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
-  cv::Mat_<cv::Vec4f> picture(static_cast<int>(kHeight_rad * kPixelsPerRadian),
-                              static_cast<int>(2 * kHalfWidth_rad * kPixelsPerRadian));
-  for_each_row(picture.rows, [&](int row) {
-    for (int i = 0; i < picture.cols; ++i) {
+  cv::Mat_<cv::Vec4f> image(static_cast<int>(kHeight_rad * kPixelsPerRadian),
+                            static_cast<int>(2 * kHalfWidth_rad * kPixelsPerRadian));
+  parallel_rows(image.rows, [&](int row) {
+    for (int i = 0; i < image.cols; ++i) {
       const double up = row / kPixelsPerRadian, azimuth = i / kPixelsPerRadian - kHalfWidth_rad;
       const glm::dvec3 ray{std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), -std::sin(up)};
       const glm::vec4 c =
           clouds.along(setting_.country_m + glm::dvec2(x_m, 0), setting_.height_m, ray, chance(i, row, 121));
-      picture(row, i) = {c.r, c.g, c.b, c.a};
+      image(row, i) = {c.r, c.g, c.b, c.a};
     }
   });
-  cv::GaussianBlur(picture, picture, {}, 0.9);  // takes the dither's grain out
-  return picture;
+  cv::GaussianBlur(image, image, {}, 0.9);  // takes the dither's grain out
+  return image;
 }
 
 glm::vec4 SkyMap::clouds_from(int place, double x_m, const glm::dvec3& ray) const {
   const double distance_m = (kMiddleOfClouds_m - setting_.height_m) / std::max(-ray.z, 0.02);
   const glm::dvec3 seen = distance_m * ray + glm::dvec3(x_m - place * spacing_m_, 0, 0);
   const double azimuth = std::atan2(seen.y, seen.x), up = std::atan2(-seen.z, std::hypot(seen.x, seen.y));
-  const cv::Mat_<cv::Vec4f>& picture = places_[place];
-  const double x = std::clamp((azimuth + kHalfWidth_rad) * kPixelsPerRadian, 0.0, picture.cols - 1.001);
-  const double y = std::clamp(up * kPixelsPerRadian, 0.0, picture.rows - 1.001);
+  const cv::Mat_<cv::Vec4f>& image = places_[place];
+  const double x = std::clamp((azimuth + kHalfWidth_rad) * kPixelsPerRadian, 0.0, image.cols - 1.001);
+  const double y = std::clamp(up * kPixelsPerRadian, 0.0, image.rows - 1.001);
   const int i = static_cast<int>(x), j = static_cast<int>(y);
   const float u = static_cast<float>(x - i), v = static_cast<float>(y - j);
-  const cv::Vec4f c = (picture(j, i) * (1 - u) + picture(j, i + 1) * u) * (1 - v) +
-                      (picture(j + 1, i) * (1 - u) + picture(j + 1, i + 1) * u) * v;
+  const cv::Vec4f c = (image(j, i) * (1 - u) + image(j, i + 1) * u) * (1 - v) +
+                      (image(j + 1, i) * (1 - u) + image(j + 1, i + 1) * u) * v;
   return {c[0], c[1], c[2], c[3]};
 }
 

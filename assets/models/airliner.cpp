@@ -155,7 +155,7 @@ Patch fin() {
                                              station(4.5, 31.42, 4.56, 0.10),   station(6.6, 33.22, 3.03, 0.10),
                                              station(7.75, 34.2, 2.2, 0.095),   station(7.95, 34.55, 1.8, 0.08)};
   const Patch whole = wing(stations, 8, "fin");
-  return papered(whole, kAirlinerFin);
+  return with_side_texture(whole, kAirlinerFin);
 }
 
 // Cowl with a dark intake, fan, core nozzle and plug; hung on a pylon.

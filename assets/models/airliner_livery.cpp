@@ -16,7 +16,7 @@ bool within(double x, double low, double high) {
   return x >= low && x < high;
 }
 
-bool on_cabin_window(const SidePlace& at) {
+bool on_cabin_window(const SidePoint& at) {
   constexpr double kPitch_m = 0.533, kHalfWidth_m = 0.125, kHalfHeight_m = 0.18, kMiddle_z_m = 0.40;
   if (!within(at.back_m, 6.0, 29.6)) return false;
   const double x = std::fmod(at.back_m, kPitch_m) - 0.5 * kPitch_m, y = at.z_m - kMiddle_z_m;
@@ -24,7 +24,7 @@ bool on_cabin_window(const SidePlace& at) {
 }
 
 // Windscreen and side windows of the cockpit, with the posts between them left in body colour.
-bool on_cockpit_window(const SidePlace& at) {
+bool on_cockpit_window(const SidePoint& at) {
   const double low = 0.52 + 0.03 * (at.back_m - 1.4), high = 1.16 - 0.06 * std::max(0.0, at.back_m - 2.6);
   const double rear = 3.85 - 0.55 * (at.z_m - low);
   if (!within(at.z_m, low, high) || !within(at.back_m, 1.3, rear)) return false;
@@ -33,13 +33,13 @@ bool on_cockpit_window(const SidePlace& at) {
   return true;
 }
 
-bool on_outline(const SidePlace& at, double back_m, double z_m, double half_width_m, double half_height_m) {
+bool on_outline(const SidePoint& at, double back_m, double z_m, double half_width_m, double half_height_m) {
   const double x = std::abs(at.back_m - back_m) / half_width_m, y = std::abs(at.z_m - z_m) / half_height_m;
   return std::max(x, y) < 1 &&
          (std::abs(at.back_m - back_m) > half_width_m - 0.035 || std::abs(at.z_m - z_m) > half_height_m - 0.035);
 }
 
-bool on_door(const SidePlace& at) {
+bool on_door(const SidePoint& at) {
   return on_outline(at, 4.95, 0.15, 0.43, 0.95) || on_outline(at, 30.6, 0.45, 0.40, 0.85) ||
          on_outline(at, 15.9, 0.35, 0.26, 0.50) || on_outline(at, 16.9, 0.35, 0.26, 0.50);
 }
@@ -49,7 +49,7 @@ double cheat_line_z(double back_m) {
   return -0.42 + 0.012 * std::pow(std::max(0.0, back_m - 21.5), 2);
 }
 
-Colour fuselage_colour(const SidePlace& at) {
+Colour fuselage_colour(const SidePoint& at) {
   static const Lettering title("SIGS AIR"), registration("EC-SGS");
   if (on_cockpit_window(at) || on_cabin_window(at)) return kGlass;
   if (on_door(at)) return kSeam;
@@ -64,7 +64,7 @@ Colour fuselage_colour(const SidePlace& at) {
 }
 
 // A rising sun behind the waves: two arcs of orange and white on navy.
-Colour fin_colour(const SidePlace& at) {
+Colour fin_colour(const SidePoint& at) {
   const double s = at.back_m + 27.0;
   const double leading = 28.1 + std::max(0.0, at.z_m - 2.0) * 1.12;
   const double from_sun = std::hypot(s - 34.1, at.z_m - 5.1);
@@ -121,8 +121,8 @@ std::vector<MaterialSpec> airliner_materials() {
 }
 
 std::vector<Texture> airliner_textures() {
-  const auto sides = [](const glm::dvec2& p) { return fuselage_colour(side_place(kAirlinerSides, p)); };
-  const auto fin = [](const glm::dvec2& p) { return fin_colour(side_place(kAirlinerFin, p)); };
+  const auto sides = [](const glm::dvec2& p) { return fuselage_colour(side_point(kAirlinerSides, p)); };
+  const auto fin = [](const glm::dvec2& p) { return fin_colour(side_point(kAirlinerFin, p)); };
   return {{"fuselage.png", painted({1024, 512}, sides)},
           {"fin.png", painted({256, 512}, fin)},
           {"wing.png", painted({512, 256}, wing_colour)},

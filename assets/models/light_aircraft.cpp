@@ -145,7 +145,7 @@ Patch fin() {
             station(0.68, 6.62, 1.61, 0.06), station(0.85, 6.82, 1.42, 0.07), station(1.30, 7.25, 1.02, 0.08),
             station(1.37, 7.34, 0.93, 0.07), station(1.40, 7.46, 0.78, 0.04)},
            8, "fin");
-  return papered(whole, kLightFin);
+  return with_side_texture(whole, kLightFin);
 }
 
 Patch wheel(double s, double y, double z, double radius, double half_width) {

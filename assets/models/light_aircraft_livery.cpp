@@ -21,7 +21,7 @@ double stripe_z(double back_m) {
   return -0.10 + 0.075 * behind - 0.10 * std::max(0.0, 1.2 - back_m);
 }
 
-bool on_seam(const SidePlace& at) {
+bool on_seam(const SidePoint& at) {
   const bool cowl = std::abs(at.back_m - 1.5) < 0.012;
   const bool door =
       (std::abs(at.back_m - 2.36) < 0.010 || std::abs(at.back_m - 3.28) < 0.010) && within(at.z_m, -0.42, 0.8);
@@ -29,7 +29,7 @@ bool on_seam(const SidePlace& at) {
   return cowl || door || sill;
 }
 
-Colour fuselage_colour(const SidePlace& at) {
+Colour fuselage_colour(const SidePoint& at) {
   static const Lettering registration("EC-SIG");
   if (on_text(registration, at, 5.08, 0.365, 0.225)) return kBlue;
   const double above = at.z_m - stripe_z(at.back_m);
@@ -40,7 +40,7 @@ Colour fuselage_colour(const SidePlace& at) {
   return on_seam(at) ? kSeam : kWhite;
 }
 
-Colour fin_colour(const SidePlace& at) {
+Colour fin_colour(const SidePoint& at) {
   const double s = at.back_m + 5.1;
   const double hinge = 7.62 + 0.30 * (at.z_m - 0.3);
   if (std::abs(s - hinge) < 0.013) return kSeam * 0.7;
@@ -90,8 +90,8 @@ std::vector<MaterialSpec> light_aircraft_materials() {
 }
 
 std::vector<Texture> light_aircraft_textures() {
-  const auto sides = [](const glm::dvec2& p) { return fuselage_colour(side_place(kLightSides, p)); };
-  const auto fin = [](const glm::dvec2& p) { return fin_colour(side_place(kLightFin, p)); };
+  const auto sides = [](const glm::dvec2& p) { return fuselage_colour(side_point(kLightSides, p)); };
+  const auto fin = [](const glm::dvec2& p) { return fin_colour(side_point(kLightFin, p)); };
   return {{"fuselage.png", painted({1024, 512}, sides)},
           {"fin.png", painted({256, 256}, fin)},
           {"wing.png", painted({256, 256}, wing_colour)},

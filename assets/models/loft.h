@@ -39,7 +39,7 @@ struct WingStation {
 // A body of revolution around x: profile points are (x, radius). Texture: u along the profile, v around.
 [[nodiscard]] Patch revolved(const std::vector<glm::dvec2>& profile, int sides, const std::string& material);
 
-// A flat disc facing along +x, radius_m around the origin. Texture: the disc is the circle inscribed in the picture.
+// A flat disc facing along +x, radius_m around the origin. Texture: the disc is the circle inscribed in the image.
 [[nodiscard]] Patch disc(double radius_m, int sides, const std::string& material);
 
 // A streamlined strut between two points: an ellipse of chord_m along x and thickness_m across, both ends closed.

@@ -10,8 +10,8 @@ namespace sigs::models {
 
 using Colour = glm::dvec3;  // red, green, blue; display code values 0..1
 
-// A picture painted by asking for the colour at 5 x 5 places in each pixel. place: x right, y down, 0..1 over the
-// picture.
+// An image painted by asking for the colour at 5 x 5 places in each pixel. place: x right, y down, 0..1 over the
+// image.
 [[nodiscard]] cv::Mat painted(cv::Size size_px, const std::function<Colour(const glm::dvec2& place)>& colour_at);
 
 // Letters as a mask: 1 inside, 0 outside, (0, 0) the upper left corner of the text, (1, 1) its lower right.

@@ -39,7 +39,7 @@ using MaterialOf = std::function<std::string(int row, int column)>;
 [[nodiscard]] Patch moved(Patch patch, const glm::dmat3& turn, const glm::dvec3& shift_m);
 
 // Reflection at the plane y = 0; still seen from outside. flip_v mirrors the texture's rows, so that both sides of a
-// body share one picture: its left side in the upper half, its right side upside down in the lower one.
+// body share one image: its left side in the upper half, its right side upside down in the lower one.
 [[nodiscard]] Patch mirrored(Patch patch, bool flip_v);
 
 // Turns all triangles over where most of them look inwards (the enclosed volume comes out negative).

@@ -8,13 +8,13 @@
 
 namespace sigs::models {
 
-// How a body is papered from its sides. Seen from the left the nose is at the left edge of the picture's upper half;
+// How a body is textured from its sides. Seen from the left the nose is at the left edge of the image's upper half;
 // the lower half is the right side turned by 180 degrees, so that the two meet along the belly and letters read on
 // both.
 struct SideMap {
-  double nose_x_m = 0;    // model x at the picture's left edge
+  double nose_x_m = 0;    // model x at the image's left edge
   double length_m = 1;    // from there back
-  double top_z_m = 1;     // model z at the picture's upper and lower edge
+  double top_z_m = 1;     // model z at the image's upper and lower edge
   double bottom_z_m = 0;  // and at its middle
 
   // Texture coordinates of a point of the left half of the body; mirrored(patch, true) serves the right half.
@@ -23,8 +23,8 @@ struct SideMap {
   }
 };
 
-// Papers both sides of a body whose surface runs around from left to right. Each side gets corners of its own.
-[[nodiscard]] inline Patch papered(const Patch& body, const SideMap& map) {
+// Textures both sides of a body whose surface runs around from left to right. Each side gets corners of its own.
+[[nodiscard]] inline Patch with_side_texture(const Patch& body, const SideMap& map) {
   Patch paper = joined(body, body);
   const std::size_t count = body.position_m.size();
   paper.faces = body.faces;
@@ -42,13 +42,13 @@ struct SideMap {
 }
 
 // A place on the side of a body, as somebody sees it who looks at that side.
-struct SidePlace {
+struct SidePoint {
   bool left = true;
-  double back_m = 0;  // behind the picture's nose edge
+  double back_m = 0;  // behind the image's nose edge
   double z_m = 0;
 };
 
-[[nodiscard]] inline SidePlace side_place(const SideMap& map, const glm::dvec2& place) {
+[[nodiscard]] inline SidePoint side_point(const SideMap& map, const glm::dvec2& place) {
   const bool left = place.y < 0.5;
   const double down = left ? 2 * place.y : 2 * (1 - place.y);
   return {left, place.x * map.length_m, map.top_z_m + down * (map.bottom_z_m - map.top_z_m)};
@@ -56,7 +56,7 @@ struct SidePlace {
 
 // Text whose box begins back_m behind the nose edge and ends where its letters end, upper edge at top_z_m; it reads
 // from left to right on both sides.
-[[nodiscard]] inline bool on_text(const Lettering& text, const SidePlace& at, double back_m, double top_z_m,
+[[nodiscard]] inline bool on_text(const Lettering& text, const SidePoint& at, double back_m, double top_z_m,
                                   double height_m) {
   const double along = (at.back_m - back_m) / (height_m * text.aspect());
   return text.covers(at.left ? along : 1 - along, (top_z_m - at.z_m) / height_m);

@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: MIT
 // Lambert and Blinn-Phong (Blinn 1977) in linear light; the result is premultiplied.
 
-// Compiled three times: without a picture; with PICTURE, of which only opaque texels are touched; with PICTURE and
+// Compiled three times: without an image; with IMAGE, of which only opaque texels are touched; with IMAGE and
 // LAYERED, of which only fragments whose opacity lies within [lowest, highest) belong to the pass.
-#ifdef PICTURE
-uniform sampler2D picture;  // premultiplied; decoded from sRGB by the sampler
+#ifdef IMAGE
+uniform sampler2D image;  // premultiplied; decoded from sRGB by the sampler
 #endif
 #ifdef LAYERED
 uniform float lowest_opacity;
@@ -35,11 +35,11 @@ vec3 unit_or(vec3 v, vec3 fallback) {
   return size > 1e-12 ? v / size : fallback;
 }
 
-#ifdef PICTURE
+#ifdef IMAGE
 // Anisotropic filtering: up to 16 trilinear taps along the longer axis of the pixel's footprint. Written out, because
 // software drivers walk every texel of a footprint, and one at a grazing angle then takes seconds.
 vec4 filtered(vec2 uv) {
-  vec2 size = vec2(textureSize(picture, 0));
+  vec2 size = vec2(textureSize(image, 0));
   vec2 across = dFdx(uv) * size;
   vec2 down = dFdy(uv) * size;
   bool wide = dot(across, across) > dot(down, down);
@@ -47,7 +47,7 @@ vec4 filtered(vec2 uv) {
   float longer = length(axis);
   float shorter = length(wide ? down : across);
   // Edge on, uv can be no number at all; the last level is a single texel.
-  if (!(longer < 1e5)) return textureLod(picture, vec2(0.5), 100.0);
+  if (!(longer < 1e5)) return textureLod(image, vec2(0.5), 100.0);
   float taps = clamp(ceil(longer / max(shorter, 1.0)), 1.0, 16.0);
 #ifdef GL_ARB_gpu_shader5
   // Software drivers shade whole blocks of pixels, of which a small triangle covers few. The rest needs no taps.
@@ -55,13 +55,13 @@ vec4 filtered(vec2 uv) {
 #endif
   float level = log2(max(longer / max(taps, 1.0), 1.0));
   vec4 sum = vec4(0.0);
-  for (float i = 0.5; i < taps; i += 1.0) sum += textureLod(picture, uv + axis / size * (i / taps - 0.5), level);
+  for (float i = 0.5; i < taps; i += 1.0) sum += textureLod(image, uv + axis / size * (i / taps - 0.5), level);
   return sum / max(taps, 1.0);
 }
 #endif
 
 void main() {
-#ifdef PICTURE
+#ifdef IMAGE
   vec4 texel = filtered(surface_uv);
 #ifndef LAYERED
   texel = vec4(texel.rgb / max(texel.a, 1e-4), 1.0);

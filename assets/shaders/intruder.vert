@@ -1,6 +1,6 @@
 #version 330 core
 // SPDX-License-Identifier: MIT
-// Body coordinates to the picture. The origin of all lighting is the body's reference point, turned like the view, so
+// Body coordinates to the image. The origin of all lighting is the body's reference point, turned like the view, so
 // that the numbers stay small however far away the camera is.
 
 uniform mat4 clip_from_body;
@@ -13,7 +13,7 @@ layout(location = 3) in vec4 color;
 layout(location = 4) in vec4 gloss;
 
 out vec3 surface_m;
-// At rims the middle of the pixel may lie outside the triangle, where a normal could point anywhere. The picture on the
+// At rims the middle of the pixel may lie outside the triangle, where a normal could point anywhere. The image on the
 // surface wants the very middle: drivers take any covered sample for the centroid, which would shift it.
 centroid out vec3 surface_normal;
 out vec2 surface_uv;
@@ -24,7 +24,7 @@ void main() {
   gl_Position = clip_from_body * vec4(position_m, 1.0);
   surface_m = view_from_body * position_m;
   surface_normal = view_from_body * normal;
-  surface_uv = vec2(uv.x, 1.0 - uv.y);  // the first row of the picture is its top
+  surface_uv = vec2(uv.x, 1.0 - uv.y);  // the first row of the image is its top
   surface_color = color;
   surface_gloss = gloss;
 }

@@ -8,7 +8,7 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/timing.h"
-#include "see_intruder.h"
+#include "frame/render_intruder.h"
 
 namespace sigs::accuracy {
 
@@ -47,7 +47,7 @@ cv::Mat without_own_body(const cv::Mat& coverage, const cv::Rect& rect, const cv
   return coverage.mul(left);
 }
 
-// The box's part within the picture.
+// The box's part within the image.
 Box inside(const Box& box, cv::Size size_px) {
   const double x = std::max(box.x, -0.5);
   const double y = std::max(box.y, -0.5);
@@ -61,7 +61,7 @@ double edge_error(const Box& a, const Box& b) {
                    std::abs(a.y + a.height - b.y - b.height)});
 }
 
-Moments shown(const Scene& scene, int frame, const ComposedFrame& composed, Bench& bench) {
+Moments shown(const Scene& scene, int frame, const ComposedFrame& composed, ComposeContext& context) {
   cv::Mat coverage;
   if (scene.compositing.method != MethodChoice::direct) {
     if (composed.mask.empty()) return moments_of({}, {});
@@ -69,11 +69,11 @@ Moments shown(const Scene& scene, int frame, const ComposedFrame& composed, Benc
     return moments_of(coverage, {{0, 0}, composed.mask.size()});
   }
   const SceneMoment moment = scene_at(scene, frame);
-  const Result<SeenIntruder> seen = see_intruder(scene, moment, moment.intruders[0], bench);
-  if (!seen) stop(seen.error().text());
-  if (seen->soft.empty()) return moments_of({}, {});
-  seen->soft.coverage.convertTo(coverage, CV_64F);
-  return moments_of(coverage, seen->soft.rect);
+  const Result<IntruderLayers> layers = render_intruder(scene, moment, moment.intruders[0], context);
+  if (!layers) stop(layers.error().text());
+  if (layers->occluded.empty()) return moments_of({}, {});
+  layers->occluded.coverage.convertTo(coverage, CV_64F);
+  return moments_of(coverage, layers->occluded.rect);
 }
 
 }  // namespace
@@ -92,9 +92,9 @@ truth::Setup setup_of(const Scene& scene, int frame) {
           .own_body = scene.own_body};
 }
 
-cv::Mat codes_in(const Frame& picture, const cv::Rect& region) {
+cv::Mat codes_in(const Frame& image, const cv::Rect& region) {
   std::vector<cv::Mat> planes;
-  for (const cv::Mat& plane : picture.planes) planes.push_back(plane(region));
+  for (const cv::Mat& plane : image.planes) planes.push_back(plane(region));
   cv::Mat codes;
   cv::merge(planes, codes);
   codes.convertTo(codes, CV_64F);
@@ -104,17 +104,18 @@ cv::Mat codes_in(const Frame& picture, const cv::Rect& region) {
 Standard standard_of(const Scene& scene, int frame, const Frame& background, int samples_per_side,
                      std::optional<cv::Rect> region) {
   const truth::Setup setup = setup_of(scene, frame);
-  Standard standard{.picture = true_picture(setup, {.samples_per_side = samples_per_side}), .own_body = scene.own_body};
-  const truth::TruePicture& picture = standard.picture;
-  if (picture.rect.empty()) stop("the truth shows nothing");
-  standard.region = region.value_or(region_around(picture.silhouette, setup.sigma_px, setup.size_px));
+  Standard standard{.image = reference_image(setup, {.samples_per_side = samples_per_side}),
+                    .own_body = scene.own_body};
+  const truth::ReferenceImage& image = standard.image;
+  if (image.rect.empty()) stop("the truth shows nothing");
+  standard.region = region.value_or(region_around(image.silhouette, setup.sigma_px, setup.size_px));
   cv::Mat rgb;
   cv::merge(std::vector<cv::Mat>(background.planes.begin(), background.planes.end()), rgb);
   cv::Mat whole;
   rgb.convertTo(whole, CV_64F);
-  over_background(picture, rgb).copyTo(whole(picture.rect));
+  over_background(image, rgb).copyTo(whole(image.rect));
   standard.codes = whole(standard.region).clone();
-  const Moments visible = moments_of(without_own_body(picture.coverage, picture.rect, scene.own_body), picture.rect);
+  const Moments visible = moments_of(without_own_body(image.coverage, image.rect, scene.own_body), image.rect);
   standard.visible_px = visible.area_px;
   standard.centroid_px = visible.centroid_px;
   return standard;
@@ -135,11 +136,11 @@ CodeErrors code_errors(const Standard& standard, const cv::Mat& codes) {
 }
 
 ShapeErrors shape_errors(const Standard& standard, const Scene& scene, int frame, const ComposedFrame& composed,
-                         Bench& bench) {
-  const Moments moments = shown(scene, frame, composed, bench);
+                         ComposeContext& context) {
+  const Moments moments = shown(scene, frame, composed, context);
   ShapeErrors errors{.box_px = std::numeric_limits<double>::quiet_NaN()};
-  if (const auto& silhouette = composed.truth.intruders[0].silhouette)
-    errors.box_px = edge_error(inside(*silhouette, scene.footage.size_px), standard.picture.silhouette);
+  if (const auto& silhouette = composed.truth.intruders[0].amodal_box)
+    errors.box_px = edge_error(inside(*silhouette, scene.footage.size_px), standard.image.silhouette);
   errors.centroid_px = glm::length(moments.centroid_px - standard.centroid_px);
   errors.area_percent = 100 * (moments.area_px / standard.visible_px - 1);
   return errors;

@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "frame.h"
-#include "truth/reference.h"
+#include "frame/compose_frame.h"
+#include "reference/reference.h"
 
 namespace sigs::accuracy {
 
@@ -14,11 +14,11 @@ namespace sigs::accuracy {
 
 // A truth made ready for comparing.
 struct Standard {
-  truth::TruePicture picture;
+  truth::ReferenceImage image;
   cv::Mat own_body;              // of the scene
-  cv::Rect region;               // the silhouette's box grown by a quarter, 8 px and 3 sigma, clipped to the picture
+  cv::Rect region;               // the silhouette's box grown by a quarter, 8 px and 3 sigma, clipped to the image
   cv::Mat codes;                 // CV_64FC3 over region: red, green, blue, not rounded
-  double visible_px = 0;         // area of the silhouette that is in the picture and not hidden
+  double visible_px = 0;         // area of the silhouette that is in the image and not hidden
   glm::dvec2 centroid_px{0, 0};  // of that part
 };
 
@@ -34,8 +34,8 @@ struct CodeErrors {
 };
 [[nodiscard]] CodeErrors code_errors(const Standard& standard, const cv::Mat& codes);  // CV_64FC3 over region
 
-// The region of a picture in PixelLayout::rgb, CV_64FC3.
-[[nodiscard]] cv::Mat codes_in(const Frame& picture, const cv::Rect& region);
+// The region of an image in PixelLayout::rgb, CV_64FC3.
+[[nodiscard]] cv::Mat codes_in(const Frame& image, const cv::Rect& region);
 
 struct ShapeErrors {
   double box_px = 0;        // largest distance between an edge of the annotated silhouette and the true one's
@@ -46,6 +46,6 @@ struct ShapeErrors {
 // How much of each pixel the method gives to the intruder: its layer's coverage where it has one (direct), else its
 // mask (classic and plain: the key is all they know).
 [[nodiscard]] ShapeErrors shape_errors(const Standard& standard, const Scene& scene, int frame,
-                                       const ComposedFrame& composed, Bench& bench);
+                                       const ComposedFrame& composed, ComposeContext& context);
 
 }  // namespace sigs::accuracy

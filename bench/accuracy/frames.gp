@@ -1,7 +1,7 @@
-# Error against run time, a panel a scene. Needs: folder (of the tables), picture.
+# Error against run time, a panel a scene. Needs: folder (of the tables), image.
 width = 1680; height = 1240
 load style
-set output picture
+set output image
 rows_of(scene, method, samples) = sprintf( \
   "< awk -F, '$1 == \"%s\" && $2 == \"%s\" && $4 == %d' %s/frames.csv", scene, method, samples, folder)
 floor_of(scene) = real(system(sprintf( \

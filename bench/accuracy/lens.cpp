@@ -71,14 +71,14 @@ Inverse opencvs(const LensParameters& lens, int iterations, double epsilon) {
           }};
 }
 
-struct Spread {
+struct GaussianWeights {
   double median_px = 0;
   double of_99_px = 0;
   double largest_px = 0;
 };
 
 // How far from its pixel each ray is seen: angle times the lens' magnification there. Infinite where there is no ray.
-Spread errors_of(const Rays& rays, const std::vector<Known>& known) {
+GaussianWeights errors_of(const Rays& rays, const std::vector<Known>& known) {
   std::vector<double> errors_px;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const bool is_ray = std::isfinite(rays[i].x + rays[i].y + rays[i].z) && glm::length(rays[i]) > 0;
@@ -99,9 +99,9 @@ int main(int argc, char** argv) {
     const LensParameters& parameters = named.lens.parameters();
     for (const Inverse& inverse : {ours(named.lens), opencvs(parameters, 5, 0), opencvs(parameters, 20, 0),
                                    opencvs(parameters, 100, 0), opencvs(parameters, 100, 1e-12)}) {
-      const Spread spread = errors_of(inverse.rays(pixels), known);
+      const GaussianWeights spread = errors_of(inverse.rays(pixels), known);
       const double s =
-          least_s(call.quick ? 1 : 9, static_cast<double>(pixels.size()), [&] { (void)inverse.rays(pixels); });
+          min_s(call.quick ? 1 : 9, static_cast<double>(pixels.size()), [&] { (void)inverse.rays(pixels); });
       csv.row(named.name, inverse.name, pixels.size(), spread.median_px, spread.of_99_px, spread.largest_px, 1e9 * s);
     }
   }

@@ -1,7 +1,7 @@
-# From a pixel to its ray: error against time, a panel a lens. Needs: folder, picture.
+# From a pixel to its ray: error against time, a panel a lens. Needs: folder, image.
 width = 1500; height = 860
 load style
-set output picture
+set output image
 lenses = system(sprintf("awk -F, 'NR > 1 && !seen[$1]++ { gsub(/ /, \"~\", $1); print $1 }' %s/lens.csv", folder))
 spaced(name) = system(sprintf("echo '%s' | tr '~' ' '", name))
 rows_of(lens, which) = sprintf("< awk -F, '$1 == \"%s\" && $2 ~ /%s/' %s/lens.csv", lens, which, folder)

@@ -1,7 +1,7 @@
-# Tabulated rays: error against memory and against time, a curve a lens, a point a tolerance. Needs: folder, picture.
+# Tabulated rays: error against memory and against time, a curve a lens, a point a tolerance. Needs: folder, image.
 width = 1500; height = 560
 load style
-set output picture
+set output image
 table = folder."/lens_table.csv"
 lenses = system(sprintf("awk -F, 'NR > 1 && !seen[$1]++ { gsub(/ /, \"~\", $1); print $1 }' %s", table))
 spaced(name) = system(sprintf("echo '%s' | tr '~' ' '", name))
@@ -13,7 +13,7 @@ set multiplot layout 1, 3 margins 0.055, 0.99, 0.13, 0.88 spacing 0.045, 0
 unset key
 do for [i = 1:6] { eval legend(i, 0.05 + 0.16 * (i - 1), spaced(word(lenses, i)), 7, hues[i]) }
 set ylabel "largest error, px" textcolor rgb ink offset 1, 0
-set xlabel "kB kept, whole picture" textcolor rgb ink
+set xlabel "kB kept, whole image" textcolor rgb ink
 set xrange [5:1e5]
 plot for [i = 1:6] rows_of(spaced(word(lenses, i)), "1") using 6:9 with linespoints pt 6 ps 1 \
     lc rgb hues[i], \

@@ -7,7 +7,7 @@
 #include "accuracy/lenses.h"
 #include "accuracy/timing.h"
 #include "camera/lens_table.h"
-#include "truth/exact_lens.h"
+#include "reference/exact_lens.h"
 
 namespace sigs::accuracy {
 
@@ -33,8 +33,8 @@ std::vector<Corner> corners_of(const NamedLens& named, int step_px) {
   return corners;
 }
 
-// Seconds that a row of corners takes, over the whole picture.
-double whole_picture_s(LensTable& table, const cv::Size& size_px) {
+// Seconds that a row of corners takes, over the whole image.
+double whole_image_s(LensTable& table, const cv::Size& size_px) {
   const double start = wall_s();
   for (int y = 0; y <= size_px.height; ++y) (void)table.corner_rays(0, y, size_px.width + 1);
   return wall_s() - start;
@@ -54,12 +54,12 @@ void measure(const NamedLens& named, double tolerance_px, const std::vector<Corn
   double first_s = 1e300;
   for (int round = 0; round < (quick ? 1 : 3); ++round) {
     LensTable fresh(camera, tolerance_px);
-    first_s = std::min(first_s, whole_picture_s(fresh, named.size_px));
+    first_s = std::min(first_s, whole_image_s(fresh, named.size_px));
   }
   LensTable table(camera, tolerance_px);
-  (void)whole_picture_s(table, named.size_px);
+  (void)whole_image_s(table, named.size_px);
   const auto evaluations = static_cast<double>(table.evaluations());
-  const double kept_s = least_s(quick ? 1 : 5, 1, [&] { (void)whole_picture_s(table, named.size_px); });
+  const double kept_s = min_s(quick ? 1 : 5, 1, [&] { (void)whole_image_s(table, named.size_px); });
   const double pixels = (named.size_px.width + 1.0) * (named.size_px.height + 1.0);
   const std::vector<double> errors = errors_px(table, corners);
   csv.row(named.name, tolerance_px, 1e9 * first_s / pixels, 1e9 * kept_s / pixels, evaluations / pixels,

@@ -5,7 +5,7 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/scenes.h"
-#include "truth/exact_lens.h"
+#include "reference/exact_lens.h"
 
 namespace sigs::accuracy {
 
@@ -24,7 +24,7 @@ std::vector<NamedLens> lenses() {
   const cv::Size vga(640, 480);
   return {named("moderate",
                 {kBrown, 535.9, 535.9, 342.3, 235.6, {-0.26637, -0.038589, 0.0017832, -0.00028122, 0.23839}}, vga),
-          named("tangential", tangential_lens(), kPictureSize_px),
+          named("tangential", tangential_lens(), kImageSize_px),
           named("wide; folds", {kBrown, 233.6, 233.6, 320, 240, {-0.32744, 0.12814, 0, 0, -0.023876}}, vga),
           named("rational; large numbers",
                 {kBrown,
@@ -35,8 +35,8 @@ std::vector<NamedLens> lenses() {
                  {-3.4751670360565186, -38.5734748840332, 0.00034309603506699204, 9.377215610584244e-05,
                   286.4400939941406, -3.6408045291900635, -36.68898010253906, 279.0523681640625}},
                 {250, 250}),
-          named("sample clip (fisheye)", sample_lens(), kPictureSize_px),
-          named("fisheye of 170 degrees", fisheye_170_lens(), kPictureSize_px)};
+          named("sample clip (fisheye)", sample_lens(), kImageSize_px),
+          named("fisheye of 170 degrees", fisheye_170_lens(), kImageSize_px)};
 }
 
 std::vector<Known> known_rays(const NamedLens& lens, int across) {

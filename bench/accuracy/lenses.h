@@ -16,7 +16,7 @@ struct NamedLens {
   cv::Size size_px;
 };
 
-// From harmless to wild, each over its whole picture.
+// From harmless to wild, each over its whole image.
 [[nodiscard]] std::vector<NamedLens> lenses();
 
 // A pixel whose ray is known to more than double's digits.
@@ -26,7 +26,7 @@ struct Known {
   double px_per_rad = 0;  // the lens' magnification there
 };
 
-// Rays over the part of the valid field that lies in the picture, some `across` squared of them.
+// Rays over the part of the valid field that lies in the image, some `across` squared of them.
 [[nodiscard]] std::vector<Known> known_rays(const NamedLens& lens, int across);
 
 }  // namespace sigs::accuracy

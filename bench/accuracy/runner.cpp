@@ -10,10 +10,10 @@ Effort effort_of(const Call& call) {
   return call.quick ? Effort{.rounds = 1, .samples_per_side = 4} : Effort{};
 }
 
-Bench& Benches::of(const Method& method) {
+ComposeContext& Benches::of(const Method& method) {
   const auto [at, is_new] = benches_.try_emplace(
       {method.samples, method.lens_tolerance_px},
-      BenchSettings{.samples_per_pixel = method.samples, .lens_tolerance_px = method.lens_tolerance_px});
+      ComposeSettings{.samples_per_pixel = method.samples, .lens_tolerance_px = method.lens_tolerance_px});
   // OpenGL starts here and in no frame's time.
   if (is_new)
     if (const Result<Renderer*> renderer = at->second.renderer(); !renderer) stop(renderer.error().text());
@@ -21,8 +21,8 @@ Bench& Benches::of(const Method& method) {
 }
 
 void Benches::forget(const Scene& scene) {
-  for (auto& [settings, bench] : benches_)
-    for (const auto& model : scene.models) bench.forget(model->mesh);
+  for (auto& [settings, context] : benches_)
+    for (const auto& model : scene.models) context.forget(model->mesh);
 }
 
 std::vector<Runner> runners_of(const Scene& scene, const std::vector<Method>& methods) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "accuracy/csv.h"
-#include "frame.h"
+#include "frame/compose_frame.h"
 
 namespace sigs::accuracy {
 
@@ -17,25 +17,25 @@ struct Effort {
 };
 [[nodiscard]] Effort effort_of(const Call& call);
 
-// A way to make a frame. What is not said is as a project and a bench have it by default.
+// A way to make a frame. What is not said is as a project and a context have it by default.
 struct Method {
   std::string name = "direct";
   MethodChoice choice = MethodChoice::direct;
   int supersampling = CompositingSettings{}.supersampling;
-  int samples = BenchSettings{}.samples_per_pixel;
-  double lens_tolerance_px = BenchSettings{}.lens_tolerance_px;
+  int samples = ComposeSettings{}.samples_per_pixel;
+  double lens_tolerance_px = ComposeSettings{}.lens_tolerance_px;
 };
 
-// One bench for each setting of benches; kept from scene to scene, as an export keeps its own.
+// One context for each setting of benches; kept from scene to scene, as an export keeps its own.
 class Benches {
  public:
-  [[nodiscard]] Bench& of(const Method& method);
+  [[nodiscard]] ComposeContext& of(const Method& method);
 
   // To be called before the scene's models go away.
   void forget(const Scene& scene);
 
  private:
-  std::map<std::pair<int, double>, Bench> benches_;  // by samples and tolerance
+  std::map<std::pair<int, double>, ComposeContext> benches_;  // by samples and tolerance
 };
 
 // A method in a scene, and what its runs took.

@@ -45,7 +45,7 @@ void write_row(Csv& csv, const Recipe& recipe, const Runner& runner, const CodeE
 }
 
 void measure(const Recipe& recipe, const Call& call, Benches& benches, Csv& titles, Csv& csv) {
-  const Frame sky = background(kPictureSize_px);
+  const Frame sky = background(kImageSize_px);
   const Scene scene = made_scene(recipe, call.folder / "projects");
   const Effort effort = effort_of(call);
   const Standard standard = standard_of(scene, kFrame, sky, effort.samples_per_side);
@@ -53,11 +53,11 @@ void measure(const Recipe& recipe, const Call& call, Benches& benches, Csv& titl
   write_floors(csv, recipe, standard, standard_of(scene, kFrame, sky, effort.samples_per_side / 2, standard.region));
   std::vector<Runner> runners = runners_of(scene, all_methods());
   for (Runner& runner : runners)
-    if (runner.method.choice != MethodChoice::direct) runner.skip = 3;  // whole pictures, many times slower
+    if (runner.method.choice != MethodChoice::direct) runner.skip = 3;  // whole images, many times slower
   time(runners, sky, benches, effort.rounds);
   for (const Runner& runner : runners) {
     const ComposedFrame frame = composed(runner, sky, benches);
-    write_row(csv, recipe, runner, code_errors(standard, codes_in(frame.picture, standard.region)),
+    write_row(csv, recipe, runner, code_errors(standard, codes_in(frame.image, standard.region)),
               shape_errors(standard, runner.scene, kFrame, frame, benches.of(runner.method)));
   }
   benches.forget(scene);

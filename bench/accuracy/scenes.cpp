@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "accuracy/csv.h"
-#include "annotation/measure.h"
 #include "camera/camera.h"
 #include "project/project.h"
 #include "scene/scene_at.h"
 #include "scene/scene_files.h"
+#include "truth/measure.h"
 
 namespace sigs::accuracy {
 
@@ -28,7 +28,7 @@ Recipe sample_view(const std::string& name, const std::string& title, double siz
 
 void write_calibration(const fs::path& path, const LensParameters& lens) {
   cv::FileStorage file(path.string(), cv::FileStorage::WRITE);
-  file << "image_width" << kPictureSize_px.width << "image_height" << kPictureSize_px.height;
+  file << "image_width" << kImageSize_px.width << "image_height" << kImageSize_px.height;
   if (lens.model == LensModel::kannala_brandt) file << "fisheye_model" << 1;
   file << "camera_matrix" << cv::Mat(cv::Matx33d(lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1));
   file << "distortion_coefficients" << cv::Mat(lens.coefficients, true);
@@ -57,7 +57,7 @@ void place(Project& project, const Recipe& recipe, const glm::dvec3& ray, double
 }
 
 Scene opened(const Project& project, SceneFiles& files) {
-  const FootageShape footage{.size_px = kPictureSize_px, .times_s = {0, 0.04, 0.08}};
+  const FootageShape footage{.size_px = kImageSize_px, .times_s = {0, 0.04, 0.08}};
   Result<Scene> scene = open_scene(project, footage, files);
   if (!scene) stop(scene.error().text());
   return std::move(*scene);
@@ -117,7 +117,7 @@ std::vector<Recipe> recipes() {
                  .pixel = {1190, 330}});
   all.push_back(
       {.name = "tangential", .title = "strong tangential lens: 60 px", .lens = tangential_lens(), .pixel = {930, 660}});
-  // A barrel's borders lie outside the undistorted picture, where classic draws nothing.
+  // A barrel's borders lie outside the undistorted image, where classic draws nothing.
   all.push_back(sample_view("border", "across the border: 150 px", 150));
   all.back().lens = pincushion_lens();
   all.back().pixel = {24, 350};

@@ -11,7 +11,7 @@
 
 namespace sigs::accuracy {
 
-inline const cv::Size kPictureSize_px{1280, 960};
+inline const cv::Size kImageSize_px{1280, 960};
 inline constexpr int kFrame = 1;  // of the scenes below: the intruder is on its way through `pixel`
 
 // What is to be seen.
@@ -29,7 +29,7 @@ struct Recipe {
 
 // The lens of the sample clip, and three that bend otherwise.
 [[nodiscard]] LensParameters sample_lens();
-[[nodiscard]] LensParameters fisheye_170_lens();  // 170 degrees across the picture's width
+[[nodiscard]] LensParameters fisheye_170_lens();  // 170 degrees across the image's width
 [[nodiscard]] LensParameters tangential_lens();
 [[nodiscard]] LensParameters pincushion_lens();
 

@@ -14,7 +14,7 @@
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
 #include "compositor/transfer_table.h"
-#include "see_intruder.h"
+#include "frame/render_intruder.h"
 
 namespace sigs::accuracy {
 
@@ -102,14 +102,14 @@ struct PlaneErrors {
   double largest_chroma = 0;
 };
 
-PlaneErrors errors_of(const Frame& picture, const Planes& truth, const cv::Rect& region) {
+PlaneErrors errors_of(const Frame& image, const Planes& truth, const cv::Rect& region) {
   PlaneErrors errors;
   const cv::Rect halved(region.x / 2, region.y / 2, region.width / 2, region.height / 2);
   double squares = 0;
   for (std::size_t plane = 0; plane < 3; ++plane) {
     const cv::Rect& part = plane == 0 ? region : halved;
     cv::Mat codes;
-    picture.planes[plane](part).convertTo(codes, CV_64F);
+    image.planes[plane](part).convertTo(codes, CV_64F);
     const cv::Mat off = codes - truth[plane](part);
     if (plane == 0) {
       errors.luma = std::sqrt(off.dot(off) / static_cast<double>(off.total()));
@@ -128,15 +128,15 @@ Frame rounded(const Planes& truth, const Frame& like) {
   return frame;
 }
 
-Layer layer_of(const Scene& scene, Bench& bench) {
+Layer layer_of(const Scene& scene, ComposeContext& context) {
   const SceneMoment moment = scene_at(scene, kFrame);
-  const Result<SeenIntruder> seen = see_intruder(scene, moment, moment.intruders[0], bench);
-  if (!seen) stop(seen.error().text());
-  return seen->soft;
+  const Result<IntruderLayers> layers = render_intruder(scene, moment, moment.intruders[0], context);
+  if (!layers) stop(layers.error().text());
+  return layers->occluded;
 }
 
 void measure(const Recipe& recipe, const Call& call, Benches& benches, Csv& csv) {
-  const Frame sky = background(kPictureSize_px);
+  const Frame sky = background(kImageSize_px);
   const Scene scene = made_scene(recipe, call.folder / "projects");
   const Standard standard = standard_of(scene, kFrame, sky, effort_of(call).samples_per_side);
   cv::Mat rgb;
@@ -150,7 +150,7 @@ void measure(const Recipe& recipe, const Call& call, Benches& benches, Csv& csv)
     Frame by_blocks = cloned(footage);
     blend_by_blocks(by_blocks, layer_of(runner.scene, benches.of(runner.method)));
     const PlaneErrors before = errors_of(by_blocks, truth, standard.region);
-    const PlaneErrors after = errors_of(composed(runner, footage, benches).picture, truth, standard.region);
+    const PlaneErrors after = errors_of(composed(runner, footage, benches).image, truth, standard.region);
     const PlaneErrors floor = errors_of(rounded(truth, footage), truth, standard.region);
     csv.row(recipe.title, name, before.luma, after.luma, floor.luma, before.chroma, after.chroma, floor.chroma,
             before.largest_chroma, after.largest_chroma);

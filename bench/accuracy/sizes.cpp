@@ -14,7 +14,7 @@ namespace {
 void measure_size(double size_px, const Call& call, Benches& benches, Csv& csv) {
   const Scene scene = made_scene({.name = "size", .size_px = size_px, .lens = sample_lens()}, call.folder / "projects");
   std::vector<Runner> runners = runners_of(scene, {{}, {.name = "classic", .choice = MethodChoice::classic}});
-  time(runners, background(kPictureSize_px), benches, effort_of(call).rounds);
+  time(runners, background(kImageSize_px), benches, effort_of(call).rounds);
   const Runner& direct = runners[0];
   const Runner& classic = runners[1];
   std::vector<double> ratios;  // run by run, so that a slow moment of the machine is in both

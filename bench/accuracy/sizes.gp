@@ -1,7 +1,7 @@
-# Milliseconds by the intruder's size, and how many times faster. Needs: folder, picture.
+# Milliseconds by the intruder's size, and how many times faster. Needs: folder, image.
 width = 1400; height = 520
 load style
-set output picture
+set output image
 sizes = folder."/sizes.csv"
 set logscale xy
 set xrange [0.8:500]

@@ -9,7 +9,7 @@
 #include "accuracy/csv.h"
 #include "accuracy/exact_spline.h"
 #include "accuracy/timing.h"
-#include "spline/stiffness.h"
+#include "spline/conditioning.h"
 #include "spline/trajectory.h"
 
 namespace {
@@ -43,7 +43,7 @@ Trajectory made(const std::vector<TimedWaypoint>& flight) {
   return std::move(*trajectory);
 }
 
-// Spread over the flight, on no waypoint.
+// GaussianWeights over the flight, on no waypoint.
 std::vector<double> times_over(const std::vector<TimedWaypoint>& flight, int count) {
   std::vector<double> times_s;
   const double step = (flight.back().time_s - flight.front().time_s) / count;
@@ -79,10 +79,10 @@ EvaluationTimes times_of(const Trajectory& trajectory, const std::vector<TimedWa
   const std::vector<double> times_s = times_over(flight, 20000);
   const int rounds = quick ? 1 : 7;
   double sink = 0;  // so that nothing is left out
-  const double position_s = least_s(rounds, static_cast<double>(times_s.size()), [&] {
+  const double position_s = min_s(rounds, static_cast<double>(times_s.size()), [&] {
     for (const double time_s : times_s) sink += trajectory.position_m(time_s).x;
   });
-  const double pose_s = least_s(rounds, static_cast<double>(times_s.size()), [&] {
+  const double pose_s = min_s(rounds, static_cast<double>(times_s.size()), [&] {
     for (const double time_s : times_s) sink += trajectory.world_from_body(time_s).rotation.w;
   });
   if (!std::isfinite(sink)) stop("a flight that is no number");
@@ -92,7 +92,7 @@ EvaluationTimes times_of(const Trajectory& trajectory, const std::vector<TimedWa
 void measure(int waypoints, double ratio, bool quick, Csv& csv) {
   const std::vector<TimedWaypoint> flight = winding_flight(waypoints, ratio);
   const Trajectory trajectory = made(flight);
-  const double build_s = least_s(quick || waypoints > 3000 ? 2 : 5, 1, [&] { (void)made(flight); });
+  const double build_s = min_s(quick || waypoints > 3000 ? 2 : 5, 1, [&] { (void)made(flight); });
   const FlightErrors errors = errors_of(trajectory, flight, quick ? 5 : 60);
   const EvaluationTimes times = times_of(trajectory, flight, quick);
   csv.row(waypoints, ratio, 1e3 * build_s, times.position_ns, times.pose_ns, errors.position_m, errors.nose_rad,

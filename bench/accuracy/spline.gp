@@ -1,7 +1,7 @@
-# Flights: time and error by the number of waypoints, condition by the legs' ratio. Needs: folder, picture.
+# Flights: time and error by the number of waypoints, condition by the legs' ratio. Needs: folder, image.
 width = 1500; height = 520
 load style
-set output picture
+set output image
 rows_of(ratio) = sprintf("< awk -F, '$2 == %d' %s/spline.csv", ratio, folder)
 set logscale xy
 set multiplot layout 1, 3 margins 0.055, 0.99, 0.13, 0.9 spacing 0.06, 0

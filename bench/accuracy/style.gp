@@ -17,7 +17,7 @@ grey = "#8c959f"
 # Six that tell lenses apart.
 array hues[6] = ["#0969da", "#cf5b00", "#1a7f37", "#8250df", "#bf3989", "#9a6700"]
 
-# A legend above several panels: its entry number n stands at x (of the picture's width).
+# A legend above several panels: its entry number n stands at x (of the image's width).
 legend(n, x, text, pt, color) = sprintf( \
   "set label %d \"%s\" at screen %f, 0.965 left textcolor rgb ink font ',12' point pt %d ps 1.5 lc rgb \"%s\" offset 1, 0", \
   n, text, x, pt, color)

@@ -17,7 +17,7 @@ namespace sigs::accuracy {
 
 // Wall seconds of one call among `calls`, as the least of `rounds` rounds: for what has no randomness of its own.
 template <class Function>
-[[nodiscard]] double least_s(int rounds, double calls, const Function& function) {
+[[nodiscard]] double min_s(int rounds, double calls, const Function& function) {
   double least = 1e300;
   for (int round = 0; round < rounds; ++round) {
     const double start = wall_s();

@@ -11,7 +11,7 @@ namespace sigs::bench {
 using accuracy::stop;
 
 void write_h264(const std::filesystem::path& path, cv::Size size_px, int frames,
-                const std::function<cv::Mat(int)>& picture) {
+                const std::function<cv::Mat(int)>& image) {
   constexpr int kRate_hz = 25;
   const VideoFormat format{.codec = VideoCodec::h264,
                            .container = Container::mp4,
@@ -22,7 +22,7 @@ void write_h264(const std::filesystem::path& path, cv::Size size_px, int frames,
   Result<VideoWriter> writer = VideoWriter::open(path, format);
   if (!writer) stop(writer.error().text());
   for (int n = 0; n < frames; ++n) {
-    Frame frame = frame_of_bgr(picture(n), format.layout, format.color);
+    Frame frame = frame_of_bgr(image(n), format.layout, format.color);
     frame.time_s = double(n) / kRate_hz;
     if (const Result<void> written = writer->write(frame, n); !written) stop(written.error().text());
   }

@@ -21,9 +21,9 @@ struct Clip {
 
 inline constexpr int kCrf = 20;  // of the H.264 files: what a camera's own files are like
 
-// Writes picture(0), picture(1), ... (CV_8UC3) as H.264, 25 frames a second.
+// Writes image(0), image(1), ... (CV_8UC3) as H.264, 25 frames a second.
 void write_h264(const std::filesystem::path& path, cv::Size size_px, int frames,
-                const std::function<cv::Mat(int)>& picture);
+                const std::function<cv::Mat(int)>& image);
 
 // The flight as a file in the folder; made anew, since what draws flights may have changed.
 [[nodiscard]] Clip filmed(const flights::Flight& flight, int frames, const std::filesystem::path& folder);

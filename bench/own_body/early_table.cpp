@@ -31,8 +31,8 @@ void measure(const flights::Flight& flight, int frames, const accuracy::Call& ca
 void measure_early_stop(const accuracy::Call& call) {
   accuracy::Csv table(call.folder / "early.csv",
                       "flight,settled_percent,used,used_of,iou,iou_of_all,wall_s,wall_s_of_all");
-  const flights::Making making{.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480),
-                               .frames = call.quick ? 200 : 1500};
+  const flights::FlightSettings making{.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480),
+                                       .frames = call.quick ? 200 : 1500};
   for (const flights::Flight& flight : flights::all(making))
     if (flight.can_be_told) measure(flight, making.frames, call, table);
 }

@@ -22,10 +22,10 @@ class Watch {
   double cpu_s_ = accuracy::cpu_s();
 };
 
-void draw_outline(cv::Mat& picture, const cv::Mat& mask, const cv::Scalar& color) {
+void draw_outline(cv::Mat& image, const cv::Mat& mask, const cv::Scalar& color) {
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(mask >= 128, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
-  cv::drawContours(picture, outlines, -1, color, 1);
+  cv::drawContours(image, outlines, -1, color, 1);
 }
 
 }  // namespace
@@ -66,17 +66,17 @@ const char* name_of(OwnBodyMethod method) {
 }
 
 cv::Mat overlay(const cv::Mat& bgr, const cv::Mat& mask, const cv::Mat& truth) {
-  cv::Mat picture = bgr.clone();
-  cv::Mat tinted = 0.6 * picture + cv::Scalar(0, 0, 102);
-  tinted.copyTo(picture, mask >= 128);
-  if (!truth.empty()) draw_outline(picture, truth, cv::Scalar(80, 255, 80));
-  draw_outline(picture, mask, cv::Scalar(60, 60, 255));
-  return picture;
+  cv::Mat image = bgr.clone();
+  cv::Mat tinted = 0.6 * image + cv::Scalar(0, 0, 102);
+  tinted.copyTo(image, mask >= 128);
+  if (!truth.empty()) draw_outline(image, truth, cv::Scalar(80, 255, 80));
+  draw_outline(image, mask, cv::Scalar(60, 60, 255));
+  return image;
 }
 
-void write_picture(const std::filesystem::path& path, const cv::Mat& picture) {
+void write_image(const std::filesystem::path& path, const cv::Mat& image) {
   std::filesystem::create_directories(path.parent_path());
-  if (!cv::imwrite(path.string(), picture)) accuracy::stop(path.string() + ": cannot be written");
+  if (!cv::imwrite(path.string(), image)) accuracy::stop(path.string() + ": cannot be written");
 }
 
 }  // namespace sigs::bench

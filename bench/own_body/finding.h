@@ -36,6 +36,6 @@ struct Taken {
 [[nodiscard]] cv::Mat overlay(const cv::Mat& bgr, const cv::Mat& mask, const cv::Mat& truth);
 
 // Stops the program where it cannot be written.
-void write_picture(const std::filesystem::path& path, const cv::Mat& picture);
+void write_image(const std::filesystem::path& path, const cv::Mat& image);
 
 }  // namespace sigs::bench

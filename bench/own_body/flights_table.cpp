@@ -30,14 +30,14 @@ void measure(const Flight& flight, int frames, const accuracy::Call& call, accur
     std::fflush(stdout);
     const std::string file = flight.name + " " + std::to_string(flight.size_px.width) + " " + name_of(method) + ".jpg";
     const cv::Mat mask = finding.cannot.empty() ? finding.body.mask : cv::Mat(cv::Mat::zeros(flight.size_px, CV_8UC1));
-    write_picture(call.folder / "flights" / file, overlay(flight.bgr(frames - 1), mask, clip.own_body));
+    write_image(call.folder / "flights" / file, overlay(flight.bgr(frames - 1), mask, clip.own_body));
   }
   std::filesystem::remove(clip.path);
 }
 
 constexpr const char* kStrongest = "trembles by 2 to 8 px";
 
-flights::Making making_of(const accuracy::Call& call) {
+flights::FlightSettings making_of(const accuracy::Call& call) {
   return {.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480), .frames = call.quick ? 100 : 300};
 }
 
@@ -47,7 +47,7 @@ constexpr const char* kHeader = "flight,width,height,method,iou,truth_percent,fo
 
 void measure_flights(const accuracy::Call& call) {
   accuracy::Csv table(call.folder / "flights.csv", kHeader);
-  const flights::Making making = making_of(call);
+  const flights::FlightSettings making = making_of(call);
   for (const Flight& flight : flights::all(making)) measure(flight, making.frames, call, table);
   if (call.quick) return;
   for (const char* name : {"nose", "two parts"})
@@ -56,7 +56,7 @@ void measure_flights(const accuracy::Call& call) {
 
 void measure_limits(const accuracy::Call& call) {
   accuracy::Csv table(call.folder / "limits.csv", kHeader);
-  const flights::Making making = making_of(call);
+  const flights::FlightSettings making = making_of(call);
   for (Flight flight : flights::hard(making)) {
     measure(flight, making.frames, call, table);
     if (flight.name != kStrongest) continue;

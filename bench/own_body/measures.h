@@ -5,7 +5,7 @@
 
 namespace sigs::bench {
 
-// Both methods on every made flight, through H.264 files: flights.csv, and a picture of each in flights/.
+// Both methods on every made flight, through H.264 files: flights.csv, and an image of each in flights/.
 void measure_flights(const accuracy::Call& call);
 
 // The same on flights beyond what is asked for: limits.csv.
@@ -21,7 +21,7 @@ void measure_early_stop(const accuracy::Call& call);
 void measure_real_clips(const accuracy::Call& call);
 
 // How often a pixel is body by the confidence that it is, tenth by tenth, over flights that the weights were set by and
-// over flights that nothing was set by: reliability.csv; agreement on these: reflections.csv, pictures in reliability/.
+// over flights that nothing was set by: reliability.csv; agreement on these: reflections.csv, images in reliability/.
 void measure_reliability(const accuracy::Call& call);
 
 // What the page shows: flights.jpg of what measure_flights left, stages-paper.jpg, stages-stable.jpg, real-masks.png of

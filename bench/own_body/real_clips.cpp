@@ -22,7 +22,7 @@ const fs::path kVideos = fs::path(SIGS_TEST_DATA) / "video";
 struct RealClip {
   std::string name;
   fs::path path;
-  fs::path truth;  // a picture; empty: not known
+  fs::path truth;  // an image; empty: not known
   bool has_body = true;
   bool can_be_told = true;
 };
@@ -63,9 +63,9 @@ Clip with_body(const LaidOver& made, FrameSource& flight, int frames, const accu
   write_h264(path, size_px, frames, [&](int n) {
     const Result<Frame> frame = flight.read(n);
     if (!frame) accuracy::stop(frame.error().text());
-    cv::Mat picture = bgr_of(*frame);
-    flights::lay_over(picture, body, flights::shake_at(n, size_px, 23));
-    return picture;
+    cv::Mat image = bgr_of(*frame);
+    flights::lay_over(image, body, flights::shake_at(n, size_px, 23));
+    return image;
   });
   return {.name = made.name, .path = path, .own_body = body.truth};
 }
@@ -91,8 +91,8 @@ void measure(const Clip& clip, int frames, const accuracy::Call& call, accuracy:
     std::fflush(stdout);
     if (!finding.cannot.empty()) continue;
     const std::string file = clip.name + " " + name_of(method);
-    write_picture(call.folder / "real" / (file + ".jpg"), overlay(bgr_of(*frame), finding.body.mask, clip.own_body));
-    write_picture(call.folder / "real" / (file + " mask.png"), finding.body.mask);
+    write_image(call.folder / "real" / (file + ".jpg"), overlay(bgr_of(*frame), finding.body.mask, clip.own_body));
+    write_image(call.folder / "real" / (file + " mask.png"), finding.body.mask);
   }
 }
 

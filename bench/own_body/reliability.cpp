@@ -59,7 +59,7 @@ void measure(const std::string& set, const std::vector<Flight>& flights, int fra
     std::printf("%-8s %-28s %.3f %s\n", set.c_str(), name.c_str(), agreement(finding, clip), finding.cannot.c_str());
     std::fflush(stdout);
     const cv::Mat mask = finding.cannot.empty() ? finding.body.mask : cv::Mat(cv::Mat::zeros(flight.size_px, CV_8UC1));
-    write_picture(call.folder / "reliability" / (name + ".jpg"), overlay(flight.bgr(frames - 1), mask, clip.own_body));
+    write_image(call.folder / "reliability" / (name + ".jpg"), overlay(flight.bgr(frames - 1), mask, clip.own_body));
     std::filesystem::remove(clip.path);
   }
   for (std::size_t bin = 0; bin < kBins; ++bin)
@@ -71,8 +71,8 @@ void measure(const std::string& set, const std::vector<Flight>& flights, int fra
 void measure_reliability(const accuracy::Call& call) {
   accuracy::Csv table(call.folder / "reliability.csv", "set,from,pixels,body,confidence");
   accuracy::Csv agreements(call.folder / "reflections.csv", "set,flight,iou,said");
-  const flights::Making making{.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480),
-                               .frames = call.quick ? 60 : 250};
+  const flights::FlightSettings making{.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480),
+                                       .frames = call.quick ? 60 : 250};
   std::vector<Flight> known = flights::all(making);
   for (const std::vector<Flight>& more : {flights::hard(making), flights::reflecting(making)})
     known.insert(known.end(), more.begin(), more.end());

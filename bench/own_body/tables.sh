@@ -76,7 +76,7 @@ table_by_frames() {
   ' "$folder/time.csv"
 }
 
-# Of the pixels of each tenth of the confidence: their share of the picture, their mean confidence, and how many are body.
+# Of the pixels of each tenth of the confidence: their share of the image, their mean confidence, and how many are body.
 table_reliability() {
   awk -F, '
     NR == 1 { next }
@@ -85,7 +85,7 @@ table_reliability() {
     function mean(n) { return pixels[n] > 0 ? sprintf("%.2f", sum[n] / pixels[n]) : "" }
     function part(set, n) { return all[set] > 0 ? sprintf("%.2f %%", 100 * pixels[n] / all[set]) : "" }
     END {
-      print "| confidence | unseen: of the picture | mean confidence | **truly body** | known: of the picture | mean confidence | **truly body** |"
+      print "| confidence | unseen: of the image | mean confidence | **truly body** | known: of the image | mean confidence | **truly body** |"
       print "|---|---|---|---|---|---|---|"
       for (i = 1; i <= count; ++i) {
         u = "unseen" SUBSEP from[i]; k = "known" SUBSEP from[i]

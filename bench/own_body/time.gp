@@ -1,7 +1,7 @@
-# The mask's error by run time, and the run time by that of decoding alone. Needs: folder (of the tables), picture.
+# The mask's error by run time, and the run time by that of decoding alone. Needs: folder (of the tables), image.
 width = 1300; height = 520
 load style
-set output picture
+set output image
 rows_of(condition) = sprintf("< awk -F, 'NR > 1 && %s' %s/time.csv", condition, folder)
 by_frames(method) = rows_of(sprintf("$1 == \"%s\" && $3 == 1 && $4 == 0", method))
 most = int(system(sprintf("awk -F, 'NR > 1 && $2 > most { most = $2 } END { print most }' %s/time.csv", folder)))

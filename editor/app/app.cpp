@@ -16,8 +16,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kIdle_s = 0.25;   // between turns while nothing happens
-constexpr int kTurnsToSettle = 3;  // ImGui needs some turns to show all that an event leads to
+constexpr double kIdle_s = 0.25;     // between updates while nothing happens
+constexpr int kUpdatesToSettle = 3;  // ImGui needs some updates to show all that an event leads to
 
 std::vector<HelpLine> help_lines() {
   std::vector<HelpLine> lines;
@@ -27,23 +27,23 @@ std::vector<HelpLine> help_lines() {
 
 }  // namespace
 
-App::App(Window& window, Settings settings, Probe probe)
+App::App(Window& window, Settings settings, ProbeWriter probe)
     : window_(window),
       settings_(std::move(settings)),
-      probe_(std::move(probe)),
+      probe_writer_(std::move(probe)),
       previewer_(PreviewLimits(), [] { Window::wake(); }),
       own_body_(edits_, [] { Window::wake(); }),
       scoring_([] { Window::wake(); }),
-      desk_(document_, settings_,
-            {.samples = SIGS_PROJECTS_DIR,
-             .recovery_folder = recovery_folder(),
-             .version = SIGS_VERSION,
-             .help = help_lines(),
-             .wake = [] { Window::wake(); },
-             .mask = {.unsaved = [this] { return own_body_.unsaved(); },
-                      .save_then = [this](std::function<void()> next) { keep_mask_then(std::move(next)); },
-                      .to_keep = [this] { return own_body_.to_keep(); }}}) {
-  places_.set_wanted(probe_.wanted());
+      shell_(document_, settings_,
+             {.samples = SIGS_PROJECTS_DIR,
+              .recovery_folder = recovery_folder(),
+              .version = SIGS_VERSION,
+              .help = help_lines(),
+              .wake = [] { Window::wake(); },
+              .mask = {.unsaved = [this] { return own_body_.unsaved(); },
+                       .save_then = [this](std::function<void()> next) { keep_mask_then(std::move(next)); },
+                       .to_keep = [this] { return own_body_.to_keep(); }}}) {
+  ui_probe_.set_wanted(probe_writer_.wanted());
 }
 
 // What comes next has to see the edit that uses the mask: it is not saved either.
@@ -55,12 +55,12 @@ void App::keep_mask_then(std::function<void()> next) {
 }
 
 void App::open(const std::filesystem::path& path) {
-  desk_.take(OpenProject{path});
+  shell_.handle(OpenProject{path});
 }
 
-double App::patience_s() const {
-  if (playback_.playing() || restless_turns_ > 0) return 0;
-  return desk_.is_restless() ? 0.1 : kIdle_s;
+double App::wait_timeout_s() const {
+  if (playback_.playing() || redraw_updates_left_ > 0) return 0;
+  return shell_.needs_redraw() ? 0.1 : kIdle_s;
 }
 
 void App::ask_preview() {
@@ -70,13 +70,13 @@ void App::ask_preview() {
                    .range_first = document_.range_first(),
                    .range_last = document_.range_last(),
                    .playing = playback_.playing(),
-                   .footage = wishes_.footage,
-                   .stages = wishes_.stages,
-                   .compare_with = wishes_.compare_with,
-                   .turntable = wishes_.turntable});
+                   .footage = needs_.footage,
+                   .stages = needs_.stages,
+                   .compare_with = needs_.compare_with,
+                   .turntable = needs_.turntable});
 }
 
-void App::advance(const Shown& shown) {
+void App::advance(const PreviewOutput& shown) {
   if (!playback_.playing() || !shown.scene) return;
   const FootageShape& shape = shown.scene->footage->shape;
   const PlayedFrame due = playback_.frame_at(now_s_, {shape.times_s, shape.frame_interval_s},
@@ -100,24 +100,24 @@ void App::play(double speed) {
     playback_.play(now_s_, document_.playhead(), speed);
 }
 
-void App::draw(const Shown& shown) {
-  wishes_ = {};
-  places_.clear();
-  // A key that ends a dialog or a menu in this turn was meant for that.
+void App::draw(const PreviewOutput& shown) {
+  needs_ = {};
+  ui_probe_.clear();
+  // A key that ends a dialog or a menu in this update was meant for that.
   const bool keys_are_taken = any_popup_open();
   close_popup_with_escape();
-  const Studio studio{.document = document_,
-                      .shown = shown,
-                      .settings = settings_,
-                      .textures = textures_,
-                      .edits = edits_,
-                      .wishes = wishes_,
-                      .places = places_,
-                      .playing = playback_.playing(),
-                      .speed = playback_.speed(),
-                      .scored = scored_.get()};
-  ask_scores(studio);
-  desk_.draw_menu(studio);
+  const ViewContext context{.document = document_,
+                            .shown = shown,
+                            .settings = settings_,
+                            .textures = textures_,
+                            .edits = edits_,
+                            .needs = needs_,
+                            .ui_probe = ui_probe_,
+                            .playing = playback_.playing(),
+                            .speed = playback_.speed(),
+                            .scored = scored_.get()};
+  ask_scores(context);
+  shell_.draw_menu(context);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(screen.WorkPos);
   ImGui::SetNextWindowSize(screen.WorkSize);
@@ -127,44 +127,44 @@ void App::draw(const Shown& shown) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(2);
-  if (desk_.has_project())
-    layout_.draw(studio, own_body_, settings_);
+  if (shell_.has_project())
+    layout_.draw(context, own_body_, settings_);
   else
-    desk_.draw_start_page(studio);
+    shell_.draw_start_page(context);
   ImGui::End();
-  desk_.draw_over_all(studio);
-  if (!keys_are_taken) take_keys(studio, desk_.has_project());
+  shell_.draw_over_all(context);
+  if (!keys_are_taken) handle_keys(context, shell_.has_project());
 }
 
-void App::ask_scores(const Studio& studio) {
+void App::ask_scores(const ViewContext& context) {
   if (results_.files().empty()) {
     scoring_.want({});
     return;
   }
-  scoring_.want({.scene = studio.shown.scene,
-                 .surveys = studio.shown.surveys,
+  scoring_.want({.scene = context.shown.scene,
+                 .surveys = context.shown.surveys,
                  .files = results_.files(),
-                 .intruder = current_intruder(studio).value_or(0)});
+                 .intruder = current_intruder(context).value_or(0)});
 }
 
-// What is wrong with a file is told once, when it is known what it is measured by: which frame a tracker was started in
-// may hang on that.
-void App::tell_of_results() {
+// What is wrong with a file is reported once, when it is known what it is measured by: which frame a tracker was
+// started in may hang on that.
+void App::report_result_problems() {
   if (!scored_) {
-    told_problems_.clear();
+    reported_problems_.clear();
     return;
   }
   if (scored_->truth != TruthKind::measured && scored_->truth_problem.empty()) return;
   for (const ScoredTracker& tracker : scored_->trackers) {
-    std::string& told = told_problems_[tracker.file.id];
-    if (tracker.problem != told && !tracker.problem.empty()) edits_.ask(Say{tracker.problem, true});
-    told = tracker.problem;
+    std::string& reported = reported_problems_[tracker.file.id];
+    if (tracker.problem != reported && !tracker.problem.empty()) edits_.ask(ShowMessage{tracker.problem, true});
+    reported = tracker.problem;
   }
 }
 
-bool App::take_results(const Request& request) {
+bool App::handle_results(const Request& request) {
   if (const auto* wanted = std::get_if<LoadResults>(&request)) {
-    if (!desk_.has_project()) return true;
+    if (!shell_.has_project()) return true;
     if (wanted->path.empty()) {
       const std::filesystem::path near =
           results_.files().empty() ? document_.project().file : results_.files().back().path;
@@ -186,8 +186,8 @@ bool App::take_results(const Request& request) {
   return true;
 }
 
-void App::take(const Request& request) {
-  if (take_results(request) || desk_.take(request)) return;
+void App::handle(const Request& request) {
+  if (handle_results(request) || shell_.handle(request)) return;
   if (std::holds_alternative<ToggleFullScreen>(request)) window_.toggle_full_screen();
   if (std::holds_alternative<ShowOwnBody>(request)) layout_.show_own_body();
   if (std::holds_alternative<ShowHorizon>(request)) layout_.show_horizon();
@@ -200,46 +200,46 @@ void App::show_title() {
   const Project& project = document_.project();
   const std::string name = project.file.empty() ? project.name : project.file.filename().string();
   const std::string title =
-      !desk_.has_project() ? "SIGS" : name + (document_.has_unsaved_changes() ? " * - SIGS" : " - SIGS");
+      !shell_.has_project() ? "SIGS" : name + (document_.has_unsaved_changes() ? " * - SIGS" : " - SIGS");
   if (title != title_) window_.set_title(shortened(title, 200));
   title_ = title;
 }
 
-void App::count_turns() {
-  ++turns_;
+void App::count_updates() {
+  ++updates_;
   if (now_s_ - counted_since_s_ < 1) return;
-  turns_a_second_ = turns_ / (now_s_ - counted_since_s_);
-  turns_ = 0;
+  updates_per_second_ = updates_ / (now_s_ - counted_since_s_);
+  updates_ = 0;
   counted_since_s_ = now_s_;
 }
 
-void App::turn(double now_s, bool something_happened) {
+void App::update(double now_s, bool something_happened) {
   now_s_ = now_s;
-  restless_turns_ = something_happened ? kTurnsToSettle : std::max(0, restless_turns_ - 1);
-  count_turns();
-  Shown shown = previewer_.shown();
+  redraw_updates_left_ = something_happened ? kUpdatesToSettle : std::max(0, redraw_updates_left_ - 1);
+  count_updates();
+  PreviewOutput shown = previewer_.shown();
   // What is still there of a project that was closed.
   if (shown.scene && shown.scene->revision < document_.first_number()) shown = {};
   if (shown.scene) document_.set_frame_count(static_cast<int>(shown.scene->footage->shape.times_s.size()));
   advance(shown);
   scored_ = scoring_.scored();
-  tell_of_results();
+  report_result_problems();
   window_.begin(settings_);
   draw(shown);
   window_.end();
-  textures_.end_turn(PreviewLimits().texture_bytes());
+  textures_.end_update(PreviewLimits().texture_bytes());
   previewer_.set_texture_bytes(textures_.bytes());
-  probe_.tell(document_, shown, places_, {desk_.has_project() ? "project" : "start", turns_a_second_});
+  probe_writer_.write(document_, shown, ui_probe_, {shell_.has_project() ? "project" : "start", updates_per_second_});
   take_edits();
-  for (const std::filesystem::path& path : window_.take_dropped()) desk_.take_dropped(path, edits_);
+  for (const std::filesystem::path& path : window_.take_dropped()) shell_.handle_dropped(path, edits_);
   take_edits();
-  for (const Request& request : edits_.take_requests()) take(request);
+  for (const Request& request : edits_.take_requests()) handle(request);
   if (window_.wants_to_close()) {
     window_.refuse_to_close();
-    desk_.take(Quit{});
+    shell_.handle(Quit{});
   }
   const std::uint64_t document = document_.first_number();
-  desk_.turn(now_s_);
+  shell_.update(now_s_);
   if (document_.first_number() != document) {
     playback_.pause();
     own_body_.forget();
@@ -247,11 +247,11 @@ void App::turn(double now_s, bool something_happened) {
     scored_.reset();
     scoring_.want({});
   }
-  if (const std::optional<RecoveredMask> mask = desk_.take_recovered_mask()) own_body_.recover(*mask);
-  previewer_.set_modest(desk_.is_exporting() || own_body_.job().is_running());
+  if (const std::optional<RecoveredMask> mask = shell_.take_recovered_mask()) own_body_.recover(*mask);
+  previewer_.set_prefetch_paused(shell_.is_exporting() || own_body_.job().is_running());
   show_title();
   ask_preview();
-  done_ = desk_.is_done();
+  done_ = shell_.is_done();
   if (done_) {
     window_.remember_in(settings_);
     (void)write_settings(settings_, settings_file());

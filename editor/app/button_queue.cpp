@@ -7,7 +7,7 @@ void ButtonQueue::push(const ButtonEvent& event) {
   if (event.button >= 0 && static_cast<std::size_t>(event.button) < down_.size()) events_.push_back(event);
 }
 
-Buttons ButtonQueue::take_for_turn() {
+Buttons ButtonQueue::take_for_update() {
   Buttons buttons;
   std::array<bool, 5> changed{};
   for (; !events_.empty(); events_.pop_front()) {

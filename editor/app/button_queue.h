@@ -15,7 +15,7 @@ struct ButtonEvent {
   double y = 0;
 };
 
-// What one turn sees: which buttons are down, and where the mouse was at the last press or release that it sees.
+// What one update sees: which buttons are down, and where the mouse was at the last press or release that it sees.
 struct Buttons {
   std::array<bool, 5> down{};
   struct Place {
@@ -25,14 +25,14 @@ struct Buttons {
   std::optional<Place> at;  // none: nothing happened, the mouse is where it is
 };
 
-// ImGui up to 1.86 looks at the mouse once a turn: of two clicks within a slow turn it would see one. Keeps what came,
-// and lets each button change once a turn, in order.
+// ImGui up to 1.86 looks at the mouse once per update: of two clicks within a slow update it would see one. Keeps what
+// came, and lets each button change once per update, in order.
 class ButtonQueue {
  public:
   // Buttons that are not ImGui's are passed over.
   void push(const ButtonEvent& event);
   [[nodiscard]] bool empty() const { return events_.empty(); }
-  [[nodiscard]] Buttons take_for_turn();
+  [[nodiscard]] Buttons take_for_update();
 
  private:
   std::deque<ButtonEvent> events_;

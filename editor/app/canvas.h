@@ -7,7 +7,7 @@
 
 namespace sigs::editor {
 
-// The window's picture, kept from turn to turn; what changed is drawn into it, then it is copied to the window.
+// The window's image, kept from update to update; what changed is drawn into it, then it is copied to the window.
 class Canvas {
  public:
   Canvas() = default;
@@ -15,7 +15,7 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  // Draws what differs from the turn before. False: nothing does, and the window was left as it is.
+  // Draws what differs from the update before. False: nothing does, and the window was left as it is.
   bool draw(ImDrawData& data, int width_px, int height_px);
 
   // Everything is drawn anew the next time (other fonts, a window that was hidden).

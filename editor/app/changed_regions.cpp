@@ -10,7 +10,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::size_t kMostRegions = 3;
+constexpr std::size_t kMaxRegions = 3;
 
 constexpr std::uint64_t kPrime = 0x100000001b3;
 
@@ -54,12 +54,12 @@ ImVec4 grown(const ImVec4& rect) {
 // The two whose union wastes least become one.
 void join_cheapest(std::vector<ImVec4>& regions) {
   std::pair<std::size_t, std::size_t> best{0, 1};
-  float least = INFINITY;
+  float minimum = INFINITY;
   for (std::size_t i = 0; i < regions.size(); ++i)
     for (std::size_t j = i + 1; j < regions.size(); ++j) {
       const float waste = area(around(regions[i], regions[j])) - area(regions[i]) - area(regions[j]);
-      if (waste < least) {
-        least = waste;
+      if (waste < minimum) {
+        minimum = waste;
         best = {i, j};
       }
     }
@@ -143,7 +143,7 @@ std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data) {
   }
   while (join_overlapping(regions)) {
   }
-  while (regions.size() > kMostRegions) {
+  while (regions.size() > kMaxRegions) {
     join_cheapest(regions);
     while (join_overlapping(regions)) {
     }

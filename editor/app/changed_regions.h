@@ -8,8 +8,8 @@
 
 namespace sigs::editor {
 
-// Which parts of the window look different from the turn before. ImGui draws everything anew each turn; what draws in
-// software would spend most of its time on pixels that stay as they are.
+// Which parts of the window look different from the update before. ImGui draws everything anew each update; what draws
+// in software would spend most of its time on pixels that stay as they are.
 class ChangedRegions {
  public:
   // Rectangles (left, top, right, bottom, in ImGui's coordinates) that hold every pixel that may differ from what the
@@ -20,7 +20,7 @@ class ChangedRegions {
   void forget() { panels_.clear(); }
 
  private:
-  // What ImGui draws with one picture and within one rectangle.
+  // What ImGui draws with one image and within one rectangle.
   struct Piece {
     std::uint64_t fingerprint = 0;
     ImVec4 bounds{0, 0, 0, 0};  // of the pixels that it may touch

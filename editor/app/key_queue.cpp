@@ -5,7 +5,7 @@
 
 namespace sigs::editor {
 
-std::vector<KeyEvent> KeyQueue::take_for_turn(bool types_text) {
+std::vector<KeyEvent> KeyQueue::take_for_update(bool types_text) {
   std::vector<KeyEvent> taken;
   std::set<int> changed;
   bool is_pressed = false;  // a key went down, with the modifiers as they were
@@ -17,8 +17,8 @@ std::vector<KeyEvent> KeyQueue::take_for_turn(bool types_text) {
                        : event.kind == KeyKind::modifier ? is_pressed || changed.contains(event.key)
                                                          : changed.contains(event.key);
     if (waits) break;
-    const bool is_told_twice = types_text && event.kind == KeyKind::sign;
-    if (!is_character && !is_told_twice) {
+    const bool is_reported_twice = types_text && event.kind == KeyKind::sign;
+    if (!is_character && !is_reported_twice) {
       changed.insert(event.key);
       is_pressed = is_pressed || (event.down && event.kind != KeyKind::modifier);
       acts = acts || (event.down && event.kind == KeyKind::action);

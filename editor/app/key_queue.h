@@ -22,16 +22,16 @@ struct KeyEvent {
   unsigned character = 0;  // not 0: a character, and nothing else counts
 };
 
-// ImGui up to 1.86 looks at keys once a turn: one that goes down and up in between goes by unseen, and what is typed
-// after a chord that opens a text field would come before it. Keeps what came, and lets as much into a turn as it can
-// see in order.
+// ImGui up to 1.86 looks at keys once per update: one that goes down and up in between goes by unseen, and what is
+// typed after a chord that opens a text field would come before it. Keeps what came, and lets as much into an update as
+// it can see in order.
 class KeyQueue {
  public:
   void push(const KeyEvent& event) { events_.push_back(event); }
   [[nodiscard]] bool empty() const { return events_.empty(); }
 
-  // What this turn may see. types_text: characters go into a text field, which needs no more than them.
-  [[nodiscard]] std::vector<KeyEvent> take_for_turn(bool types_text);
+  // What this update may see. types_text: characters go into a text field, which needs no more than them.
+  [[nodiscard]] std::vector<KeyEvent> take_for_update(bool types_text);
 
  private:
   std::deque<KeyEvent> events_;

@@ -17,10 +17,10 @@ namespace sigs::editor {
 class Layout {
  public:
   // Fills the window below the menu bar.
-  void draw(const Studio& studio, OwnBodyWork& own_body, Settings& settings);
+  void draw(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
   // Height of the timeline, as it is drawn in room_px of height.
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
-  // From the next turn on.
+  // From the next update on.
   void show_own_body() { wants_own_body_ = true; }
   void show_horizon() {
     wants_footage_ = true;
@@ -28,8 +28,8 @@ class Layout {
   }
 
  private:
-  void draw_pictures(const Studio& studio, OwnBodyWork& own_body, Settings& settings);
-  void draw_tabs(const Studio& studio, OwnBodyWork& own_body);
+  void draw_images(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
+  void draw_tabs(const ViewContext& context, OwnBodySession& own_body);
 
   ViewportView viewport_;
   WorldView world_;

@@ -23,16 +23,16 @@ int run(const std::string& project, const std::string& probe) {
     std::fprintf(stderr, "error: %s\n", window.error().text().c_str());
     return static_cast<int>(window.error().kind);
   }
-  App app(**window, std::move(settings), Probe(probe));
+  App app(**window, std::move(settings), ProbeWriter(probe));
   if (!project.empty()) app.open(project);
-  double last_turn_s = 0;
+  double last_update_s = 0;
   while (!app.done()) {
-    const bool something_happened = (*window)->wait(app.patience_s());
-    // No more turns than a screen shows: what draws in software would take the cores from the pictures.
-    if (const double early_s = last_turn_s + kTurn_s - now_s(); early_s > 0)
+    const bool something_happened = (*window)->wait(app.wait_timeout_s());
+    // No more updates than a screen shows: what draws in software would take the cores from the images.
+    if (const double early_s = last_update_s + kTurn_s - now_s(); early_s > 0)
       std::this_thread::sleep_for(std::chrono::duration<double>(early_s));
-    last_turn_s = now_s();
-    app.turn(last_turn_s, something_happened);
+    last_update_s = now_s();
+    app.update(last_update_s, something_happened);
   }
   return 0;
 }

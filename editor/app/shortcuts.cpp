@@ -38,7 +38,7 @@ constexpr std::array<Shortcut, 36> kShortcuts{{
     {"Project", "Ctrl + E", "export"},
     {"Project", "Ctrl + Q", "quit"},
     {"Footage", "wheel; middle drag", "zoom at the cursor; pan"},
-    {"Footage", "F or 0; 1", "whole picture; pixel for pixel"},
+    {"Footage", "F or 0; 1", "whole image; pixel for pixel"},
     {"Footage", "Shift or Alt in a drag", "along the line of sight"},
     {"Footage", "Backslash, held", "the footage alone"},
     {"Stages", "click; Esc", "one large; all again"},
@@ -54,63 +54,63 @@ constexpr std::array<Shortcut, 36> kShortcuts{{
     {"Window", "?", "this list"},
 }};
 
-void step(const Studio& studio, int by) {
-  studio.edits.ask(Play{0});
-  studio.edits.go_to_frame(studio.document.playhead() + by);
+void step(const ViewContext& context, int by) {
+  context.edits.ask(Play{0});
+  context.edits.go_to_frame(context.document.playhead() + by);
 }
 
-void go(const Studio& studio, int frame) {
-  studio.edits.ask(Play{0});
-  studio.edits.go_to_frame(frame);
+void go(const ViewContext& context, int frame) {
+  context.edits.ask(Play{0});
+  context.edits.go_to_frame(frame);
 }
 
 // Faster with each press in the same direction, up to eight times.
-void shuttle(const Studio& studio, int direction) {
-  const double speed = studio.speed * direction > 0 ? std::min(8.0, std::abs(studio.speed) * 2) : 1;
-  studio.edits.ask(Play{direction * speed});
+void shuttle(const ViewContext& context, int direction) {
+  const double speed = context.speed * direction > 0 ? std::min(8.0, std::abs(context.speed) * 2) : 1;
+  context.edits.ask(Play{direction * speed});
 }
 
-void take_transport_keys(const Studio& studio) {
+void handle_transport_keys(const ViewContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
   const int stride = io.KeyShift ? 10 : 1;
-  if (pressed(Key::space) || pressed(Key::k)) studio.edits.ask(TogglePlay{});
-  if (pressed(Key::l)) shuttle(studio, 1);
-  if (pressed(Key::j)) shuttle(studio, -1);
-  if (pressed(Key::right, true) || pressed(Key::period, true)) step(studio, stride);
-  if (pressed(Key::left, true) || pressed(Key::comma, true)) step(studio, -stride);
-  if (pressed(Key::home)) go(studio, studio.document.range_first());
-  if (pressed(Key::end)) go(studio, studio.document.range_last());
+  if (pressed(Key::space) || pressed(Key::k)) context.edits.ask(TogglePlay{});
+  if (pressed(Key::l)) shuttle(context, 1);
+  if (pressed(Key::j)) shuttle(context, -1);
+  if (pressed(Key::right, true) || pressed(Key::period, true)) step(context, stride);
+  if (pressed(Key::left, true) || pressed(Key::comma, true)) step(context, -stride);
+  if (pressed(Key::home)) go(context, context.document.range_first());
+  if (pressed(Key::end)) go(context, context.document.range_last());
 }
 
-void take_range_keys(const Studio& studio) {
-  const Document& document = studio.document;
-  if (pressed(Key::i)) studio.edits.set_in_out(document.playhead(), document.out());
-  if (pressed(Key::o)) studio.edits.set_in_out(document.in(), document.playhead());
-  if (pressed(Key::x)) studio.edits.set_in_out(std::nullopt, std::nullopt);
+void handle_range_keys(const ViewContext& context) {
+  const Document& document = context.document;
+  if (pressed(Key::i)) context.edits.set_in_out(document.playhead(), document.out());
+  if (pressed(Key::o)) context.edits.set_in_out(document.in(), document.playhead());
+  if (pressed(Key::x)) context.edits.set_in_out(std::nullopt, std::nullopt);
 }
 
-void take_waypoint_keys(const Studio& studio) {
-  if (pressed(Key::up, true)) go_to_waypoint(studio, -1);
-  if (pressed(Key::down, true)) go_to_waypoint(studio, 1);
-  if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(studio);
-  if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(studio);
-  if (pressed(Key::escape) && !studio.wishes.own_escape) studio.edits.select({});
+void handle_waypoint_keys(const ViewContext& context) {
+  if (pressed(Key::up, true)) go_to_waypoint(context, -1);
+  if (pressed(Key::down, true)) go_to_waypoint(context, 1);
+  if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(context);
+  if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(context);
+  if (pressed(Key::escape) && !context.needs.own_escape) context.edits.select({});
 }
 
 // With Ctrl held.
-void take_program_keys(const Studio& studio, bool shift) {
-  if (pressed(Key::n)) studio.edits.ask(NewProject{});
-  if (pressed(Key::o)) studio.edits.ask(OpenProject{});
-  if (pressed(Key::q)) studio.edits.ask(Quit{});
-  if (pressed(Key::s)) shift ? studio.edits.ask(SaveProjectAs{}) : studio.edits.ask(SaveProject{});
+void handle_program_keys(const ViewContext& context, bool shift) {
+  if (pressed(Key::n)) context.edits.ask(NewProject{});
+  if (pressed(Key::o)) context.edits.ask(OpenProject{});
+  if (pressed(Key::q)) context.edits.ask(Quit{});
+  if (pressed(Key::s)) shift ? context.edits.ask(SaveProjectAs{}) : context.edits.ask(SaveProject{});
 }
 
-void take_edit_keys(const Studio& studio, bool shift) {
-  const bool undoes = !studio.wishes.own_undo;
-  if (undoes && pressed(Key::z, true)) shift ? studio.edits.redo() : studio.edits.undo();
-  if (undoes && pressed(Key::y, true)) studio.edits.redo();
-  if (pressed(Key::e)) studio.edits.ask(ShowExport{});
-  if (pressed(Key::d)) duplicate_selected(studio);
+void handle_edit_keys(const ViewContext& context, bool shift) {
+  const bool undoes = !context.needs.own_undo;
+  if (undoes && pressed(Key::z, true)) shift ? context.edits.redo() : context.edits.undo();
+  if (undoes && pressed(Key::y, true)) context.edits.redo();
+  if (pressed(Key::e)) context.edits.ask(ShowExport{});
+  if (pressed(Key::d)) duplicate_selected(context);
 }
 
 }  // namespace
@@ -119,22 +119,22 @@ std::span<const Shortcut> shortcuts() {
   return kShortcuts;
 }
 
-void take_keys(const Studio& studio, bool has_project) {
+void handle_keys(const ViewContext& context, bool has_project) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId) || io.KeyAlt) return;
   // What the mouse holds may be a waypoint: nothing is changed, opened or saved under it, and Esc is its own.
   const bool mouse_holds = ImGui::IsAnyItemActive();
-  if (pressed(Key::f11)) studio.edits.ask(ToggleFullScreen{});
-  if (pressed(Key::slash) && io.KeyShift) studio.edits.ask(ShowHelp{});
-  if (io.KeyCtrl && !mouse_holds) take_program_keys(studio, io.KeyShift);
+  if (pressed(Key::f11)) context.edits.ask(ToggleFullScreen{});
+  if (pressed(Key::slash) && io.KeyShift) context.edits.ask(ShowHelp{});
+  if (io.KeyCtrl && !mouse_holds) handle_program_keys(context, io.KeyShift);
   if (!has_project) return;
   if (io.KeyCtrl) {
-    if (!mouse_holds) take_edit_keys(studio, io.KeyShift);
+    if (!mouse_holds) handle_edit_keys(context, io.KeyShift);
     return;
   }
-  take_transport_keys(studio);
-  take_range_keys(studio);
-  if (!mouse_holds) take_waypoint_keys(studio);
+  handle_transport_keys(context);
+  handle_range_keys(context);
+  if (!mouse_holds) handle_waypoint_keys(context);
 }
 
 }  // namespace sigs::editor

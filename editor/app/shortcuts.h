@@ -3,11 +3,11 @@
 
 #include <span>
 
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
-// A key and what it does, for the help page: what take_keys follows, and below that what views take themselves while
+// A key and what it does, for the help page: what handle_keys follows, and below that what views take themselves while
 // the mouse is over them.
 struct Shortcut {
   const char* group;
@@ -16,8 +16,8 @@ struct Shortcut {
 };
 [[nodiscard]] std::span<const Shortcut> shortcuts();
 
-// Asks for what the keys pressed in this turn mean. Not while text is typed or a dialog is open; while the mouse holds
-// something only those that go and play; without a project those of the program alone.
-void take_keys(const Studio& studio, bool has_project);
+// Asks for what the keys pressed in this update mean. Not while text is typed or a dialog is open; while the mouse
+// holds something only those that go and play; without a project those of the program alone.
+void handle_keys(const ViewContext& context, bool has_project);
 
 }  // namespace sigs::editor

@@ -22,7 +22,7 @@ namespace sigs::editor {
 
 namespace {
 
-// What comes in between two turns.
+// What comes in between two updates.
 struct Incoming {
   std::vector<std::filesystem::path> dropped;
   KeyQueue keys;
@@ -83,7 +83,7 @@ void note_character(GLFWwindow* window, unsigned character) {
 }
 
 void hand_on_keys(GLFWwindow* window) {
-  for (const KeyEvent& event : incoming_of(window).keys.take_for_turn(ImGui::GetIO().WantTextInput)) {
+  for (const KeyEvent& event : incoming_of(window).keys.take_for_update(ImGui::GetIO().WantTextInput)) {
     if (event.character != 0)
       ImGui_ImplGlfw_CharCallback(window, event.character);
     else
@@ -101,7 +101,7 @@ void note_button(GLFWwindow* window, int button, int action, int) {
 
 // After the back end has put the buttons as they are at this moment.
 void hand_on_buttons(GLFWwindow* window) {
-  const Buttons buttons = incoming_of(window).buttons.take_for_turn();
+  const Buttons buttons = incoming_of(window).buttons.take_for_update();
   ImGuiIO& io = ImGui::GetIO();
   for (std::size_t i = 0; i < buttons.down.size(); ++i) io.MouseDown[i] = buttons.down[i];
   if (buttons.at) io.MousePos = {static_cast<float>(buttons.at->x), static_cast<float>(buttons.at->y)};

@@ -25,7 +25,7 @@ class Window {
   // From any thread.
   static void wake();
 
-  // One turn: ImGui's calls lie between the two. The font follows the settings and the screen.
+  // One update: ImGui's calls lie between the two. The font follows the settings and the screen.
   void begin(const Settings& settings);
   void end();
 

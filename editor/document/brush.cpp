@@ -73,8 +73,8 @@ double stepped_radius_px(double radius_px, int steps) {
   constexpr double kStep = 1.15;
   const double wanted = radius_px * std::pow(kStep, steps);
   // At least half a pixel a step: small brushes would hardly change.
-  const double least = radius_px + 0.5 * steps;
-  return std::clamp(steps > 0 ? std::max(wanted, least) : std::min(wanted, least), kLeastRadius_px, kMostRadius_px);
+  const double minimum = radius_px + 0.5 * steps;
+  return std::clamp(steps > 0 ? std::max(wanted, minimum) : std::min(wanted, minimum), kMinRadius_px, kMaxRadius_px);
 }
 
 }  // namespace sigs::editor

@@ -13,8 +13,8 @@ namespace sigs::editor {
 namespace {
 
 // Of history, counted by the waypoints that its states hold: some 150 MB.
-constexpr std::size_t kMostWaypointsInHistory = 2'000'000;
-constexpr std::size_t kMostSteps = 1000;
+constexpr std::size_t kMaxWaypointsInHistory = 2'000'000;
+constexpr std::size_t kMaxSteps = 1000;
 
 bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -42,9 +42,9 @@ bool finite(const OwnBodySettings& own_body) {
 bool finite(const Project& project) {
   const CameraSettings& camera = project.camera;
   return finite(project.own_body) && finite(camera.position_m) && std::isfinite(camera.roll_deg.value_or(0)) &&
-         std::isfinite(camera.pitch_deg.value_or(0)) && std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) &&
-         finite(project.light.position_m) && finite(project.light.color) && std::isfinite(project.light.ambient) &&
-         std::isfinite(project.compositing.blur_px_per_m) &&
+         std::isfinite(camera.pitch_deg.value_or(0)) && std::isfinite(camera.yaw_deg) &&
+         std::isfinite(camera.speed_mps) && finite(project.light.position_m) && finite(project.light.color) &&
+         std::isfinite(project.light.ambient) && std::isfinite(project.compositing.blur_px_per_m) &&
          std::all_of(project.intruders.begin(), project.intruders.end(),
                      [](const IntruderSettings& intruder) { return finite(intruder); });
 }
@@ -159,8 +159,8 @@ void Document::cancel_gesture(const std::string& gesture) {
 
 // Not in a gesture: what it might still be taken back to has to be there.
 void Document::forget_oldest() {
-  const std::size_t room = std::max<std::size_t>(10, kMostWaypointsInHistory / waypoints_in(project()));
-  while (past_.size() > std::min(kMostSteps, room)) past_.erase(past_.begin());
+  const std::size_t room = std::max<std::size_t>(10, kMaxWaypointsInHistory / waypoints_in(project()));
+  while (past_.size() > std::min(kMaxSteps, room)) past_.erase(past_.begin());
 }
 
 void Document::step_back() {

@@ -20,8 +20,8 @@ struct Revision {
   std::shared_ptr<const Project> project;
 };
 
-// The project that is edited, its history, and where the person is in it. Changes in apply() alone, once a turn of the
-// window's loop, after drawing: a drag, an undo and a test take the same road.
+// The project that is edited, its history, and where the person is in it. Changes in apply() alone, once per update of
+// the window's loop, after drawing: a drag, an undo and a test take the same way.
 class Document {
  public:
   // An empty project; file "" until it is saved.

@@ -98,7 +98,7 @@ struct ShowResults {
   bool shown = true;
 };
 struct ClearMessages {};  // those that are shown speak of a project that is no longer open
-struct Say {              // a passing message above the timeline
+struct ShowMessage {      // a passing message above the timeline
   std::string text;
   bool is_error = false;
 };
@@ -106,7 +106,7 @@ struct Say {              // a passing message above the timeline
 using Request =
     std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
                  SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
-                 ToggleFullScreen, LoadResults, RemoveResults, ShowResults, ClearMessages, Say>;
+                 ToggleFullScreen, LoadResults, RemoveResults, ShowResults, ClearMessages, ShowMessage>;
 
 // Views put what they want here while they draw. Afterwards the document takes the edits and the program the requests,
 // in order.

@@ -12,7 +12,7 @@ namespace sigs::editor {
 // write_failed.
 [[nodiscard]] Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, bool overwrite);
 
-// What write_mask wrote, CV_8UC1, of whatever size it has. Errors: cannot_read; bad_data where it is no such picture.
+// What write_mask wrote, CV_8UC1, of whatever size it has. Errors: cannot_read; bad_data where it is no such image.
 [[nodiscard]] Result<cv::Mat> read_mask(const std::filesystem::path& path);
 
 }  // namespace sigs::editor

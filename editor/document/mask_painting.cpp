@@ -10,8 +10,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::size_t kMostBytesInHistory = std::size_t(256) << 20;
-constexpr std::size_t kMostSteps = 1000;
+constexpr std::size_t kMaxBytesInHistory = std::size_t(256) << 20;
+constexpr std::size_t kMaxSteps = 1000;
 
 bool is_same(const cv::Mat& a, const cv::Mat& b) {
   for (int y = 0; y < a.rows; ++y)
@@ -37,7 +37,7 @@ void MaskPainting::begin_stroke(const Brush& brush, const glm::dvec2& at) {
   move(at);
 }
 
-void MaskPainting::go_on(const glm::dvec2& to) {
+void MaskPainting::extend_stroke(const glm::dvec2& to) {
   if (stroke_ && to != stroke_->at) move(to);
 }
 
@@ -107,9 +107,9 @@ void MaskPainting::redo() {
 void MaskPainting::forget_oldest() {
   std::size_t bytes = 0;
   std::size_t kept = 0;
-  while (kept < past_.size() && kept < kMostSteps) {
+  while (kept < past_.size() && kept < kMaxSteps) {
     bytes += past_[past_.size() - 1 - kept].other.total();
-    if (kept > 0 && bytes > kMostBytesInHistory) break;
+    if (kept > 0 && bytes > kMaxBytesInHistory) break;
     ++kept;
   }
   past_.erase(past_.begin(), past_.end() - static_cast<std::ptrdiff_t>(kept));

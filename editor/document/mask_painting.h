@@ -16,7 +16,7 @@ namespace sigs::editor {
 // brings back the very bytes.
 class MaskPainting {
  public:
-  // None: no picture is known yet, and nothing can be painted.
+  // None: no image is known yet, and nothing can be painted.
   MaskPainting() = default;
   // CV_8UC1. It counts as saved. States are numbered from first_state on: who begins one painting after the other
   // keeps them apart so.
@@ -28,7 +28,7 @@ class MaskPainting {
 
   // From press to release. Pieces of a stroke join without a gap; one that is taken back leaves no trace.
   void begin_stroke(const Brush& brush, const glm::dvec2& at);
-  void go_on(const glm::dvec2& to);
+  void extend_stroke(const glm::dvec2& to);
   void end_stroke();
   void take_back_stroke();
   [[nodiscard]] bool is_stroking() const { return stroke_.has_value(); }
@@ -65,7 +65,7 @@ class MaskPainting {
     cv::Mat before;
     cv::Rect touched;
   };
-  // What a part of the picture held on the other side of the step.
+  // What a part of the image held on the other side of the step.
   struct Step {
     std::string name;
     cv::Rect place;

@@ -42,8 +42,8 @@ std::string path_in_project(const Project& project, const fs::path& file) {
   if (project.file.empty()) return target.generic_string();
   const fs::path relative = target.lexically_relative(normal(project.file).parent_path());
   const auto steps_up = std::count(relative.begin(), relative.end(), fs::path(".."));
-  constexpr int kMostStepsUp = 4;
-  return (relative.empty() || steps_up > kMostStepsUp ? target : relative).generic_string();
+  constexpr int kMaxStepsUp = 4;
+  return (relative.empty() || steps_up > kMaxStepsUp ? target : relative).generic_string();
 }
 
 }  // namespace sigs::editor

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/file_lock.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "editor/document/mask_file.h"
 #include "project/json_reading.h"
 
@@ -218,11 +218,11 @@ std::optional<Error> Recovery::keep(const Document& document, double now_s, doub
   if (now_s - *waiting_since_s_ < delay_s) return std::nullopt;
   const Result<void> done = write(document, mask);
   if (done) {
-    told_ = false;
+    error_reported_ = false;
     return std::nullopt;
   }
   waiting_since_s_ = now_s;
-  if (std::exchange(told_, true)) return std::nullopt;
+  if (std::exchange(error_reported_, true)) return std::nullopt;
   return done.error();
 }
 

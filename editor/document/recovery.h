@@ -61,9 +61,9 @@ class Recovery {
   Recovery(const Recovery&) = delete;
   Recovery& operator=(const Recovery&) = delete;
 
-  // Once a turn: writes what is unsaved as soon as a change is that old, removes the files where nothing is unsaved.
-  // An error is told once, and again only after writing went well in between; writing is tried again each delay_s.
-  // The mask lies beside the project's file as a PNG.
+  // Once per update: writes what is unsaved as soon as a change is that old, removes the files where nothing is
+  // unsaved. An error is told once, and again only after writing went well in between; writing is tried again each
+  // delay_s. The mask lies beside the project's file as a PNG.
   [[nodiscard]] std::optional<Error> keep(const Document& document, double now_s, double delay_s,
                                           const MaskToKeep& mask = {});
 
@@ -91,7 +91,7 @@ class Recovery {
   std::filesystem::path mask_file_;  // of the mask that lies beside it, ours or one that was taken over; "": none
   std::uint64_t kept_mask_ = 0;      // its state
   std::optional<double> waiting_since_s_;
-  bool told_ = false;
+  bool error_reported_ = false;
 };
 
 }  // namespace sigs::editor

@@ -6,7 +6,7 @@
 
 namespace sigs::editor {
 
-// A file with what a tracker says of this film, while it is looked at. Not part of the project.
+// A file with what a tracker says of this footage, while it is looked at. Not part of the project.
 struct ResultFile {
   int id = 0;  // its own as long as the program runs; 0: none
   std::filesystem::path path;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "project/json_reading.h"
 
 namespace sigs::editor {
@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRecent = 12;
+constexpr std::size_t kMaxRecent = 12;
 
 // A number of the file within its range; what is absent or no number leaves the default.
 template <class Number>
-void take(const Json& json, const char* key, Number& value, Number least, Number most) {
+void take(const Json& json, const char* key, Number& value, Number minimum, Number maximum) {
   if (const auto found = json.find(key); found != json.end() && found->is_number())
-    value = std::clamp(found->get<Number>(), least, most);
+    value = std::clamp(found->get<Number>(), minimum, maximum);
 }
 
 void take(const Json& json, const char* key, bool& value) {
@@ -29,7 +29,7 @@ void take(const Json& json, const char* key, bool& value) {
 
 Settings settings_of(const Json& json) {
   Settings settings;
-  take(json, "font_px", settings.font_px, kLeastFont_px, kMostFont_px);
+  take(json, "font_px", settings.font_px, kMinFont_px, kMaxFont_px);
   take(json, "window_width_px", settings.window_width_px, 640, 16384);
   take(json, "window_height_px", settings.window_height_px, 480, 16384);
   take(json, "maximised", settings.maximised);
@@ -44,7 +44,7 @@ Settings settings_of(const Json& json) {
     settings.last_folder = folder->get<std::string>();
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
     for (const Json& path : *recent)
-      if (path.is_string() && settings.recent.size() < kMostRecent)
+      if (path.is_string() && settings.recent.size() < kMaxRecent)
         settings.recent.emplace_back(path.get<std::string>());
   return settings;
 }
@@ -90,7 +90,7 @@ void remember_project(Settings& settings, const fs::path& project) {
   const fs::path path = fs::absolute(project).lexically_normal();
   std::erase(settings.recent, path);
   settings.recent.insert(settings.recent.begin(), path);
-  if (settings.recent.size() > kMostRecent) settings.recent.resize(kMostRecent);
+  if (settings.recent.size() > kMaxRecent) settings.recent.resize(kMaxRecent);
 }
 
 }  // namespace sigs::editor

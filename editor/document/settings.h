@@ -17,19 +17,19 @@ struct Settings {
   bool maximised = false;
   double inspector_width = 330;  // where the text is 15 px high
   double timeline_height = 210;
-  double world_share = 0.38;     // of the width between footage and world view
+  double world_share = 0.38;  // of the width between footage and world view
   bool show_world = true;
   bool show_inspector = true;
-  bool loop = true;              // playing starts again at the range's end
-  double autosave_s = 20;        // seconds after an edit until the recovery file is written
+  bool loop = true;        // playing starts again at the range's end
+  double autosave_s = 20;  // seconds after an edit until the recovery file is written
   std::filesystem::path last_folder;
   std::vector<std::filesystem::path> recent;  // projects, newest first, at most 12
 
   [[nodiscard]] bool operator==(const Settings&) const = default;
 };
 
-inline constexpr double kLeastFont_px = 10;
-inline constexpr double kMostFont_px = 32;
+inline constexpr double kMinFont_px = 10;
+inline constexpr double kMaxFont_px = 32;
 
 // Where they lie: $XDG_CONFIG_HOME/sigs/editor.json, else ~/.config/sigs/editor.json.
 [[nodiscard]] std::filesystem::path settings_file();

@@ -27,9 +27,9 @@ int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_
                  const std::vector<double>& frames_now) {
   fix_frames(plan, frames_now);
   const auto after = std::find_if(plan.waypoints.begin(), plan.waypoints.end(),
-                                  [&](const WaypointSettings& w) { return *w.frame > frame - kLeastGap_frames; });
+                                  [&](const WaypointSettings& w) { return *w.frame > frame - kMinGap_frames; });
   const auto number = static_cast<int>(after - plan.waypoints.begin());
-  if (after != plan.waypoints.end() && *after->frame < frame + kLeastGap_frames)
+  if (after != plan.waypoints.end() && *after->frame < frame + kMinGap_frames)
     after->position_m = position_m;
   else
     plan.waypoints.insert(after, {.frame = frame, .position_m = position_m});
@@ -50,13 +50,13 @@ int duplicate_waypoint(TrajectoryPlan& plan, int waypoint, const std::vector<dou
   WaypointSettings copy = original;
   if (index + 1 < plan.waypoints.size()) {
     const WaypointSettings& next = plan.waypoints[index + 1];
-    if (*next.frame - *original.frame < 2 * kLeastGap_frames) return waypoint;
+    if (*next.frame - *original.frame < 2 * kMinGap_frames) return waypoint;
     copy.frame = std::midpoint(*original.frame, *next.frame);
     copy.position_m = (original.position_m + next.position_m) * 0.5;
   } else {
     const bool alone = index == 0;
     const double gap = alone ? 25 : *original.frame - *plan.waypoints[index - 1].frame;
-    copy.frame = *original.frame + std::max(kLeastGap_frames, gap);
+    copy.frame = *original.frame + std::max(kMinGap_frames, gap);
     copy.position_m += alone ? glm::dvec3(50, 0, 0) : original.position_m - plan.waypoints[index - 1].position_m;
   }
   plan.waypoints.insert(plan.waypoints.begin() + waypoint + 1, copy);
@@ -67,8 +67,8 @@ void move_waypoint_in_time(TrajectoryPlan& plan, int waypoint, double frame, con
   if (!is_waypoint(plan, waypoint) || !std::isfinite(frame)) return;
   fix_frames(plan, frames_now);
   const auto index = static_cast<std::size_t>(waypoint);
-  const double lowest = index > 0 ? *plan.waypoints[index - 1].frame + kLeastGap_frames : -1e9;
-  const double highest = index + 1 < plan.waypoints.size() ? *plan.waypoints[index + 1].frame - kLeastGap_frames : 1e9;
+  const double lowest = index > 0 ? *plan.waypoints[index - 1].frame + kMinGap_frames : -1e9;
+  const double highest = index + 1 < plan.waypoints.size() ? *plan.waypoints[index + 1].frame - kMinGap_frames : 1e9;
   if (lowest <= highest) plan.waypoints[index].frame = std::clamp(frame, lowest, highest);
 }
 

@@ -9,13 +9,14 @@
 
 namespace sigs::editor {
 
-// What is done to the waypoints of a trajectory. They stay in order of time, at least kLeastGap apart, whatever is asked.
-inline constexpr double kLeastGap_frames = 1;
+// What is done to the waypoints of a trajectory. They stay in order of time, at least kMinGap apart, whatever is asked.
+inline constexpr double kMinGap_frames = 1;
 
-// Adds one at a frame, where it belongs in time; its number. Where one stands within kLeastGap of that frame, that one is
+// Adds one at a frame, where it belongs in time; its number. Where one stands within kMinGap of that frame, that one is
 // moved to the position instead. Waypoints without a frame of their own are given theirs first (frames_now: where each
 // one stands, as scene/waypoint_times.h spreads them), so that none of the others moves in time.
-int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m, const std::vector<double>& frames_now);
+int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
+                 const std::vector<double>& frames_now);
 
 // Takes one out. The last one stays: an intruder has to be somewhere.
 void delete_waypoint(TrajectoryPlan& plan, int waypoint, const std::vector<double>& frames_now);

@@ -12,7 +12,7 @@
 namespace sigs::editor {
 namespace {
 
-constexpr int kMostCells = 512;  // along the longest side
+constexpr int kMaxCells = 512;  // along the longest side
 constexpr float kSolid = 0.5F;
 
 using Corners = std::array<int, 3>;
@@ -106,16 +106,16 @@ CoarseMesh with_cells(const Mesh& mesh, float cell_m) {
 
 }  // namespace
 
-CoarseMesh coarse(const Mesh& mesh, int most_faces) {
+CoarseMesh coarse(const Mesh& mesh, int max_faces) {
   const glm::vec3 size = mesh.high_m - mesh.low_m;
-  const float longest_m = std::max({size.x, size.y, size.z});
-  if (mesh.indices.empty() || !(longest_m > 0)) return {};
+  const float max_length_m = std::max({size.x, size.y, size.z});
+  if (mesh.indices.empty() || !(max_length_m > 0)) return {};
   CoarseMesh best;
-  for (int few = 1, many = kMostCells; few <= many;) {
+  for (int few = 1, many = kMaxCells; few <= many;) {
     // Small numbers first: fine grids take longest.
     const int cells = many < 2 * few ? (few + many) / 2 : 2 * few;
-    CoarseMesh tried = with_cells(mesh, longest_m / (static_cast<float>(cells) + 0.5F));
-    if (static_cast<int>(tried.faces.size()) <= most_faces) {
+    CoarseMesh tried = with_cells(mesh, max_length_m / (static_cast<float>(cells) + 0.5F));
+    if (static_cast<int>(tried.faces.size()) <= max_faces) {
       best = std::move(tried);
       few = cells + 1;
     } else {

@@ -21,8 +21,8 @@ struct CoarseMesh {
 };
 
 // Vertices clustered on a cubic grid (Rossignac and Borrel 1993), the finest of those tried that leaves no more than
-// most_faces. A face has the mean colour of the triangles that became it; a texture counts with its mean colour.
+// max_faces. A face has the mean colour of the triangles that became it; a texture counts with its mean colour.
 // Mostly transparent materials (propeller discs) are left out. No triangles: empty.
-[[nodiscard]] CoarseMesh coarse(const Mesh& mesh, int most_faces = 700);
+[[nodiscard]] CoarseMesh coarse(const Mesh& mesh, int max_faces = 700);
 
 }  // namespace sigs::editor

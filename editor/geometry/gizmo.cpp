@@ -10,9 +10,9 @@
 namespace sigs::editor {
 namespace {
 
-constexpr double kFarthestM = 1e8;
-constexpr double kShortestArrow = 0.12;  // of its length: what is shorter on the screen points at the eye
-constexpr double kPlaneFrom = 0.28;      // where the plane handles lie between the arrows, of their length
+constexpr double kMaxCoordinateM = 1e8;
+constexpr double kMinArrow = 0.12;   // of its length: what is shorter on the screen points at the eye
+constexpr double kPlaneFrom = 0.28;  // where the plane handles lie between the arrows, of their length
 constexpr double kPlaneTo = 0.55;
 constexpr double kEdgeOnSine = 0.1;     // between plane and line of sight: a handle seen flatter is left out
 constexpr double kNoAnswerSine = 0.01;  // a drag needs less, but not nothing
@@ -165,7 +165,7 @@ std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCa
 }
 
 glm::dvec3 kept_in_space(glm::dvec3 p_m) {
-  for (int i = 0; i < 3; ++i) p_m[i] = std::isnan(p_m[i]) ? 0 : std::clamp(p_m[i], -kFarthestM, kFarthestM);
+  for (int i = 0; i < 3; ++i) p_m[i] = std::isnan(p_m[i]) ? 0 : std::clamp(p_m[i], -kMaxCoordinateM, kMaxCoordinateM);
   return p_m;
 }
 
@@ -178,7 +178,7 @@ std::optional<GizmoShape> gizmo_shape(const Gizmo& gizmo, const OrbitCamera& cam
   const double length_m = gizmo.arrow_px / camera.pixels_per_metre(gizmo.center_m, rect);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto tip = camera.screen_of(gizmo.center_m + kAxes[i] * length_m, rect);
-    if (tip && glm::distance(*tip, *center) >= kShortestArrow * gizmo.arrow_px) shape.tips[i] = tip;
+    if (tip && glm::distance(*tip, *center) >= kMinArrow * gizmo.arrow_px) shape.tips[i] = tip;
     shape.planes[i] = quad_of(kPlanes[i], gizmo.center_m, length_m, camera, rect);
   }
   return shape;

@@ -9,14 +9,14 @@
 namespace sigs::editor {
 namespace {
 
-constexpr double kClosestPx = 40;
-constexpr int kStepsEachWay = 49;      // 99 lines each way
-constexpr double kFarthestLooks = 20;  // the ground counts as seen up to so many times the eye's distance
+constexpr double kMinGapPx = 40;
+constexpr int kStepsEachWay = 49;       // 99 lines each way
+constexpr double kMaxGroundLooks = 20;  // the ground counts as seen up to so many times the eye's distance
 
 glm::dvec3 middle_of_ground(const OrbitCamera& camera) {
   const glm::dvec3 forward = camera.forward();
   const double along_m = -camera.target_m.z / forward.z;  // from the target
-  if (std::isfinite(along_m) && std::abs(along_m) < kFarthestLooks * camera.distance_m && along_m > -camera.distance_m)
+  if (std::isfinite(along_m) && std::abs(along_m) < kMaxGroundLooks * camera.distance_m && along_m > -camera.distance_m)
     return camera.target_m + forward * along_m;
   return {camera.target_m.x, camera.target_m.y, 0};
 }
@@ -31,7 +31,7 @@ long long steps_a_bold(double step_m) {
 
 GroundGrid ground_grid(const OrbitCamera& camera, const ScreenRect& rect) {
   const glm::dvec3 middle_m = middle_of_ground(camera);
-  GroundGrid grid{.step_m = round_step(kClosestPx / camera.pixels_per_metre(middle_m, rect))};
+  GroundGrid grid{.step_m = round_step(kMinGapPx / camera.pixels_per_metre(middle_m, rect))};
   const long long bold = steps_a_bold(grid.step_m);
   const std::array<long long, 2> middle{std::llround(middle_m.x / grid.step_m), std::llround(middle_m.y / grid.step_m)};
   for (const int axis : {0, 1}) {

@@ -18,9 +18,9 @@ glm::dvec3 down_of(const HorizonTilt& tilt) {
           std::cos(tilt.pitch_rad) * std::cos(tilt.roll_rad)};
 }
 
-// The pieces of a line within the picture, one after the other.
+// The pieces of a line within the image, one after the other.
 std::vector<glm::dvec2> shown_points(std::span<const PixelLine> lines, const glm::dvec2& size) {
-  constexpr int kStepsOfAPiece = 16;  // so that a piece that crosses the picture is not lost
+  constexpr int kStepsOfAPiece = 16;  // so that a piece that crosses the image is not lost
   std::vector<glm::dvec2> points;
   for (const PixelLine& line : lines)
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
@@ -61,8 +61,8 @@ std::optional<HorizonTilt> through(const glm::dvec2& a_px, const glm::dvec2& b_p
 }
 
 std::optional<HorizonGrip> grip_of(std::span<const PixelLine> horizon, const glm::dvec2& pixel,
-                                   const glm::dvec2& picture_size) {
-  const std::vector<glm::dvec2> points = shown_points(horizon, picture_size);
+                                   const glm::dvec2& image_size) {
+  const std::vector<glm::dvec2> points = shown_points(horizon, image_size);
   if (points.size() < 2) return std::nullopt;
   std::vector<double> along{0};
   for (std::size_t i = 1; i < points.size(); ++i)

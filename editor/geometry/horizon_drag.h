@@ -29,18 +29,18 @@ struct HorizonTilt {
 
 enum class HorizonPart { middle, end };
 
-// Where a point lies on the horizon as the picture shows it.
+// Where a point lies on the horizon as the image shows it.
 struct HorizonGrip {
   HorizonPart part = HorizonPart::middle;
   glm::dvec2 on_line_px{0, 0};  // the line's nearest point
-  glm::dvec2 middle_px{0, 0};   // of what the picture shows of the line
+  glm::dvec2 middle_px{0, 0};   // of what the image shows of the line
   glm::dvec2 first_px{0, 0};    // an eighth of it from one end
   glm::dvec2 last_px{0, 0};     // and from the other
   double distance_px = 0;       // from the point to the line
 };
 
-// The middle half of what the picture shows is the middle, the rest its ends. Nothing where the picture shows nothing.
+// The middle half of what the image shows is the middle, the rest its ends. Nothing where the image shows nothing.
 [[nodiscard]] std::optional<HorizonGrip> grip_of(std::span<const PixelLine> horizon, const glm::dvec2& pixel,
-                                                 const glm::dvec2& picture_size);
+                                                 const glm::dvec2& image_size);
 
 }  // namespace sigs::editor

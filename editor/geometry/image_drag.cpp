@@ -7,8 +7,8 @@
 namespace sigs::editor {
 namespace {
 
-constexpr double kNearestM = 0.1;
-constexpr double kFarthestM = 1e8;
+constexpr double kMinDistance_m = 0.1;
+constexpr double kMaxCoordinateM = 1e8;
 constexpr double kDoublingPx = 100;
 
 }  // namespace
@@ -42,7 +42,7 @@ glm::dvec3 dragged_along(const glm::dvec3& start_m, double up_px, const CameraPo
   // At the camera itself there is no ray; out of the way then means along the optical axis.
   const glm::dvec3 ray = before_m > 0 ? from_camera / before_m : world_from_camera.rotation * glm::dvec3{1, 0, 0};
   const double after_m =
-      std::clamp(std::max(before_m, kNearestM) * std::exp2(up_px / kDoublingPx), kNearestM, kFarthestM);
+      std::clamp(std::max(before_m, kMinDistance_m) * std::exp2(up_px / kDoublingPx), kMinDistance_m, kMaxCoordinateM);
   return world_from_camera.translation_m + ray * after_m;
 }
 

@@ -9,11 +9,11 @@
 namespace sigs::editor {
 namespace {
 
-constexpr double kNearShare = 1e-3;      // of the distance: what lies nearer to the eye is not seen
+constexpr double kNearShare = 1e-3;      // of the distance: what lies nearer to the eye is not is_visible
 constexpr double kTurnRadPerPx = 0.005;  // a drag across 630 pixels turns half round
 constexpr double kFramedShare = 0.85;    // of the screen, for what is to be in sight
-constexpr double kLeastDistanceM = 0.1;
-constexpr double kMostDistanceM = 1e9;
+constexpr double kMinDistanceM = 0.1;
+constexpr double kMaxDistanceM = 1e9;
 constexpr double kFarOutPx = 10000;  // floats still hold a thousandth of a pixel there
 
 bool is_finite(const glm::dvec2& v) {
@@ -87,7 +87,7 @@ glm::dvec3 offset_at_target(const OrbitCamera& camera, const glm::dvec2& by_px, 
 }
 
 glm::dvec3 kept_in_space(const glm::dvec3& p_m) {
-  return glm::clamp(p_m, -kMostDistanceM, kMostDistanceM);
+  return glm::clamp(p_m, -kMaxDistanceM, kMaxDistanceM);
 }
 
 // How far to stand off the middle of a box so that the point, given from there, is within the framed slopes.
@@ -138,11 +138,11 @@ std::optional<std::array<glm::dvec2, 2>> screen_line(const OrbitCamera& camera, 
                                                      const glm::dvec3& a_m, const glm::dvec3& b_m) {
   std::array<glm::dvec3, 2> ends{in_view(camera, a_m), in_view(camera, b_m)};
   if (!is_finite(ends[0]) || !is_finite(ends[1])) return std::nullopt;
-  const std::array<bool, 2> seen{is_before_eye(camera, ends[0].z), is_before_eye(camera, ends[1].z)};
-  if (!seen[0] && !seen[1]) return std::nullopt;
-  if (!seen[0] || !seen[1]) {
+  const std::array<bool, 2> is_visible{is_before_eye(camera, ends[0].z), is_before_eye(camera, ends[1].z)};
+  if (!is_visible[0] && !is_visible[1]) return std::nullopt;
+  if (!is_visible[0] || !is_visible[1]) {
     const double share = (near_m(camera) - ends[0].z) / (ends[1].z - ends[0].z);
-    glm::dvec3& hidden = seen[0] ? ends[1] : ends[0];
+    glm::dvec3& hidden = is_visible[0] ? ends[1] : ends[0];
     hidden = glm::mix(ends[0], ends[1], share);
     hidden.z = near_m(camera);
   }
@@ -169,7 +169,7 @@ OrbitCamera panned(const OrbitCamera& camera, const glm::dvec2& by_px, const Scr
 OrbitCamera approached(const OrbitCamera& camera, double factor, const glm::dvec2& at_screen, const ScreenRect& rect) {
   if (!(factor > 0) || !is_finite(at_screen)) return camera;
   OrbitCamera result = camera;
-  result.distance_m = std::clamp(camera.distance_m / factor, kLeastDistanceM, kMostDistanceM);
+  result.distance_m = std::clamp(camera.distance_m / factor, kMinDistanceM, kMaxDistanceM);
   const glm::dvec3 to_fixed = offset_at_target(camera, at_screen - middle(rect), rect);
   result.target_m = kept_in_space(camera.target_m + to_fixed * (1 - result.distance_m / camera.distance_m));
   return result;
@@ -192,13 +192,13 @@ OrbitCamera framing(const OrbitCamera& camera, std::span<const glm::dvec3> point
                                   camera.forward() * from_target.z);
   if (low == high) return result;  // a single place says nothing of how near to go
   const glm::dvec2 slopes = kFramedShare * glm::max(rect.size(), 1.0) / 2.0 / focal_px(camera, rect);
-  double distance_m = kLeastDistanceM;
+  double distance_m = kMinDistanceM;
   for (const glm::dvec3& point_m : points_m) {
     const glm::dvec3 p_in_view = in_view(camera, point_m);
     if (is_finite(p_in_view))
       distance_m = std::max(distance_m, distance_for(p_in_view - center, slopes, camera.projection));
   }
-  result.distance_m = std::min(distance_m, kMostDistanceM);
+  result.distance_m = std::min(distance_m, kMaxDistanceM);
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "editor/geometry/picture_view.h"
+#include "editor/geometry/image_view.h"
 
 namespace sigs::editor {
 

@@ -11,9 +11,9 @@ namespace sigs::editor {
 namespace {
 
 constexpr double kTolerancePx = 0.25;  // at three places between two corners; so some half a pixel anywhere
-constexpr double kFarthestPx = 1e5;
-constexpr int kLeastDepth = 3;   // eight pieces between two given times, however straight they look
-constexpr int kMostDepth = 12;   // 4096 pieces, for a curve
+constexpr double kMaxFarPx = 1e5;
+constexpr int kMinDepth = 3;     // eight pieces between two given times, however straight they look
+constexpr int kMaxDepth = 12;    // 4096 pieces, for a curve
 constexpr int kBreakDepth = 24;  // to find where an image ends
 
 using InCamera = std::function<glm::dvec3(double t)>;
@@ -33,8 +33,8 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
 // Follows a curve and halves its pieces until they are straight enough.
 class Tracer {
  public:
-  Tracer(const InCamera& in_camera, const Lens& lens, const glm::dvec2& picture_size)
-      : in_camera_(in_camera), lens_(lens), low_(-picture_size), high_(2.0 * picture_size) {}
+  Tracer(const InCamera& in_camera, const Lens& lens, const glm::dvec2& image_size)
+      : in_camera_(in_camera), lens_(lens), low_(-image_size), high_(2.0 * image_size) {}
 
   std::vector<PixelLine> traced(std::span<const double> times) {
     if (times.size() < 2) return {};
@@ -52,7 +52,7 @@ class Tracer {
  private:
   Sample sample(double t) const {
     auto pixel = lens_.pixel(in_camera_(t));
-    if (pixel && !(std::abs(pixel->x) < kFarthestPx && std::abs(pixel->y) < kFarthestPx)) pixel.reset();
+    if (pixel && !(std::abs(pixel->x) < kMaxFarPx && std::abs(pixel->y) < kMaxFarPx)) pixel.reset();
     return {t, pixel};
   }
 
@@ -62,7 +62,7 @@ class Tracer {
     if (next.pixel) lines_.back().push_back(*next.pixel);
   }
 
-  // Whether a piece comes within a picture's size of the picture; what is farther out need not be smooth.
+  // Whether a piece comes within an image's size of the image; what is farther out need not be smooth.
   bool matters(std::initializer_list<Sample> samples) const {
     glm::dvec2 low = *samples.begin()->pixel;
     glm::dvec2 high = low;
@@ -74,10 +74,10 @@ class Tracer {
   }
 
   bool is_done(const Sample& a, const Sample& middle, const Sample& b, int depth) const {
-    if (depth < kLeastDepth) return false;
+    if (depth < kMinDepth) return false;
     if (!a.pixel && !b.pixel && !middle.pixel) return true;
     if (!a.pixel || !b.pixel || !middle.pixel) return depth >= kBreakDepth;
-    if (depth >= kMostDepth) return true;
+    if (depth >= kMaxDepth) return true;
     const Sample early = sample((a.t + middle.t) / 2);
     const Sample late = sample((middle.t + b.t) / 2);
     if (!early.pixel || !late.pixel) return false;
@@ -109,25 +109,25 @@ class Tracer {
 
 std::vector<PixelLine> path_through_lens(const std::function<glm::dvec3(double time_s)>& position_m,
                                          std::span<const double> times_s, const CameraPose& world_from_camera,
-                                         const Lens& lens, const glm::dvec2& picture_size) {
+                                         const Lens& lens, const glm::dvec2& image_size) {
   const auto camera_from_world = inverse(world_from_camera);
   const InCamera in_camera = [&](double t_s) { return camera_from_world * position_m(t_s); };
-  return Tracer(in_camera, lens, picture_size).traced(times_s);
+  return Tracer(in_camera, lens, image_size).traced(times_s);
 }
 
 std::vector<PixelLine> points_through_lens(std::span<const glm::dvec3> points_m, const CameraPose& world_from_camera,
-                                           const Lens& lens, const glm::dvec2& picture_size) {
+                                           const Lens& lens, const glm::dvec2& image_size) {
   std::vector<double> times;
   for (std::size_t i = 0; i < points_m.size(); ++i) times.push_back(static_cast<double>(i));
   const auto position_m = [&](double t) {
     const std::size_t leg = std::min(static_cast<std::size_t>(t), points_m.size() - 2);
     return glm::mix(points_m[leg], points_m[leg + 1], t - static_cast<double>(leg));
   };
-  return path_through_lens(position_m, times, world_from_camera, lens, picture_size);
+  return path_through_lens(position_m, times, world_from_camera, lens, image_size);
 }
 
 std::vector<PixelLine> horizon_through_lens(const CameraPose& world_from_camera, const Lens& lens,
-                                            const glm::dvec2& picture_size) {
+                                            const glm::dvec2& image_size) {
   const glm::dvec3 ahead = world_from_camera.rotation * glm::dvec3{1, 0, 0};
   const glm::dquat camera_from_world = glm::conjugate(world_from_camera.rotation);
   // Begins behind the camera, where most lenses see nothing, so that the line is whole.
@@ -137,7 +137,7 @@ std::vector<PixelLine> horizon_through_lens(const CameraPose& world_from_camera,
   };
   std::vector<double> turns;
   for (int i = 0; i <= 8; ++i) turns.push_back(i * std::numbers::pi / 4);
-  return Tracer(in_camera, lens, picture_size).traced(turns);
+  return Tracer(in_camera, lens, image_size).traced(turns);
 }
 
 }  // namespace sigs::editor

@@ -11,8 +11,8 @@
 namespace sigs::editor {
 namespace {
 
-constexpr double kFewestFrames = 4;
-constexpr double kClosestTicksPx = 6;
+constexpr double kMinFrames = 4;
+constexpr double kMinTickGapPx = 6;
 
 // Within the footage; footage shorter than the strip is wholly in it.
 TimeRuler kept_over_footage(TimeRuler ruler, int frame_count) {
@@ -21,9 +21,9 @@ TimeRuler kept_over_footage(TimeRuler ruler, int frame_count) {
   return ruler;
 }
 
-// The least of 1, 2, 5, 10 ... frames that divides the labels' step and is wide enough to see.
+// The smallest of 1, 2, 5, 10 ... frames that divides the labels' step and is wide enough to see.
 double tick_step(double label_step, double px_per_frame) {
-  double step = round_step(std::max(1.0, kClosestTicksPx / px_per_frame));
+  double step = round_step(std::max(1.0, kMinTickGapPx / px_per_frame));
   while (step < label_step && std::fmod(label_step, step) != 0) step = round_step(step * 1.5);
   return std::min(step, label_step);
 }
@@ -51,9 +51,9 @@ int TimeRuler::nearest_frame(double x, int lowest, int highest) const {
 
 TimeRuler zoomed(const TimeRuler& ruler, double factor, double fixed_x, int frame_count) {
   if (!(factor > 0) || !std::isfinite(fixed_x) || !(ruler.width > 0)) return kept_over_footage(ruler, frame_count);
-  const double most = std::max(kFewestFrames, frame_count * (4.0 / 3));
+  const double maximum = std::max(kMinFrames, frame_count * (4.0 / 3));
   TimeRuler result = ruler;
-  result.count = std::clamp(ruler.count / factor, kFewestFrames, most);
+  result.count = std::clamp(ruler.count / factor, kMinFrames, maximum);
   result.first = ruler.frame_at(fixed_x) - (fixed_x - ruler.left_x) / ruler.width * result.count;
   return kept_over_footage(result, frame_count);
 }
@@ -76,7 +76,7 @@ TimeRuler with_frame_in_sight(const TimeRuler& ruler, double frame, int frame_co
 std::vector<Tick> ticks(const TimeRuler& ruler, double label_width) {
   const double px_per_frame = ruler.width / ruler.count;
   if (!(px_per_frame > 0) || !std::isfinite(px_per_frame) || !std::isfinite(ruler.first)) return {};
-  const double label_px = std::max(kClosestTicksPx, std::isfinite(label_width) ? label_width : 0);
+  const double label_px = std::max(kMinTickGapPx, std::isfinite(label_width) ? label_width : 0);
   const double label_step = round_step(std::max(1.0, label_px / px_per_frame));
   const double step = tick_step(label_step, px_per_frame);
   const double first_step = std::ceil(ruler.first / step);

@@ -17,12 +17,12 @@ double distance_px(const PickPoint& point, const glm::dvec2& mouse) {
 }  // namespace
 
 std::optional<std::size_t> nearest_point(std::span<const PickPoint> points, const glm::dvec2& mouse, double reach_px) {
-  double least_px = kInfinity;
-  for (const PickPoint& point : points) least_px = std::min(least_px, distance_px(point, mouse));
-  if (!(least_px <= reach_px)) return std::nullopt;
+  double min_px = kInfinity;
+  for (const PickPoint& point : points) min_px = std::min(min_px, distance_px(point, mouse));
+  if (!(min_px <= reach_px)) return std::nullopt;
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool ties = distance_px(points[i], mouse) <= std::min(least_px + kTiePx, reach_px);
+    const bool ties = distance_px(points[i], mouse) <= std::min(min_px + kTiePx, reach_px);
     if (ties && (!best || points[i].depth_m < points[*best].depth_m)) best = i;
   }
   return best;

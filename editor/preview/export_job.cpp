@@ -6,7 +6,7 @@
 
 #include "base/guarded.h"
 #include "base/thread.h"
-#include "editor/preview/polite.h"
+#include "editor/preview/thread_priority.h"
 
 namespace sigs::editor {
 
@@ -40,7 +40,7 @@ bool ExportJob::start(ExportRequest request) {
 }
 
 void ExportJob::run() {
-  be_polite(kNicenessOfExport);
+  lower_thread_priority(kBackgroundNiceness);
   finish(guarded([this] { return exported(); }));
   wake_();
 }

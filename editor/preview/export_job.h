@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "editor/preview/rate_meter.h"
-#include "export.h"
+#include "export/export_project.h"
 
 namespace sigs::editor {
 
@@ -32,7 +32,7 @@ struct ExportState {
   [[nodiscard]] bool is_running() const { return phase == ExportPhase::running; }
 };
 
-// Exports in the background, one at a time, at low priority: the window and its pictures come first.
+// Exports in the background, one at a time, at low priority: the window and its images come first.
 class ExportJob {
  public:
   // wake  called from the export's thread after each frame and at the end

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "annotation/labels.h"
+#include "labels/labels.h"
 
 namespace sigs::editor {
 
@@ -25,7 +25,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, avi for mjpeg; png gives a folder of pictures.
+// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, avi for mjpeg; png gives a folder of images.
 std::string ending_of(const ExportSettings& output) {
   if (output.codec == CodecChoice::png) return "";
   switch (output.container) {

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "export.h"
+#include "export/export_project.h"
 
 namespace sigs::editor {
 
 // Where an export goes unless the person says otherwise: "out" beside the project file, else in the home folder.
 [[nodiscard]] std::filesystem::path usual_export_folder(const Project& project);
 
-// What an export will be called: videos and annotations, or folders of numbered pictures.
+// What an export will be called: videos and annotations, or folders of numbered images.
 [[nodiscard]] std::vector<std::filesystem::path> outputs_of(const Project& project,
                                                             const std::filesystem::path& folder);
 

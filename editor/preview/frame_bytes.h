@@ -3,13 +3,13 @@
 
 #include <cstddef>
 
-#include "editor/preview/composer.h"
+#include "editor/preview/scene_renderer.h"
 
 namespace sigs::editor {
 
 // Bytes of samples that something holds.
-[[nodiscard]] std::size_t bytes_of(const cv::Mat& picture);
-[[nodiscard]] std::size_t bytes_of(const Picture& picture);  // with its mask and stages
-[[nodiscard]] std::size_t bytes_of(const Decoded& decoded);
+[[nodiscard]] std::size_t bytes_of(const cv::Mat& image);
+[[nodiscard]] std::size_t bytes_of(const PreviewImage& image);  // with its mask and stages
+[[nodiscard]] std::size_t bytes_of(const DecodedFrame& decoded);
 
 }  // namespace sigs::editor

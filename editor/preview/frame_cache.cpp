@@ -27,10 +27,10 @@ bool CacheOrder::is_worth_less(FrameKey a, FrameKey b) const {
 }
 
 // Frames lie in order, so the farthest of a state is its first or its last.
-std::optional<FrameKey> CacheOrder::least() const {
-  std::optional<FrameKey> least;
+std::optional<FrameKey> CacheOrder::first_to_go() const {
+  std::optional<FrameKey> first_to_go;
   const auto consider = [&](FrameKey key) {
-    if (!least || is_worth_less(key, *least)) least = key;
+    if (!first_to_go || is_worth_less(key, *first_to_go)) first_to_go = key;
   };
   for (auto at = bytes_of_.begin(); at != bytes_of_.end();) {
     const std::uint64_t state = at->first.state;
@@ -39,7 +39,7 @@ std::optional<FrameKey> CacheOrder::least() const {
     consider(std::prev(next)->first);
     at = next;
   }
-  return least;
+  return first_to_go;
 }
 
 std::size_t CacheOrder::bytes_worth_less(FrameKey key, std::size_t enough) const {
@@ -75,10 +75,10 @@ std::vector<FrameKey> CacheOrder::set_limit(std::size_t limit_bytes) {
 std::vector<FrameKey> CacheOrder::shrink() {
   std::vector<FrameKey> gone;
   while (bytes_ > limit_bytes_) {
-    const FrameKey least = *this->least();
-    bytes_ -= bytes_of_[least];
-    bytes_of_.erase(least);
-    gone.push_back(least);
+    const FrameKey first_to_go = *this->first_to_go();
+    bytes_ -= bytes_of_[first_to_go];
+    bytes_of_.erase(first_to_go);
+    gone.push_back(first_to_go);
   }
   return gone;
 }

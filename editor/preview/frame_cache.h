@@ -43,7 +43,7 @@ class CacheOrder {
  private:
   [[nodiscard]] std::vector<FrameKey> shrink();
   [[nodiscard]] bool is_worth_less(FrameKey a, FrameKey b) const;
-  [[nodiscard]] std::optional<FrameKey> least() const;
+  [[nodiscard]] std::optional<FrameKey> first_to_go() const;
   [[nodiscard]] std::size_t bytes_worth_less(FrameKey key, std::size_t enough) const;
 
   std::size_t limit_bytes_;

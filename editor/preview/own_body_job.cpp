@@ -6,13 +6,13 @@
 
 #include "base/guarded.h"
 #include "base/thread.h"
-#include "editor/preview/polite.h"
+#include "editor/preview/thread_priority.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr double kTell_s = 0.1;  // between two words to the window
+constexpr double kWakeInterval_s = 0.1;  // between two words to the window
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -40,7 +40,7 @@ bool OwnBodyJob::start(DetectionRequest request) {
   cancel_ = false;
   forget_ = false;
   rate_ = {};
-  told_s_ = 0;
+  last_wake_s_ = 0;
   state_ = {.phase = DetectionPhase::running,
             .request = request,
             .found = std::move(state_.found),
@@ -54,7 +54,7 @@ bool OwnBodyJob::start(DetectionRequest request) {
 }
 
 void OwnBodyJob::run(const DetectionRequest& request) {
-  be_polite(kNicenessOfExport);
+  lower_thread_priority(kBackgroundNiceness);
   finish(guarded([&] {
     return detect_(request, {.progress = [this](int done, int total) { note(done, total); },
                              .cancel = &cancel_,
@@ -70,8 +70,8 @@ void OwnBodyJob::note(int done, int total) {
     state_.total = total;
     const double now = now_s();
     rate_.note(now, done);
-    if (now - told_s_ < kTell_s) return;
-    told_s_ = now;
+    if (now - last_wake_s_ < kWakeInterval_s) return;
+    last_wake_s_ = now;
   }
   wake_();
 }

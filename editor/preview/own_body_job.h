@@ -43,7 +43,7 @@ struct DetectionState {
   [[nodiscard]] bool is_running() const { return phase == DetectionPhase::running; }
 };
 
-// Finds the own body in the background, one detection at a time, at low priority: the window and its pictures come
+// Finds the own body in the background, one detection at a time, at low priority: the window and its images come
 // first.
 class OwnBodyJob {
  public:
@@ -73,7 +73,7 @@ class OwnBodyJob {
   mutable std::mutex mutex_;
   DetectionState state_;
   RateMeter rate_;
-  double told_s_ = 0;  // when the window was woken last
+  double last_wake_s_ = 0;  // when the window was woken last
   bool forget_ = false;
   std::atomic<bool> cancel_{false};
   std::thread thread_;

@@ -4,17 +4,18 @@
 #include <thread>
 #include <utility>
 
-#include "editor/preview/board.h"
-#include "editor/preview/composing.h"
-#include "editor/preview/decoding.h"
+#include "editor/preview/preview_decoder.h"
+#include "editor/preview/preview_renderer.h"
+#include "editor/preview/preview_state.h"
 
 namespace sigs::editor {
 
 struct Previewer::State {
   State(PreviewLimits limits, std::function<void()> wake)
-      : board(std::make_shared<Board>(limits, std::move(wake))), decoding([shared = board] { decode_for(shared); }) {
+      : preview_state(std::make_shared<PreviewState>(limits, std::move(wake))),
+        decoding([shared = preview_state] { run_decoder(shared); }) {
     try {
-      composing = std::thread([shared = board] { Composing(*shared).run(); });
+      renderer = std::thread([shared = preview_state] { PreviewRenderer(*shared).run(); });
     } catch (...) {
       end();
       throw;
@@ -23,14 +24,14 @@ struct Previewer::State {
   ~State() { end(); }
 
   void end() {
-    board->stop();
-    for (std::thread* const thread : {&decoding, &composing})
+    preview_state->stop();
+    for (std::thread* const thread : {&decoding, &renderer})
       if (thread->joinable()) thread->join();
   }
 
-  std::shared_ptr<Board> board;  // footage that is still being opened holds on to it
+  std::shared_ptr<PreviewState> preview_state;  // footage that is still being opened holds on to it
   std::thread decoding;
-  std::thread composing;
+  std::thread renderer;
 };
 
 Previewer::Previewer(PreviewLimits limits, std::function<void()> wake)
@@ -38,20 +39,20 @@ Previewer::Previewer(PreviewLimits limits, std::function<void()> wake)
 
 Previewer::~Previewer() = default;
 
-void Previewer::want(const Wanted& wanted) {
-  state_->board->want(wanted);
+void Previewer::want(const PreviewRequest& wanted) {
+  state_->preview_state->want(wanted);
 }
 
-Shown Previewer::shown() const {
-  return state_->board->shown();
+PreviewOutput Previewer::shown() const {
+  return state_->preview_state->shown();
 }
 
 void Previewer::set_texture_bytes(std::size_t bytes) {
-  state_->board->set_texture_bytes(bytes);
+  state_->preview_state->set_texture_bytes(bytes);
 }
 
-void Previewer::set_modest(bool modest) {
-  state_->board->set_modest(modest);
+void Previewer::set_prefetch_paused(bool paused) {
+  state_->preview_state->set_prefetch_paused(paused);
 }
 
 }  // namespace sigs::editor

@@ -10,17 +10,17 @@
 #include <string>
 #include <vector>
 
-#include "annotation/annotation.h"
 #include "editor/document/document.h"
-#include "frame.h"
-#include "outlook.h"
+#include "frame/compose_frame.h"
 #include "scene/draft.h"
 #include "scene/flight.h"
+#include "scene/visibility_estimate.h"
+#include "truth/annotation.h"
 #include "video/frame_source.h"
 
 namespace sigs::editor {
 
-// What the project's video is, opened or stood in for by grey frames.
+// What the project's video is, opened or with_preset in for by grey frames.
 struct Footage {
   FootageShape shape;
   std::optional<VideoInfo> video;  // none: it could not be opened
@@ -35,9 +35,9 @@ struct OpenedScene {
   DraftScene draft;
 };
 
-// One composited frame, ready to be shown. revision is the one it was made of; later ones that change no picture share
+// One composited frame, ready to be shown. revision is the one it was made of; later ones that change no image share
 // it.
-struct Picture {
+struct PreviewImage {
   std::uint64_t revision = 0;
   int frame = 0;
   std::optional<MethodChoice> method;  // other than the project's own, for comparing
@@ -45,7 +45,7 @@ struct Picture {
   cv::Mat mask;                        // CV_8UC1 or empty, as ComposedFrame::mask
   FrameTruth truth;
   std::vector<Stage> stages;  // where asked for
-  std::string problem;        // not empty: bgr is the untouched footage, or another frame or grey stands in for it, and
+  std::string problem;        // not empty: bgr is the untouched footage, or another frame or grey replaces it, and
                               // this is why
   FrameTimes times;
 };
@@ -54,14 +54,14 @@ struct Picture {
 struct Survey {
   std::uint64_t revision = 0;
   int first_frame = 0;
-  std::vector<Outlook> outlooks;    // one a frame; grows while it is made
-  std::vector<FlightState> flight;  // one a frame
+  std::vector<VisibilityEstimate> estimates;  // one a frame; grows while it is made
+  std::vector<FlightState> flight;            // one a frame
   std::vector<FlightFlag> flags;
   ClosestApproach closest;
 };
 
-// A small picture of a model, turning: CV_8UC4, RGBA, straight alpha.
-struct ModelPicture {
+// A small image of a model, turning: CV_8UC4, RGBA, straight alpha.
+struct ModelImage {
   std::filesystem::path file;
   double turn_rad = 0;
   cv::Mat rgba;
@@ -69,8 +69,8 @@ struct ModelPicture {
   std::string problem;
 };
 
-// What the window wants to see. Asked anew each turn; what is no longer wanted is dropped.
-struct Wanted {
+// What the window wants to see. Asked anew each update; what is no longer wanted is dropped.
+struct PreviewRequest {
   Revision revision;
   int frame = 0;
   int direction = 1;    // where the playhead will go: +1, -1; how far the next frames are fetched ahead is ours
@@ -91,28 +91,28 @@ struct Wanted {
 // Bytes that are kept so that they need not be made again, by who keeps them; what is on the screen counts too. Files
 // that were read, working memory and the steps of undo do not.
 struct MemoryUse {
-  std::size_t pictures = 0;  // composited frames
+  std::size_t images = 0;    // composited frames
   std::size_t decoded = 0;   // frames of the footage
   std::size_t shown = 0;     // what the view asked for at this moment, where no cache holds it
   std::size_t textures = 0;  // the window's, as it says
   std::size_t limit = 0;     // for all of them
 
-  [[nodiscard]] std::size_t sum() const { return pictures + decoded + shown + textures; }
+  [[nodiscard]] std::size_t sum() const { return images + decoded + shown + textures; }
 };
 
 // What there is to show at this moment. Pointers are never changed behind the reader's back; any may be null at first.
-struct Shown {
+struct PreviewOutput {
   std::shared_ptr<const OpenedScene> scene;            // newest revision that is open
-  std::shared_ptr<const Picture> picture;              // of the wanted frame and revision, else the best there is
-  bool picture_is_current = false;                     // exactly what was wanted
+  std::shared_ptr<const PreviewImage> image;           // of the wanted frame and revision, else the best there is
+  bool image_is_current = false;                       // exactly what was wanted
   std::shared_ptr<const cv::Mat> footage;              // the wanted frame untouched, BGR; null: not there (yet)
-  std::shared_ptr<const Picture> staged;               // the wanted frame with its stages
-  std::shared_ptr<const Picture> compared;             // by compare_with
+  std::shared_ptr<const PreviewImage> staged;          // the wanted frame with its stages
+  std::shared_ptr<const PreviewImage> compared;        // by compare_with
   std::vector<std::shared_ptr<const Survey>> surveys;  // one for each of the project's intruders, null: not yet
-  std::shared_ptr<const ModelPicture> model;
+  std::shared_ptr<const ModelImage> model;
   std::vector<bool> cached;  // by frame: composited and in memory, of the newest revision
   bool opening = false;      // the wanted footage is still being opened; the scene is the one before, or null
-  double compose_ms = 0;     // of the newest picture
+  double compose_ms = 0;     // of the newest image
   bool busy = false;
   MemoryUse memory;
 };
@@ -136,14 +136,14 @@ class Previewer {
   Previewer(const Previewer&) = delete;
   Previewer& operator=(const Previewer&) = delete;
 
-  void want(const Wanted& wanted);
-  [[nodiscard]] Shown shown() const;
+  void want(const PreviewRequest& wanted);
+  [[nodiscard]] PreviewOutput shown() const;
 
   // What the window holds in textures; the caches keep so much less.
   void set_texture_bytes(std::size_t bytes);
 
   // Exporting shares the machine: while set, nothing is fetched ahead.
-  void set_modest(bool modest);
+  void set_prefetch_paused(bool paused);
 
  private:
   struct State;

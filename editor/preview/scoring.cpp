@@ -7,14 +7,14 @@
 
 #include "base/guarded.h"
 #include "editor/preview/outline_truth.h"
-#include "editor/preview/polite.h"
+#include "editor/preview/thread_priority.h"
 #include "evaluation/track_start.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr double kLeastSide_px = 0;                      // of the first box that a tracker is started with
+constexpr double kMinSide_px = 0;                        // of the first box that a tracker is started with
 constexpr std::chrono::milliseconds kLookAtFiles(1000);  // how often they are looked at for changes from outside
 
 bool is_same(const FootageTruth& a, const FootageTruth& b) {
@@ -26,34 +26,34 @@ Result<Results> read_safely(const std::filesystem::path& path, const FootageTrut
   return guarded([&] { return read_results(path, footage, {.start_frame = start}); }, path.string());
 }
 
-const TargetTruth* target_in(const FilmTruth& film, int id) {
+const TargetTruth* target_in(const ClipTruth& clip, int id) {
   const auto found =
-      std::find_if(film.targets.begin(), film.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
-  return found == film.targets.end() ? nullptr : &*found;
+      std::find_if(clip.targets.begin(), clip.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
+  return found == clip.targets.end() ? nullptr : &*found;
 }
 
 // Number in the scene of the project's intruder; -1: it flies nowhere, or there is none.
-int target_of(const ScoringWanted& wanted) {
+int target_of(const ScoringRequest& wanted) {
   const std::vector<int>& ids = wanted.scene->draft.intruder_of_project;
   const auto intruder = static_cast<std::size_t>(wanted.intruder);
   return wanted.intruder >= 0 && intruder < ids.size() ? ids[intruder] : -1;
 }
 
-// As `sigs evaluate track` measures where nothing else is asked for; none: the target is never seen.
-std::optional<TrackPolicy> policy_for(const FilmTruth* film, int target) {
-  const TargetTruth* const truth = film == nullptr ? nullptr : target_in(*film, target);
-  return truth == nullptr ? std::nullopt : policy_from_start(*film, *truth);
+// As `sigs evaluate track` measures where nothing else is asked for; none: the target is never visible.
+std::optional<TrackPolicy> policy_for(const ClipTruth* clip, int target) {
+  const TargetTruth* const truth = clip == nullptr ? nullptr : target_in(*clip, target);
+  return truth == nullptr ? std::nullopt : policy_from_start(*clip, *truth);
 }
 
 }  // namespace
 
-Scoring::Scoring(std::function<void()> wake, TruthMaker::ShowFilm show)
+Scoring::Scoring(std::function<void()> wake, TruthBuilder::StreamFrames show)
     : wake_(std::move(wake)),
       truth_(
           [this] {
             {
               const std::lock_guard lock(mutex_);
-              news_ = true;
+              has_news_ = true;
             }
             changed_.notify_all();
           },
@@ -69,7 +69,7 @@ Scoring::~Scoring() {
   thread_.join();
 }
 
-void Scoring::want(ScoringWanted wanted) {
+void Scoring::want(ScoringRequest wanted) {
   {
     const std::lock_guard lock(mutex_);
     if (wanted.files.empty()) {
@@ -78,7 +78,7 @@ void Scoring::want(ScoringWanted wanted) {
     }
     if (wanted == wanted_) return;
     wanted_ = std::move(wanted);
-    news_ = true;
+    has_news_ = true;
   }
   changed_.notify_all();
 }
@@ -97,25 +97,25 @@ void Scoring::put(std::shared_ptr<const Scored> scored) {
   wake_();
 }
 
-ScoringWanted Scoring::next() {
+ScoringRequest Scoring::next() {
   std::unique_lock lock(mutex_);
-  const auto is_due = [&] { return stop_ || news_; };
+  const auto is_due = [&] { return stop_ || has_news_; };
   if (wanted_.files.empty())
     changed_.wait(lock, is_due);
   else
     changed_.wait_for(lock, kLookAtFiles, is_due);
-  news_ = false;
+  has_news_ = false;
   return wanted_;
 }
 
 void Scoring::read(Tracker& tracker, const ResultFile& file, const FootageTruth& footage,
                    std::optional<int> start) const {
   const FileStamp stamp = stamp_of(file.path);
-  const FileStamp before = std::exchange(tracker.seen, stamp);
+  const FileStamp before = std::exchange(tracker.last_stamp, stamp);
   const bool is_known = tracker.results || !tracker.problem.empty();
   const bool is_old = stamp != tracker.stamp && stamp == before;
   if (is_known && !is_old && is_same(footage, tracker.footage) && start == tracker.start_frame) return;
-  tracker = {.stamp = stamp, .seen = stamp, .footage = footage, .start_frame = start};
+  tracker = {.stamp = stamp, .last_stamp = stamp, .footage = footage, .start_frame = start};
   Result<Results> read = read_safely(file.path, footage, start);
   if (read)
     tracker.results = std::make_shared<const Results>(std::move(*read));
@@ -125,39 +125,39 @@ void Scoring::read(Tracker& tracker, const ResultFile& file, const FootageTruth&
 
 // What was measured counts for the scene that it belongs to alone; until it is there, the outlines. Those of the scene
 // before stay as long as the surveys are not complete.
-std::shared_ptr<const FilmTruth> Scoring::film_of(const ScoringWanted& wanted, const TruthState& truth) {
-  if (truth.film && truth.scene == wanted.scene) return truth.film;
+std::shared_ptr<const ClipTruth> Scoring::clip_of(const ScoringRequest& wanted, const TruthState& truth) {
+  if (truth.clip && truth.scene == wanted.scene) return truth.clip;
   if (outlines_scene_ != wanted.scene || outlines_surveys_ != wanted.surveys) {
     outlines_scene_ = wanted.scene;
     outlines_surveys_ = wanted.surveys;
-    if (std::shared_ptr<const FilmTruth> made = outline_truth(*wanted.scene, wanted.surveys))
+    if (std::shared_ptr<const ClipTruth> made = outline_truth(*wanted.scene, wanted.surveys))
       outlines_ = std::move(made);
   }
   const bool fits = outlines_ && is_same(outlines_->footage, footage_truth_of(*wanted.scene));
   return fits ? outlines_ : nullptr;
 }
 
-void Scoring::score(Tracker& tracker, const std::shared_ptr<const FilmTruth>& film, int target,
+void Scoring::score(Tracker& tracker, const std::shared_ptr<const ClipTruth>& clip, int target,
                     const std::optional<TrackPolicy>& policy) const {
-  if (!tracker.results || !film || (tracker.scored_by == film && tracker.target == target)) return;
-  tracker.scored_by = film;
+  if (!tracker.results || !clip || (tracker.scored_by == clip && tracker.target == target)) return;
+  tracker.scored_by = clip;
   tracker.target = target;
   tracker.score = nullptr;
   if (policy)
     tracker.score =
-        std::make_shared<const TrackScore>(score_track(*film, *target_in(*film, target), *tracker.results, *policy));
+        std::make_shared<const TrackScore>(score_track(*clip, *target_in(*clip, target), *tracker.results, *policy));
 }
 
-void Scoring::step(const ScoringWanted& wanted) {
+void Scoring::step(const ScoringRequest& wanted) {
   const FootageTruth footage = footage_truth_of(*wanted.scene);
   const TruthState truth = truth_.state();
-  const std::shared_ptr<const FilmTruth> film = film_of(wanted, truth);
+  const std::shared_ptr<const ClipTruth> clip = clip_of(wanted, truth);
   const bool is_of_scene = truth.scene == wanted.scene;
   const int target = target_of(wanted);
-  const std::optional<TrackPolicy> policy = policy_for(film.get(), target);
+  const std::optional<TrackPolicy> policy = policy_for(clip.get(), target);
   auto scored = std::make_shared<Scored>(Scored{.intruder = wanted.intruder, .first_frame = footage.first_frame});
   if (target >= 0) scored->target = wanted.scene->draft.scene.intruders[static_cast<std::size_t>(target)].name;
-  if (film) scored->truth = film == truth.film ? TruthKind::measured : TruthKind::outlines;
+  if (clip) scored->truth = clip == truth.clip ? TruthKind::measured : TruthKind::outlines;
   if (is_of_scene) {
     scored->truth_done = truth.done;
     scored->truth_total = truth.total;
@@ -170,7 +170,7 @@ void Scoring::step(const ScoringWanted& wanted) {
   for (const ResultFile& file : wanted.files) {
     Tracker& tracker = trackers_[file.id];
     read(tracker, file, footage, policy ? std::optional(policy->from_frame) : std::nullopt);
-    score(tracker, film, target, policy);
+    score(tracker, clip, target, policy);
     scored->trackers.push_back({.file = file,
                                 .name = tracker.results ? tracker.results->name : results_name(file.path),
                                 .problem = tracker.problem,
@@ -181,9 +181,9 @@ void Scoring::step(const ScoringWanted& wanted) {
 }
 
 void Scoring::run() {
-  be_polite(kNicenessOfPictures);
+  lower_thread_priority(kPreviewNiceness);
   while (true) {
-    const ScoringWanted wanted = next();
+    const ScoringRequest wanted = next();
     {
       const std::lock_guard lock(mutex_);
       if (stop_) return;

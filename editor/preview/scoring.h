@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "editor/document/result_files.h"
-#include "editor/preview/picture_names.h"
+#include "editor/preview/content_id.h"
 #include "editor/preview/previewer.h"
-#include "editor/preview/truth_maker.h"
+#include "editor/preview/truth_builder.h"
 #include "evaluation/results.h"
 #include "evaluation/track_score.h"
 
@@ -49,13 +49,13 @@ struct Scored {
   [[nodiscard]] bool operator==(const Scored&) const = default;
 };
 
-struct ScoringWanted {
+struct ScoringRequest {
   std::shared_ptr<const OpenedScene> scene;
   std::vector<std::shared_ptr<const Survey>> surveys;  // one for each of the project's intruders
   std::vector<ResultFile> files;
   int intruder = 0;  // of the project
 
-  [[nodiscard]] bool operator==(const ScoringWanted&) const = default;
+  [[nodiscard]] bool operator==(const ScoringRequest&) const = default;
 };
 
 // Reads result files and scores them in the background, anew whenever a file, the scene or its truth becomes another
@@ -63,12 +63,12 @@ struct ScoringWanted {
 class Scoring {
  public:
   // wake  called from another thread when scored() is another one
-  explicit Scoring(std::function<void()> wake, TruthMaker::ShowFilm show = film_shown);
+  explicit Scoring(std::function<void()> wake, TruthBuilder::StreamFrames show = stream_frames);
   ~Scoring();
   Scoring(const Scoring&) = delete;
   Scoring& operator=(const Scoring&) = delete;
 
-  void want(ScoringWanted wanted);
+  void want(ScoringRequest wanted);
   // Null: no files are loaded.
   [[nodiscard]] std::shared_ptr<const Scored> scored() const;
 
@@ -76,22 +76,22 @@ class Scoring {
   // A file as it was read last, and its score.
   struct Tracker {
     FileStamp stamp;
-    FileStamp seen;  // at the last look: what is being written is read once it has come to rest
+    FileStamp last_stamp;  // at the last look: what is being written is read once it has come to rest
     FootageTruth footage;
     std::optional<int> start_frame;  // it was taken to be started in this one
     std::shared_ptr<const Results> results;
     std::string problem;
-    std::shared_ptr<const FilmTruth> scored_by;
+    std::shared_ptr<const ClipTruth> scored_by;
     int target = -1;
     std::shared_ptr<const TrackScore> score;
   };
 
   void run();
-  [[nodiscard]] ScoringWanted next();  // waits; without files: stop
-  void step(const ScoringWanted& wanted);
-  [[nodiscard]] std::shared_ptr<const FilmTruth> film_of(const ScoringWanted& wanted, const TruthState& truth);
+  [[nodiscard]] ScoringRequest next();  // waits; without files: stop
+  void step(const ScoringRequest& wanted);
+  [[nodiscard]] std::shared_ptr<const ClipTruth> clip_of(const ScoringRequest& wanted, const TruthState& truth);
   void read(Tracker& tracker, const ResultFile& file, const FootageTruth& footage, std::optional<int> start) const;
-  void score(Tracker& tracker, const std::shared_ptr<const FilmTruth>& film, int target,
+  void score(Tracker& tracker, const std::shared_ptr<const ClipTruth>& clip, int target,
              const std::optional<TrackPolicy>& policy) const;
   void put(std::shared_ptr<const Scored> scored);
 
@@ -99,14 +99,14 @@ class Scoring {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
-  bool news_ = false;
-  ScoringWanted wanted_;
+  bool has_news_ = false;
+  ScoringRequest wanted_;
   std::shared_ptr<const Scored> scored_;
-  TruthMaker truth_;
+  TruthBuilder truth_;
 
   // The thread's own.
   std::map<int, Tracker> trackers_;  // by the file's id
-  std::shared_ptr<const FilmTruth> outlines_;
+  std::shared_ptr<const ClipTruth> outlines_;
   std::shared_ptr<const OpenedScene> outlines_scene_;
   std::vector<std::shared_ptr<const Survey>> outlines_surveys_;
   std::thread thread_;

@@ -16,7 +16,7 @@ constexpr double kFrom_deg = 145;  // 180: straight at the viewer
 constexpr double kAbove_deg = 18;
 constexpr double kDistance = 4;    // radii of the model: a mild perspective
 constexpr int kSupersampling = 3;  // each way: the renderer takes one sample a pixel
-constexpr double kFilled = 0.96;   // of the picture's half side, by the sphere around the model
+constexpr double kFilled = 0.96;   // of the image's half side, by the sphere around the model
 
 struct Ball {
   glm::dvec3 center_m{0, 0, 0};
@@ -38,7 +38,7 @@ Pose<frame::Camera, frame::Body> placed(const Ball& ball, double turn_rad) {
   return {camera_from_body, center - camera_from_body * ball.center_m};
 }
 
-VirtualView view_of(cv::Size size_px) {
+VirtualCamera view_of(cv::Size size_px) {
   const double half_px = 0.5 * std::min(size_px.width, size_px.height);
   const double tangent = 1 / std::sqrt(kDistance * kDistance - 1);  // of the ball's half angle
   return {.view_from_camera = {},
@@ -64,12 +64,12 @@ cv::Mat straight_display(const cv::Mat& premultiplied) {
 }
 
 glm::dvec2 turntable_point_px(const glm::dvec3& direction_in_body, double turn_rad, cv::Size size_px) {
-  const VirtualView view = view_of(size_px);
+  const VirtualCamera view = view_of(size_px);
   const glm::dvec3 p = placed(Ball{}, turn_rad) * direction_in_body;  // x ahead, y right, z down
   return view.center_px + view.focal_px * glm::dvec2(p.y, p.z) / p.x;
 }
 
-Result<cv::Mat> turntable_picture(const Mesh& mesh, double turn_rad, cv::Size size_px, Renderer& renderer) {
+Result<cv::Mat> turntable_image(const Mesh& mesh, double turn_rad, cv::Size size_px, Renderer& renderer) {
   const Ball ball = ball_around(mesh);
   const Light light{.p_in_camera = glm::dvec3(-1, -3, -4) * (kDistance * ball.radius_m)};
   const Result<Layer> layer = renderer.draw(mesh, placed(ball, turn_rad), light, view_of(size_px * kSupersampling));

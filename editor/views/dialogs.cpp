@@ -17,12 +17,12 @@ namespace sigs::editor {
 
 namespace {
 
-void close_row(Places& places, bool& closed) {
+void close_row(UiProbe& ui_probe, bool& closed) {
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Close"};
   align_buttons_right(labels, 1);
   if (dialog_button("Close", true)) closed = true;
-  places.note_item("dialog/Close");
+  ui_probe.note_item("dialog/Close");
 }
 
 void draw_help_group(std::span<const HelpLine> lines, std::size_t& i) {
@@ -59,7 +59,7 @@ void setting_label(const char* name, const char* help) {
 
 }  // namespace
 
-std::optional<int> draw_question(const Question& question, Places& places) {
+std::optional<int> draw_question(const Question& question, UiProbe& ui_probe) {
   bool closed = false;
   if (!begin_dialog((question.title + "###question").c_str(), 460, 0, closed)) return std::nullopt;
   std::optional<int> answer;
@@ -72,7 +72,7 @@ std::optional<int> draw_question(const Question& question, Places& places) {
   align_buttons_right(labels.data(), static_cast<int>(labels.size()));
   for (std::size_t i = question.answers.size(); i-- > 0;) {
     if (dialog_button(question.answers[i].c_str(), i == 0)) answer = static_cast<int>(i);
-    places.note_item("question/" + question.answers[i]);
+    ui_probe.note_item("question/" + question.answers[i]);
     if (i > 0) ImGui::SameLine();
   }
   if (pressed(Key::enter) || pressed(Key::keypad_enter)) answer = 0;
@@ -81,7 +81,7 @@ std::optional<int> draw_question(const Question& question, Places& places) {
   return answer;
 }
 
-bool draw_help(std::span<const HelpLine> lines, Places& places) {
+bool draw_help(std::span<const HelpLine> lines, UiProbe& ui_probe) {
   bool closed = false;
   if (!begin_dialog("Keys###help", 860, 560, closed)) return !closed;
   const float bottom = scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
@@ -101,12 +101,12 @@ bool draw_help(std::span<const HelpLine> lines, Places& places) {
     ImGui::EndTable();
   }
   ImGui::EndChild();
-  close_row(places, closed);
+  close_row(ui_probe, closed);
   end_dialog(!closed);
   return !closed;
 }
 
-bool draw_about(const std::string& version, Places& places) {
+bool draw_about(const std::string& version, UiProbe& ui_probe) {
   bool closed = false;
   if (!begin_dialog("About###about", 420, 0, closed)) return !closed;
   ImGui::PushFont(font(Font::title));
@@ -119,12 +119,12 @@ bool draw_about(const std::string& version, Places& places) {
       "writes the exact ground truth next to it.");
   ImGui::Dummy({0, scaled(4)});
   ImGui::TextDisabled("MIT licence");
-  close_row(places, closed);
+  close_row(ui_probe, closed);
   end_dialog(!closed);
   return !closed;
 }
 
-bool SettingsDialog::draw(Settings& settings, Places& places) {
+bool SettingsDialog::draw(Settings& settings, UiProbe& ui_probe) {
   bool closed = false;
   if (!begin_dialog("Settings###settings", 480, 0, closed)) return !closed;
   if (ImGui::BeginTable("settings", 2)) {
@@ -132,10 +132,10 @@ bool SettingsDialog::draw(Settings& settings, Places& places) {
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.2F);
     setting_label("Size of the text", "Everything else follows it");
     auto font_px = static_cast<int>(font_px_ > 0 ? font_px_ : settings.font_px);
-    if (ImGui::SliderInt("##font", &font_px, static_cast<int>(kLeastFont_px), static_cast<int>(kMostFont_px), "%d px",
+    if (ImGui::SliderInt("##font", &font_px, static_cast<int>(kMinFont_px), static_cast<int>(kMaxFont_px), "%d px",
                          ImGuiSliderFlags_AlwaysClamp))
       font_px_ = font_px;
-    places.note_item("settings/font");
+    ui_probe.note_item("settings/font");
     if (ImGui::IsItemDeactivatedAfterEdit() && font_px_ > 0) settings.font_px = font_px_;
     if (!ImGui::IsItemActive()) font_px_ = 0;
     setting_label("Keep unsaved changes after",
@@ -144,13 +144,13 @@ bool SettingsDialog::draw(Settings& settings, Places& places) {
     if (ImGui::SliderFloat("##autosave", &autosave_s, 1, 300, "%.0f s",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
       settings.autosave_s = autosave_s;
-    places.note_item("settings/autosave");
+    ui_probe.note_item("settings/autosave");
     setting_label("Playing starts again at the end", "Loop over the range between in and out");
     ImGui::Checkbox("##loop", &settings.loop);
-    places.note_item("settings/loop");
+    ui_probe.note_item("settings/loop");
     ImGui::EndTable();
   }
-  close_row(places, closed);
+  close_row(ui_probe, closed);
   end_dialog(!closed);
   return !closed;
 }

@@ -7,14 +7,14 @@
 
 #include "editor/document/question.h"
 #include "editor/document/settings.h"
-#include "editor/widgets/places.h"
+#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 
-// Small windows over everything else, drawn once a turn while they are wanted.
+// Small windows over everything else, drawn once per update while they are wanted.
 
 // The number of the answer that was given. Escape gives the last one.
-[[nodiscard]] std::optional<int> draw_question(const Question& question, Places& places);
+[[nodiscard]] std::optional<int> draw_question(const Question& question, UiProbe& ui_probe);
 
 // A key and what it does.
 struct HelpLine {
@@ -23,14 +23,14 @@ struct HelpLine {
   std::string what;
 };
 // False once it was closed; so with the others.
-[[nodiscard]] bool draw_help(std::span<const HelpLine> lines, Places& places);
+[[nodiscard]] bool draw_help(std::span<const HelpLine> lines, UiProbe& ui_probe);
 
-[[nodiscard]] bool draw_about(const std::string& version, Places& places);
+[[nodiscard]] bool draw_about(const std::string& version, UiProbe& ui_probe);
 
 // How the editor looks and behaves. The size of the text counts when the slider is let go: it moves everything.
 class SettingsDialog {
  public:
-  [[nodiscard]] bool draw(Settings& settings, Places& places);
+  [[nodiscard]] bool draw(Settings& settings, UiProbe& ui_probe);
 
  private:
   double font_px_ = 0;  // while the slider is held; 0: it is not

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "annotation/labels.h"
 #include "editor/views/readable.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"
-#include "editor/widgets/open_outside.h"
+#include "editor/widgets/open_with_desktop.h"
 #include "editor/widgets/theme.h"
+#include "labels/labels.h"
 
 namespace sigs::editor {
 
@@ -20,27 +20,28 @@ namespace {
 namespace fs = std::filesystem;
 
 // In the order of the project's choices.
-constexpr std::array kCodecs{"ffv1 (lossless)", "h264 (small)", "mjpeg", "png (numbered pictures)"};
+constexpr std::array kCodecs{"ffv1 (lossless)", "h264 (small)", "mjpeg", "png (numbered images)"};
 constexpr std::array kContainers{"auto", "mkv", "mp4", "avi"};
-constexpr std::array kMasks{"none", "video", "png (numbered pictures)"};
+constexpr std::array kMasks{"none", "video", "png (numbered images)"};
 
 template <class Choice, std::size_t N>
-bool choose(const Studio& studio, const char* id, const std::array<const char*, N>& names, Choice& value, float width) {
+bool choose(const ViewContext& context, const char* id, const std::array<const char*, N>& names, Choice& value,
+            float width) {
   ImGui::SetNextItemWidth(width);
   auto index = static_cast<int>(value);
   const bool changed = ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), static_cast<int>(N));
-  studio.places.note_item(std::string("export/") + id);
+  context.ui_probe.note_item(std::string("export/") + id);
   if (changed) value = static_cast<Choice>(index);
   return changed;
 }
 
-void draw_written(const Studio& studio, const ExportState& state) {
+void draw_written(const ViewContext& context, const ExportState& state) {
   for (std::size_t i = 0; i < state.report.written.size(); ++i) {
     const fs::path& path = state.report.written[i];
     ImGui::PushID(static_cast<int>(i));
     if (icon_button("copy path", Icon::copy, "Copy the path")) {
       ImGui::SetClipboardText(path.c_str());
-      studio.edits.ask(Say{"Copied " + path.filename().string()});
+      context.edits.ask(ShowMessage{"Copied " + path.filename().string()});
     }
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
@@ -61,12 +62,12 @@ void choose_label(ExportSettings& output, std::string_view format, bool chosen) 
   output.labels = std::move(labels);
 }
 
-void draw_label_format(const Studio& studio, const LabelFormat& format) {
+void draw_label_format(const ViewContext& context, const LabelFormat& format) {
   const std::string name(format.name);
-  bool chosen = is_chosen(studio.project().output, name);
+  bool chosen = is_chosen(context.project().output, name);
   if (ImGui::Checkbox(name.c_str(), &chosen))
-    studio.edits.change("labels", [name, chosen](Project& p) { choose_label(p.output, name, chosen); });
-  studio.places.note_item("export/labels/" + name);
+    context.edits.change("labels", [name, chosen](Project& p) { choose_label(p.output, name, chosen); });
+  context.ui_probe.note_item("export/labels/" + name);
   tooltip_for_item(std::string(format.help).c_str());
 }
 
@@ -76,27 +77,27 @@ bool has_thresholds(const ExportSettings& output) {
                      [](const std::string& label) { return label != "xml" && label != "csv"; });
 }
 
-void draw_thresholds(const Studio& studio) {
-  ExportSettings output = studio.project().output;
+void draw_thresholds(const ViewContext& context) {
+  ExportSettings output = context.project().output;
   ImGui::SetNextItemWidth(scaled(150));
   if (ImGui::DragInt("##least pixels", &output.label_least_pixels, 0.2F, 1, 1'000'000, "from %d px on",
                      ImGuiSliderFlags_AlwaysClamp))
-    studio.edits.change(
+    context.edits.change(
         "least pixels", [px = output.label_least_pixels](Project& p) { p.output.label_least_pixels = px; },
         "export least pixels");
-  if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
-  studio.places.note_item("export/least pixels");
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  context.ui_probe.note_item("export/least pixels");
   tooltip_for_item("No label where fewer pixels show the intruder; xml and csv leave nothing out");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(scaled(150));
   auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
   if (ImGui::SliderFloat("##least visible", &percent, 0, 100, "%.0f %% visible", ImGuiSliderFlags_AlwaysClamp))
-    studio.edits.change(
+    context.edits.change(
         "least visible",
         [share = std::round(percent) / 100.0](Project& p) { p.output.label_least_visible_fraction = share; },
         "export least visible");
-  if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
-  studio.places.note_item("export/least visible");
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  context.ui_probe.note_item("export/least visible");
   tooltip_for_item("No label where less of the intruder can be seen; xml and csv leave nothing out");
 }
 
@@ -110,36 +111,36 @@ void note_line(Icon icon, ImU32 color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void draw_video_choices(const Studio& studio) {
-  ExportSettings output = studio.project().output;
-  if (choose(studio, "codec", kCodecs, output.codec, scaled(210)))
-    studio.edits.change("codec", [codec = output.codec](Project& p) {
+void draw_video_choices(const ViewContext& context) {
+  ExportSettings output = context.project().output;
+  if (choose(context, "codec", kCodecs, output.codec, scaled(210)))
+    context.edits.change("codec", [codec = output.codec](Project& p) {
       // A container that was chosen for another codec may not hold this one.
       if (p.output.codec != codec) p.output.container = ContainerChoice::automatic;
       p.output.codec = codec;
     });
   if (output.codec == CodecChoice::png) return;
   ImGui::SameLine();
-  if (choose(studio, "container", kContainers, output.container, scaled(90)))
-    studio.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
+  if (choose(context, "container", kContainers, output.container, scaled(90)))
+    context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
   tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
   if (output.codec != CodecChoice::h264) return;
   ImGui::SetNextItemWidth(scaled(210));
   if (ImGui::SliderInt("##crf", &output.crf, 0, 51, "crf %d", ImGuiSliderFlags_AlwaysClamp))
-    studio.edits.change(
+    context.edits.change(
         "crf", [crf = output.crf](Project& p) { p.output.crf = crf; }, "export crf");
-  if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
-  studio.places.note_item("export/crf");
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  context.ui_probe.note_item("export/crf");
   tooltip_for_item("Quality of h264: 0 lossless, 18 visually so, 51 worst");
 }
 
-void draw_mask_choice(const Studio& studio) {
-  ExportSettings output = studio.project().output;
-  if (choose(studio, "masks", kMasks, output.masks, scaled(210)))
-    studio.edits.change("masks", [masks = output.masks](Project& p) { p.output.masks = masks; });
+void draw_mask_choice(const ViewContext& context) {
+  ExportSettings output = context.project().output;
+  if (choose(context, "masks", kMasks, output.masks, scaled(210)))
+    context.edits.change("masks", [masks = output.masks](Project& p) { p.output.masks = masks; });
 }
 
-void draw_label_choice(const Studio& studio) {
+void draw_label_choice(const ViewContext& context) {
   constexpr int kColumns = 5;
   const float column = scaled(84);
   const float left = ImGui::GetCursorPosX();
@@ -150,9 +151,9 @@ void draw_label_choice(const Studio& studio) {
       ImGui::SetCursorPosX(left + static_cast<float>(place % kColumns) * column);
     }
     ++place;
-    draw_label_format(studio, format);
+    draw_label_format(context, format);
   }
-  if (has_thresholds(studio.project().output)) draw_thresholds(studio);
+  if (has_thresholds(context.project().output)) draw_thresholds(context);
 }
 
 std::string progress_text(const ExportState& state) {
@@ -169,7 +170,7 @@ std::string progress_text(const ExportState& state) {
   return text;
 }
 
-void draw_result(const Studio& studio, const ExportState& state) {
+void draw_result(const ViewContext& context, const ExportState& state) {
   if (state.phase == ExportPhase::failed) {
     note_line(Icon::warning, color::kBad, state.error.text());
     ImGui::TextDisabled("Nothing was written.");
@@ -184,19 +185,19 @@ void draw_result(const Studio& studio, const ExportState& state) {
   std::snprintf(text.data(), text.size(), "%d frames in %s, %.1f frames/s", state.report.frames,
                 clock_text(wall_s).c_str(), state.report.frames / std::max(wall_s, 1e-3));
   note_line(Icon::check, color::kGood, text.data());
-  draw_written(studio, state);
-  if (!can_open_outside()) return;
-  if (dialog_button("Open folder") && !open_outside(state.request.folder))
-    studio.edits.ask(Say{state.request.folder.string() + " could not be opened", true});
-  studio.places.note_item("export/open folder");
+  draw_written(context, state);
+  if (!can_open_with_desktop()) return;
+  if (dialog_button("Open folder") && !open_with_desktop(state.request.folder))
+    context.edits.ask(ShowMessage{state.request.folder.string() + " could not be opened", true});
+  context.ui_probe.note_item("export/open folder");
 }
 
 void draw_warnings(const ExportState& state) {
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMax = 6;
   const std::size_t count = state.warnings.size();
-  for (std::size_t i = 0; i < std::min(kMost, count); ++i)
+  for (std::size_t i = 0; i < std::min(kMax, count); ++i)
     note_line(Icon::warning, color::kPartly, state.warnings[i].text());
-  if (count > kMost) ImGui::TextDisabled("and %zu more", count - kMost);
+  if (count > kMax) ImGui::TextDisabled("and %zu more", count - kMax);
 }
 
 }  // namespace sigs::editor

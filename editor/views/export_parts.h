@@ -6,21 +6,21 @@
 #include <string>
 
 #include "editor/preview/export_job.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 #include "editor/widgets/icons.h"
 
 namespace sigs::editor {
 
 // The project's own settings of what is written; each change is an edit.
-void draw_video_choices(const Studio& studio);
-void draw_mask_choice(const Studio& studio);
-void draw_label_choice(const Studio& studio);
+void draw_video_choices(const ViewContext& context);
+void draw_mask_choice(const ViewContext& context);
+void draw_label_choice(const ViewContext& context);
 
 // "120 of 322 frames, 41.2 frames/s, 0:05 left"
 [[nodiscard]] std::string progress_text(const ExportState& state);
 
 // What was written, with ways to it; or why nothing was.
-void draw_result(const Studio& studio, const ExportState& state);
+void draw_result(const ViewContext& context, const ExportState& state);
 void draw_warnings(const ExportState& state);
 
 // A line that matters, behind an icon, wrapped.

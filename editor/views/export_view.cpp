@@ -46,14 +46,14 @@ void ExportView::open(const Document& document) {
   only_range_ = marks_range(document);
 }
 
-ExportRequest ExportView::request_of(const Studio& studio) const {
-  ExportRequest request{.project = studio.project(), .folder = folder_, .jobs = jobs_ > 0 ? jobs_ : usual_jobs()};
-  if (only_range_ && marks_range(studio.document))
-    request.frames = FrameRange{studio.document.range_first(), studio.document.range_last()};
+ExportRequest ExportView::request_of(const ViewContext& context) const {
+  ExportRequest request{.project = context.project(), .folder = folder_, .jobs = jobs_ > 0 ? jobs_ : usual_jobs()};
+  if (only_range_ && marks_range(context.document))
+    request.frames = FrameRange{context.document.range_first(), context.document.range_last()};
   return request;
 }
 
-void ExportView::draw(const Studio& studio, ExportJob& job) {
+void ExportView::draw(const ViewContext& context, ExportJob& job) {
   closed_ = false;
   if (!begin_dialog("Export###export", 620, 0, closed_)) {
     open_ = open_ && !closed_;
@@ -61,36 +61,36 @@ void ExportView::draw(const Studio& studio, ExportJob& job) {
   }
   const ExportState state = job.state();
   if (state.phase == ExportPhase::none)
-    draw_setup(studio, job);
+    draw_setup(context, job);
   else if (state.is_running())
-    draw_running(studio, job, state);
+    draw_running(context, job, state);
   else
-    draw_done(studio, job, state);
+    draw_done(context, job, state);
   open_ = !closed_;
   end_dialog(open_);
 }
 
-void ExportView::draw_folder(const Studio& studio) {
+void ExportView::draw_folder(const ViewContext& context) {
   label("Folder");
   const float browse = dialog_button_width("Browse...");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
   if (text_input("##folder", folder_)) overwrite_asked_ = false;
-  studio.places.note_item("export/folder");
+  context.ui_probe.note_item("export/folder");
   ImGui::SameLine();
   if (dialog_button("Browse..."))
-    studio.edits.ask(AskForFile{
+    context.edits.ask(AskForFile{
         .title = "Export into", .of_folder = true, .start = folder_, .chosen = [this](const fs::path& folder) {
           folder_ = folder.string();
         }});
 }
 
-void ExportView::draw_range(const Studio& studio) {
-  const Document& document = studio.document;
+void ExportView::draw_range(const ViewContext& context) {
+  const Document& document = context.document;
   label("Frames");
   const std::string whole =
       "whole project (" + std::to_string(document.first_frame()) + " to " + std::to_string(document.last_frame()) + ")";
   if (ImGui::RadioButton(whole.c_str(), !only_range_ || !marks_range(document))) only_range_ = false;
-  studio.places.note_item("export/whole");
+  context.ui_probe.note_item("export/whole");
   const std::string part = "in to out (" + std::to_string(document.range_first()) + " to " +
                            std::to_string(document.range_last()) + ")###range";
   ImGui::BeginDisabled(!marks_range(document));
@@ -98,18 +98,18 @@ void ExportView::draw_range(const Studio& studio) {
                          only_range_ && marks_range(document)))
     only_range_ = true;
   ImGui::EndDisabled();
-  studio.places.note_item("export/range");
+  context.ui_probe.note_item("export/range");
 }
 
-void ExportView::draw_choices(const Studio& studio) {
-  draw_folder(studio);
-  draw_range(studio);
+void ExportView::draw_choices(const ViewContext& context) {
+  draw_folder(context);
+  draw_range(context);
   label("Video");
-  draw_video_choices(studio);
+  draw_video_choices(context);
   label("Masks");
-  draw_mask_choice(studio);
+  draw_mask_choice(context);
   label("Labels");
-  draw_label_choice(studio);
+  draw_label_choice(context);
   label("Threads");
   ImGui::SetNextItemWidth(scaled(150));
   const std::string automatic = "automatic (" + std::to_string(usual_jobs()) + ")";
@@ -118,8 +118,8 @@ void ExportView::draw_choices(const Studio& studio) {
   tooltip_for_item("Frames that are made side by side; the result does not depend on it");
 }
 
-void ExportView::draw_command(const Studio& studio) {
-  ExportRequest request = request_of(studio);
+void ExportView::draw_command(const ViewContext& context) {
+  ExportRequest request = request_of(context);
   request.overwrite = !there_.empty();
   const std::string command = export_command(request);
   ImGui::TextDisabled("The same from the command line:");
@@ -136,18 +136,18 @@ void ExportView::draw_command(const Studio& studio) {
   ImGui::SetCursorPos({ImGui::GetContentRegionMax().x - icon_button_width(), place.y});
   if (icon_button("copy command", Icon::copy, "Copy")) {
     ImGui::SetClipboardText(command.c_str());
-    studio.edits.ask(Say{"Copied"});
+    context.edits.ask(ShowMessage{"Copied"});
   }
   ImGui::SetCursorPosY(std::max(after.y, ImGui::GetCursorPosY()));
 }
 
-void ExportView::draw_notes(const Studio& studio) {
-  if (studio.document.has_unsaved_changes() || !studio.document.has_file())
+void ExportView::draw_notes(const ViewContext& context) {
+  if (context.document.has_unsaved_changes() || !context.document.has_file())
     note_line(
         Icon::info, color::kAccent,
         "There are unsaved changes. They are exported; the command below takes the project as it was last saved.");
-  if (studio.shown.scene && !studio.shown.scene->draft.problems.empty()) {
-    const Problem& problem = studio.shown.scene->draft.problems.front();
+  if (context.shown.scene && !context.shown.scene->draft.problems.empty()) {
+    const Problem& problem = context.shown.scene->draft.problems.front();
     note_line(Icon::warning, color::kBad, problem.field + ": " + problem.what);
   }
   if (overwrite_asked_ && !there_.empty()) {
@@ -157,29 +157,29 @@ void ExportView::draw_notes(const Studio& studio) {
   }
 }
 
-void ExportView::draw_setup(const Studio& studio, ExportJob& job) {
+void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   if (ImGui::BeginTable("choices", 2)) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, scaled(80));
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-    draw_choices(studio);
+    draw_choices(context);
     ImGui::EndTable();
   }
   if (!overwrite_asked_) there_.clear();
-  draw_notes(studio);
+  draw_notes(context);
   ImGui::Dummy({0, scaled(2)});
-  draw_command(studio);
+  draw_command(context);
   ImGui::Dummy({0, scaled(6)});
   const bool replace = overwrite_asked_ && !there_.empty();
   const char* const go = replace ? "Replace" : "Export";
   const char* const labels[] = {"Close", go};
   align_buttons_right(labels, 2);
   if (dialog_button("Close")) closed_ = true;
-  studio.places.note_item("export/close");
+  context.ui_probe.note_item("export/close");
   ImGui::SameLine();
   const bool clicked = dialog_button(go, true, !folder_.empty());
-  studio.places.note_item("export/go");
+  context.ui_probe.note_item("export/go");
   if (!clicked) return;
-  ExportRequest request = request_of(studio);
+  ExportRequest request = request_of(context);
   const std::vector<fs::path> there = outputs_there(request.project, request.folder);
   // What was agreed to be replaced is what was shown.
   if (!there.empty() && there != there_) {
@@ -192,7 +192,7 @@ void ExportView::draw_setup(const Studio& studio, ExportJob& job) {
   job.start(std::move(request));
 }
 
-void ExportView::draw_running(const Studio& studio, ExportJob& job, const ExportState& state) {
+void ExportView::draw_running(const ViewContext& context, ExportJob& job, const ExportState& state) {
   ImGui::TextUnformatted(
       elided(state.request.project.name + " into " + state.request.folder.string(), ImGui::GetContentRegionAvail().x)
           .c_str());
@@ -205,14 +205,14 @@ void ExportView::draw_running(const Studio& studio, ExportJob& job, const Export
   const char* const labels[] = {"Cancel export", "Go on in the background"};
   align_buttons_right(labels, 2);
   if (dialog_button("Cancel export", false, !state.is_stopping)) job.cancel();
-  studio.places.note_item("export/cancel");
+  context.ui_probe.note_item("export/cancel");
   ImGui::SameLine();
   if (dialog_button("Go on in the background", true)) closed_ = true;
-  studio.places.note_item("export/hide");
+  context.ui_probe.note_item("export/hide");
 }
 
-void ExportView::draw_done(const Studio& studio, ExportJob& job, const ExportState& state) {
-  draw_result(studio, state);
+void ExportView::draw_done(const ViewContext& context, ExportJob& job, const ExportState& state) {
+  draw_result(context, state);
   draw_warnings(state);
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Export again", "Close"};
@@ -221,13 +221,13 @@ void ExportView::draw_done(const Studio& studio, ExportJob& job, const ExportSta
     job.dismiss();
     overwrite_asked_ = false;
   }
-  studio.places.note_item("export/again");
+  context.ui_probe.note_item("export/again");
   ImGui::SameLine();
   if (dialog_button("Close", true)) {
     job.dismiss();
     closed_ = true;
   }
-  studio.places.note_item("export/close");
+  context.ui_probe.note_item("export/close");
 }
 
 }  // namespace sigs::editor

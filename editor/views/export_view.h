@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "editor/preview/export_job.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
@@ -16,21 +16,21 @@ class ExportView {
  public:
   void open(const Document& document);
   [[nodiscard]] bool is_open() const { return open_; }
-  // Once a turn while it is open.
-  void draw(const Studio& studio, ExportJob& job);
+  // Once per update while it is open.
+  void draw(const ViewContext& context, ExportJob& job);
   // A project was opened or closed: the folder is chosen anew.
   void forget_folder() { folder_.clear(); }
 
  private:
-  [[nodiscard]] ExportRequest request_of(const Studio& studio) const;
-  void draw_setup(const Studio& studio, ExportJob& job);
-  void draw_choices(const Studio& studio);
-  void draw_folder(const Studio& studio);
-  void draw_range(const Studio& studio);
-  void draw_notes(const Studio& studio);
-  void draw_command(const Studio& studio);
-  void draw_running(const Studio& studio, ExportJob& job, const ExportState& state);
-  void draw_done(const Studio& studio, ExportJob& job, const ExportState& state);
+  [[nodiscard]] ExportRequest request_of(const ViewContext& context) const;
+  void draw_setup(const ViewContext& context, ExportJob& job);
+  void draw_choices(const ViewContext& context);
+  void draw_folder(const ViewContext& context);
+  void draw_range(const ViewContext& context);
+  void draw_notes(const ViewContext& context);
+  void draw_command(const ViewContext& context);
+  void draw_running(const ViewContext& context, ExportJob& job, const ExportState& state);
+  void draw_done(const ViewContext& context, ExportJob& job, const ExportState& state);
 
   bool open_ = false;
   bool closed_ = false;

@@ -50,14 +50,14 @@ std::size_t intruder_without_model(const Project& project) {
   return static_cast<std::size_t>(found - project.intruders.begin());
 }
 
-std::function<void(const fs::path&)> put_file(const Studio& studio, const char* name, const char* key) {
-  return [&edits = studio.edits, name, key](const fs::path& path) {
+std::function<void(const fs::path&)> put_file(const ViewContext& context, const char* name, const char* key) {
+  return [&edits = context.edits, name, key](const fs::path& path) {
     edits.change(name, [key, path](Project& project) { put_value(project, key, path_in_project(project, path)); });
   };
 }
 
-std::function<void(const fs::path&)> put_aircraft(const Studio& studio) {
-  return [&edits = studio.edits, intruder = new_intruder(studio)](const fs::path& path) {
+std::function<void(const fs::path&)> put_aircraft(const ViewContext& context) {
+  return [&edits = context.edits, intruder = new_intruder(context)](const fs::path& path) {
     edits.change("choose aircraft", [intruder, path](Project& project) {
       const std::size_t wanted = intruder_without_model(project);
       if (wanted == project.intruders.size()) {
@@ -70,7 +70,7 @@ std::function<void(const fs::path&)> put_aircraft(const Studio& studio) {
 }
 
 // What is wrong with files that were chosen, by the newest scene that is open.
-Steps with_problems(Steps steps, const Shown& shown) {
+Steps with_problems(Steps steps, const PreviewOutput& shown) {
   if (!shown.scene) return steps;
   for (FirstStep& step : steps)
     for (const Problem& problem : shown.scene->draft.problems)
@@ -87,34 +87,34 @@ std::string horizon_text(const CameraSettings& camera) {
          number_text(camera.pitch_deg.value_or(0), "deg");
 }
 
-Steps steps_of(const Studio& studio) {
-  const Project& project = studio.project();
+Steps steps_of(const ViewContext& context) {
+  const Project& project = context.project();
   const bool has_aircraft = !project.intruders.empty() && intruder_without_model(project) == project.intruders.size();
   Steps steps{{{.name = "Footage",
                 .what = "The video of a real flight",
                 .key = "footage.video",
                 .file = project.footage.video,
                 .extensions = extensions_for("footage.video"),
-                .choose = put_file(studio, "choose video", "footage.video")},
+                .choose = put_file(context, "choose video", "footage.video")},
                {.name = "Calibration",
                 .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
                 .key = "footage.calibration",
                 .file = project.footage.calibration,
                 .extensions = extensions_for("footage.calibration"),
-                .choose = put_file(studio, "choose calibration", "footage.calibration")},
+                .choose = put_file(context, "choose calibration", "footage.calibration")},
                {.name = "Aircraft",
                 .what = "A model as Wavefront OBJ; it is put 300 m ahead",
                 .key = "intruders[0].model.file",
                 .file = has_aircraft ? project.intruders.front().model.file : "",
                 .extensions = extensions_for("intruders[0].model.file"),
-                .choose = put_aircraft(studio)},
+                .choose = put_aircraft(context)},
                {.name = "Horizon",
                 .what = "Drag the line onto the footage's horizon, its ends to tilt it",
                 .key = "camera.attitude_deg",
                 .file = horizon_text(project.camera),
                 .extensions = {},
                 .choose = {}}}};
-  return with_problems(std::move(steps), studio.shown);
+  return with_problems(std::move(steps), context.shown);
 }
 
 // Once the horizon is next, its line is shown.
@@ -123,10 +123,10 @@ const char* button_of(const FirstStep& step, bool is_next) {
   return is_next ? "It fits" : "Show line";
 }
 
-void ask(const Studio& studio, const FirstStep& step, bool is_next) {
-  if (!step.choose) return is_next ? keep_horizon(studio) : studio.edits.ask(ShowHorizon{});
+void ask(const ViewContext& context, const FirstStep& step, bool is_next) {
+  if (!step.choose) return is_next ? keep_horizon(context) : context.edits.ask(ShowHorizon{});
   // Calibration and model often lie near the footage: the browser starts where it was last.
-  studio.edits.ask(
+  context.edits.ask(
       AskForFile{.title = std::string("Choose: ") + step.name, .extensions = step.extensions, .chosen = step.choose});
 }
 
@@ -147,7 +147,7 @@ void draw_number(int number, bool is_done, bool is_next) {
   ImGui::Dummy({side, side * 1.5F});
 }
 
-void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_next) {
+void draw_step(const ViewContext& context, const FirstStep& step, int number, bool is_next) {
   const bool is_done = step.is_done();
   ImGui::PushID(number);
   draw_number(number, is_done, is_next);
@@ -162,11 +162,11 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::TextUnformatted(elided(step.name, room).c_str());
   ImGui::PopFont();
   ImGui::PushFont(font(Font::small));
-  const std::string told = is_done                ? fs::path(step.file).filename().string()
-                           : step.problem.empty() ? step.what
-                                                  : step.problem;
+  const std::string status_text = is_done                ? fs::path(step.file).filename().string()
+                                  : step.problem.empty() ? step.what
+                                                         : step.problem;
   ImGui::PushStyleColor(ImGuiCol_Text, step.problem.empty() ? color::kQuiet : color::kBad);
-  ImGui::TextUnformatted(elided(told, room).c_str());
+  ImGui::TextUnformatted(elided(status_text, room).c_str());
   ImGui::PopStyleColor();
   if (!step.problem.empty()) tooltip_for_item(step.problem.c_str());
   ImGui::PopFont();
@@ -174,8 +174,8 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
   ImGui::EndGroup();
   if (!is_done) {
     ImGui::SetCursorPos({left + room + scaled(8), top + scaled(3)});
-    if (dialog_button(button_of(step, is_next), is_next)) ask(studio, step, is_next);
-    studio.places.note_item(std::string("first steps/") + step.name);
+    if (dialog_button(button_of(step, is_next), is_next)) ask(context, step, is_next);
+    context.ui_probe.note_item(std::string("first steps/") + step.name);
     if (!step.choose && is_next) tooltip_for_item("The line lies on the footage's horizon as it is");
   }
   ImGui::PopID();
@@ -183,16 +183,16 @@ void draw_step(const Studio& studio, const FirstStep& step, int number, bool is_
 
 }  // namespace
 
-void FirstSteps::draw(const Studio& studio, const ScreenRect& room) {
-  const Steps steps = steps_of(studio);
+void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
+  const Steps steps = steps_of(context);
   const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return !step.is_done(); });
-  const std::uint64_t document = studio.document.first_number();
+  const std::uint64_t document = context.document.first_number();
   if (std::any_of(steps.begin(), steps.begin() + kFiles, [](const FirstStep& step) { return step.file.empty(); }))
     begun_ = document;
   if (next == steps.end() || put_away_ == document || begun_ != document) return;
-  // With all files there, the picture is to be seen: the step that is left lies at its lower edge.
+  // With all files there, the image is to be seen: the step that is left lies at its lower edge.
   const bool is_last = next == steps.end() - 1;
-  if (is_last && std::exchange(shown_, document) != document) studio.edits.ask(ShowHorizon{});
+  if (is_last && std::exchange(shown_, document) != document) context.edits.ask(ShowHorizon{});
   const float line = ImGui::GetFrameHeight();
   const auto rows = static_cast<float>(is_last ? 1 : steps.size());
   const float gaps = (rows + 1) * ImGui::GetStyle().ItemSpacing.y;
@@ -214,9 +214,9 @@ void FirstSteps::draw(const Studio& studio, const ScreenRect& room) {
   ImGui::PopFont();
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - icon_button_width());
   if (icon_button("put away", Icon::cross, "Put this away; the inspector has all of it")) put_away_ = document;
-  studio.places.note_item("first steps/close");
+  context.ui_probe.note_item("first steps/close");
   for (std::size_t i = is_last ? kFiles : 0; i < steps.size(); ++i)
-    draw_step(studio, steps[i], static_cast<int>(i) + 1, &steps[i] == &*next);
+    draw_step(context, steps[i], static_cast<int>(i) + 1, &steps[i] == &*next);
   if (!is_last)
     ImGui::TextDisabled("%s", elided("Or drop the files onto this window.", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::EndChild();

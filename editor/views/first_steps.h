@@ -3,18 +3,18 @@
 
 #include <cstdint>
 
-#include "editor/geometry/picture_view.h"
-#include "editor/views/studio.h"
+#include "editor/geometry/image_view.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
 // What a project needs before there is anything to see, in the order in which it is usually chosen: a card over the
-// picture, until all of it is there or the person puts the card away. Then where the horizon lies, at the picture's
+// image, until all of it is there or the person puts the card away. Then where the horizon lies, at the image's
 // lower edge, so that its line can be dragged.
 class FirstSteps {
  public:
   // In the middle of `room`, in the current ImGui window.
-  void draw(const Studio& studio, const ScreenRect& room);
+  void draw(const ViewContext& context, const ScreenRect& room);
 
  private:
   std::uint64_t begun_ = 0;     // the document that had not all of it

@@ -18,83 +18,83 @@ namespace sigs::editor {
 namespace {
 
 // An item that is known by name to whoever drives the window from outside.
-bool item(const Studio& studio, const char* label, const char* keys, bool enabled = true, bool checked = false) {
+bool item(const ViewContext& context, const char* label, const char* keys, bool enabled = true, bool checked = false) {
   const bool chosen = ImGui::MenuItem(label, keys, checked, enabled);
-  studio.places.note_item(std::string("menu/") + label);
+  context.ui_probe.note_item(std::string("menu/") + label);
   return chosen;
 }
 
-bool begin_menu(const Studio& studio, const char* label) {
+bool begin_menu(const ViewContext& context, const char* label) {
   const bool open = ImGui::BeginMenu(label);
-  if (!open) studio.places.note_item(std::string("menu/") + label);
+  if (!open) context.ui_probe.note_item(std::string("menu/") + label);
   if (open && pressed(Key::escape)) ImGui::CloseCurrentPopup();
   return open;
 }
 
-void draw_recent(const Studio& studio) {
-  if (!ImGui::BeginMenu("Open recent", !studio.settings.recent.empty())) return;
-  for (const std::filesystem::path& path : studio.settings.recent) {
+void draw_recent(const ViewContext& context) {
+  if (!ImGui::BeginMenu("Open recent", !context.settings.recent.empty())) return;
+  for (const std::filesystem::path& path : context.settings.recent) {
     ImGui::PushID(path.c_str());
-    if (ImGui::MenuItem(elided(path.stem().string(), scaled(300)).c_str())) studio.edits.ask(OpenProject{path});
+    if (ImGui::MenuItem(elided(path.stem().string(), scaled(300)).c_str())) context.edits.ask(OpenProject{path});
     tooltip_for_item(path.c_str());
     ImGui::PopID();
   }
   ImGui::EndMenu();
 }
 
-void draw_file_menu(const Studio& studio, bool has_project) {
-  if (!begin_menu(studio, "File")) return;
-  Edits& edits = studio.edits;
-  if (item(studio, "New", "Ctrl+N")) edits.ask(NewProject{});
-  if (item(studio, "Open...", "Ctrl+O")) edits.ask(OpenProject{});
-  draw_recent(studio);
+void draw_file_menu(const ViewContext& context, bool has_project) {
+  if (!begin_menu(context, "File")) return;
+  Edits& edits = context.edits;
+  if (item(context, "New", "Ctrl+N")) edits.ask(NewProject{});
+  if (item(context, "Open...", "Ctrl+O")) edits.ask(OpenProject{});
+  draw_recent(context);
   ImGui::Separator();
-  if (item(studio, "Save", "Ctrl+S", has_project)) edits.ask(SaveProject{});
-  if (item(studio, "Save as...", "Ctrl+Shift+S", has_project)) edits.ask(SaveProjectAs{});
-  if (item(studio, "Export...", "Ctrl+E", has_project)) edits.ask(ShowExport{});
-  if (item(studio, "Find missing files...", "", has_project)) edits.ask(ShowMissingFiles{});
-  if (item(studio, "Load tracker results...", "", has_project)) edits.ask(LoadResults{});
+  if (item(context, "Save", "Ctrl+S", has_project)) edits.ask(SaveProject{});
+  if (item(context, "Save as...", "Ctrl+Shift+S", has_project)) edits.ask(SaveProjectAs{});
+  if (item(context, "Export...", "Ctrl+E", has_project)) edits.ask(ShowExport{});
+  if (item(context, "Find missing files...", "", has_project)) edits.ask(ShowMissingFiles{});
+  if (item(context, "Load tracker results...", "", has_project)) edits.ask(LoadResults{});
   ImGui::Separator();
-  if (item(studio, "Close project", "", has_project)) edits.ask(CloseProject{});
-  if (item(studio, "Quit", "Ctrl+Q")) edits.ask(Quit{});
+  if (item(context, "Close project", "", has_project)) edits.ask(CloseProject{});
+  if (item(context, "Quit", "Ctrl+Q")) edits.ask(Quit{});
   ImGui::EndMenu();
 }
 
-void draw_edit_menu(const Studio& studio, bool has_project) {
-  if (!begin_menu(studio, "Edit")) return;
-  const Document& document = studio.document;
+void draw_edit_menu(const ViewContext& context, bool has_project) {
+  if (!begin_menu(context, "Edit")) return;
+  const Document& document = context.document;
   const std::string undo = "Undo " + document.undo_name() + "###Undo";
   const std::string redo = "Redo " + document.redo_name() + "###Redo";
-  if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) studio.edits.undo();
-  studio.places.note_item("menu/Undo");
-  if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) studio.edits.redo();
-  studio.places.note_item("menu/Redo");
+  if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) context.edits.undo();
+  context.ui_probe.note_item("menu/Undo");
+  if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) context.edits.redo();
+  context.ui_probe.note_item("menu/Redo");
   ImGui::Separator();
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
-  if (item(studio, "Own body...", "", has_project)) studio.edits.ask(ShowOwnBody{});
+  if (item(context, "Own body...", "", has_project)) context.edits.ask(ShowOwnBody{});
   ImGui::Separator();
-  if (item(studio, "Add waypoint here", "Enter", has_project && !studio.project().intruders.empty()))
-    add_waypoint_here(studio);
-  if (item(studio, "Duplicate", "Ctrl+D", on_waypoint)) duplicate_selected(studio);
-  if (item(studio, "Delete", "Del", on_intruder)) delete_selected(studio);
+  if (item(context, "Add waypoint here", "Enter", has_project && !context.project().intruders.empty()))
+    add_waypoint_here(context);
+  if (item(context, "Duplicate", "Ctrl+D", on_waypoint)) duplicate_selected(context);
+  if (item(context, "Delete", "Del", on_intruder)) delete_selected(context);
   ImGui::EndMenu();
 }
 
-void draw_view_menu(const Studio& studio, Settings& settings) {
-  if (!begin_menu(studio, "View")) return;
-  if (item(studio, "World view", "", true, settings.show_world)) settings.show_world = !settings.show_world;
-  if (item(studio, "Inspector", "", true, settings.show_inspector)) settings.show_inspector = !settings.show_inspector;
-  if (item(studio, "Full screen", "F11")) studio.edits.ask(ToggleFullScreen{});
+void draw_view_menu(const ViewContext& context, Settings& settings) {
+  if (!begin_menu(context, "View")) return;
+  if (item(context, "World view", "", true, settings.show_world)) settings.show_world = !settings.show_world;
+  if (item(context, "Inspector", "", true, settings.show_inspector)) settings.show_inspector = !settings.show_inspector;
+  if (item(context, "Full screen", "F11")) context.edits.ask(ToggleFullScreen{});
   ImGui::Separator();
-  if (item(studio, "Settings...", "")) studio.edits.ask(ShowSettings{});
+  if (item(context, "Settings...", "")) context.edits.ask(ShowSettings{});
   ImGui::EndMenu();
 }
 
-void draw_help_menu(const Studio& studio) {
-  if (!begin_menu(studio, "Help")) return;
-  if (item(studio, "Keys", "?")) studio.edits.ask(ShowHelp{});
-  if (item(studio, "About", "")) studio.edits.ask(ShowAbout{});
+void draw_help_menu(const ViewContext& context) {
+  if (!begin_menu(context, "Help")) return;
+  if (item(context, "Keys", "?")) context.edits.ask(ShowHelp{});
+  if (item(context, "About", "")) context.edits.ask(ShowAbout{});
   ImGui::EndMenu();
 }
 
@@ -113,8 +113,8 @@ std::string export_text(const ExportState& state) {
 // From right to left; each takes its room.
 class RightSide {
  public:
-  explicit RightSide(const Studio& studio)
-      : studio_(studio), left_(ImGui::GetCursorPosX() + scaled(12)), right_(ImGui::GetWindowWidth() - scaled(12)) {}
+  explicit RightSide(const ViewContext& context)
+      : context_(context), left_(ImGui::GetCursorPosX() + scaled(12)), right_(ImGui::GetWindowWidth() - scaled(12)) {}
 
   void show_export(const ExportState& state) {
     if (!state.is_running()) return;
@@ -123,8 +123,8 @@ class RightSide {
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
-    if (ImGui::InvisibleButton("export progress", {width, height})) studio_.edits.ask(ShowExport{});
-    studio_.places.note_item("menu/export progress");
+    if (ImGui::InvisibleButton("export progress", {width, height})) context_.edits.ask(ShowExport{});
+    context_.ui_probe.note_item("menu/export progress");
     tooltip_for_item("Show the export");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float inset = scaled(3);
@@ -147,8 +147,8 @@ class RightSide {
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
-    if (ImGui::InvisibleButton("problems", {width, height}) && is_missing) studio_.edits.ask(ShowMissingFiles{});
-    studio_.places.note_item("menu/problems");
+    if (ImGui::InvisibleButton("problems", {width, height}) && is_missing) context_.edits.ask(ShowMissingFiles{});
+    context_.ui_probe.note_item("menu/problems");
     if (ImGui::IsItemHovered()) show_list(problems);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_icon(list, Icon::warning, {place.x + scaled(9), place.y + height / 2}, scaled(13), color::kPartly);
@@ -157,8 +157,8 @@ class RightSide {
   }
 
   void show_name() {
-    const Project& project = studio_.project();
-    const bool unsaved = studio_.document.has_unsaved_changes();
+    const Project& project = context_.project();
+    const bool unsaved = context_.document.has_unsaved_changes();
     const std::string whole = project.file.empty() ? project.name + " (never saved)" : project.file.stem().string();
     const float dot = scaled(14);
     const std::string text = elided(whole, right_ - left_ - dot);
@@ -184,33 +184,33 @@ class RightSide {
   }
 
   static void show_list(const std::vector<Problem>& problems) {
-    constexpr std::size_t kMost = 12;
+    constexpr std::size_t kMax = 12;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(scaled(480));
-    for (std::size_t i = 0; i < std::min(kMost, problems.size()); ++i)
+    for (std::size_t i = 0; i < std::min(kMax, problems.size()); ++i)
       ImGui::TextUnformatted(shortened(problems[i].field + ": " + problems[i].what, 400).c_str());
-    if (problems.size() > kMost) ImGui::TextUnformatted("...");
+    if (problems.size() > kMax) ImGui::TextUnformatted("...");
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
 
-  const Studio& studio_;
+  const ViewContext& context_;
   float left_;
   float right_;
 };
 
 }  // namespace
 
-void draw_menu_bar(const Studio& studio, const MenuBarContent& content, Settings& settings) {
+void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Settings& settings) {
   if (!ImGui::BeginMainMenuBar()) return;
-  draw_file_menu(studio, content.has_project);
-  draw_edit_menu(studio, content.has_project);
-  draw_view_menu(studio, settings);
-  draw_help_menu(studio);
-  RightSide right(studio);
+  draw_file_menu(context, content.has_project);
+  draw_edit_menu(context, content.has_project);
+  draw_view_menu(context, settings);
+  draw_help_menu(context);
+  RightSide right(context);
   right.show_export(content.exporting);
   if (content.has_project) {
-    if (studio.shown.scene) right.show_problems(studio.shown.scene->draft.problems);
+    if (context.shown.scene) right.show_problems(context.shown.scene->draft.problems);
     right.show_name();
   }
   ImGui::EndMainMenuBar();

@@ -3,7 +3,7 @@
 
 #include "editor/document/settings.h"
 #include "editor/preview/export_job.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
@@ -15,6 +15,6 @@ struct MenuBarContent {
 
 // The bar along the window's upper edge: menus, the project's name with a dot where something is unsaved, the number
 // of its problems, and a running export. Which panels are shown it changes in the settings at once.
-void draw_menu_bar(const Studio& studio, const MenuBarContent& content, Settings& settings);
+void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Settings& settings);
 
 }  // namespace sigs::editor

@@ -37,21 +37,21 @@ void RelinkDialog::found(const MissingFile& missing, const fs::path& place) {
   for (const Relinked& other : suggested_places(missing_, missing, place)) suggested_[other.field] = other.place;
 }
 
-void RelinkDialog::browse(const Studio& studio, const MissingFile& missing) {
+void RelinkDialog::browse(const ViewContext& context, const MissingFile& missing) {
   const std::string extension = missing.place.extension().string();
-  studio.edits.ask(AskForFile{.title = "Where is " + missing.place.filename().string() + "?",
-                              .extensions = extension.empty() ? std::vector<std::string>() : std::vector{extension},
-                              .start = missing.place.parent_path(),
-                              .chosen = [this, missing](const fs::path& place) { found(missing, place); }});
+  context.edits.ask(AskForFile{.title = "Where is " + missing.place.filename().string() + "?",
+                               .extensions = extension.empty() ? std::vector<std::string>() : std::vector{extension},
+                               .start = missing.place.parent_path(),
+                               .chosen = [this, missing](const fs::path& place) { found(missing, place); }});
 }
 
-void RelinkDialog::apply(const Studio& studio) const {
+void RelinkDialog::apply(const ViewContext& context) const {
   std::vector<Relinked> places;
   for (const auto& [field, place] : places_) places.push_back({field, place});
-  studio.edits.change("find missing files", [places](Project& project) { relink(project, places); });
+  context.edits.change("find missing files", [places](Project& project) { relink(project, places); });
 }
 
-void RelinkDialog::draw_rows(const Studio& studio) {
+void RelinkDialog::draw_rows(const ViewContext& context) {
   for (std::size_t i = 0; i < missing_.size(); ++i) {
     const MissingFile& missing = missing_[i];
     ImGui::PushID(static_cast<int>(i));
@@ -69,13 +69,13 @@ void RelinkDialog::draw_rows(const Studio& studio) {
     else
       colored_text(color::kBad, "missing");
     ImGui::TableNextColumn();
-    if (dialog_button("Browse...")) browse(studio, missing);
-    studio.places.note_item("relink/browse." + missing.field);
+    if (dialog_button("Browse...")) browse(context, missing);
+    context.ui_probe.note_item("relink/browse." + missing.field);
     ImGui::PopID();
   }
 }
 
-void RelinkDialog::draw(const Studio& studio) {
+void RelinkDialog::draw(const ViewContext& context) {
   bool closed = false;
   if (!begin_dialog("Missing files###relink", 760, 420, closed)) {
     open_ = open_ && !closed;
@@ -90,7 +90,7 @@ void RelinkDialog::draw(const Studio& studio) {
     ImGui::TableSetupColumn("file", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("place", ImGuiTableColumnFlags_WidthStretch, 1.2F);
     ImGui::TableSetupColumn("browse", ImGuiTableColumnFlags_WidthFixed, dialog_button_width("Browse..."));
-    draw_rows(studio);
+    draw_rows(context);
     ImGui::EndTable();
   }
   const bool has_suggestions = std::any_of(suggested_.begin(), suggested_.end(),
@@ -98,15 +98,15 @@ void RelinkDialog::draw(const Studio& studio) {
   const char* const labels[] = {"Use suggestions", "Cancel", "Use these"};
   align_buttons_right(labels, 3);
   if (dialog_button("Use suggestions", false, has_suggestions)) places_.insert(suggested_.begin(), suggested_.end());
-  studio.places.note_item("relink/suggestions");
+  context.ui_probe.note_item("relink/suggestions");
   ImGui::SameLine();
   if (dialog_button("Cancel")) closed = true;
   ImGui::SameLine();
   if (dialog_button("Use these", true, !places_.empty())) {
-    apply(studio);
+    apply(context);
     closed = true;
   }
-  studio.places.note_item("relink/apply");
+  context.ui_probe.note_item("relink/apply");
   open_ = !closed;
   end_dialog(open_);
 }

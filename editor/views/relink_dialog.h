@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "editor/document/relink.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
@@ -15,14 +15,14 @@ class RelinkDialog {
  public:
   void open(const Project& project);
   [[nodiscard]] bool is_open() const { return open_; }
-  // Once a turn while it is open. What was chosen becomes one step of undo.
-  void draw(const Studio& studio);
+  // Once per update while it is open. What was chosen becomes one step of undo.
+  void draw(const ViewContext& context);
 
  private:
-  void draw_rows(const Studio& studio);
-  void browse(const Studio& studio, const MissingFile& missing);
+  void draw_rows(const ViewContext& context);
+  void browse(const ViewContext& context, const MissingFile& missing);
   void found(const MissingFile& missing, const std::filesystem::path& place);
-  void apply(const Studio& studio) const;
+  void apply(const ViewContext& context) const;
 
   bool open_ = false;
   std::vector<MissingFile> missing_;

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <utility>
 
-#include "base/partial_file.h"
-#include "editor/document/dropped.h"
+#include "base/temporary_file.h"
+#include "editor/document/dropped_file.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPictureWidth_px = 480;
-constexpr int kPictureHeight_px = 270;
-constexpr float kPictureShape = float(kPictureHeight_px) / kPictureWidth_px;
+constexpr int kImageWidth_px = 480;
+constexpr int kImageHeight_px = 270;
+constexpr float kImageShape = float(kImageHeight_px) / kImageWidth_px;
 
 std::string time_ago(std::int64_t unix_s) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -76,7 +76,7 @@ std::string first_sentence(const std::string& markdown) {
 }
 
 StartPage::StartPage(const fs::path& samples, std::function<void()> wake)
-    : samples_(samples_in(samples)), pictures_({kPictureWidth_px, kPictureHeight_px}, std::move(wake)) {}
+    : samples_(samples_in(samples)), images_({kImageWidth_px, kImageHeight_px}, std::move(wake)) {}
 
 std::vector<SampleProject> samples_in(const fs::path& folder) {
   std::vector<SampleProject> samples;
@@ -84,7 +84,7 @@ std::vector<SampleProject> samples_in(const fs::path& folder) {
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const fs::path file = it->path() / (it->path().filename().string() + ".json");
     std::error_code unknown;
-    if (!fs::exists(file, unknown) || what_was_dropped(file).kind != DroppedKind::project) continue;  // or a recipe
+    if (!fs::exists(file, unknown) || classified_drop(file).kind != DroppedKind::project) continue;  // or a recipe
     const Result<std::string> readme = read_text(it->path() / "README.md");
     samples.push_back({file, it->path().filename().string(), readme ? first_sentence(*readme) : std::string()});
   }
@@ -103,7 +103,7 @@ void StartPage::look_for(const std::vector<fs::path>& recent) {
   }
 }
 
-void StartPage::draw_head(const Studio& studio, const StartPageContent& content) {
+void StartPage::draw_head(const ViewContext& context, const StartPageContent& content) {
   ImGui::PushFont(font(Font::title));
   ImGui::TextUnformatted("SIGS");
   ImGui::PopFont();
@@ -111,12 +111,12 @@ void StartPage::draw_head(const Studio& studio, const StartPageContent& content)
   ImGui::TextWrapped("Puts simulated aircraft into real UAV footage, with exact ground truth.");
   ImGui::PopStyleColor();
   ImGui::Dummy({0, scaled(6)});
-  if (dialog_button("New project", true)) studio.edits.ask(NewProject{});
-  studio.places.note_item("start/new");
+  if (dialog_button("New project", true)) context.edits.ask(NewProject{});
+  context.ui_probe.note_item("start/new");
   tooltip_for_item("Begin with an empty project (Ctrl+N)");
   ImGui::SameLine();
-  if (dialog_button("Open...")) studio.edits.ask(OpenProject{});
-  studio.places.note_item("start/open");
+  if (dialog_button("Open...")) context.edits.ask(OpenProject{});
+  context.ui_probe.note_item("start/open");
   tooltip_for_item("Open a project file (Ctrl+O); or drop one onto this window");
   if (content.loading.empty()) return;
   ImGui::SameLine();
@@ -124,7 +124,7 @@ void StartPage::draw_head(const Studio& studio, const StartPageContent& content)
   quiet_text(elided("Reading " + content.loading.filename().string() + "...", ImGui::GetContentRegionAvail().x));
 }
 
-void StartPage::draw_abandoned(const Studio& studio, const StartPageContent& content, StartPageChoice& choice) {
+void StartPage::draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice) {
   if (content.abandoned.empty()) return;
   heading("Not saved when the editor last ended");
   for (std::size_t i = 0; i < content.abandoned.size(); ++i) {
@@ -133,11 +133,11 @@ void StartPage::draw_abandoned(const Studio& studio, const StartPageContent& con
     ImGui::PushID(static_cast<int>(i));
     if (is_readable) {
       if (dialog_button("Open##recover", true)) choice.recover = project;
-      studio.places.note_item("start/recover." + std::to_string(i));
+      context.ui_probe.note_item("start/recover." + std::to_string(i));
       ImGui::SameLine();
     }
     if (dialog_button("Discard##recover")) choice.discard = project;
-    studio.places.note_item("start/discard." + std::to_string(i));
+    context.ui_probe.note_item("start/discard." + std::to_string(i));
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     const std::string text = is_readable ? text_of(project) : "Cannot be read: " + project.recovery_file.string();
@@ -149,42 +149,42 @@ void StartPage::draw_abandoned(const Studio& studio, const StartPageContent& con
   }
 }
 
-void StartPage::draw_card(const Studio& studio, const SampleProject& sample, float width, float height) {
+void StartPage::draw_card(const ViewContext& context, const SampleProject& sample, float width, float height) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
-  const float picture_height = width * kPictureShape;
-  if (ImGui::InvisibleButton(sample.name.c_str(), {width, height})) studio.edits.ask(OpenProject{sample.file});
-  studio.places.note_item("start/sample." + sample.name);
+  const float image_height = width * kImageShape;
+  if (ImGui::InvisibleButton(sample.name.c_str(), {width, height})) context.edits.ask(OpenProject{sample.file});
+  context.ui_probe.note_item("start/sample." + sample.name);
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end{place.x + width, place.y + height};
-  const ImVec2 picture_end{end.x, place.y + picture_height};
+  const ImVec2 image_end{end.x, place.y + image_height};
   const float rounding = scaled(6);
   list.AddRectFilled(place, end, hovered ? IM_COL32(48, 52, 61, 255) : IM_COL32(38, 41, 48, 255), rounding);
-  if (const auto picture = pictures_.of(sample.file))
-    list.AddImageRounded(studio.textures.of(*picture, Filter::smooth), place, picture_end, {0, 0}, {1, 1},
-                         IM_COL32_WHITE, rounding, ImDrawFlags_RoundCornersTop);
+  if (const auto image = images_.of(sample.file))
+    list.AddImageRounded(context.textures.of(*image, Filter::smooth), place, image_end, {0, 0}, {1, 1}, IM_COL32_WHITE,
+                         rounding, ImDrawFlags_RoundCornersTop);
   else
-    list.AddRectFilled(place, picture_end, color::kCanvas, rounding, ImDrawFlags_RoundCornersTop);
+    list.AddRectFilled(place, image_end, color::kCanvas, rounding, ImDrawFlags_RoundCornersTop);
   if (hovered) list.AddRect(place, end, color::kAccent, rounding, 0, scaled(1.5));
   const float pad = scaled(10);
   const float line = ImGui::GetTextLineHeight();
   ImGui::PushFont(font(Font::bold));
-  list.AddText({place.x + pad, picture_end.y + pad}, color::kText, elided(sample.name, width - 2 * pad).c_str());
+  list.AddText({place.x + pad, image_end.y + pad}, color::kText, elided(sample.name, width - 2 * pad).c_str());
   ImGui::PopFont();
-  const ImVec2 text{place.x + pad, picture_end.y + pad + line + scaled(3)};
+  const ImVec2 text{place.x + pad, image_end.y + pad + line + scaled(3)};
   list.PushClipRect(text, {end.x - pad, end.y - scaled(4)}, true);
   list.AddText(font(Font::small), font(Font::small)->FontSize, text, color::kQuiet, sample.text.c_str(), nullptr,
                width - 2 * pad);
   list.PopClipRect();
 }
 
-void StartPage::draw_samples(const Studio& studio, float width) {
+void StartPage::draw_samples(const ViewContext& context, float width) {
   if (samples_.empty()) return;
   heading("Sample projects");
   const float gap = scaled(14);
-  const int most = std::max(1, static_cast<int>((width + gap) / (scaled(200) + gap)));
-  const int columns = std::min(most, static_cast<int>(samples_.size()));
+  const int maximum = std::max(1, static_cast<int>((width + gap) / (scaled(200) + gap)));
+  const int columns = std::min(maximum, static_cast<int>(samples_.size()));
   const float card =
       std::min(scaled(300), (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
   const float small = font(Font::small)->FontSize;
@@ -192,17 +192,17 @@ void StartPage::draw_samples(const Studio& studio, float width) {
   for (const SampleProject& sample : samples_)
     text = std::max(text, font(Font::small)->CalcTextSizeA(small, FLT_MAX, card - scaled(20), sample.text.c_str()).y);
   const float height =
-      card * kPictureShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
+      card * kImageShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (i % static_cast<std::size_t>(columns) != 0)
       ImGui::SameLine(0, gap);
     else if (i > 0)
       ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
-    draw_card(studio, samples_[i], card, height);
+    draw_card(context, samples_[i], card, height);
   }
 }
 
-void StartPage::draw_recent(const Studio& studio, float width) {
+void StartPage::draw_recent(const ViewContext& context, float width) {
   if (recent_.empty()) return;
   heading("Recent projects");
   for (std::size_t i = 0; i < recent_.size(); ++i) {
@@ -211,9 +211,9 @@ void StartPage::draw_recent(const Studio& studio, float width) {
     const float height = ImGui::GetTextLineHeight() + scaled(10);
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::Selectable("##recent", false, is_there ? 0 : ImGuiSelectableFlags_Disabled, {width, height}))
-      studio.edits.ask(OpenProject{file});
+      context.edits.ask(OpenProject{file});
     ImGui::PopID();
-    studio.places.note_item("start/recent." + std::to_string(i));
+    context.ui_probe.note_item("start/recent." + std::to_string(i));
     tooltip_for_item(is_there ? file.c_str() : (file.string() + " is not there").c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 main = is_there ? color::kText : faded(color::kQuiet, 0.6);
@@ -228,19 +228,19 @@ void StartPage::draw_recent(const Studio& studio, float width) {
   }
 }
 
-StartPageChoice StartPage::draw(const Studio& studio, const StartPageContent& content) {
-  look_for(studio.settings.recent);
+StartPageChoice StartPage::draw(const ViewContext& context, const StartPageContent& content) {
+  look_for(context.settings.recent);
   StartPageChoice choice;
   const float room = ImGui::GetContentRegionAvail().x;
   const float width = std::min(room - scaled(48), scaled(940));
   ImGui::BeginChild("start page", {0, 0});
   ImGui::SetCursorPos({(room - width) / 2, scaled(36)});
   ImGui::BeginChild("start content", {width, ImGui::GetContentRegionAvail().y}, false);
-  draw_head(studio, content);
-  draw_abandoned(studio, content, choice);
+  draw_head(context, content);
+  draw_abandoned(context, content, choice);
   const float inner = ImGui::GetContentRegionAvail().x;
-  draw_samples(studio, inner);
-  draw_recent(studio, inner);
+  draw_samples(context, inner);
+  draw_recent(context, inner);
   ImGui::Dummy({0, scaled(30)});
   ImGui::EndChild();
   ImGui::EndChild();

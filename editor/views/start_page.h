@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "editor/document/recovery.h"
-#include "editor/preview/project_pictures.h"
-#include "editor/views/studio.h"
+#include "editor/preview/project_thumbnails.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
@@ -19,7 +19,7 @@ struct StartPageContent {
   std::filesystem::path loading;  // a project file that is being read; "": none
 };
 
-// What the person wants with an abandoned project; everything else goes through the studio's edits.
+// What the person wants with an abandoned project; everything else goes through the context's edits.
 struct StartPageChoice {
   std::optional<AbandonedProject> recover;
   std::optional<AbandonedProject> discard;
@@ -39,10 +39,10 @@ struct SampleProject {
 class StartPage {
  public:
   // samples  a folder whose folders hold a project and a README.md each; one that is not there: none
-  // wake     called from another thread when a picture is ready
+  // wake     called from another thread when an image is ready
   StartPage(const std::filesystem::path& samples, std::function<void()> wake);
 
-  [[nodiscard]] StartPageChoice draw(const Studio& studio, const StartPageContent& content);
+  [[nodiscard]] StartPageChoice draw(const ViewContext& context, const StartPageContent& content);
 
  private:
   struct Recent {
@@ -50,15 +50,15 @@ class StartPage {
     bool is_there = false;
   };
   void look_for(const std::vector<std::filesystem::path>& recent);
-  void draw_head(const Studio& studio, const StartPageContent& content);
-  void draw_samples(const Studio& studio, float width);
-  void draw_card(const Studio& studio, const SampleProject& sample, float width, float height);
-  void draw_recent(const Studio& studio, float width);
-  void draw_abandoned(const Studio& studio, const StartPageContent& content, StartPageChoice& choice);
+  void draw_head(const ViewContext& context, const StartPageContent& content);
+  void draw_samples(const ViewContext& context, float width);
+  void draw_card(const ViewContext& context, const SampleProject& sample, float width, float height);
+  void draw_recent(const ViewContext& context, float width);
+  void draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice);
 
   std::vector<SampleProject> samples_;
   std::vector<Recent> recent_;  // with the look at the disk from when the list last changed
-  ProjectPictures pictures_;
+  ProjectThumbnails images_;
 };
 
 // The text's first sentence below its headings, up to a semicolon or colon, without line breaks.

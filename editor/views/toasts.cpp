@@ -13,10 +13,10 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kShortest_s = 3;
-constexpr double kShortestError_s = 15;
+constexpr double kMin_s = 3;
+constexpr double kMinError_s = 15;
 constexpr double kReading_s = 0.05;  // more for each letter
-constexpr std::size_t kMost = 5;
+constexpr std::size_t kMax = 5;
 
 struct Plate {
   ScreenRect rect;
@@ -25,8 +25,8 @@ struct Plate {
 };
 
 // One message, as wide as its text needs, standing on the middle of its lower edge.
-Plate drawn(const std::string& id, const std::string& text, bool is_error, ImVec2 foot, float most) {
-  const float wrap = most - scaled(64);
+Plate drawn(const std::string& id, const std::string& text, bool is_error, ImVec2 foot, float maximum_width) {
+  const float wrap = maximum_width - scaled(64);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
   const ImVec2 whole{size.x + scaled(is_error ? 70 : 44), size.y + scaled(18)};
   const ImVec2 p{foot.x - whole.x / 2, foot.y - whole.y};
@@ -54,10 +54,10 @@ Plate drawn(const std::string& id, const std::string& text, bool is_error, ImVec
 
 }  // namespace
 
-void Toasts::say(const Say& said, double now_s) {
-  const Say message{shortened(said.text), said.is_error};
-  const double shortest_s = message.is_error ? kShortestError_s : kShortest_s;
-  const double until_s = now_s + shortest_s + kReading_s * static_cast<double>(message.text.size());
+void Toasts::show(const ShowMessage& shown_message, double now_s) {
+  const ShowMessage message{shortened(shown_message.text), shown_message.is_error};
+  const double min_duration_s = message.is_error ? kMinError_s : kMin_s;
+  const double until_s = now_s + min_duration_s + kReading_s * static_cast<double>(message.text.size());
   const auto same = std::find_if(toasts_.begin(), toasts_.end(), [&](const Toast& toast) {
     return toast.text == message.text && toast.is_error == message.is_error;
   });
@@ -67,7 +67,7 @@ void Toasts::say(const Say& said, double now_s) {
     return;
   }
   toasts_.push_back({message.text, message.is_error, until_s});
-  if (toasts_.size() <= kMost) return;
+  if (toasts_.size() <= kMax) return;
   // Passing ones make room first.
   const auto passing = std::find_if(toasts_.begin(), toasts_.end(), [](const Toast& toast) { return !toast.is_error; });
   toasts_.erase(passing != toasts_.end() ? passing : toasts_.begin());
@@ -77,20 +77,20 @@ void Toasts::pass(double now_s) {
   std::erase_if(toasts_, [now_s](const Toast& toast) { return now_s > toast.until_s; });
 }
 
-void Toasts::draw(Places& places, double now_s, ImVec2 foot, float width_px) {
+void Toasts::draw(UiProbe& ui_probe, double now_s, ImVec2 foot, float width_px) {
   pass(now_s);
   if (toasts_.empty()) return;
-  const float most = std::min(scaled(620), width_px - scaled(40));
+  const float maximum_width = std::min(scaled(620), width_px - scaled(40));
   float y = foot.y;
   std::size_t clicked = toasts_.size();
   for (std::size_t i = toasts_.size(); i-- > 0;) {
     Toast& toast = toasts_[i];
     const std::string text =
         toast.times > 1 ? toast.text + "  (" + std::to_string(toast.times) + " times)" : toast.text;
-    const Plate plate = drawn(std::to_string(i), text, toast.is_error, {foot.x, y}, most);
+    const Plate plate = drawn(std::to_string(i), text, toast.is_error, {foot.x, y}, maximum_width);
     if (plate.hovered) toast.until_s = std::max(toast.until_s, now_s + 1);
     if (plate.clicked) clicked = i;
-    places.note("toast/" + std::to_string(i), plate.rect);
+    ui_probe.note("toast/" + std::to_string(i), plate.rect);
     y = static_cast<float>(plate.rect.low.y) - scaled(8);
   }
   if (clicked < toasts_.size()) toasts_.erase(toasts_.begin() + static_cast<std::ptrdiff_t>(clicked));

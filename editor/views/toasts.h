@@ -8,7 +8,7 @@
 #include <string>
 
 #include "editor/document/edits.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
@@ -16,9 +16,9 @@ namespace sigs::editor {
 // away.
 class Toasts {
  public:
-  void say(const Say& said, double now_s);
+  void show(const ShowMessage& shown_message, double now_s);
   // foot: the middle of the lowest one's lower edge; width_px: room from left to right.
-  void draw(Places& places, double now_s, ImVec2 foot, float width_px);
+  void draw(UiProbe& ui_probe, double now_s, ImVec2 foot, float width_px);
   // Of another project they would speak no more.
   void clear() { toasts_.clear(); }
 
@@ -34,7 +34,7 @@ class Toasts {
     std::string text;
     bool is_error = false;
     double until_s = 0;
-    int times = 1;  // the same was said again
+    int times = 1;  // how often the same message came
   };
   std::deque<Toast> toasts_;  // oldest first
 };

@@ -17,15 +17,15 @@ TrajectoryPlan& plan_of(Project& project, int intruder) {
   return project.intruders[static_cast<std::size_t>(intruder)].trajectory;
 }
 
-const TrajectoryPlan& plan_of(const Studio& studio, int intruder) {
-  return studio.project().intruders[static_cast<std::size_t>(intruder)].trajectory;
+const TrajectoryPlan& plan_of(const ViewContext& context, int intruder) {
+  return context.project().intruders[static_cast<std::size_t>(intruder)].trajectory;
 }
 
 // Ahead of the camera at a frame and to its right, in the world, where it looks.
-glm::dvec3 ahead_of_camera(const Studio& studio, int frame, double forward_m, double right_m) {
-  const CameraSettings& camera = studio.project().camera;
+glm::dvec3 ahead_of_camera(const ViewContext& context, int frame, double forward_m, double right_m) {
+  const CameraSettings& camera = context.project().camera;
   const double time_s =
-      studio.shown.scene ? time_of_frame_s(studio.shown.scene->draft.scene.footage, frame) : frame * 0.04;
+      context.shown.scene ? time_of_frame_s(context.shown.scene->draft.scene.footage, frame) : frame * 0.04;
   const auto [roll_rad, pitch_rad, yaw_rad] = mount_attitude(camera);
   const glm::dvec3 ahead(std::cos(pitch_rad) * std::cos(yaw_rad), std::cos(pitch_rad) * std::sin(yaw_rad),
                          -std::sin(pitch_rad));
@@ -37,97 +37,97 @@ glm::dvec3 ahead_of_camera(const Studio& studio, int frame, double forward_m, do
 
 }  // namespace
 
-std::optional<int> current_intruder(const Studio& studio) {
-  const Selection& selection = studio.document.selection();
-  if (studio.project().intruders.empty()) return std::nullopt;
+std::optional<int> current_intruder(const ViewContext& context) {
+  const Selection& selection = context.document.selection();
+  if (context.project().intruders.empty()) return std::nullopt;
   const bool chosen = selection.kind == Selected::intruder || selection.kind == Selected::waypoint;
   return chosen ? selection.intruder : 0;
 }
 
-std::vector<double> frames_of_waypoints(const Studio& studio, int intruder) {
-  return waypoint_frames(plan_of(studio, intruder).waypoints, studio.document.first_frame(),
-                         studio.document.last_frame());
+std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder) {
+  return waypoint_frames(plan_of(context, intruder).waypoints, context.document.first_frame(),
+                         context.document.last_frame());
 }
 
-std::optional<glm::dvec3> position_of(const Studio& studio, int intruder, double frame) {
-  if (!studio.shown.scene) return std::nullopt;
-  const DraftScene& draft = studio.shown.scene->draft;
+std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, double frame) {
+  if (!context.shown.scene) return std::nullopt;
+  const DraftScene& draft = context.shown.scene->draft;
   const auto index = static_cast<std::size_t>(intruder);
   if (index >= draft.intruder_of_project.size() || draft.intruder_of_project[index] < 0) return std::nullopt;
   const auto in_scene = static_cast<std::size_t>(draft.intruder_of_project[index]);
   return draft.scene.intruders[in_scene].trajectory.position_m(time_of_frame_s(draft.scene.footage, frame));
 }
 
-void add_waypoint(const Studio& studio, int intruder, double frame, const glm::dvec3& position_m) {
-  const std::vector<double> frames = frames_of_waypoints(studio, intruder);
-  TrajectoryPlan trial = plan_of(studio, intruder);
+void add_waypoint(const ViewContext& context, int intruder, double frame, const glm::dvec3& position_m) {
+  const std::vector<double> frames = frames_of_waypoints(context, intruder);
+  TrajectoryPlan trial = plan_of(context, intruder);
   const int number = put_waypoint(trial, frame, position_m, frames);
-  studio.edits.change("add waypoint", [=](Project& project) {
+  context.edits.change("add waypoint", [=](Project& project) {
     (void)put_waypoint(plan_of(project, intruder), frame, position_m, frames);
   });
-  studio.edits.select({Selected::waypoint, intruder, number});
+  context.edits.select({Selected::waypoint, intruder, number});
 }
 
-void add_waypoint_here(const Studio& studio, std::optional<glm::dvec3> position_m) {
-  const std::optional<int> intruder = current_intruder(studio);
+void add_waypoint_here(const ViewContext& context, std::optional<glm::dvec3> position_m) {
+  const std::optional<int> intruder = current_intruder(context);
   if (!intruder) {
-    studio.edits.ask(Say{"Add an intruder first: it carries the waypoints.", true});
+    context.edits.ask(ShowMessage{"Add an intruder first: it carries the waypoints.", true});
     return;
   }
-  const int frame = studio.document.playhead();
-  if (!position_m) position_m = position_of(studio, *intruder, frame);
-  if (!position_m) position_m = ahead_of_camera(studio, frame, 300, 0);
-  add_waypoint(studio, *intruder, frame, *position_m);
+  const int frame = context.document.playhead();
+  if (!position_m) position_m = position_of(context, *intruder, frame);
+  if (!position_m) position_m = ahead_of_camera(context, frame, 300, 0);
+  add_waypoint(context, *intruder, frame, *position_m);
 }
 
-void delete_intruder(const Studio& studio, int intruder) {
-  studio.edits.change("delete intruder",
-                      [=](Project& project) { project.intruders.erase(project.intruders.begin() + intruder); });
-  studio.edits.select({});
+void delete_intruder(const ViewContext& context, int intruder) {
+  context.edits.change("delete intruder",
+                       [=](Project& project) { project.intruders.erase(project.intruders.begin() + intruder); });
+  context.edits.select({});
 }
 
-void duplicate_intruder(const Studio& studio, int intruder) {
-  studio.edits.change("duplicate intruder", [=](Project& project) {
+void duplicate_intruder(const ViewContext& context, int intruder) {
+  context.edits.change("duplicate intruder", [=](Project& project) {
     IntruderSettings copy = project.intruders[static_cast<std::size_t>(intruder)];
     copy.name += " copy";
     for (WaypointSettings& waypoint : copy.trajectory.waypoints) waypoint.position_m.y += 30;
     project.intruders.insert(project.intruders.begin() + intruder + 1, copy);
   });
-  studio.edits.select({Selected::intruder, intruder + 1, 0});
+  context.edits.select({Selected::intruder, intruder + 1, 0});
 }
 
-void delete_selected(const Studio& studio) {
-  const Selection selection = studio.document.selection();
-  if (selection.kind == Selected::intruder) delete_intruder(studio, selection.intruder);
+void delete_selected(const ViewContext& context) {
+  const Selection selection = context.document.selection();
+  if (selection.kind == Selected::intruder) delete_intruder(context, selection.intruder);
   if (selection.kind != Selected::waypoint) return;
-  if (plan_of(studio, selection.intruder).waypoints.size() == 1) {
-    studio.edits.ask(Say{"An intruder needs one waypoint at least; delete the intruder instead.", true});
+  if (plan_of(context, selection.intruder).waypoints.size() == 1) {
+    context.edits.ask(ShowMessage{"An intruder needs one waypoint at least; delete the intruder instead.", true});
     return;
   }
-  studio.edits.change("delete waypoint",
-                      [=, frames = frames_of_waypoints(studio, selection.intruder)](Project& project) {
-                        delete_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
-                      });
+  context.edits.change("delete waypoint",
+                       [=, frames = frames_of_waypoints(context, selection.intruder)](Project& project) {
+                         delete_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
+                       });
 }
 
-void duplicate_selected(const Studio& studio) {
-  const Selection selection = studio.document.selection();
-  if (selection.kind == Selected::intruder) duplicate_intruder(studio, selection.intruder);
+void duplicate_selected(const ViewContext& context) {
+  const Selection selection = context.document.selection();
+  if (selection.kind == Selected::intruder) duplicate_intruder(context, selection.intruder);
   if (selection.kind != Selected::waypoint) return;
-  const std::vector<double> frames = frames_of_waypoints(studio, selection.intruder);
-  TrajectoryPlan trial = plan_of(studio, selection.intruder);
+  const std::vector<double> frames = frames_of_waypoints(context, selection.intruder);
+  TrajectoryPlan trial = plan_of(context, selection.intruder);
   const int copy = duplicate_waypoint(trial, selection.waypoint, frames);
-  studio.edits.change("duplicate waypoint", [=](Project& project) {
+  context.edits.change("duplicate waypoint", [=](Project& project) {
     (void)duplicate_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
   });
-  studio.edits.select({Selected::waypoint, selection.intruder, copy});
+  context.edits.select({Selected::waypoint, selection.intruder, copy});
 }
 
-void go_to_waypoint(const Studio& studio, int direction) {
-  const std::optional<int> intruder = current_intruder(studio);
+void go_to_waypoint(const ViewContext& context, int direction) {
+  const std::optional<int> intruder = current_intruder(context);
   if (!intruder) return;
-  const std::vector<double> frames = frames_of_waypoints(studio, *intruder);
-  const int here = studio.document.playhead();
+  const std::vector<double> frames = frames_of_waypoints(context, *intruder);
+  const int here = context.document.playhead();
   int found = -1;
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
     const long at = std::lround(frames[static_cast<std::size_t>(i)]);
@@ -136,17 +136,17 @@ void go_to_waypoint(const Studio& studio, int direction) {
   }
   if (found < 0) return;
   const double frame = std::clamp(std::round(frames[static_cast<std::size_t>(found)]), 0.0, 1e9);
-  studio.edits.ask(Play{0});
-  studio.edits.go_to_frame(static_cast<int>(frame));
-  studio.edits.select({Selected::waypoint, *intruder, found});
+  context.edits.ask(Play{0});
+  context.edits.go_to_frame(static_cast<int>(frame));
+  context.edits.select({Selected::waypoint, *intruder, found});
 }
 
 std::string gesture_of_waypoint(int intruder, int waypoint) {
   return "move " + std::to_string(intruder) + " " + std::to_string(waypoint);
 }
 
-void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::dvec3& position_m) {
-  studio.edits.change(
+void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m) {
+  context.edits.change(
       "move waypoint",
       [=](Project& project) {
         auto& waypoints = plan_of(project, intruder).waypoints;
@@ -156,24 +156,24 @@ void move_waypoint(const Studio& studio, int intruder, int waypoint, const glm::
       gesture_of_waypoint(intruder, waypoint));
 }
 
-IntruderSettings new_intruder(const Studio& studio) {
-  const Project& now = studio.project();
+IntruderSettings new_intruder(const ViewContext& context) {
+  const Project& now = context.project();
   IntruderSettings intruder;
   if (!now.intruders.empty()) intruder.model = now.intruders.back().model;
   intruder.name = "intruder " + std::to_string(now.intruders.size() + 1);
-  const int first = studio.document.range_first();
-  const int last = std::max(first + 1, studio.document.range_last());
+  const int first = context.document.range_first();
+  const int last = std::max(first + 1, context.document.range_last());
   intruder.trajectory.waypoints = {
-      {.frame = first, .position_m = ahead_of_camera(studio, first, 300, -120)},
-      {.frame = last, .position_m = ahead_of_camera(studio, last, 300, 120)},
+      {.frame = first, .position_m = ahead_of_camera(context, first, 300, -120)},
+      {.frame = last, .position_m = ahead_of_camera(context, last, 300, 120)},
   };
   return intruder;
 }
 
-void add_intruder(const Studio& studio) {
-  studio.edits.change("add intruder",
-                      [intruder = new_intruder(studio)](Project& project) { project.intruders.push_back(intruder); });
-  studio.edits.select({Selected::intruder, static_cast<int>(studio.project().intruders.size()), 0});
+void add_intruder(const ViewContext& context) {
+  context.edits.change("add intruder",
+                       [intruder = new_intruder(context)](Project& project) { project.intruders.push_back(intruder); });
+  context.edits.select({Selected::intruder, static_cast<int>(context.project().intruders.size()), 0});
 }
 
 }  // namespace sigs::editor

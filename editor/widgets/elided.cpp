@@ -45,22 +45,22 @@ std::string longest(const std::string& text, float width, const Cut& cut) {
 
 }  // namespace
 
-std::string shortened(const std::string& text, std::size_t most) {
-  if (text.size() <= most) return text;
-  const std::size_t kept = most > 3 ? most - 3 : 0;
+std::string shortened(const std::string& text, std::size_t maximum) {
+  if (text.size() <= maximum) return text;
+  const std::size_t kept = maximum > 3 ? maximum - 3 : 0;
   return head(text, kept - kept / 2) + kDots + tail(text, kept / 2);
 }
 
 std::string elided(const std::string& text, float width) {
-  if (text.size() <= kMostShownText && width_of(text) <= width) return text;
+  if (text.size() <= kMaxShownText && width_of(text) <= width) return text;
   // No panel has room for more letters than that.
-  const std::string begin = head(text, kMostShownText);
+  const std::string begin = head(text, kMaxShownText);
   return longest(begin, width, [&](std::size_t bytes) { return head(begin, bytes) + kDots; });
 }
 
 std::string elided_front(const std::string& text, float width) {
-  if (text.size() <= kMostShownText && width_of(text) <= width) return text;
-  const std::string end = tail(text, kMostShownText);
+  if (text.size() <= kMaxShownText && width_of(text) <= width) return text;
+  const std::string end = tail(text, kMaxShownText);
   return longest(end, width, [&](std::size_t bytes) { return kDots + tail(end, bytes); });
 }
 

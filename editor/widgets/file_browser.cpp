@@ -49,7 +49,7 @@ std::vector<BrowserPlace> usual_places() {
   return {{"Home", home()}, {"Present folder", fs::current_path(code)}, {"Computer", "/"}};
 }
 
-void FileBrowser::ask(FileQuestion question, std::vector<BrowserPlace> places) {
+void FileBrowser::ask(FileDialogRequest question, std::vector<BrowserPlace> places) {
   question_ = std::move(question);
   places_ = std::move(places);
   open_ = true;
@@ -64,10 +64,10 @@ void FileBrowser::ask(FileQuestion question, std::vector<BrowserPlace> places) {
   start = fs::absolute(start).lexically_normal();
   if (!start.has_filename() && start.has_relative_path()) start = start.parent_path();
   if (!is_folder(start)) {
-    (question_.wanted == FileWanted::to_save ? name_ : select_when_read_) = start.filename().string();
+    (question_.wanted == FileDialogMode::to_save ? name_ : select_when_read_) = start.filename().string();
     start = start.parent_path();
   }
-  focus_name_ = question_.wanted == FileWanted::to_save;
+  focus_name_ = question_.wanted == FileDialogMode::to_save;
   const std::string wanted = select_when_read_;
   enter(nearest_folder(start));
   select_when_read_ = wanted;
@@ -101,7 +101,8 @@ void FileBrowser::take_listing() {
   reading_ = false;
   const std::vector<std::string> wanted = all_files_ ? std::vector<std::string>() : question_.extensions;
   shown_ = shown_entries(reader_.listing(), wanted, order_);
-  if (question_.wanted == FileWanted::folder) std::erase_if(shown_, [](const FolderEntry& e) { return !e.is_folder; });
+  if (question_.wanted == FileDialogMode::folder)
+    std::erase_if(shown_, [](const FolderEntry& e) { return !e.is_folder; });
   selected_ = -1;
   for (std::size_t i = 0; i < shown_.size(); ++i)
     if (shown_[i].name == select_when_read_) selected_ = static_cast<int>(i);
@@ -113,7 +114,7 @@ void FileBrowser::select(int entry) {
   selected_ = std::clamp(entry, 0, static_cast<int>(shown_.size()) - 1);
   select_when_read_ = shown_[static_cast<std::size_t>(selected_)].name;
   const FolderEntry& chosen = shown_[static_cast<std::size_t>(selected_)];
-  if (question_.wanted == FileWanted::to_save && !chosen.is_folder) name_ = chosen.name;
+  if (question_.wanted == FileDialogMode::to_save && !chosen.is_folder) name_ = chosen.name;
   problem_.clear();
 }
 
@@ -122,7 +123,7 @@ void FileBrowser::activate(int entry) {
   const FolderEntry chosen = shown_[static_cast<std::size_t>(entry)];
   if (chosen.is_folder)
     enter(folder_ / chosen.name);
-  else if (question_.wanted == FileWanted::to_save)
+  else if (question_.wanted == FileDialogMode::to_save)
     answer_by_name();
   else
     answer_with(folder_ / chosen.name);
@@ -176,9 +177,9 @@ void FileBrowser::go_to_text(const std::string& text) {
   std::error_code code;
   if (is_folder(path)) {
     enter(path);
-  } else if (fs::exists(path, code) && question_.wanted == FileWanted::to_open) {
+  } else if (fs::exists(path, code) && question_.wanted == FileDialogMode::to_open) {
     answer_with(path);
-  } else if (question_.wanted == FileWanted::to_save && is_folder(path.parent_path())) {
+  } else if (question_.wanted == FileDialogMode::to_save && is_folder(path.parent_path())) {
     enter(path.parent_path());
     name_ = path.filename().string();
   } else {
@@ -186,7 +187,7 @@ void FileBrowser::go_to_text(const std::string& text) {
   }
 }
 
-void FileBrowser::take_typed() {
+void FileBrowser::handle_typed() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl || io.KeyAlt || io.InputQueueCharacters.empty()) return;
   const double now_s = ImGui::GetTime();
@@ -202,7 +203,7 @@ void FileBrowser::take_typed() {
   }
 }
 
-void FileBrowser::take_keys() {
+void FileBrowser::handle_keys() {
   if (ImGui::GetIO().KeyCtrl && pressed(Key::l)) {
     editing_path_ = true;
     path_text_ = folder_.string();
@@ -222,17 +223,17 @@ void FileBrowser::take_keys() {
   if (pressed(Key::end)) select(static_cast<int>(shown_.size()) - 1), scroll_to_selected_ = true;
   if (pressed(Key::backspace, true)) go_up();
   if (pressed(Key::enter) || pressed(Key::keypad_enter)) activate(selected_);
-  take_typed();
+  handle_typed();
 }
 
-std::optional<fs::path> FileBrowser::draw(Places& marks) {
+std::optional<fs::path> FileBrowser::draw(UiProbe& ui_probe) {
   if (!open_) return std::nullopt;
-  marks_ = &marks;
+  ui_probe_ = &ui_probe;
   bool closed = false;
   const std::string title = question_.title + "###file browser";
   if (!begin_dialog(title.c_str(), 900, 600, closed)) return std::nullopt;
   take_listing();
-  take_keys();
+  handle_keys();
   draw_path_bar();
   ImGui::Dummy({0, scaled(2)});
   const float bottom = 2 * scaled(28) + 3 * ImGui::GetStyle().ItemSpacing.y + ImGui::GetTextLineHeight();

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "editor/widgets/folder_listing.h"
-#include "editor/widgets/places.h"
+#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 
-enum class FileWanted { to_open, to_save, folder };
+enum class FileDialogMode { to_open, to_save, folder };
 
-struct FileQuestion {
+struct FileDialogRequest {
   std::string title;
   std::vector<std::string> extensions;  // ".json"; empty: all files
-  FileWanted wanted = FileWanted::to_open;
+  FileDialogMode wanted = FileDialogMode::to_open;
   std::filesystem::path start;  // a folder, or a file: its name is proposed; "": where the last question ended
 };
 
@@ -32,13 +32,13 @@ struct BrowserPlace {
 // Asks for a file or a folder. Folders are read when they are entered, beside the window's thread.
 class FileBrowser {
  public:
-  void ask(FileQuestion question, std::vector<BrowserPlace> places);
+  void ask(FileDialogRequest question, std::vector<BrowserPlace> places);
   void close() { open_ = false; }
   [[nodiscard]] bool is_open() const { return open_; }
 
-  // Once a turn while it is open. The answer, absolute, in the turn in which it is given. A file to save is only
+  // Once per update while it is open. The answer, absolute, in the update in which it is given. A file to save is only
   // overwritten after a question.
-  [[nodiscard]] std::optional<std::filesystem::path> draw(Places& marks);
+  [[nodiscard]] std::optional<std::filesystem::path> draw(UiProbe& ui_probe);
 
   // Where the person was last.
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
@@ -57,23 +57,23 @@ class FileBrowser {
   void answer_by_name();
   void make_folder();
   void go_to_text(const std::string& text);
-  void take_keys();
-  void take_typed();
+  void handle_keys();
+  void handle_typed();
 
   void draw_path_bar();
   void draw_breadcrumbs();
   void draw_places(float width, float height);
   void draw_list(float height);
   void draw_row(int entry, bool with_size, bool with_time);
-  void take_sorting();
+  void handle_sorting();
   void draw_bottom();
   void draw_answer();
   void draw_filter(float width);
   void draw_overwrite();
   void draw_new_folder();
 
-  FileQuestion question_;
-  Places* marks_ = nullptr;  // while drawing
+  FileDialogRequest question_;
+  UiProbe* ui_probe_ = nullptr;  // while drawing
   std::vector<BrowserPlace> places_;
   bool open_ = false;
   std::optional<std::filesystem::path> answer_;

@@ -125,7 +125,7 @@ void FileBrowser::draw_places(float width, float height) {
   if (!chosen.empty()) enter(chosen);
 }
 
-void FileBrowser::take_sorting() {
+void FileBrowser::handle_sorting() {
   ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
   if (specs == nullptr || !specs->SpecsDirty || specs->SpecsCount == 0) return;
   specs->SpecsDirty = false;
@@ -153,7 +153,7 @@ void FileBrowser::draw_row(int entry, bool with_size, bool with_time) {
     if (ImGui::IsMouseDoubleClicked(0)) activate(entry);
   }
   ImGui::PopID();
-  marks_->note_item("browser/" + shown.name);
+  ui_probe_->note_item("browser/" + shown.name);
   if (!open_ || entry >= static_cast<int>(shown_.size())) return;  // it was the answer, or another folder was entered
   if (selected && scroll_to_selected_) {
     ImGui::SetScrollHereY();
@@ -191,7 +191,7 @@ void FileBrowser::draw_list(float height) {
                           static_cast<ImGuiID>(SortBy::name));
   if (with_size) ImGui::TableSetupColumn("Size", fixed, scaled(80), static_cast<ImGuiID>(SortBy::size));
   if (with_time) ImGui::TableSetupColumn("Changed", fixed, scaled(140), static_cast<ImGuiID>(SortBy::changed));
-  take_sorting();
+  handle_sorting();
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(shown_.size()));
@@ -238,8 +238,8 @@ void FileBrowser::draw_filter(float width) {
 }
 
 void FileBrowser::draw_answer() {
-  const bool saving = question_.wanted == FileWanted::to_save;
-  const bool of_folder = question_.wanted == FileWanted::folder;
+  const bool saving = question_.wanted == FileDialogMode::to_save;
+  const bool of_folder = question_.wanted == FileDialogMode::folder;
   const float room = ImGui::GetContentRegionAvail().x;
   bool entered = false;
   if (saving) {
@@ -247,7 +247,7 @@ void FileBrowser::draw_answer() {
     focus_name_ = false;
     ImGui::SetNextItemWidth(room - scaled(210) - ImGui::GetStyle().ItemSpacing.x);
     entered = text_input("##name", name_, "name of the file", ImGuiInputTextFlags_EnterReturnsTrue);
-    marks_->note_item("browser/name");
+    ui_probe_->note_item("browser/name");
     ImGui::SameLine();
   } else {
     const std::string chosen = selected_ >= 0 ? shown_[static_cast<std::size_t>(selected_)].name : std::string();
@@ -268,17 +268,17 @@ void FileBrowser::draw_answer() {
       new_folder_.clear();
       focus_bottom_ = true;
     }
-    marks_->note_item("browser/new folder");
+    ui_probe_->note_item("browser/new folder");
     ImGui::SameLine();
   }
   const char* const labels[] = {"Cancel", main};
   align_buttons_right(labels, 2);
   if (dialog_button("Cancel")) open_ = false;
-  marks_->note_item("browser/cancel");
+  ui_probe_->note_item("browser/cancel");
   ImGui::SameLine();
   const bool can = saving ? !name_.empty() : of_folder || selected_ >= 0;
   const bool clicked = dialog_button(main, true, can);
-  marks_->note_item("browser/answer");
+  ui_probe_->note_item("browser/answer");
   if (clicked || entered) {
     if (saving)
       answer_by_name();
@@ -297,7 +297,7 @@ void FileBrowser::draw_overwrite() {
   if (dialog_button("Back")) bottom_ = Bottom::answer;
   ImGui::SameLine();
   const bool clicked = dialog_button("Replace", true);
-  marks_->note_item("browser/replace");
+  ui_probe_->note_item("browser/replace");
   if (clicked) answer_by_name();
 }
 

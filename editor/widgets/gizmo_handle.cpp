@@ -26,8 +26,8 @@ glm::dvec2 mouse_now() {
   return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
 }
 
-std::optional<GizmoShape> shape_of(const glm::dvec3& at_m, const GizmoStage& stage) {
-  return gizmo_shape({.center_m = at_m, .arrow_px = scaled(kArrow_px)}, stage.camera, stage.rect);
+std::optional<GizmoShape> shape_of(const glm::dvec3& at_m, const GizmoInput& input) {
+  return gizmo_shape({.center_m = at_m, .arrow_px = scaled(kArrow_px)}, input.camera, input.rect);
 }
 
 void draw_arrow(ImDrawList& list, const glm::dvec2& from, const glm::dvec2& tip, ImU32 color, const char* name) {
@@ -56,11 +56,11 @@ void draw_plane(ImDrawList& list, const std::array<glm::dvec2, 4>& quad, ImU32 c
 
 }  // namespace
 
-GizmoAnswer GizmoHandle::update(const glm::dvec3& at_m, const GizmoStage& stage) {
-  if (dragging()) return go_on(stage);
+GizmoResult GizmoHandle::update(const glm::dvec3& at_m, const GizmoInput& input) {
+  if (dragging()) return continue_drag(input);
   hovered_ = GizmoPart::none;
-  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
-  if (!shape || !stage.mouse_is_free) return {};
+  const std::optional<GizmoShape> shape = shape_of(at_m, input);
+  if (!shape || !input.mouse_is_free) return {};
   hovered_ = part_at(*shape, mouse_now(), scaled(7));
   if (hovered_ == GizmoPart::none) return {};
   ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -78,23 +78,23 @@ void GizmoHandle::take(GizmoPart part, const glm::dvec3& at_m) {
   has_moved_ = false;
 }
 
-GizmoAnswer GizmoHandle::go_on(const GizmoStage& stage) {
+GizmoResult GizmoHandle::continue_drag(const GizmoInput& input) {
   if (pressed(Key::escape)) {
-    let_go();
+    abandon_drag();
     return {.cancelled = true};
   }
-  GizmoAnswer answer;
+  GizmoResult answer;
   // A click that trembles moves nothing.
   has_moved_ = has_moved_ || glm::distance(mouse_now(), drag_.start_mouse) >= 3;
   if (has_moved_ && ImGui::IsMousePosValid())
-    answer.moved_to = dragged(drag_, mouse_now(), stage.camera, stage.rect, stage.snap_m);
+    answer.moved_to = dragged(drag_, mouse_now(), input.camera, input.rect, input.snap_m);
   answer.released = !ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (answer.released) let_go();
+  if (answer.released) abandon_drag();
   return answer;
 }
 
-void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoStage& stage) const {
-  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoInput& input) const {
+  const std::optional<GizmoShape> shape = shape_of(at_m, input);
   if (!shape) return;
   const auto hot = [&](GizmoPart part_drawn) { return part() == part_drawn; };
   for (std::size_t i = 0; i < 3; ++i)
@@ -106,9 +106,9 @@ void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoStag
   list.AddCircle(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), color::kWaypoint, 0, scaled(1.8));
 }
 
-std::vector<ScreenRect> GizmoHandle::covered(const glm::dvec3& at_m, const GizmoStage& stage) const {
+std::vector<ScreenRect> GizmoHandle::covered(const glm::dvec3& at_m, const GizmoInput& input) const {
   std::vector<ScreenRect> rects;
-  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+  const std::optional<GizmoShape> shape = shape_of(at_m, input);
   if (!shape) return rects;
   const double half = scaled(6);
   constexpr int kSteps = 8;  // along an arrow, with its letter
@@ -124,12 +124,12 @@ std::vector<ScreenRect> GizmoHandle::covered(const glm::dvec3& at_m, const Gizmo
   return rects;
 }
 
-void GizmoHandle::note_places(Places& places, const glm::dvec3& at_m, const GizmoStage& stage) const {
-  if (!places.wanted()) return;
-  const std::optional<GizmoShape> shape = shape_of(at_m, stage);
+void GizmoHandle::probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const GizmoInput& input) const {
+  if (!ui_probe.wanted()) return;
+  const std::optional<GizmoShape> shape = shape_of(at_m, input);
   if (!shape) return;
   const auto note = [&](const char* name, const glm::dvec2& at) {
-    places.note(std::string("gizmo/") + name, {at - 4.0, at + 4.0});
+    ui_probe.note(std::string("gizmo/") + name, {at - 4.0, at + 4.0});
   };
   constexpr std::array<const char*, 3> kPlaces{"x", "y", "z"};
   for (std::size_t i = 0; i < 3; ++i)

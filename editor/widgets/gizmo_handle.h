@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "editor/geometry/gizmo.h"
-#include "editor/widgets/places.h"
+#include "editor/widgets/ui_probe.h"
 
 struct ImDrawList;
 
 namespace sigs::editor {
 
 // Where a handle is looked at from.
-struct GizmoStage {
+struct GizmoInput {
   const OrbitCamera& camera;
   ScreenRect rect;
   bool mouse_is_free = false;  // over the canvas, nothing else has it
   double snap_m = 0;           // > 0: coordinates are rounded while dragging
 };
 
-// What the mouse did to a handle in this turn.
-struct GizmoAnswer {
+// What the mouse did to a handle in this update.
+struct GizmoResult {
   std::optional<glm::dvec3> moved_to;  // while it is dragged, once it has left its place
   bool released = false;               // the drag is over
   bool cancelled = false;              // by Esc: back to where it was
@@ -32,17 +32,17 @@ struct GizmoAnswer {
 // A handle on the screen: three arrows, three planes, the middle. Knows points and the mouse alone.
 class GizmoHandle {
  public:
-  // Once a turn with the point as it is; takes the mouse.
-  [[nodiscard]] GizmoAnswer update(const glm::dvec3& at_m, const GizmoStage& stage);
-  void draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoStage& stage) const;
+  // Once per update with the point as it is; takes the mouse.
+  [[nodiscard]] GizmoResult update(const glm::dvec3& at_m, const GizmoInput& input);
+  void draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoInput& input) const;
   // What it covers on the screen, in small rects.
-  [[nodiscard]] std::vector<ScreenRect> covered(const glm::dvec3& at_m, const GizmoStage& stage) const;
+  [[nodiscard]] std::vector<ScreenRect> covered(const glm::dvec3& at_m, const GizmoInput& input) const;
   // Where its arrows' tips and its middle are: "gizmo/x", ..., "gizmo/middle".
-  void note_places(Places& places, const glm::dvec3& at_m, const GizmoStage& stage) const;
-  // The mouse, pressed in this turn, has hold of a part.
+  void probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const GizmoInput& input) const;
+  // The mouse, pressed in this update, has hold of a part.
   void take(GizmoPart part, const glm::dvec3& at_m);
   // The drag, if there is one, is over without an answer: what was dragged has gone.
-  void let_go() {
+  void abandon_drag() {
     drag_ = {};
     hovered_ = GizmoPart::none;
   }
@@ -53,7 +53,7 @@ class GizmoHandle {
   [[nodiscard]] const glm::dvec3& start_m() const { return drag_.start_m; }
 
  private:
-  [[nodiscard]] GizmoAnswer go_on(const GizmoStage& stage);
+  [[nodiscard]] GizmoResult continue_drag(const GizmoInput& input);
 
   GizmoDrag drag_;
   GizmoPart hovered_ = GizmoPart::none;

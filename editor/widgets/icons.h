@@ -5,7 +5,7 @@
 
 namespace sigs::editor {
 
-// Small pictures drawn from lines, for buttons and rows: no icon font, sharp at every size.
+// Small images drawn from lines, for buttons and rows: no icon font, sharp at every size.
 enum class Icon {
   play,
   pause,

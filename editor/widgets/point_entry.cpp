@@ -15,7 +15,7 @@ namespace sigs::editor {
 namespace {
 
 constexpr const char* kId = "point entry";
-constexpr double kFarthest_m = 1e8;
+constexpr double kMaxCoordinate_m = 1e8;
 
 struct Row {
   const char* id;
@@ -61,7 +61,7 @@ void PointEntry::draw_fields() {
   }
 }
 
-// Closing waits for the next turn: the key that closes it must find it open still, or the rest of the program would
+// Closing waits for the next update: the key that closes it must find it open still, or the rest of the program would
 // take that key as well.
 std::optional<glm::dvec3> PointEntry::draw() {
   if (state_ == State::closed) return std::nullopt;
@@ -83,7 +83,7 @@ std::optional<glm::dvec3> PointEntry::draw() {
     const bool apply = ImGui::Button("Apply", {scaled(90), 0}) || enter_pressed();
     ImGui::SameLine();
     const bool leave = ImGui::Button("Cancel", {scaled(90), 0}) || pressed(Key::escape);
-    if (apply && is_a_place(point_m_)) taken = glm::clamp(point_m_, -kFarthest_m, kFarthest_m);
+    if (apply && is_a_place(point_m_)) taken = glm::clamp(point_m_, -kMaxCoordinate_m, kMaxCoordinate_m);
     if (taken || leave) state_ = State::leaving;
   }
   ImGui::EndPopup();

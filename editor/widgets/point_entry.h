@@ -11,7 +11,7 @@ namespace sigs::editor {
 class PointEntry {
  public:
   void open(std::string title, const glm::dvec3& point_m);
-  // Once a turn, within the same ImGui window each time; the point, in the turn in which it is taken.
+  // Once per update, within the same ImGui window each time; the point, in the update in which it is taken.
   [[nodiscard]] std::optional<glm::dvec3> draw();
   [[nodiscard]] bool is_open() const { return state_ != State::closed; }
 

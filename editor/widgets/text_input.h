@@ -8,7 +8,7 @@ namespace sigs::editor {
 
 // What can be typed or pasted into one line, in bytes: as long as the longest path that Linux knows. More is refused
 // as it comes.
-constexpr std::size_t kLongestTypedText = 4095;
+constexpr std::size_t kMaxTypedText = 4095;
 
 // ImGui's line of text for a string. One that is longer than can be typed is shown cut where the hint is: what is typed
 // takes its place as a whole.

@@ -7,28 +7,28 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr long kTurnsKept = 30;
+constexpr long kUpdatesKept = 30;
 
 }  // namespace
 
 void TextureOrder::use(TextureKey key, std::size_t bytes) {
   Use& use = uses_[key];
   bytes_ += bytes - use.bytes;
-  use = {.bytes = bytes, .turn = turn_};
+  use = {.bytes = bytes, .update = update_};
 }
 
-std::vector<TextureKey> TextureOrder::end_turn(std::size_t most_bytes) {
+std::vector<TextureKey> TextureOrder::end_update(std::size_t max_bytes) {
   std::vector<TextureKey> gone;
   while (!uses_.empty()) {
-    const auto oldest = std::min_element(uses_.begin(), uses_.end(),
-                                         [](const auto& a, const auto& b) { return a.second.turn < b.second.turn; });
-    const long unused_turns = turn_ - oldest->second.turn;
-    if (unused_turns == 0 || (unused_turns < kTurnsKept && bytes_ <= most_bytes)) break;
+    const auto oldest = std::min_element(
+        uses_.begin(), uses_.end(), [](const auto& a, const auto& b) { return a.second.update < b.second.update; });
+    const long unused_updates = update_ - oldest->second.update;
+    if (unused_updates == 0 || (unused_updates < kUpdatesKept && bytes_ <= max_bytes)) break;
     bytes_ -= oldest->second.bytes;
     gone.push_back(oldest->first);
     uses_.erase(oldest);
   }
-  ++turn_;
+  ++update_;
   return gone;
 }
 

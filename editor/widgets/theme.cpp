@@ -100,16 +100,18 @@ void add_font(const std::filesystem::path& file, double size_px) {
 }  // namespace
 
 ImU32 intruder_color(int intruder) {
-  static constexpr std::array<ImU32, 8> kColors{
-      IM_COL32(255, 140, 90, 255),  IM_COL32(120, 200, 255, 255), IM_COL32(170, 220, 110, 255), IM_COL32(240, 130, 200, 255),
-      IM_COL32(255, 205, 90, 255), IM_COL32(150, 150, 255, 255), IM_COL32(110, 220, 200, 255), IM_COL32(255, 120, 120, 255)};
+  static constexpr std::array<ImU32, 8> kColors{IM_COL32(255, 140, 90, 255),  IM_COL32(120, 200, 255, 255),
+                                                IM_COL32(170, 220, 110, 255), IM_COL32(240, 130, 200, 255),
+                                                IM_COL32(255, 205, 90, 255),  IM_COL32(150, 150, 255, 255),
+                                                IM_COL32(110, 220, 200, 255), IM_COL32(255, 120, 120, 255)};
   return kColors[static_cast<std::size_t>(std::max(0, intruder)) % kColors.size()];
 }
 
 ImU32 result_color(int number) {
-  static constexpr std::array<ImU32, 8> kColors{
-      IM_COL32(255, 84, 196, 255), IM_COL32(64, 226, 235, 255),  IM_COL32(150, 236, 84, 255), IM_COL32(176, 138, 255, 255),
-      IM_COL32(255, 112, 98, 255), IM_COL32(238, 240, 245, 255), IM_COL32(60, 200, 150, 255), IM_COL32(214, 168, 122, 255)};
+  static constexpr std::array<ImU32, 8> kColors{IM_COL32(255, 84, 196, 255), IM_COL32(64, 226, 235, 255),
+                                                IM_COL32(150, 236, 84, 255), IM_COL32(176, 138, 255, 255),
+                                                IM_COL32(255, 112, 98, 255), IM_COL32(238, 240, 245, 255),
+                                                IM_COL32(60, 200, 150, 255), IM_COL32(214, 168, 122, 255)};
   return kColors[static_cast<std::size_t>(std::max(0, number)) % kColors.size()];
 }
 

@@ -14,7 +14,7 @@ struct ToolButton {
   IconDrawing icon = nullptr;
   const char* label = "";
   const char* tooltip = "";  // what it does, and its key
-  bool on = false;           // lit
+  bool on = false;           // highlighted
   bool enabled = true;
 };
 

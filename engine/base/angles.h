@@ -5,7 +5,7 @@
 
 namespace sigs {
 
-// Degrees live in files and on screen only; these are the doors.
+// Degrees exist in files and on screen only; these two functions convert.
 [[nodiscard]] constexpr double rad_of_deg(double deg) {
   return deg * (std::numbers::pi / 180.0);
 }

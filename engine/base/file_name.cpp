@@ -6,9 +6,9 @@
 namespace sigs {
 
 std::string wrong_with_file_name(const std::string& name) {
-  constexpr std::size_t kLongest = 200;  // bytes
+  constexpr std::size_t kMax = 200;  // bytes
   if (name.empty()) return "is empty; it becomes a file's name";
-  if (name.size() > kLongest) return "is longer than 200 bytes; it becomes a file's name";
+  if (name.size() > kMax) return "is longer than 200 bytes; it becomes a file's name";
   const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
     return c != '/' && c != 0x7f && (c < 0 || static_cast<unsigned char>(c) >= 0x20);
   });

@@ -9,7 +9,7 @@
 
 namespace sigs {
 
-// The largest file of each kind that is read, in bytes (docs/limits.md). Videos and pictures have none: they are never
+// The largest file of each kind that is read, in bytes (docs/limits.md). Videos and images have none: they are never
 // in memory as a whole, or their own size in pixels is limited.
 inline constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t kCalibrationLimit_bytes = 4 * kMebibyte;

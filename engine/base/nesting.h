@@ -7,7 +7,7 @@ namespace sigs {
 
 // How deep lists, objects or elements may lie in one another in a file that is read: far deeper than any file of ours,
 // and far from where parsers and functions that call themselves for each level run out of stack (docs/limits.md).
-inline constexpr int kDeepestNesting = 100;
+inline constexpr int kMaxNesting = 100;
 
 // How deep a text nests at most, found in one pass without calling itself. What the parser would stop at as wrong is
 // not looked into further; up to there the depth is at least that which the parser goes down to.

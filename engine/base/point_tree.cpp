@@ -10,7 +10,7 @@ namespace sigs {
 
 namespace {
 
-constexpr std::size_t kMostInLeaf = 8;
+constexpr std::size_t kMaxInLeaf = 8;
 
 // A total order along one axis, so that the tree depends on the points alone.
 struct Along {
@@ -42,7 +42,7 @@ std::size_t grow(std::vector<PointTree::Node>& nodes, std::span<glm::vec3> point
   const std::size_t at = nodes.size();
   nodes.push_back(node_around(points, first));
   const glm::dvec3 half = nodes[at].half;
-  if (points.size() <= kMostInLeaf) return at;
+  if (points.size() <= kMaxInLeaf) return at;
   const int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
   const std::size_t middle = points.size() / 2;
   std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle), points.end(), Along{axis});

@@ -55,7 +55,7 @@ std::error_code rename_new(const fs::path& from, const fs::path& to) {
   return code_of(rename(from.c_str(), to.c_str()));  // a folder: refused where one with something in it has the name
 }
 
-std::error_code replace_keeping(const fs::path& from, const fs::path& to, const fs::path& aside) {
+std::error_code replace_with_backup(const fs::path& from, const fs::path& to, const fs::path& aside) {
   const std::error_code code = renamed(from, to, RENAME_EXCHANGE);
   if (!code) {
     const std::error_code moved = rename_new(from, aside);

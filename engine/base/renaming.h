@@ -17,7 +17,7 @@ namespace sigs {
 // must be free, all on one file system. At every moment something whole has the name `to`, but for folders where the
 // file system does not know RENAME_EXCHANGE (NFS): there two renames follow each other. On an error all is as before;
 // where not even that is possible, the error is state_not_recoverable and the older one lies at `aside`.
-[[nodiscard]] std::error_code replace_keeping(const std::filesystem::path& from, const std::filesystem::path& to,
-                                              const std::filesystem::path& aside);
+[[nodiscard]] std::error_code replace_with_backup(const std::filesystem::path& from, const std::filesystem::path& to,
+                                                  const std::filesystem::path& aside);
 
 }  // namespace sigs

@@ -14,8 +14,8 @@
 
 #include "base/descriptor.h"
 #include "base/flush.h"
-#include "base/held_signals.h"
 #include "base/renaming.h"
+#include "base/signal_blocker.h"
 
 namespace sigs {
 
@@ -57,8 +57,8 @@ Result<fs::path> StagedOutputs::add_file(const fs::path& final_path) {
   return add({.final_path = final_path, .kind = Kind::file});
 }
 
-Result<fs::path> StagedOutputs::add_folder(const fs::path& final_path, MayGo may_go) {
-  return add({.final_path = final_path, .kind = Kind::folder, .may_go = std::move(may_go)});
+Result<fs::path> StagedOutputs::add_folder(const fs::path& final_path, MayReplace may_replace) {
+  return add({.final_path = final_path, .kind = Kind::folder, .may_replace = std::move(may_replace)});
 }
 
 // What a symbolic link names is never replaced, but the link itself may be.
@@ -76,7 +76,7 @@ Result<void> StagedOutputs::check_free(const Output& output) const {
   }
   if (type != fs::file_type::directory && type != fs::file_type::symlink)
     return fail(refused(path, "is a file; a folder is to be written"));
-  return output.may_go ? output.may_go(path) : Result<void>();
+  return output.may_replace ? output.may_replace(path) : Result<void>();
 }
 
 Result<StagingFolder*> StagedOutputs::staging_beside(const fs::path& final_path) {
@@ -99,7 +99,7 @@ Result<fs::path> StagedOutputs::add(Output output) {
   const bool made = output.kind == Kind::file ? make_empty_file(staged) : mkdir(staged.c_str(), 0777) == 0;
   if (!made && errno == EEXIST) return fail(refused(output.final_path, "is the name of two outputs"));
   if (!made) return fail(refused(output.final_path, std::string("cannot be created: ") + std::strerror(errno)));
-  if (output.staging->is_begun_elsewhere(output.final_path.filename()))
+  if (output.staging->is_staged_elsewhere(output.final_path.filename()))
     return fail(refused(output.final_path, "is being written by another process"));
   outputs_.push_back(std::move(output));
   return staged;
@@ -107,7 +107,7 @@ Result<fs::path> StagedOutputs::add(Output output) {
 
 // What is replaced is looked at where nobody else reaches it.
 Result<void> StagedOutputs::replace(Output& output) const {
-  const std::error_code code = replace_keeping(output.staged(), output.final_path, output.aside());
+  const std::error_code code = replace_with_backup(output.staged(), output.final_path, output.aside());
   if (code == std::errc::state_not_recoverable) output.placed = Placed::instead;
   if (code) return fail(output.final_path.string(), "cannot be replaced: " + code.message(), ErrorKind::write_failed);
   output.placed = Placed::instead;
@@ -115,7 +115,7 @@ Result<void> StagedOutputs::replace(Output& output) const {
   if (type == fs::file_type::symlink) return {};
   if (output.kind == Kind::file && type == fs::file_type::regular) return {};
   if (output.kind == Kind::folder && type == fs::file_type::directory)
-    return output.may_go ? output.may_go(output.aside()) : Result<void>();
+    return output.may_replace ? output.may_replace(output.aside()) : Result<void>();
   return fail(refused(output.final_path, "is no longer what it was when the work began; choose another name"));
 }
 
@@ -143,7 +143,7 @@ Error StagedOutputs::undo_all(Error error) {
     if (output.placed == Placed::instead && type_of(output.final_path) == fs::file_type::not_found)
       code = rename_new(output.aside(), output.final_path);
     else if (output.placed == Placed::instead)
-      code = replace_keeping(output.aside(), output.final_path, output.staged());
+      code = replace_with_backup(output.aside(), output.final_path, output.staged());
     if (code && output.placed == Placed::instead) {
       output.staging->leave_on_disk();
       error.what += "; the older " + output.final_path.filename().string() + " lies at " + output.aside().string();
@@ -159,13 +159,13 @@ Result<void> StagedOutputs::flush_names() const {
   return {};
 }
 
-Result<void> StagedOutputs::keep() {
+Result<void> StagedOutputs::commit() {
   for (const Output& output : outputs_) {
     const Result<void> step = output.kind == Kind::file ? flush(output.staged()) : flush_all(output.staged());
     if (!step) return fail(with_final_names(step.error()));
   }
   {
-    const HeldSignals held;
+    const SignalBlocker held;
     for (Output& output : outputs_)
       if (const Result<void> step = place(output); !step) return fail(undo_all(step.error()));
   }

@@ -14,8 +14,8 @@ namespace sigs {
 
 // Files and folders that get their final names together, or none of them. Until then they lie in staging folders beside
 // their final places, under their final names, so that libraries see the right extension and the last step is a rename;
-// without keep() they go with this object. Nothing that was there before is opened, followed, emptied or removed, but
-// what keep() replaces, and that only once the newer ones are in place.
+// without commit() they go with this object. Nothing that was there before is opened, followed, emptied or removed, but
+// what commit() replaces, and that only once the newer ones are in place.
 class StagedOutputs {
  public:
   // What a final name may belong to already. new_names: nothing. replace: a file for a file, a folder for a folder.
@@ -24,17 +24,18 @@ class StagedOutputs {
 
   // Whether a folder that is there may be replaced whole: an error says why not. Asked before the work, and again of
   // what the folder holds when it is to be replaced.
-  using MayGo = std::function<Result<void>(const std::filesystem::path& folder)>;
+  using MayReplace = std::function<Result<void>(const std::filesystem::path& folder)>;
 
   // Makes an empty file or folder; where it lies for now. Error cannot_create: the final name is taken, the folder
   // around it is not there, another run is writing an output of this name.
   [[nodiscard]] Result<std::filesystem::path> add_file(const std::filesystem::path& final_path);
-  [[nodiscard]] Result<std::filesystem::path> add_folder(const std::filesystem::path& final_path, MayGo may_go = {});
+  [[nodiscard]] Result<std::filesystem::path> add_folder(const std::filesystem::path& final_path,
+                                                         MayReplace may_replace = {});
 
   // Waits until all of them are on the disk, then gives them their final names, then waits until those are on the disk.
   // Signals wait meanwhile. On an error all is as it was before. What was replaced goes at the end. Call it once.
   // Errors: cannot_create where a name was taken in between, write_failed.
-  [[nodiscard]] Result<void> keep();
+  [[nodiscard]] Result<void> commit();
 
   // Final names, in the order in which outputs were added.
   [[nodiscard]] std::vector<std::filesystem::path> final_paths() const;
@@ -48,7 +49,7 @@ class StagedOutputs {
   struct Output {
     std::filesystem::path final_path;
     Kind kind = Kind::file;
-    MayGo may_go;
+    MayReplace may_replace;
     StagingFolder* staging = nullptr;
     Placed placed = Placed::no;
 

@@ -149,7 +149,7 @@ Result<void> StagingFolder::begin() {
   return {};
 }
 
-bool StagingFolder::is_begun_elsewhere(const fs::path& name) const {
+bool StagingFolder::is_staged_elsewhere(const fs::path& name) const {
   for (const fs::path& other : staging_folders_in(folder_)) {
     if (other == path_) continue;
     std::error_code code;

@@ -38,7 +38,7 @@ class StagingFolder {
 
   // Whether another run that goes on has an output of this name in FOLDER. Asked after new_place(name) was made: of two
   // at once, one at least sees the other.
-  [[nodiscard]] bool is_begun_elsewhere(const std::filesystem::path& name) const;
+  [[nodiscard]] bool is_staged_elsewhere(const std::filesystem::path& name) const;
 
   // From here on nobody removes it: what it holds could not be put back.
   void leave_on_disk() noexcept;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/pose.h"
-#include "camera/bend_bounds.h"
+#include "camera/distortion_bounds.h"
 #include "camera/lens.h"
 
 namespace sigs {
@@ -34,8 +34,8 @@ PlaneImage image_of(const distortion::BrownConrady& model, double field, const g
   const double reach = radius * std::hypot(1.0, off_axis) / (center.z - radius);
   if (off_axis - reach > field * (1 + kTight)) return {.none_has_image = true};
   if (!(off_axis + reach < field * (1 - kTight))) return {};
-  const distortion::Bend bend = distortion::largest_bend(model, middle, reach);
-  if (!std::isfinite(bend.curvature)) return {};
+  const distortion::DistortionBounds limits = distortion::max_distortion(model, middle, reach);
+  if (!std::isfinite(limits.curvature)) return {};
   const glm::dvec2 at = model.distorted(middle);
   const glm::dmat2 jacobian = model.jacobian(middle);
   const glm::dvec2 foot = at - jacobian * middle;
@@ -43,8 +43,8 @@ PlaneImage image_of(const distortion::BrownConrady& model, double field, const g
       .all_have_image = true,
       .along = {0, 0, 1},
       .across = {glm::dvec3(jacobian[0].x, jacobian[1].x, foot.x), glm::dvec3(jacobian[0].y, jacobian[1].y, foot.y)},
-      .error = bend.curvature * reach * reach / 2,
-      .steepest = bend.slope * (1 + off_axis + reach)};
+      .error = limits.curvature * reach * reach / 2,
+      .steepest = limits.slope * (1 + off_axis + reach)};
 }
 
 // theta / sin(theta) as a function of c = cos(theta), and its derivatives' magnitudes, at an angle or any smaller one:
@@ -85,8 +85,8 @@ PlaneImage image_of(const distortion::KannalaBrandt& model, double field, const 
   const glm::dvec2 around{-outward.y, outward.x};
   const glm::dvec2 middle = outward * theta;
   const Spread spread = largest_spread(farthest);
-  const distortion::Bend bend = distortion::largest_bend(model, middle, spread.value * half_angle);
-  if (!std::isfinite(bend.curvature)) return {};
+  const distortion::DistortionBounds limits = distortion::max_distortion(model, middle, spread.value * half_angle);
+  if (!std::isfinite(limits.curvature)) return {};
   const double s = farthest < 1.5 ? std::sin(farthest) : 1;
   const double curvature = s * (spread.value + 3 * spread.slope + s * s * spread.curvature);
   const glm::dmat2 jacobian = model.jacobian(middle);
@@ -100,9 +100,10 @@ PlaneImage image_of(const distortion::KannalaBrandt& model, double field, const 
   for (int i = 0; i < 2; ++i)
     image.across[static_cast<std::size_t>(i)] =
         by_outward[i] * turned_outward + by_around[i] * turned_around + at[i] * direction;
-  image.error = (bend.curvature * spread.value * spread.value + bend.slope * (curvature + 2 * reach * spread.value)) *
-                reach * reach / 2;
-  image.steepest = bend.slope * spread.value * (1 + reach);
+  image.error =
+      (limits.curvature * spread.value * spread.value + limits.slope * (curvature + 2 * reach * spread.value)) * reach *
+      reach / 2;
+  image.steepest = limits.slope * spread.value * (1 + reach);
   return image;
 }
 

@@ -63,7 +63,7 @@ BrownConrady BrownConrady::of(std::span<const double> coefficients) {
   return m;
 }
 
-glm::dvec2 BrownConrady::bent(const glm::dvec2& p) const {
+glm::dvec2 BrownConrady::distorted_before_tilt(const glm::dvec2& p) const {
   const double u = glm::dot(p, p);
   const double across = 2 * p.x * p.y;
   const glm::dvec2 tangential{p1 * across + p2 * (u + 2 * p.x * p.x), p1 * (u + 2 * p.y * p.y) + p2 * across};
@@ -71,7 +71,7 @@ glm::dvec2 BrownConrady::bent(const glm::dvec2& p) const {
   return p * ratio(*this, u).value + tangential + prism;
 }
 
-glm::dmat2 BrownConrady::bent_jacobian(const glm::dvec2& p) const {
+glm::dmat2 BrownConrady::jacobian_before_tilt(const glm::dvec2& p) const {
   const double u = glm::dot(p, p);
   const Ratio r = ratio(*this, u);
   const double mixed = 2 * p.x * p.y * r.slope + 2 * p1 * p.x + 2 * p2 * p.y;
@@ -88,19 +88,19 @@ ValueAndSlope BrownConrady::radial(double r) const {
 }
 
 glm::dvec2 BrownConrady::distorted(const glm::dvec2& p) const {
-  const glm::dvec2 flat = bent(p);
+  const glm::dvec2 flat = distorted_before_tilt(p);
   if (!tilted) return flat;
-  const glm::dvec3 seen = tilt * glm::dvec3{flat, 1};
-  return glm::dvec2{seen} / seen.z;
+  const glm::dvec3 projected = tilt * glm::dvec3{flat, 1};
+  return glm::dvec2{projected} / projected.z;
 }
 
 glm::dmat2 BrownConrady::jacobian(const glm::dvec2& p) const {
-  const glm::dmat2 inner = bent_jacobian(p);
+  const glm::dmat2 inner = jacobian_before_tilt(p);
   if (!tilted) return inner;
-  const glm::dvec3 seen = tilt * glm::dvec3{bent(p), 1};
-  const glm::dvec2 at = glm::dvec2{seen} / seen.z;
-  const glm::dmat2 outer{(glm::dvec2{tilt[0]} - at * tilt[0].z) / seen.z,
-                         (glm::dvec2{tilt[1]} - at * tilt[1].z) / seen.z};
+  const glm::dvec3 projected = tilt * glm::dvec3{distorted_before_tilt(p), 1};
+  const glm::dvec2 at = glm::dvec2{projected} / projected.z;
+  const glm::dmat2 outer{(glm::dvec2{tilt[0]} - at * tilt[0].z) / projected.z,
+                         (glm::dvec2{tilt[1]} - at * tilt[1].z) / projected.z};
   return outer * inner;
 }
 

@@ -29,8 +29,8 @@ struct BrownConrady {
   [[nodiscard]] static BrownConrady of(std::span<const double> coefficients);
 
   // Everything but the tilt: (x'', y''), and its derivative (column i: by p[i]).
-  [[nodiscard]] glm::dvec2 bent(const glm::dvec2& p) const;
-  [[nodiscard]] glm::dmat2 bent_jacobian(const glm::dvec2& p) const;
+  [[nodiscard]] glm::dvec2 distorted_before_tilt(const glm::dvec2& p) const;
+  [[nodiscard]] glm::dmat2 jacobian_before_tilt(const glm::dvec2& p) const;
 
   // The radial part alone, at |p| = r: r N / D and its derivative by r.
   [[nodiscard]] ValueAndSlope radial(double r) const;

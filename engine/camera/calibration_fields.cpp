@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/nesting.h"
-#include "camera/calibration_doubts.h"
+#include "camera/calibration_warnings.h"
 #include "camera/scaled_calibration.h"
 
 namespace sigs::calibration {
@@ -78,8 +78,8 @@ Result<void> Reader::check_numbers(const Field& field) const {
 
 // Words for a model, as ROS and Kalibr have them, against OpenCV's flag. Nothing where the file says neither.
 Result<std::optional<bool>> Reader::stated_fisheye() const {
-  constexpr std::array<std::string_view, 6> kBrown{
-      "plumb_bob", "rational_polynomial", "thin_prism", "radtan", "brown_conrady", "none"};
+  constexpr std::array<std::string_view, 6> kBrown{"plumb_bob", "rational_polynomial", "thin_prism",
+                                                   "radtan",    "brown_conrady",       "none"};
   constexpr std::array<std::string_view, 5> kFisheye{"equidistant", "fisheye", "kannala_brandt", "kannala_brandt4",
                                                      "opencv_fisheye"};
   const Field* flag = found(fields, kFisheyeNames);
@@ -128,7 +128,9 @@ Result<void> Reader::read_coefficients(LensParameters& lens) const {
 // What is wanted, else what the file states, else what its coefficients look like.
 Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel> wanted,
                                   std::vector<Warning>& warnings) const {
-  const auto words_of = [](LensModel model) { return model == LensModel::kannala_brandt ? "fisheye" : "Brown-Conrady"; };
+  const auto words_of = [](LensModel model) {
+    return model == LensModel::kannala_brandt ? "fisheye" : "Brown-Conrady";
+  };
   const Result<std::optional<bool>> fisheye = stated_fisheye();
   if (!fisheye) return fail(fisheye.error());
   std::optional<LensModel> stated;
@@ -136,25 +138,26 @@ Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel>
   if (wanted || stated) {
     lens.model = wanted ? *wanted : *stated;
     if (wanted && stated && *wanted != *stated)
-      warnings.push_back({file, std::string("says that it is of the ") + words_of(*stated) +
-                                    " model; it is read as " + words_of(*wanted) + ", as asked for"});
+      warnings.push_back({file, std::string("says that it is of the ") + words_of(*stated) + " model; it is read as " +
+                                    words_of(*wanted) + ", as asked for"});
     return {};
   }
   const AssumedModel assumed = assumed_model(lens.coefficients);
   lens.model = assumed.model;
   if (!assumed.why.empty())
-    warnings.push_back({where(*found(fields, kCoefficientNames)),
-                        std::string("four coefficients can be Brown-Conrady (k1 k2 p1 p2) or fisheye (k1 k2 k3 k4), and "
-                                    "the file does not say which; read as ") +
-                            words_of(assumed.model) + ", since " + assumed.why +
-                            ": set footage.lens_model to brown_conrady or fisheye, or fisheye_model to 0 or 1 in the "
-                            "file"});
+    warnings.push_back(
+        {where(*found(fields, kCoefficientNames)),
+         std::string("four coefficients can be Brown-Conrady (k1 k2 p1 p2) or fisheye (k1 k2 k3 k4), and "
+                     "the file does not say which; read as ") +
+             words_of(assumed.model) + ", since " + assumed.why +
+             ": set footage.lens_model to brown_conrady or fisheye, or fisheye_model to 0 or 1 in the "
+             "file"});
   return {};
 }
 
 Result<int> Reader::pixels(const Field& field, double number) const {
-  constexpr double kMost = 1 << 20;
-  if (!(number >= 1 && number <= kMost) || number != std::floor(number))
+  constexpr double kMax = 1 << 20;
+  if (!(number >= 1 && number <= kMax) || number != std::floor(number))
     return fail(where(field), "expected a whole number of pixels, found " + text_of(number));
   return static_cast<int>(number);
 }
@@ -201,7 +204,7 @@ std::string size_names() {
 }  // namespace
 
 Error too_deep(const std::string& file_name) {
-  return {file_name, "has more than " + std::to_string(kDeepestNesting) + " lists, keys or tags within one another"};
+  return {file_name, "has more than " + std::to_string(kMaxNesting) + " lists, keys or tags within one another"};
 }
 
 std::string text_of(double number) {
@@ -211,8 +214,8 @@ std::string text_of(double number) {
   return {digits.data(), end};
 }
 
-Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
-                           std::optional<cv::Size> footage_size_px, std::optional<LensModel> wanted_model) {
+Result<Camera> camera_from(const Fields& fields, const std::string& file_name, std::optional<cv::Size> footage_size_px,
+                           std::optional<LensModel> wanted_model) {
   constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
   const Reader reader{fields, file_name};
   if (const Field* mirror = found(fields, kMirrorNames))
@@ -240,8 +243,8 @@ Result<Camera> camera_from(const Fields& fields, const std::string& file_name,
   Result<Lens> made = Lens::make(*std::move(scaled));
   // The matrix is in order by now: what is left to be wrong are the coefficients.
   if (!made) return fail(reader.where(*found(fields, kCoefficientNames)), made.error().what);
-  for (const std::string& doubt : matrix_doubts(made->parameters(), to_px, own_size_px->has_value()))
-    warnings.push_back({matrix, doubt});
+  for (const std::string& warning : matrix_warnings(made->parameters(), to_px, own_size_px->has_value()))
+    warnings.push_back({matrix, warning});
   return Camera{.lens = *std::move(made), .size_px = to_px, .warnings = std::move(warnings)};
 }
 

@@ -27,12 +27,12 @@ struct Field {
 // By key. A reader for a flavour with keys of its own files them under those of OpenCV.
 struct Fields : std::map<std::string, Field, std::less<>> {
   // What Gyroflow's profiles say besides.
-  double kept_share = 1;      // of each side of the picture, by the camera's stabilisation
-  cv::Point2d stretch{1, 1};  // how much wider and higher than the footage the calibration's pictures are
+  double kept_share = 1;      // of each side of the image, by the camera's stabilisation
+  cv::Point2d stretch{1, 1};  // how much wider and higher than the footage the calibration's images are
   std::vector<Warning> warnings{};
 };
 
-// The error of a file that nests deeper than kDeepestNesting.
+// The error of a file that nests deeper than kMaxNesting.
 [[nodiscard]] Error too_deep(const std::string& file_name);
 
 // Shortest text that reads back as the number.

@@ -12,11 +12,11 @@
 
 namespace sigs {
 
-// A lens and the picture it throws. Pixels as in base/image.h.
+// A lens and the image it throws. Pixels as in base/image.h.
 struct Camera {
   Lens lens;
   cv::Size size_px;
-  std::vector<Warning> warnings = {};  // what is doubtful about its calibration file (camera/calibration_doubts.h)
+  std::vector<Warning> warnings = {};  // what is doubtful about its calibration file (camera/calibration_warnings.h)
 };
 
 // Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow

@@ -49,9 +49,9 @@ Result<double> factor(const Json& profile, const char* key, const std::string& f
   const auto it = profile.find(key);
   if (it == profile.end() || it->is_null()) return 1;
   constexpr double kLeast = 0.1;
-  constexpr double kMost = 10;
+  constexpr double kMax = 10;
   const double number = it->is_number() ? it->get<double>() : 0;
-  if (number >= kLeast && number <= kMost) return number;
+  if (number >= kLeast && number <= kMax) return number;
   return fail(file + ": " + key, "expected a number from 0.1 to 10, found " + it->dump().substr(0, 40));
 }
 
@@ -72,7 +72,7 @@ std::string listed(const std::set<double>& numbers) {
   return text;
 }
 
-// Gyroflow: the picture that the lens throws is `stretch` times wider than the footage, of which stabilisation has kept
+// Gyroflow: the image that the lens throws is `stretch` times wider than the footage, of which stabilisation has kept
 // the share `crop` (core/lens_profile.rs and core/stabilization/frame_transform.rs of Gyroflow 1.5).
 Result<void> read_factors(const Json& profile, const std::string& file, Fields& fields) {
   double* const factors[]{&fields.kept_share, &fields.stretch.x, &fields.stretch.y};
@@ -126,7 +126,7 @@ Result<Fields> profile_fields(const Json& profile, const std::string& file) {
 }  // namespace
 
 Result<Fields> json_fields(const std::string& text, const std::string& file_name) {
-  if (json_depth(text) > kDeepestNesting) return fail(too_deep(file_name));
+  if (json_depth(text) > kMaxNesting) return fail(too_deep(file_name));
   try {
     const Json json = Json::parse(text);
     if (json.is_object() && json.contains("fisheye_params")) return profile_fields(json, file_name);

@@ -23,8 +23,8 @@ template <class Function>
   double low = 0;
   double high = highest;
   double x = std::min(value, highest);
-  constexpr int kMostSteps = 400;  // halving a bracket of any doubles takes fewer
-  for (int step = 0; step < kMostSteps; ++step) {
+  constexpr int kMaxSteps = 400;  // halving a bracket of any doubles takes fewer
+  for (int step = 0; step < kMaxSteps; ++step) {
     const auto [y, slope] = f(x);
     if (y == value) return x;
     (y < value ? low : high) = x;

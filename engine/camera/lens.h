@@ -32,8 +32,8 @@ struct BallImage {
   bool none_has_image = false;
   bool all_have_image = false;
 
-  // Where all have, the pixel of a point p in the ball (camera frame) is dot(across[i], p) / dot(along, p), i = 0 for x,
-  // to error_px, which is a bound that counts rounding in; and dot(along, p) is positive.
+  // Where all have, the pixel of a point p in the ball (camera frame) is dot(across[i], p) / dot(along, p), i = 0 for
+  // x, to error_px, which is a bound that counts rounding in; and dot(along, p) is positive.
   glm::dvec3 along{0};
   std::array<glm::dvec3, 2> across{};
   double error_px = 0;
@@ -52,7 +52,7 @@ class Lens {
   [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p_in_camera) const;
 
   // Unit ray in the camera frame that a pixel looks along, by Newton's method with the analytic Jacobian, to 1e-9 px
-  // (or to the last digits of doubles where a step of theirs is more than that: far outside any picture).
+  // (or to the last digits of doubles where a step of theirs is more than that: far outside any image).
   // Nothing where no ray within the valid field meets the pixel.
   [[nodiscard]] std::optional<glm::dvec3> ray(const glm::dvec2& pixel) const;
 
@@ -66,7 +66,7 @@ class Lens {
   // Largest angle from the optical axis that has an image, radians. The field is round in undistorted coordinates.
   [[nodiscard]] double valid_angle_rad() const;
 
-  // True where the lens is a plain pinhole: nothing needs to be bent.
+  // True where the lens is a plain pinhole: nothing needs to be warped.
   [[nodiscard]] bool is_pinhole() const;
 
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }

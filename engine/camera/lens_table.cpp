@@ -30,10 +30,10 @@ bool is_ray(const glm::dvec3& ray) {
 
 }  // namespace
 
-LensTable::LensTable(Camera camera, double tolerance_px, std::size_t most_bytes)
+LensTable::LensTable(Camera camera, double tolerance_px, std::size_t max_bytes)
     : camera_(std::move(camera)),
       tolerance_px_(tolerance_px),
-      most_bytes_(most_bytes),
+      max_bytes_(max_bytes),
       is_pinhole_(camera_.lens.is_pinhole()) {
   ENSURE(tolerance_px >= 0);
   for (int step_px = kWidestStep_px; step_px > 1; step_px /= 2) stencils_.push_back(stencils_of(step_px));
@@ -130,7 +130,7 @@ const LensTable::Tile& LensTable::tile_at(int column, int row) {
   if (found != tiles_.end()) return found->second;
   Tile tile = made({column * kTile_px, row * kTile_px});
   const std::size_t bytes = tile.nodes.size() * sizeof(glm::dvec3) + sizeof(Tile);
-  if (bytes_ + bytes > most_bytes_) {
+  if (bytes_ + bytes > max_bytes_) {
     tiles_.clear();
     bytes_ = 0;
   }

@@ -25,14 +25,14 @@ class LensTable {
  public:
   static constexpr double kTolerance_px = 1e-3;  // moves the sharpest edge by a quarter of a code value
   static constexpr int kTile_px = 64;
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // 8192 x 4320 pixels take 6 MB, all exact 0.9 GB
+  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // 8192 x 4320 pixels take 6 MB, all exact 0.9 GB
 
-  //   tolerance_px  in the picture; 0: exact everywhere
-  //   most_bytes    that the tiles may take: where they would take more, all are forgotten first. One is always kept
-  explicit LensTable(Camera camera, double tolerance_px = kTolerance_px, std::size_t most_bytes = kMostBytes);
+  //   tolerance_px  in the image; 0: exact everywhere
+  //   max_bytes    that the tiles may take: where they would take more, all are forgotten first. One is always kept
+  explicit LensTable(Camera camera, double tolerance_px = kTolerance_px, std::size_t max_bytes = kMaxBytes);
 
   // Directions (camera frame, not of unit length) of the points (x - 0.5 + i, y - 0.5), i = 0 .. count - 1: the upper
-  // left corners of pixels (x + i, y), which may lie beyond the picture. (0, 0, 0) where the lens has no ray.
+  // left corners of pixels (x + i, y), which may lie beyond the image. (0, 0, 0) where the lens has no ray.
   // Valid until the next call.
   [[nodiscard]] std::span<const glm::dvec3> corner_rays(int x, int y, int count);
 
@@ -75,7 +75,7 @@ class LensTable {
 
   Camera camera_;
   double tolerance_px_;
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   bool is_pinhole_;
   std::vector<Stencils> stencils_;  // of steps 16, 8, 4, 2
   std::map<std::pair<int, int>, Tile> tiles_;

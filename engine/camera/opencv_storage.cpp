@@ -82,7 +82,7 @@ bool begins_with_key(std::string_view line) {
 Result<Fields> opencv_storage_fields(const std::string& text, const std::string& file_name) {
   const bool is_xml = text.starts_with('<');
   const int depth = is_xml ? xml_depth(text) : opencv_yaml_depth(text);
-  if (depth > kDeepestNesting) return fail(too_deep(file_name));  // the storage calls itself for each level
+  if (depth > kMaxNesting) return fail(too_deep(file_name));  // the storage calls itself for each level
   // With anything else the storage of OpenCV 4.6 may never come back.
   if (!is_xml && !begins_with_key(first_line(text)))
     return fail(file_name, "not a calibration: expected keys at the beginning of its lines");

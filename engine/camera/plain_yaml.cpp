@@ -66,7 +66,7 @@ class Guard : public YAML::EventHandler {
 
  private:
   void enter(const YAML::Mark& mark) {
-    if (++depth_ > kDeepestNesting) throw YAML::ParserException(mark, too_deep(file_name_).what);
+    if (++depth_ > kMaxNesting) throw YAML::ParserException(mark, too_deep(file_name_).what);
   }
 
   const std::string& file_name_;

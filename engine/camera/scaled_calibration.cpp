@@ -40,7 +40,7 @@ Warning squeezed(cv::Size from_px, cv::Size to_px, double x, double y, const std
   const double cut_px = x < y ? (from_px.width * y - to_px.width) / 2 : (from_px.height * x - to_px.height) / 2;
   return {file_name, "made for " + text_of(from_px) + ", the footage is " + text_of(to_px) + ", " +
                          fixed(100 * std::abs(x / y - 1), 2) + " % off its shape: scaled by " + fixed(x, 5) +
-                         " across and " + fixed(y, 5) + " down; if the camera cut the picture instead, its edges are " +
+                         " across and " + fixed(y, 5) + " down; if the camera cut the image instead, its edges are " +
                          fixed(cut_px, 1) + " px off"};
 }
 
@@ -62,7 +62,7 @@ Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px,
                   "made for " + text_of(shape_px) + ", which is not the shape of the footage, " + text_of(to_px));
     warnings.push_back(squeezed(shape_px, to_px, shape_x, shape_y, file_name));
   }
-  // Pixel centres are whole numbers, so the picture's left edge is at -0.5 and stays there: with the scale s,
+  // Pixel centres are whole numbers, so the image's left edge is at -0.5 and stays there: with the scale s,
   // x' + 0.5 = (x + 0.5) s. A side that was rounded to whole pixels or blocks has its own scale.
   const double x = static_cast<double>(to_px.width) / from_px.width;
   const double y = static_cast<double>(to_px.height) / from_px.height;

@@ -28,22 +28,22 @@ glm::dvec2 first_guess(const BrownConrady& model, const Field& field, const glm:
   return glm::normalize(point) * (kInside * field.radius);
 }
 
-// Newton's method on bent(p) = point; a step is halved until it stays in the field and comes nearer. Ends where no step
-// comes nearer, which at a root is the last digit.
+// Newton's method on distorted(p) = point; a step is halved until it stays in the field and comes nearer. Ends where no
+// step comes nearer, which at a root is the last digit.
 std::optional<glm::dvec2> newton(const BrownConrady& model, const Field& field, const glm::dvec2& point, glm::dvec2 p) {
-  constexpr int kMostSteps = 100;
-  constexpr int kMostHalvings = 30;
+  constexpr int kMaxSteps = 100;
+  constexpr int kMaxHalvings = 30;
   constexpr double kGoodEnough = 1e-11;  // the caller checks against its own, in pixels
-  glm::dvec2 error = model.bent(p) - point;
-  for (int step = 0; step < kMostSteps && error != glm::dvec2{0, 0}; ++step) {
-    const glm::dmat2 jacobian = model.bent_jacobian(p);
+  glm::dvec2 error = model.distorted_before_tilt(p) - point;
+  for (int step = 0; step < kMaxSteps && error != glm::dvec2{0, 0}; ++step) {
+    const glm::dmat2 jacobian = model.jacobian_before_tilt(p);
     if (!(glm::determinant(jacobian) > 0)) break;
     glm::dvec2 move = -(glm::inverse(jacobian) * error);
     bool nearer = false;
-    for (int halving = 0; halving < kMostHalvings && !nearer; ++halving, move *= 0.5) {
+    for (int halving = 0; halving < kMaxHalvings && !nearer; ++halving, move *= 0.5) {
       const glm::dvec2 candidate = p + move;
       if (!(glm::length(candidate) < field.radius)) continue;
-      const glm::dvec2 candidate_error = model.bent(candidate) - point;
+      const glm::dvec2 candidate_error = model.distorted_before_tilt(candidate) - point;
       nearer = glm::dot(candidate_error, candidate_error) < glm::dot(error, error);
       if (nearer) p = candidate, error = candidate_error;
     }
@@ -53,7 +53,7 @@ std::optional<glm::dvec2> newton(const BrownConrady& model, const Field& field, 
   return p;
 }
 
-// True where the point lies outside the bent rim by more than the rim's corners cut off: then nothing can meet it.
+// True where the point lies outside the distorted rim by more than the rim's corners cut off: then nothing can meet it.
 // Sum of turns: a curve goes round a point inside it once and round one outside not at all.
 bool clearly_outside(std::span<const glm::dvec2> rim, const glm::dvec2& point) {
   constexpr double kMargin = 1.001;  // 360 corners cut off 4e-5 of a circle's radius
@@ -80,7 +80,7 @@ std::optional<glm::dvec2> searched(const BrownConrady& model, const Field& field
     for (int spoke = 0; spoke < kSpokes; ++spoke) {
       const double phi = 2 * std::numbers::pi * spoke / kSpokes;
       const glm::dvec2 p = r * glm::dvec2{std::cos(phi), std::sin(phi)};
-      const double error = glm::length(model.bent(p) - point);
+      const double error = glm::length(model.distorted_before_tilt(p) - point);
       if (error < best_error) best = p, best_error = error;
     }
     if (const auto found = newton(model, field, point, best)) return found;

@@ -90,7 +90,7 @@ double smallest(const Harmonics& h) {
   return result;
 }
 
-// With points as complex numbers, w = p2 + i p1 and s(r) the prism's shift, the circle of radius r is bent to
+// With points as complex numbers, w = p2 + i p1 and s(r) the prism's shift, the circle of radius r is distorted to
 //   f = g(r) e^{i phi} + 2 w r^2 + conj(w) r^2 e^{2 i phi} + s(r)
 // and the determinant of the Jacobian is Im(conj(df/dr) df/dphi) / r.
 double smallest_determinant(const BrownConrady& m, double r) {
@@ -106,7 +106,7 @@ double smallest_determinant(const BrownConrady& m, double r) {
                    .second = a * c});
 }
 
-// Third coordinate of a bent circle on the tilted sensor, against that of the axis: zero where it is met edge on.
+// Third coordinate of a distorted circle on the tilted sensor, against that of the axis: zero where it is met edge on.
 double smallest_tilt_depth(const BrownConrady& m, double r) {
   const Complex w{m.p2, m.p1};
   const Complex shift = 2.0 * r * r * w + r * r * Complex{m.s1, m.s3} + r * r * r * r * Complex{m.s2, m.s4};
@@ -158,12 +158,12 @@ double radial_limit(const BrownConrady& m) {
   return std::min(kLargestRadius, std::sqrt(std::min(fold, pole)));
 }
 
-std::vector<glm::dvec2> bent_rim(const BrownConrady& m, double radius) {
+std::vector<glm::dvec2> distorted_rim(const BrownConrady& m, double radius) {
   constexpr int kCorners = 360;
   std::vector<glm::dvec2> rim;
   for (int i = 0; i < kCorners; ++i) {
     const double phi = i * 2 * std::numbers::pi / kCorners;
-    rim.push_back(m.bent(radius * glm::dvec2{std::cos(phi), std::sin(phi)}));
+    rim.push_back(m.distorted_before_tilt(radius * glm::dvec2{std::cos(phi), std::sin(phi)}));
   }
   return rim;
 }
@@ -176,7 +176,7 @@ Field valid_field(const BrownConrady& m) {
   double radius = radial_limit(m);
   if (!m.radial_only) radius = positive_up_to([&m](double r) { return smallest_determinant(m, r); }, radius);
   if (m.tilted) radius = positive_up_to([&m](double r) { return smallest_tilt_depth(m, r); }, radius);
-  return {.radius = radius, .edge = m.radial_only ? std::vector<glm::dvec2>{} : bent_rim(m, radius)};
+  return {.radius = radius, .edge = m.radial_only ? std::vector<glm::dvec2>{} : distorted_rim(m, radius)};
 }
 
 Field valid_field(const KannalaBrandt& m) {

@@ -14,7 +14,8 @@ namespace sigs::distortion {
 struct Field {
   double radius =
       std::numeric_limits<double>::infinity();  // |p| < radius; a tangent or an angle, as the model's plane is
-  std::vector<glm::dvec2> edge;  // where the model bends its rim to (before the tilt), in order round it; may be empty
+  std::vector<glm::dvec2>
+      edge;  // where the model distorts its rim to (before the tilt), in order round it; may be empty
 };
 
 // Brown-Conrady: up to the first radius at which, anywhere round the circle,

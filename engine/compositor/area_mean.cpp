@@ -8,8 +8,8 @@ namespace sigs {
 
 namespace {
 
-constexpr double kMostTexelsShort = 16;  // above any supersampling: a coarser level's texels lie across edges
-constexpr double kMostTexelsLong = 64;
+constexpr double kMaxTexelsShort = 16;  // above any supersampling: a coarser level's texels lie across edges
+constexpr double kMaxTexelsLong = 64;
 
 struct Bounds {
   glm::dvec2 low, high;
@@ -31,8 +31,8 @@ double longer(const glm::dvec2& a, const glm::dvec2& b) {
   return std::sqrt(std::max(glm::dot(a, a), glm::dot(b, b)));
 }
 
-int level_with(double span, double most_texels) {
-  return span > most_texels ? static_cast<int>(std::ceil(std::log2(span / most_texels))) : 0;
+int level_with(double span, double max_texels) {
+  return span > max_texels ? static_cast<int>(std::ceil(std::log2(span / max_texels))) : 0;
 }
 
 // across and down: lengths of the sides, of which at least one is below 1.
@@ -129,7 +129,7 @@ AreaMean AreaReader::mean_over(const Quadrilateral& corners) {
   const double down = longer(clockwise[3] - clockwise[0], clockwise[2] - clockwise[1]);
   const auto [shorter_side, longer_side] = std::minmax({across, down});
   if (shorter_side < 1) return mean_over_texels(pyramid_.level(0), widened(clockwise, across, down));
-  const int wanted = std::max(level_with(shorter_side, kMostTexelsShort), level_with(longer_side, kMostTexelsLong));
+  const int wanted = std::max(level_with(shorter_side, kMaxTexelsShort), level_with(longer_side, kMaxTexelsLong));
   const int level = std::min(wanted, pyramid_.level_count() - 1);
   if (level == 0) return mean_over_texels(pyramid_.level(0), clockwise);
   Quadrilateral scaled = clockwise;

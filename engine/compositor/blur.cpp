@@ -13,17 +13,17 @@ namespace sigs {
 
 namespace {
 
-constexpr double kCellsPerSigma = 8;
-constexpr double kPlacesPerSigma = 4;
+constexpr double kCoarseStepsPerSigma = 8;
+constexpr double kSamplesPerSigma = 4;
 
-// Cells by their middles, in the picture's pixels.
-Lattice middles(int first, int count, double cell_px) {
-  return {.first = (first + 0.5) * cell_px - 0.5, .step = cell_px, .count = count};
+// Coarse pixels by their middles, in the image's pixels.
+UniformGrid middles(int first, int count, double step_px) {
+  return {.first = (first + 0.5) * step_px - 0.5, .step = step_px, .count = count};
 }
 
-// The number of the cell that holds a pixel, also left of the picture.
-int cell_of(int pixel, int cell_px) {
-  return pixel >= 0 ? pixel / cell_px : -((cell_px - 1 - pixel) / cell_px);
+// The number of the coarse pixel that holds a pixel, also left of the image.
+int coarse_index(int pixel, int step_px) {
+  return pixel >= 0 ? pixel / step_px : -((step_px - 1 - pixel) / step_px);
 }
 
 // Variance of weights exp(-n^2 log_ratio) on all whole numbers n; up to 1, a dozen of them say it all.
@@ -55,13 +55,13 @@ double log_ratio_for(double sigma_px) {
 
 // One axis of the kernel, 2 reach + 1 samples that sum to one. What could not change any 8-bit sample is 0: a blur of
 // next to nothing touches no neighbour.
-cv::Mat sampled_gaussian(double sigma_px, int reach) {
-  constexpr double kLeast = 1e-6;
+cv::Mat sampled_gaussian(double sigma_px, int margin) {
+  constexpr double kMinWeight = 1e-6;
   const double log_ratio = log_ratio_for(sigma_px);
-  cv::Mat kernel(2 * reach + 1, 1, CV_64FC1);
-  for (int n = -reach; n <= reach; ++n) {
+  cv::Mat kernel(2 * margin + 1, 1, CV_64FC1);
+  for (int n = -margin; n <= margin; ++n) {
     const double weight = std::exp(-n * n * log_ratio);
-    kernel.at<double>(n + reach) = weight < kLeast ? 0 : weight;
+    kernel.at<double>(n + margin) = weight < kMinWeight ? 0 : weight;
   }
   kernel /= cv::sum(kernel)[0];
   kernel.convertTo(kernel, CV_32F);
@@ -80,58 +80,60 @@ cv::Mat with_border(const cv::Mat& image, int width_px) {
 
 }  // namespace
 
-int blur_reach_px(double sigma_px) {
+int blur_margin_px(double sigma_px) {
   ENSURE(sigma_px >= 0 && sigma_px < 1e8);
   return static_cast<int>(std::ceil(3 * sigma_px));
 }
 
 Layer blurred(const Layer& layer, double sigma_px) {
-  const int reach = blur_reach_px(sigma_px);
-  if (reach == 0 || layer.empty()) return layer;
-  Layer out{grown(layer.rect, reach), with_border(layer.color, reach), with_border(layer.coverage, reach)};
-  const cv::Mat kernel = sampled_gaussian(sigma_px, reach);
+  const int margin = blur_margin_px(sigma_px);
+  if (margin == 0 || layer.empty()) return layer;
+  Layer out{grown(layer.rect, margin), with_border(layer.color, margin), with_border(layer.coverage, margin)};
+  const cv::Mat kernel = sampled_gaussian(sigma_px, margin);
   cv::sepFilter2D(out.color, out.color, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
   return out;
 }
 
-double largest_cell_px(double sigma_px) {
-  return std::max(1.0, sigma_px / kCellsPerSigma);
+double max_coarse_step_px(double sigma_px) {
+  return std::max(1.0, sigma_px / kCoarseStepsPerSigma);
 }
 
-Layer blurred_from_cells(const Layer& cells, double cell_px, double sigma_px, const cv::Rect& target) {
-  ENSURE(sigma_px >= kSigmaOfCells_px && cell_px >= 1 && cell_px <= largest_cell_px(sigma_px));
-  if (cells.empty() || target.empty()) return {};
-  const double step_px = sigma_px / kPlacesPerSigma;
-  // A cell moves its pixels to its middle, and the spline spreads: the kernel between them gives way by that much.
-  const double moved = (cell_px * cell_px - 1) / 12;
-  const double kernel_px = std::sqrt(sigma_px * sigma_px - moved - splined_variance(step_px));
-  const double reach_px = std::ceil(3 * sigma_px) + 0.5;  // as far as blurred() reaches, in whole pixels
-  const Lattice down = lattice_for(target.y, target.height, step_px);
-  const Lattice across = lattice_for(target.x, target.width, step_px);
-  const cv::Mat places = resampled(
-      cells.color, gaussian_taps(down, middles(cells.rect.y, cells.rect.height, cell_px), kernel_px, reach_px),
-      gaussian_taps(across, middles(cells.rect.x, cells.rect.width, cell_px), kernel_px, reach_px));
+Layer blurred_from_coarse(const Layer& coarse_layer, double step_px, double sigma_px, const cv::Rect& target) {
+  ENSURE(sigma_px >= kCoarseBlurSigma_px && step_px >= 1 && step_px <= max_coarse_step_px(sigma_px));
+  if (coarse_layer.empty() || target.empty()) return {};
+  const double sample_step_px = sigma_px / kSamplesPerSigma;
+  // A coarse pixel moves its pixels to its middle, and the spline spreads: the kernel between them gives way by that
+  // much.
+  const double moved = (step_px * step_px - 1) / 12;
+  const double kernel_px = std::sqrt(sigma_px * sigma_px - moved - splined_variance(sample_step_px));
+  const double radius_px = std::ceil(3 * sigma_px) + 0.5;  // as far as blurred() reaches, in whole pixels
+  const UniformGrid down = uniform_grid_for(target.y, target.height, sample_step_px);
+  const UniformGrid across = uniform_grid_for(target.x, target.width, sample_step_px);
+  const cv::Mat samples = resampled(
+      coarse_layer.color,
+      gaussian_taps(down, middles(coarse_layer.rect.y, coarse_layer.rect.height, step_px), kernel_px, radius_px),
+      gaussian_taps(across, middles(coarse_layer.rect.x, coarse_layer.rect.width, step_px), kernel_px, radius_px));
   return {target,
-          resampled(places, spline_taps(target.y, target.height, down), spline_taps(target.x, target.width, across)),
+          resampled(samples, spline_taps(target.y, target.height, down), spline_taps(target.x, target.width, across)),
           cv::Mat::zeros(target.size(), CV_32FC1)};
 }
 
-Layer in_cells(const Layer& layer, int cell_px) {
+Layer downsampled(const Layer& layer, int step_px) {
   if (layer.empty()) return {};
-  const cv::Point first(cell_of(layer.rect.x, cell_px), cell_of(layer.rect.y, cell_px));
-  const cv::Point last(cell_of(layer.rect.br().x - 1, cell_px), cell_of(layer.rect.br().y - 1, cell_px));
-  const cv::Rect cells(first, last + cv::Point(1, 1));
-  const cv::Rect pixels(cells.tl() * cell_px, cells.size() * cell_px);
+  const cv::Point first(coarse_index(layer.rect.x, step_px), coarse_index(layer.rect.y, step_px));
+  const cv::Point last(coarse_index(layer.rect.br().x - 1, step_px), coarse_index(layer.rect.br().y - 1, step_px));
+  const cv::Rect coarse_layer(first, last + cv::Point(1, 1));
+  const cv::Rect pixels(coarse_layer.tl() * step_px, coarse_layer.size() * step_px);
   cv::Mat color = cv::Mat::zeros(pixels.size(), CV_32FC4);
   layer.color.copyTo(color(layer.rect - pixels.tl()));
-  cv::resize(color, color, cells.size(), 0, 0, cv::INTER_AREA);
-  return {cells, color, cv::Mat::zeros(cells.size(), CV_32FC1)};
+  cv::resize(color, color, coarse_layer.size(), 0, 0, cv::INTER_AREA);
+  return {coarse_layer, color, cv::Mat::zeros(coarse_layer.size(), CV_32FC1)};
 }
 
-double most_after_blur(const Layer& cells, double cell_px, double sigma_px) {
-  if (cells.empty()) return 0;
-  const cv::Scalar sum = cv::sum(cells.color);
-  const double most = std::max({sum[0], sum[1], sum[2], sum[3]}) * cell_px * cell_px;
+double max_after_blur(const Layer& coarse_layer, double step_px, double sigma_px) {
+  if (coarse_layer.empty()) return 0;
+  const cv::Scalar sum = cv::sum(coarse_layer.color);
+  const double most = std::max({sum[0], sum[1], sum[2], sum[3]}) * step_px * step_px;
   constexpr double kCut =
       1.03;  // the cut kernel is higher by 1 / 0.9973^2, and by 1 / 48 as it gives way to the spline
   return kCut * most / (2 * std::numbers::pi * sigma_px * sigma_px);

@@ -58,15 +58,15 @@ void find_origins(const Camera& camera, int v, DistortMaps& maps) {
   const LensParameters& lens = camera.lens.parameters();
   for (int u = 0; u < camera.size_px.width; ++u) {
     const std::optional<glm::dvec3> ray = camera.lens.ray({u, v});
-    if (!ray || ray->x <= 1e-6) continue;  // at 90 degrees and beyond a pinhole picture has no place for it
+    if (!ray || ray->x <= 1e-6) continue;  // at 90 degrees and beyond a pinhole image has no place for it
     const glm::dvec3 optical = optical_of(*ray);
     maps.x.at<float>(v, u) = static_cast<float>(lens.fx * optical.x / optical.z + lens.cx);
     maps.y.at<float>(v, u) = static_cast<float>(lens.fy * optical.y / optical.z + lens.cy);
   }
 }
 
-cv::Mat moved(const cv::Mat& picture, const FixedMap& map, const cv::Scalar& border, cv::Mat buffer = {}) {
-  cv::remap(picture, buffer, map.pixels, map.shares, cv::INTER_LINEAR, cv::BORDER_CONSTANT, border);
+cv::Mat moved(const cv::Mat& image, const FixedMap& map, const cv::Scalar& border, cv::Mat buffer = {}) {
+  cv::remap(image, buffer, map.pixels, map.shares, cv::INTER_LINEAR, cv::BORDER_CONSTANT, border);
   return buffer;
 }
 
@@ -76,7 +76,7 @@ cv::Mat pasted(const cv::Mat& below, const cv::Mat& above, const cv::Mat& where,
   return buffer;
 }
 
-// Where a stage changes nothing, its picture is the one before: no buffer of its own.
+// Where a stage changes nothing, its image is the one before: no buffer of its own.
 ClassicStages apart(ClassicStages buffers) {
   if (buffers.d.data == buffers.c.data) buffers.d.release();
   if (buffers.f.data == buffers.e.data) buffers.f.release();
@@ -87,10 +87,10 @@ ClassicStages apart(ClassicStages buffers) {
 // Blurs along one axis, at places a quarter of sigma apart, and back to pixels.
 struct AxisBlur {
   AxisBlur(int size_px, double wanted_sigma_px) {
-    // A mirrored picture repeats after twice its size: by then a wider kernel sees nothing but its mean.
+    // A mirrored image repeats after twice its size: by then a wider kernel sees nothing but its mean.
     const double sigma_px = std::min(wanted_sigma_px, 2.0 * size_px);
     const double step_px = std::max(1.0, sigma_px / 4);
-    const Lattice places = lattice_for(0, size_px, step_px);
+    const UniformGrid places = uniform_grid_for(0, size_px, step_px);
     const double kernel_px = std::sqrt(std::max(sigma_px * sigma_px - splined_variance(step_px), 0.25));
     to_places = mirrored_gaussian_taps(places, size_px, kernel_px, std::round(3 * sigma_px) + 0.5);
     to_pixels = spline_taps(0, size_px, places);
@@ -99,11 +99,11 @@ struct AxisBlur {
   std::vector<Taps> to_pixels;
 };
 
-cv::Mat widely_softened(const cv::Mat& picture, double sigma_px) {
-  const AxisBlur down(picture.rows, sigma_px);
-  const AxisBlur across(picture.cols, sigma_px);
+cv::Mat coarse_gaussian_blurred(const cv::Mat& image, double sigma_px) {
+  const AxisBlur down(image.rows, sigma_px);
+  const AxisBlur across(image.cols, sigma_px);
   cv::Mat codes;
-  picture.convertTo(codes, CV_32F);
+  image.convertTo(codes, CV_32F);
   codes = resampled(codes, down.to_places, across.to_places);
   codes = resampled(codes, down.to_pixels, across.to_pixels);
   codes.convertTo(codes, CV_8U);
@@ -112,12 +112,12 @@ cv::Mat widely_softened(const cv::Mat& picture, double sigma_px) {
 
 }  // namespace
 
-cv::Mat on_green_screen(const Layer& layer, const ColorInfo& color, cv::Size picture_size_px, cv::Mat buffer) {
+cv::Mat on_green_screen(const Layer& layer, const ColorInfo& color, cv::Size image_size_px, cv::Mat buffer) {
   const cv::Mat layer_color = in_footage_primaries(layer.color, color);
   const TransferTable& curve = transfer_table_of(color);
-  buffer.create(picture_size_px, CV_8UC3);
+  buffer.create(image_size_px, CV_8UC3);
   buffer.setTo(kGreenBorder);
-  const cv::Rect inside = layer.rect & cv::Rect({0, 0}, picture_size_px);
+  const cv::Rect inside = layer.rect & cv::Rect({0, 0}, image_size_px);
   for (int y = inside.y; y < inside.y + inside.height; ++y)
     for (int x = inside.x; x < inside.x + inside.width; ++x) {
       if (layer.coverage.at<float>(y - layer.rect.y, x - layer.rect.x) < 0.5F) continue;
@@ -137,28 +137,29 @@ DistortMaps distort_maps(const Camera& camera) {
   return maps;
 }
 
-cv::Mat distorted(const cv::Mat& picture, const DistortMaps& maps, const cv::Scalar& border) {
-  return moved(picture, maps.distorting, border);
+cv::Mat distorted(const cv::Mat& image, const DistortMaps& maps, const cv::Scalar& border) {
+  return moved(image, maps.distorting, border);
 }
 
-cv::Mat distorted(const cv::Mat& picture, const DistortMaps& maps, const cv::Scalar& border, const cv::Rect& part) {
-  return moved(picture, {maps.distorting.pixels(part), maps.distorting.shares(part)}, border);
+cv::Mat distorted(const cv::Mat& image, const DistortMaps& maps, const cv::Scalar& border, const cv::Rect& part) {
+  return moved(image, {maps.distorting.pixels(part), maps.distorting.shares(part)}, border);
 }
 
-cv::Mat softened(const cv::Mat& picture, double sigma_px, cv::Mat buffer) {
+cv::Mat gaussian_blurred(const cv::Mat& image, double sigma_px, cv::Mat buffer) {
   ENSURE(sigma_px >= 0 && std::isfinite(sigma_px));
-  if (sigma_px == 0) return picture;
-  if (sigma_px > kSigmaOfCells_px) return widely_softened(picture, sigma_px);
-  cv::GaussianBlur(picture, buffer, {0, 0}, sigma_px);
+  if (sigma_px == 0) return image;
+  if (sigma_px > kCoarseBlurSigma_px) return coarse_gaussian_blurred(image, sigma_px);
+  cv::GaussianBlur(image, buffer, {0, 0}, sigma_px);
   return buffer;
 }
 
-cv::Rect softened_from(const cv::Rect& part, double sigma_px, cv::Size picture_size_px) {
-  const cv::Rect whole({0, 0}, picture_size_px);
+cv::Rect gaussian_blur_source(const cv::Rect& part, double sigma_px, cv::Size image_size_px) {
+  const cv::Rect whole({0, 0}, image_size_px);
   if (sigma_px == 0) return part;
-  if (sigma_px > kSigmaOfCells_px) return whole;
-  const int reach = static_cast<int>(std::ceil(3 * sigma_px)) + 1;  // of OpenCV's kernel for 8 bits
-  return cv::Rect(part.x - reach, part.y - reach, part.width + 2 * reach, part.height + 2 * reach) & whole;
+  if (sigma_px > kCoarseBlurSigma_px) return whole;
+  const int radius_px = static_cast<int>(std::ceil(3 * sigma_px)) + 1;  // of OpenCV's kernel for 8 bits
+  return cv::Rect(part.x - radius_px, part.y - radius_px, part.width + 2 * radius_px, part.height + 2 * radius_px) &
+         whole;
 }
 
 ClassicStages classic_stages(const cv::Mat& input1, const cv::Mat& input2, const DistortMaps& maps, double sigma_px,
@@ -170,9 +171,9 @@ ClassicStages classic_stages(const cv::Mat& input1, const cv::Mat& input2, const
   stages.a = moved(input1, maps.undistorting, cv::Scalar::all(0), buffers.a);
   stages.b = pasted(stages.a, input2, stages.key, buffers.b);
   stages.c = moved(stages.b, maps.distorting, cv::Scalar::all(0), buffers.c);
-  stages.d = softened(stages.c, sigma_px, buffers.d);
+  stages.d = gaussian_blurred(stages.c, sigma_px, buffers.d);
   stages.e = moved(input2, maps.distorting, kGreenBorder, buffers.e);
-  stages.f = softened(stages.e, sigma_px, buffers.f);
+  stages.f = gaussian_blurred(stages.e, sigma_px, buffers.f);
   stages.changed = is_not_green(stages.f, buffers.changed);
   stages.output = pasted(input1, stages.d, stages.changed, buffers.output);
   return stages;

@@ -16,9 +16,9 @@ double gaussian(double x, double sigma) {
 }
 
 // What the cut Gaussian leaves to a cell, relative to the place where it is sampled.
-double cell_weight(double low, double high, double sigma, double reach) {
-  low = std::max(low, -reach);
-  high = std::min(high, reach);
+double sample_weight(double low, double high, double sigma, double radius) {
+  low = std::max(low, -radius);
+  high = std::min(high, radius);
   return high > low ? (high - low) * gaussian(0.5 * (low + high), sigma) : 0.0;
 }
 
@@ -35,9 +35,9 @@ int mirrored(long long index, int count) {
   return static_cast<int>(std::min(within, period - within));
 }
 
-Taps mirrored_taps_at(double place, int size_px, double sigma_px, double reach_px) {
-  const auto low = static_cast<long long>(std::ceil(place - reach_px));
-  const auto high = static_cast<long long>(std::floor(place + reach_px));
+Taps mirrored_taps_at(double place, int size_px, double sigma_px, double radius_px) {
+  const auto low = static_cast<long long>(std::ceil(place - radius_px));
+  const auto high = static_cast<long long>(std::floor(place + radius_px));
   std::vector<double> folded(static_cast<std::size_t>(size_px), 0.0);
   double sum = 0;
   for (long long i = low; i <= high; ++i) {
@@ -87,37 +87,38 @@ cv::Mat with_columns(const cv::Mat& image, std::span<const Taps> columns) {
 
 }  // namespace
 
-std::vector<Taps> gaussian_taps(const Lattice& out, const Lattice& in, double sigma_px, double reach_px) {
-  ENSURE(sigma_px > 0 && reach_px > 0);
-  const double whole = std::erf(reach_px / (sigma_px * std::numbers::sqrt2));
+std::vector<Taps> gaussian_taps(const UniformGrid& out, const UniformGrid& in, double sigma_px, double radius_px) {
+  ENSURE(sigma_px > 0 && radius_px > 0);
+  const double whole = std::erf(radius_px / (sigma_px * std::numbers::sqrt2));
   std::vector<Taps> all;
   for (int o = 0; o < out.count; ++o) {
     const double place = out.at(o);
-    const int low = index_within(std::floor((place - reach_px - in.first) / in.step), in.count);
-    const int high = index_within(std::ceil((place + reach_px - in.first) / in.step) + 1, in.count);
+    const int low = index_within(std::floor((place - radius_px - in.first) / in.step), in.count);
+    const int high = index_within(std::ceil((place + radius_px - in.first) / in.step) + 1, in.count);
     Taps taps{.first = low};
     for (int i = low; i < high; ++i) {
       const double low_edge = in.at(i) - 0.5 * in.step - place;
-      taps.weights.push_back(static_cast<float>(cell_weight(low_edge, low_edge + in.step, sigma_px, reach_px) / whole));
+      taps.weights.push_back(
+          static_cast<float>(sample_weight(low_edge, low_edge + in.step, sigma_px, radius_px) / whole));
     }
     all.push_back(std::move(taps));
   }
   return all;
 }
 
-std::vector<Taps> mirrored_gaussian_taps(const Lattice& out, int size_px, double sigma_px, double reach_px) {
-  ENSURE(sigma_px > 0 && reach_px >= 0.5 && reach_px < 1e9 && size_px > 0);
+std::vector<Taps> mirrored_gaussian_taps(const UniformGrid& out, int size_px, double sigma_px, double radius_px) {
+  ENSURE(sigma_px > 0 && radius_px >= 0.5 && radius_px < 1e9 && size_px > 0);
   std::vector<Taps> all;
-  for (int o = 0; o < out.count; ++o) all.push_back(mirrored_taps_at(out.at(o), size_px, sigma_px, reach_px));
+  for (int o = 0; o < out.count; ++o) all.push_back(mirrored_taps_at(out.at(o), size_px, sigma_px, radius_px));
   return all;
 }
 
-Lattice lattice_for(int first_px, int size_px, double step) {
+UniformGrid uniform_grid_for(int first_px, int size_px, double step) {
   ENSURE(step >= 1 && size_px > 0);
   return {.first = first_px - step, .step = step, .count = static_cast<int>(std::ceil((size_px - 1) / step)) + 4};
 }
 
-std::vector<Taps> spline_taps(int first_px, int size_px, const Lattice& in) {
+std::vector<Taps> spline_taps(int first_px, int size_px, const UniformGrid& in) {
   std::vector<Taps> all;
   for (int x = first_px; x < first_px + size_px; ++x) {
     const double place = (x - in.first) / in.step;

@@ -14,7 +14,7 @@ struct Taps {
 };
 
 // Evenly spaced places along an axis, px.
-struct Lattice {
+struct UniformGrid {
   double first = 0;
   double step = 1;
   int count = 0;
@@ -22,20 +22,21 @@ struct Lattice {
   [[nodiscard]] double at(int i) const { return first + i * step; }
 };
 
-// Gaussian cut at reach_px, sampled at the places of `out`. The input's samples are cells that touch each other; a cell
+// Gaussian cut at radius_px, sampled at the places of `out`. The input's samples are squares that touch each other; one
 // that the cut halves counts by half. Weights sum to one over an input without borders; beyond its borders is nothing.
-[[nodiscard]] std::vector<Taps> gaussian_taps(const Lattice& out, const Lattice& in, double sigma_px, double reach_px);
+[[nodiscard]] std::vector<Taps> gaussian_taps(const UniformGrid& out, const UniformGrid& in, double sigma_px,
+                                              double radius_px);
 
 // The same for an input of size_px pixels that goes on beyond its borders as OpenCV's BORDER_REFLECT_101.
-[[nodiscard]] std::vector<Taps> mirrored_gaussian_taps(const Lattice& out, int size_px, double sigma_px,
-                                                       double reach_px);
+[[nodiscard]] std::vector<Taps> mirrored_gaussian_taps(const UniformGrid& out, int size_px, double sigma_px,
+                                                       double radius_px);
 
 // Places of `step` that serve to rebuild the pixels [first_px, first_px + size_px).
-[[nodiscard]] Lattice lattice_for(int first_px, int size_px, double step);
+[[nodiscard]] UniformGrid uniform_grid_for(int first_px, int size_px, double step);
 
 // Rebuilds these pixels by the cubic B-spline: smooth, never beyond its inputs, and without their error in exchange for
 // spreading them by splined_variance(step).
-[[nodiscard]] std::vector<Taps> spline_taps(int first_px, int size_px, const Lattice& in);
+[[nodiscard]] std::vector<Taps> spline_taps(int first_px, int size_px, const UniformGrid& in);
 [[nodiscard]] double splined_variance(double step);
 
 // Each axis by its own taps. image is CV_32FC1, CV_32FC3 or CV_32FC4.

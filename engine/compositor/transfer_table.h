@@ -35,14 +35,14 @@ class PiecewiseParabola {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     const Piece& piece = pieces_[(bits >> kBitsWithin) - first_];
     const float along = x - std::bit_cast<float>((bits >> kBitsWithin) << kBitsWithin);
-    return piece.value + along * (piece.slope + along * piece.bend);
+    return piece.value + along * (piece.slope + along * piece.quadratic);
   }
 
  private:
   struct Piece {
     float value = 0;
     float slope = 0;
-    float bend = 0;
+    float quadratic = 0;
   };
 
   [[nodiscard]] static float power_of_two(int exponent) {
@@ -62,10 +62,10 @@ class PiecewiseParabola {
     const double after = curve(left + (0.5 + kNode) * width);
     const double step = kNode * width;
     const double slope = (after - before) / (2 * step);
-    const double bend = (after - 2 * middle + before) / (2 * step * step);
+    const double quadratic = (after - 2 * middle + before) / (2 * step * step);
     const double back = 0.5 * width;  // coefficients are about the left end
-    return {static_cast<float>(middle - back * (slope - back * bend)), static_cast<float>(slope - 2 * back * bend),
-            static_cast<float>(bend)};
+    return {static_cast<float>(middle - back * (slope - back * quadratic)),
+            static_cast<float>(slope - 2 * back * quadratic), static_cast<float>(quadratic)};
   }
 
   static constexpr std::uint32_t kBitsWithin = 23 - 5;

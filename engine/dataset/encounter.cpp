@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "dataset/exact_angles.h"
+#include "dataset/portable_trig.h"
 #include "dataset/short_text.h"
 
 namespace sigs {
@@ -31,8 +31,8 @@ std::string metres(double value_m) {
   return short_text(value_m) + " m";
 }
 
-// The way along the relative path from the first frame to the CPA: Pythagoras.
-tl::expected<double, std::string> way_m(double range_m, double miss_m) {
+// The length of the relative path from the first frame to the CPA: Pythagoras.
+tl::expected<double, std::string> path_length_m(double range_m, double miss_m) {
   if (range_m < miss_m)
     return tl::unexpected("range_m: the intruder starts " + metres(range_m) +
                           " away, nearer than the miss distance of " + metres(miss_m));
@@ -41,18 +41,18 @@ tl::expected<double, std::string> way_m(double range_m, double miss_m) {
 
 }  // namespace
 
-double nearest_m(const RelativeMotion& motion, double length_s) {
+double min_range_m(const RelativeMotion& motion, double length_s) {
   const double speed_squared = glm::dot(motion.velocity_mps, motion.velocity_mps);
-  const double lowest_s = speed_squared > 0 ? -glm::dot(motion.start_m, motion.velocity_mps) / speed_squared : 0;
-  return glm::length(motion.at(std::clamp(lowest_s, 0.0, length_s)));
+  const double closest_s = speed_squared > 0 ? -glm::dot(motion.start_m, motion.velocity_mps) / speed_squared : 0;
+  return glm::length(motion.at(std::clamp(closest_s, 0.0, length_s)));
 }
 
 RelativeMotion relative_motion(const Encounter& encounter) {
   const View view = view_along(encounter.bearing_deg, encounter.elevation_deg);
   const CosSin side = cos_sin_of_deg(encounter.miss_angle_deg);
   const glm::dvec3 miss_m = encounter.miss_distance_m * (side.cos * view.right + side.sin * view.above);
-  const double way_m = encounter.closing_speed_mps * encounter.time_of_closest_approach_s;
-  return {.start_m = miss_m + way_m * view.toward, .velocity_mps = -encounter.closing_speed_mps * view.toward};
+  const double path_length_m = encounter.closing_speed_mps * encounter.time_of_closest_approach_s;
+  return {.start_m = miss_m + path_length_m * view.toward, .velocity_mps = -encounter.closing_speed_mps * view.toward};
 }
 
 double first_range_m(const Encounter& encounter) {
@@ -70,14 +70,14 @@ tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const 
                           " m/s cannot meet the miss distance of " + metres(encounter.miss_distance_m) +
                           ": the intruder never comes nearer");
   if (!timing.range_m) return encounter;
-  const tl::expected<double, std::string> way = way_m(*timing.range_m, encounter.miss_distance_m);
-  if (!way) return tl::unexpected(way.error());
+  const tl::expected<double, std::string> path = path_length_m(*timing.range_m, encounter.miss_distance_m);
+  if (!path) return tl::unexpected(path.error());
   if (timing.closing_speed_mps) {
-    encounter.time_of_closest_approach_s = *way / *timing.closing_speed_mps;
+    encounter.time_of_closest_approach_s = *path / *timing.closing_speed_mps;
     return encounter;
   }
-  encounter.closing_speed_mps = *way / std::abs(*timing.time_of_closest_approach_s);
-  if (*way == 0 || !std::isfinite(encounter.closing_speed_mps))
+  encounter.closing_speed_mps = *path / std::abs(*timing.time_of_closest_approach_s);
+  if (*path == 0 || !std::isfinite(encounter.closing_speed_mps))
     return tl::unexpected("range_m: no closing speed leads from " + metres(*timing.range_m) +
                           " to the miss distance of " + metres(encounter.miss_distance_m) + " in " +
                           short_text(*timing.time_of_closest_approach_s) + " s");

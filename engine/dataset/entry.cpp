@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "dataset/checksum.h"
 #include "dataset/json_text.h"
 #include "project/json_reading.h"
@@ -64,19 +64,19 @@ Result<VideoEntry> read_entry(const fs::path& file) {
   }
 }
 
-std::optional<KnownFiles::Identity> KnownFiles::identity_of(const fs::path& file) {
+std::optional<ChecksumCache::Identity> ChecksumCache::identity_of(const fs::path& file) {
   struct stat state {};
   if (stat(file.c_str(), &state) != 0) return std::nullopt;
   return Identity{state.st_dev, state.st_ino};
 }
 
-void KnownFiles::remember(const fs::path& folder, const VideoEntry& entry) {
+void ChecksumCache::remember(const fs::path& folder, const VideoEntry& entry) {
   for (const DatasetFile& file : entry.files)
     if (const std::optional<Identity> identity = identity_of(folder / file.path))
       checksums_.emplace(*identity, file.sha256);
 }
 
-Result<std::string> KnownFiles::checksum_of(const fs::path& file, const std::atomic<bool>* cancel) {
+Result<std::string> ChecksumCache::checksum_of(const fs::path& file, const std::atomic<bool>* cancel) {
   const std::optional<Identity> identity = identity_of(file);
   if (identity)
     if (const auto known = checksums_.find(*identity); known != checksums_.end()) return known->second;
@@ -86,7 +86,7 @@ Result<std::string> KnownFiles::checksum_of(const fs::path& file, const std::ato
 }
 
 Result<std::vector<DatasetFile>> files_in(const fs::path& folder, const std::vector<std::string>& left_out,
-                                          KnownFiles& known, const std::atomic<bool>* cancel) {
+                                          ChecksumCache& known, const std::atomic<bool>* cancel) {
   const Result<std::vector<std::string>> paths = paths_in(folder, left_out);
   if (!paths) return fail(paths.error());
   std::vector<DatasetFile> files;
@@ -108,7 +108,7 @@ Result<std::string> damage_of(const fs::path& folder, const VideoEntry& entry, c
     if (code) return file.path + " is missing";
     if (bytes != file.bytes) return file.path + " has another size than when it was made";
   }
-  KnownFiles known;
+  ChecksumCache known;
   for (const DatasetFile& file : entry.files) {
     const Result<std::string> checksum = known.checksum_of(folder / file.path, cancel);
     if (!checksum && checksum.error().kind == ErrorKind::interrupted) return fail(checksum.error());
@@ -118,8 +118,8 @@ Result<std::string> damage_of(const fs::path& folder, const VideoEntry& entry, c
   return std::string();
 }
 
-std::optional<std::string> stranger_in(const fs::path& folder, const VideoEntry& entry,
-                                       const std::vector<std::string>& left_out) {
+std::optional<std::string> unlisted_file_in(const fs::path& folder, const VideoEntry& entry,
+                                            const std::vector<std::string>& left_out) {
   const Result<std::vector<std::string>> paths = paths_in(folder, left_out);
   if (!paths) return std::nullopt;
   std::set<std::string> ours;

@@ -41,7 +41,7 @@ inline constexpr const char* kEntryName = "entry.json";
 [[nodiscard]] Result<VideoEntry> read_entry(const std::filesystem::path& file);
 
 // Checksums of files by what they are on the disk: one with several names is read once.
-class KnownFiles {
+class ChecksumCache {
  public:
   // Takes an entry's word for its files.
   void remember(const std::filesystem::path& folder, const VideoEntry& entry);
@@ -57,7 +57,7 @@ class KnownFiles {
 
 // All files under a folder, by path (bytes compared), but for those left out.
 [[nodiscard]] Result<std::vector<DatasetFile>> files_in(const std::filesystem::path& folder,
-                                                        const std::vector<std::string>& left_out, KnownFiles& known,
+                                                        const std::vector<std::string>& left_out, ChecksumCache& known,
                                                         const std::atomic<bool>* cancel);
 
 // Whether the files of an entry are all there and hold what they should. What is wrong; empty: nothing.
@@ -66,7 +66,7 @@ class KnownFiles {
                                             const std::atomic<bool>* cancel);
 
 // A file under the folder that is none of the entry's, nor left out; none: there is nothing else.
-[[nodiscard]] std::optional<std::string> stranger_in(const std::filesystem::path& folder, const VideoEntry& entry,
-                                                     const std::vector<std::string>& left_out);
+[[nodiscard]] std::optional<std::string> unlisted_file_in(const std::filesystem::path& folder, const VideoEntry& entry,
+                                                          const std::vector<std::string>& left_out);
 
 }  // namespace sigs

@@ -20,7 +20,7 @@ class InputChecksums {
   // Error cannot_read, interrupted.
   [[nodiscard]] Result<std::string> of(const std::filesystem::path& file);
 
-  // The same for an OBJ model: of it, of its material libraries and of the pictures that those name.
+  // The same for an OBJ model: of it, of its material libraries and of the images that those name.
   [[nodiscard]] Result<std::string> of_model(const std::filesystem::path& file);
 
  private:
@@ -32,7 +32,7 @@ class InputChecksums {
 
 // One checksum of all that an export depends on: the program, the project, and what the files hold that it names. Where
 // those lie does not matter, but what they are called does: annotations say it. Of a footage that is a folder or a
-// pattern of pictures the name alone counts.
+// pattern of images the name alone counts.
 [[nodiscard]] Result<std::string> fingerprint_of(const Project& project, const std::string& program,
                                                  InputChecksums& inputs);
 

@@ -7,15 +7,15 @@
 #include "base/angles.h"
 #include "base/pose.h"
 #include "dataset/encounter.h"
-#include "dataset/picture_flight.h"
+#include "dataset/image_flight.h"
 #include "dataset/short_text.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr double kFarthest_m = 1e8;   // what a waypoint may have
-constexpr double kRounding_m = 1e-6;  // what lies below the ground by no more is on it
+constexpr double kMaxDistance_m = 1e8;  // what a waypoint may have
+constexpr double kRounding_m = 1e-6;    // what lies below the ground by no more is on it
 
 using Values = std::map<std::string, double>;
 template <class T>
@@ -28,18 +28,18 @@ struct Ends {
   double length_s = 0;
 };
 
-Ends ends_of(const FlightStage& stage) {
-  const FrameRange frames{stage.frames.first, std::max(stage.frames.last, stage.frames.first + 1)};
-  const double first_s = time_of_frame_s(stage.footage, frames.first);
-  return {frames, first_s, time_of_frame_s(stage.footage, frames.last) - first_s};
+Ends ends_of(const FlightContext& context) {
+  const FrameRange frames{context.frames.first, std::max(context.frames.last, context.frames.first + 1)};
+  const double first_s = time_of_frame_s(context.footage, frames.first);
+  return {frames, first_s, time_of_frame_s(context.footage, frames.last) - first_s};
 }
 
-glm::dvec3 camera_velocity_mps(const FlightStage& stage) {
-  return {stage.camera.speed_mps, 0, 0};
+glm::dvec3 camera_velocity_mps(const FlightContext& context) {
+  return {context.camera.speed_mps, 0, 0};
 }
 
-glm::dvec3 camera_position_m(const FlightStage& stage, double time_s) {
-  return stage.camera.position_m + time_s * camera_velocity_mps(stage);
+glm::dvec3 camera_position_m(const FlightContext& context, double time_s) {
+  return context.camera.position_m + time_s * camera_velocity_mps(context);
 }
 
 std::optional<double> value_of(const Values& values, const char* name) {
@@ -59,9 +59,9 @@ Possible<void> check_values(FlightKind kind, const Values& values) {
 }
 
 // Ray of a place given by two quantities, in world axes.
-glm::dvec3 world_ray(const Values& values, const char* x_percent, const char* y_percent, const FlightStage& stage) {
-  const glm::dquat world_from_camera = rotation_of(mount_attitude(stage.camera));
-  return world_from_camera * ray_of_place(stage.lens, {values.at(x_percent), values.at(y_percent)});
+glm::dvec3 world_ray(const Values& values, const char* x_percent, const char* y_percent, const FlightContext& context) {
+  const glm::dquat world_from_camera = rotation_of(mount_attitude(context.camera));
+  return world_from_camera * ray_of_place(context.lens, {values.at(x_percent), values.at(y_percent)});
 }
 
 bool is_crossing(FlightKind kind) {
@@ -69,21 +69,21 @@ bool is_crossing(FlightKind kind) {
 }
 
 // A crossing keeps its middle, who comes near its end and who moves away its beginning, whatever the speed.
-double held_share(FlightKind kind) {
+double fixed_share(FlightKind kind) {
   if (is_crossing(kind)) return 0.5;
   return kind == FlightKind::approaching ? 1 : 0;
 }
 
-Possible<RelativeMotion> template_motion(FlightKind kind, const Values& values, const FlightStage& stage) {
-  const glm::dvec3 from_ray = world_ray(values, "from_x_percent", "from_y_percent", stage);
-  const glm::dvec3 to_ray = world_ray(values, "to_x_percent", "to_y_percent", stage);
-  const RelativeWay way = is_crossing(kind)
-                              ? crossing(from_ray, to_ray, values.at("distance_m"))
-                              : radial(from_ray, to_ray, values.at("from_distance_m"), values.at("to_distance_m"));
-  const double length_s = ends_of(stage).length_s;
+Possible<RelativeMotion> template_motion(FlightKind kind, const Values& values, const FlightContext& context) {
+  const glm::dvec3 from_ray = world_ray(values, "from_x_percent", "from_y_percent", context);
+  const glm::dvec3 to_ray = world_ray(values, "to_x_percent", "to_y_percent", context);
+  const RelativePath path = is_crossing(kind)
+                                ? crossing(from_ray, to_ray, values.at("distance_m"))
+                                : radial(from_ray, to_ray, values.at("from_distance_m"), values.at("to_distance_m"));
+  const double length_s = ends_of(context).length_s;
   const std::optional<double> speed_mps = value_of(values, "speed_mps");
-  if (!speed_mps) return spread_over(way, length_s);
-  return flown_at(way, length_s, *speed_mps, stage.camera.speed_mps, held_share(kind));
+  if (!speed_mps) return motion_over_time(path, length_s);
+  return motion_at_speed(path, length_s, *speed_mps, context.camera.speed_mps, fixed_share(kind));
 }
 
 // Where neither time nor range says when, the closest approach is in the last frame.
@@ -104,10 +104,10 @@ Possible<Encounter> encounter_of(const Values& values, const Ends& ends) {
                          timing_of(values, ends));
 }
 
-void add_facts(const Encounter& encounter, std::map<std::string, double>& facts) {
-  facts["closing_speed_mps"] = encounter.closing_speed_mps;
-  facts["time_of_closest_approach_s"] = encounter.time_of_closest_approach_s;
-  facts["range_m"] = first_range_m(encounter);
+void add_derived(const Encounter& encounter, std::map<std::string, double>& derived) {
+  derived["closing_speed_mps"] = encounter.closing_speed_mps;
+  derived["time_of_closest_approach_s"] = encounter.time_of_closest_approach_s;
+  derived["range_m"] = first_range_m(encounter);
 }
 
 // What decides how fast the intruder flies.
@@ -119,8 +119,8 @@ std::string ways_out(FlightKind kind, const Values& values) {
   return is_crossing(kind) ? "distance_m or frames" : "from_distance_m, to_distance_m or frames";
 }
 
-Possible<void> check_speed(FlightKind kind, const Values& values, double speed_mps, const FlightStage& stage) {
-  const std::optional<Span>& limits = stage.speed_limits_mps;
+Possible<void> check_speed(FlightKind kind, const Values& values, double speed_mps, const FlightContext& context) {
+  const std::optional<Span>& limits = context.speed_limits_mps;
   if (!limits || (speed_mps >= limits->low && speed_mps <= limits->high)) return {};
   return tl::unexpected("speed_mps: the intruder would have to fly " + short_text(speed_mps) +
                         " m/s; its aircraft flies " + short_text(limits->low) + " to " + short_text(limits->high) +
@@ -135,40 +135,40 @@ Possible<void> check_waypoint(FlightKind kind, const WaypointSettings& waypoint)
   if (p_m.z > kRounding_m)
     return tl::unexpected(height + std::string(": the intruder is underground") + frame + ", " + short_text(p_m.z) +
                           " m below z = 0");
-  if (glm::max(glm::max(std::abs(p_m.x), std::abs(p_m.y)), std::abs(p_m.z)) > kFarthest_m)
+  if (glm::max(glm::max(std::abs(p_m.x), std::abs(p_m.y)), std::abs(p_m.z)) > kMaxDistance_m)
     return tl::unexpected("the intruder is farther than 1e8 m from the world's origin" + frame);
   return {};
 }
 
-Possible<RelativeMotion> motion_of(FlightKind kind, const Values& values, const FlightStage& stage,
-                                   std::map<std::string, double>& facts) {
-  if (kind != FlightKind::encounter) return template_motion(kind, values, stage);
-  const Possible<Encounter> encounter = encounter_of(values, ends_of(stage));
+Possible<RelativeMotion> motion_of(FlightKind kind, const Values& values, const FlightContext& context,
+                                   std::map<std::string, double>& derived) {
+  if (kind != FlightKind::encounter) return template_motion(kind, values, context);
+  const Possible<Encounter> encounter = encounter_of(values, ends_of(context));
   if (!encounter) return tl::unexpected(encounter.error());
-  add_facts(*encounter, facts);
+  add_derived(*encounter, derived);
   return relative_motion(*encounter);
 }
 
 }  // namespace
 
-Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, const FlightStage& stage) {
+Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, const FlightContext& context) {
   if (const Possible<void> checked = check_values(kind, values); !checked) return tl::unexpected(checked.error());
-  const Ends ends = ends_of(stage);
+  const Ends ends = ends_of(context);
   if (!(ends.length_s > 0)) return tl::unexpected(std::string("frames: the footage's times do not increase"));
   PlannedFlight flight;
-  const Possible<RelativeMotion> motion = motion_of(kind, values, stage, flight.facts);
+  const Possible<RelativeMotion> motion = motion_of(kind, values, context, flight.derived);
   if (!motion) return tl::unexpected(motion.error());
-  const double speed_mps = glm::length(motion->velocity_mps + camera_velocity_mps(stage));
-  if (const Possible<void> checked = check_speed(kind, values, speed_mps, stage); !checked)
+  const double speed_mps = glm::length(motion->velocity_mps + camera_velocity_mps(context));
+  if (const Possible<void> checked = check_speed(kind, values, speed_mps, context); !checked)
     return tl::unexpected(checked.error());
   for (const auto& [frame, since_s] : {std::pair{ends.frames.first, 0.0}, std::pair{ends.frames.last, ends.length_s}}) {
     flight.waypoints.push_back(
-        {.frame = frame, .position_m = camera_position_m(stage, ends.first_s + since_s) + motion->at(since_s)});
+        {.frame = frame, .position_m = camera_position_m(context, ends.first_s + since_s) + motion->at(since_s)});
     const Possible<void> checked = check_waypoint(kind, flight.waypoints.back());
     if (!checked) return tl::unexpected(checked.error());
   }
-  flight.facts["speed_mps"] = speed_mps;
-  flight.facts["nearest_m"] = nearest_m(*motion, ends.length_s);
+  flight.derived["speed_mps"] = speed_mps;
+  flight.derived["nearest_m"] = min_range_m(*motion, ends.length_s);
   return flight;
 }
 

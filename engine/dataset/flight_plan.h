@@ -9,15 +9,15 @@
 
 #include "base/frame_range.h"
 #include "camera/camera.h"
-#include "dataset/draw.h"
 #include "dataset/flight_quantities.h"
+#include "dataset/sample.h"
 #include "project/project.h"
 #include "scene/scene.h"
 
 namespace sigs {
 
 // What a flight is fitted to.
-struct FlightStage {
+struct FlightContext {
   CameraSettings camera;  // an attitude file's shaking is left aside: the mean attitude counts
   const Camera& lens;     // these two must outlive it
   const FootageShape& footage;
@@ -27,7 +27,7 @@ struct FlightStage {
 
 struct PlannedFlight {
   std::vector<WaypointSettings> waypoints;  // two: in the first frame and in the last one (of one frame: in the next)
-  std::map<std::string, double> facts;      // what follows: "speed_mps", "nearest_m", and all that an encounter has
+  std::map<std::string, double> derived;    // what follows: "speed_mps", "nearest_m", and all that an encounter has
 };
 
 // The waypoints of a flight. values: one for each quantity of the kind that was given or has a standard. Where there is
@@ -36,6 +36,6 @@ struct PlannedFlight {
 // than 1e8 m from the world's origin.
 [[nodiscard]] tl::expected<PlannedFlight, std::string> planned_flight(FlightKind kind,
                                                                       const std::map<std::string, double>& values,
-                                                                      const FlightStage& stage);
+                                                                      const FlightContext& context);
 
 }  // namespace sigs

@@ -8,40 +8,39 @@ namespace sigs {
 
 namespace {
 
-constexpr double kFarthest_m = 1e7;
-constexpr double kFastest_mps = 1e4;
-constexpr double kLongest_s = 1e6;
-constexpr double kWidest_percent = 1000;
+constexpr double kMaxDistance_m = 1e7;
+constexpr double kMaxSpeed_mps = 1e4;
+constexpr double kMaxTime_s = 1e6;
+constexpr double kMaxPlace_percent = 1000;
 
 constexpr std::array<FlightKind, 5> kKinds{FlightKind::left_right, FlightKind::right_left, FlightKind::approaching,
                                            FlightKind::moving_away, FlightKind::encounter};
 
 constexpr FlightQuantity place(std::string_view name, double standard, std::string_view help) {
-  return {name, -kWidest_percent, kWidest_percent, standard, false, help};
+  return {name, -kMaxPlace_percent, kMaxPlace_percent, standard, false, help};
 }
 
 constexpr FlightQuantity kSpeed{
-    "speed_mps",  0,
-    kFastest_mps, std::nullopt,
-    false,        "the intruder's own speed over ground; none: what takes it from place to place in the video's time"};
-constexpr std::string_view kFromX =
-    "where it is in the first frame, from the picture's left edge (0) to the right (100)";
+    "speed_mps",   0,
+    kMaxSpeed_mps, std::nullopt,
+    false,         "the intruder's own speed over ground; none: what takes it from place to place in the video's time"};
+constexpr std::string_view kFromX = "where it is in the first frame, from the image's left edge (0) to the right (100)";
 constexpr std::string_view kToX = "the same in the last frame";
 constexpr std::string_view kFromY = "the same from the upper edge (0) to the lower (100), in the first frame";
 constexpr std::string_view kToY = "and in the last frame";
 
 constexpr FlightQuantity distance(std::string_view name, double standard, std::string_view help) {
-  return {name, 1, kFarthest_m, standard, false, help};
+  return {name, 1, kMaxDistance_m, standard, false, help};
 }
 
-constexpr std::string_view kNearest = "distance where it crosses the middle of its way";
+constexpr std::string_view kClosestHelp = "distance where it crosses the middle of its way";
 
-constexpr std::array kLeftRight{distance("distance_m", 150, kNearest), kSpeed,
-                                place("from_x_percent", 5, kFromX),    place("to_x_percent", 95, kToX),
-                                place("from_y_percent", 40, kFromY),   place("to_y_percent", 40, kToY)};
-constexpr std::array kRightLeft{distance("distance_m", 150, kNearest), kSpeed,
-                                place("from_x_percent", 95, kFromX),   place("to_x_percent", 5, kToX),
-                                place("from_y_percent", 40, kFromY),   place("to_y_percent", 40, kToY)};
+constexpr std::array kLeftRight{distance("distance_m", 150, kClosestHelp), kSpeed,
+                                place("from_x_percent", 5, kFromX),        place("to_x_percent", 95, kToX),
+                                place("from_y_percent", 40, kFromY),       place("to_y_percent", 40, kToY)};
+constexpr std::array kRightLeft{distance("distance_m", 150, kClosestHelp), kSpeed,
+                                place("from_x_percent", 95, kFromX),       place("to_x_percent", 5, kToX),
+                                place("from_y_percent", 40, kFromY),       place("to_y_percent", 40, kToY)};
 constexpr std::array kApproaching{distance("from_distance_m", 400, "distance in the first frame"),
                                   distance("to_distance_m", 60, "distance in the last frame"),
                                   kSpeed,
@@ -57,17 +56,18 @@ constexpr std::array kMovingAway{distance("from_distance_m", 60, "distance in th
                                  place("from_y_percent", 40, kFromY),
                                  place("to_y_percent", 40, kToY)};
 constexpr std::array kEncounter{
-    FlightQuantity{"miss_distance_m", 0, kFarthest_m, std::nullopt, true, "distance at the closest point of approach"},
+    FlightQuantity{"miss_distance_m", 0, kMaxDistance_m, std::nullopt, true,
+                   "distance at the closest point of approach"},
     FlightQuantity{"miss_angle_deg", -360, 360, 0.0, false,
                    "where it passes, seen by who looks to where it comes from: 0 right, 90 above, 180 left, -90 below"},
     FlightQuantity{"bearing_deg", -360, 360, 0.0, false,
                    "of where it comes from, to the right of the camera's direction of flight"},
     FlightQuantity{"elevation_deg", -90, 90, 0.0, false, "of where it comes from, above the horizontal"},
-    FlightQuantity{"closing_speed_mps", 0, kFastest_mps, std::nullopt, false,
+    FlightQuantity{"closing_speed_mps", 0, kMaxSpeed_mps, std::nullopt, false,
                    "speed of the relative motion: the rate at which the distance falls far out"},
-    FlightQuantity{"time_of_closest_approach_s", -kLongest_s, kLongest_s, std::nullopt, false,
+    FlightQuantity{"time_of_closest_approach_s", -kMaxTime_s, kMaxTime_s, std::nullopt, false,
                    "after the video's first frame; none: the last frame's, where range_m does not say it"},
-    FlightQuantity{"range_m", 0, kFarthest_m, std::nullopt, false, "distance in the first frame"}};
+    FlightQuantity{"range_m", 0, kMaxDistance_m, std::nullopt, false, "distance in the first frame"}};
 
 }  // namespace
 

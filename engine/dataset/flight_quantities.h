@@ -18,7 +18,7 @@ enum class FlightKind { left_right, right_left, approaching, moving_away, encoun
 // One number that a flight is made of. Said here once for reading, planning and docs/dataset.md.
 struct FlightQuantity {
   std::string_view name;  // with its unit: "miss_distance_m"
-  double low = 0;         // least and greatest value that makes sense; what is drawn beyond them is impossible
+  double low = 0;         // least and greatest value that makes sense; what is sampled beyond them is impossible
   double high = 0;
   std::optional<double> standard;  // taken where the recipe gives none; none: then there is none
   bool required = false;

@@ -5,10 +5,10 @@
 #include <system_error>
 
 #include "base/flush.h"
-#include "base/partial_file.h"
 #include "base/renaming.h"
+#include "base/temporary_file.h"
 #include "dataset/checksum.h"
-#include "dataset/claim.h"
+#include "dataset/dataset_lock.h"
 #include "dataset/json_text.h"
 #include "dataset/merge_labels.h"
 #include "dataset/shared_files.h"
@@ -29,9 +29,9 @@ Result<void> write_splits(const fs::path& folder, const std::vector<FinishedVide
   return {};
 }
 
-// An empty folder in the workshop that becomes FOLDER/NAME.
-Result<fs::path> begun(const fs::path& dataset, const std::string& name) {
-  const fs::path folder = workshop_of(dataset) / name;
+// An empty folder in the staging folder that becomes FOLDER/NAME.
+Result<fs::path> emptied_staging_folder(const fs::path& dataset, const std::string& name) {
+  const fs::path folder = staging_folder_of(dataset) / name;
   std::error_code code;
   fs::remove_all(folder, code);
   if (!code) fs::create_directories(folder, code);
@@ -39,9 +39,9 @@ Result<fs::path> begun(const fs::path& dataset, const std::string& name) {
   return folder;
 }
 
-// Gives what was made in the workshop its place, which is free; a folder in which there is nothing is not there.
-Result<void> put_in_place(const fs::path& dataset, const std::string& name) {
-  const fs::path made = workshop_of(dataset) / name;
+// Gives what was made in the staging folder its place, which is free; a folder in which there is nothing is not there.
+Result<void> commit(const fs::path& dataset, const std::string& name) {
+  const fs::path made = staging_folder_of(dataset) / name;
   if (const Result<void> step = flush_all(made); !step) return step;
   std::error_code code;
   if (fs::is_empty(made, code))
@@ -53,32 +53,32 @@ Result<void> put_in_place(const fs::path& dataset, const std::string& name) {
 }
 
 // A file of the dataset's own, whose place is free: it appears there when it is on the disk.
-Result<void> write_own(const fs::path& dataset, const std::string& name, const std::string& text) {
-  const Result<fs::path> room = begun(dataset, "new");
-  if (!room) return fail(room.error());
-  if (const Result<void> step = write_text(*room / name, text, false); !step) return step;
-  std::error_code code = rename_new(*room / name, dataset / name);
+Result<void> write_dataset_file(const fs::path& dataset, const std::string& name, const std::string& text) {
+  const Result<fs::path> staging = emptied_staging_folder(dataset, "new");
+  if (!staging) return fail(staging.error());
+  if (const Result<void> step = write_text(*staging / name, text, false); !step) return step;
+  std::error_code code = rename_new(*staging / name, dataset / name);
   if (code) return fail((dataset / name).string(), "cannot be written: " + code.message(), ErrorKind::write_failed);
-  fs::remove(*room, code);
+  fs::remove(*staging, code);
   return {};
 }
 
-// Files of splits/ and labels/, made in the workshop.
+// Files of splits/ and labels/, made in the staging folder.
 Result<std::vector<DatasetFile>> shared_files(const Plan& plan, const fs::path& dataset,
                                               const std::vector<FinishedVideo>& videos,
                                               const std::atomic<bool>* cancel) {
-  const Result<fs::path> splits = begun(dataset, "splits");
+  const Result<fs::path> splits = emptied_staging_folder(dataset, "splits");
   if (!splits) return fail(splits.error());
-  const Result<fs::path> labels = begun(dataset, "labels");
+  const Result<fs::path> labels = emptied_staging_folder(dataset, "labels");
   if (!labels) return fail(labels.error());
   Result<void> step = write_splits(*splits, videos);
   if (step) step = merge_labels({.dataset = dataset, .folder = *labels, .name = plan.name, .cancel = cancel}, videos);
   if (!step) return fail(step.error());
-  KnownFiles known;
+  ChecksumCache known;
   for (const FinishedVideo& one : videos) known.remember(dataset / one.video->name, one.entry);
   std::vector<DatasetFile> files;
   for (const std::string name : kSharedFolders) {
-    Result<std::vector<DatasetFile>> found = files_in(workshop_of(dataset) / name, {}, known, cancel);
+    Result<std::vector<DatasetFile>> found = files_in(staging_folder_of(dataset) / name, {}, known, cancel);
     if (!found) return found;
     for (DatasetFile& file : *found) {
       file.path = name + "/" + file.path;
@@ -129,7 +129,7 @@ Json index_of(const Plan& plan, const DatasetSource& source, const std::vector<F
   }
   std::vector<const PlannedVideo*> planned;
   for (const PlannedVideo& video : plan.videos) planned.push_back(&video);
-  for (const auto& [condition, count] : redraws_of(planned)) json["redraws"][condition] = count;
+  for (const auto& [condition, count] : resamples_of(planned)) json["redraws"][condition] = count;
   json["impossible"] = Json::array();
   for (const ImpossibleVideo& one : plan.impossible)
     json["impossible"].push_back({{"name", one.name}, {"why", one.why}});
@@ -160,11 +160,11 @@ Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, c
   index["shared_files"] = described(*shared, "");
   index["checksum"] = checksum_of_text(checksums);
   Result<void> step = check_shared_files(dataset);  // making them took its time
-  if (step) step = write_own(dataset, kChecksumsName, checksums);
+  if (step) step = write_dataset_file(dataset, kChecksumsName, checksums);
   if (step) step = flush(dataset);
   for (const char* const name : kSharedFolders)
-    if (step) step = put_in_place(dataset, name);
-  if (step) step = write_own(dataset, kIndexName, json_text(index));
+    if (step) step = commit(dataset, name);
+  if (step) step = write_dataset_file(dataset, kIndexName, json_text(index));
   if (step) step = flush(dataset);
   if (!step) return fail(step.error());
   DatasetIndex made{.written = {dataset / kIndexName, dataset / kChecksumsName}, .checksum = index["checksum"]};

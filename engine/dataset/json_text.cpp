@@ -10,8 +10,8 @@ Json described(const PlannedVideo& video) {
   json["tags"] = Json::object();
   for (const auto& [key, value] : video.tags) json["tags"][key] = value;
   json["drawn"] = Json::object();
-  for (const auto& [key, value] : video.drawn) json["drawn"][key] = value;
-  for (const auto& [condition, count] : video.redraws) json["redraws"][condition] = count;
+  for (const auto& [key, value] : video.sampled) json["drawn"][key] = value;
+  for (const auto& [condition, count] : video.resamples) json["redraws"][condition] = count;
   return json;
 }
 

@@ -13,7 +13,7 @@ namespace sigs {
 // Keys stay in the order in which they are put.
 using Json = nlohmann::ordered_json;
 
-// What a video is: name, split, tags, drawn.
+// What a video is: name, split, tags, sampled.
 [[nodiscard]] Json described(const PlannedVideo& video);
 
 // A list of files; before: put before each path.

@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "annotation/text_file.h"
 #include "base/nesting.h"
+#include "dataset/line_reader.h"
 #include "dataset/merge_formats.h"
-#include "dataset/written_lines.h"
+#include "labels/text_file.h"
 
 namespace sigs {
 
@@ -70,15 +70,15 @@ struct Head {
   Json tracks;
 };
 
-Json parsed(const std::string& text, WrittenLines& lines) {
+Json parsed(const std::string& text, LineReader& lines) {
   Json json(Json::value_t::discarded);
-  if (json_depth(text) <= kDeepestNesting) json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) lines.blame();
+  if (json_depth(text) <= kMaxNesting) json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) lines.mark_malformed();
   return json;
 }
 
 // The head of one video's file, up to its annotations.
-Head read_head(WrittenLines& lines) {
+Head read_head(LineReader& lines) {
   Head head;
   static_cast<void>(lines.between("{", ""));
   head.info = parsed(lines.between("\"info\": ", ","), lines);
@@ -93,7 +93,7 @@ Head read_head(WrittenLines& lines) {
 
 // Calls put(item) for each line of the list that begins here. Returns how many there were.
 template <class Put>
-Result<std::int64_t> each_item(WrittenLines& lines, const std::string& begin, const Put& put) {
+Result<std::int64_t> each_item(LineReader& lines, const std::string& begin, const Put& put) {
   static_cast<void>(lines.between(begin, ""));
   std::int64_t count = 0;
   for (;; ++count) {
@@ -105,7 +105,7 @@ Result<std::int64_t> each_item(WrittenLines& lines, const std::string& begin, co
     if (!item.is_object()) break;
     if (const Result<void> step = put(item); !step) return fail(step.error());
   }
-  lines.blame();
+  lines.mark_malformed();
   return fail(lines.state().error());
 }
 
@@ -127,7 +127,7 @@ class CocoMerge {
     Json info;
     Json categories;
     for (const VideoLabels& video : labels_.videos) {
-      WrittenLines lines(video.path);
+      LineReader lines(video.path);
       Head head = read_head(lines);
       if (const Result<void> state = lines.state(); !state) return state;
       const Offsets offsets{.video = static_cast<std::int64_t>(videos.size()),
@@ -155,14 +155,14 @@ class CocoMerge {
     return step;
   }
 
-  // Numbers of pictures are known after the annotations that name them, so each file is gone through twice.
+  // Numbers of images are known after the annotations that name them, so each file is gone through twice.
   Result<void> put_annotations() {
     List list(out_);
     Offsets so_far;
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
       offsets_[i].annotation = so_far.annotation;
       offsets_[i].image = so_far.image;
-      WrittenLines lines(labels_.videos[i].path);
+      LineReader lines(labels_.videos[i].path);
       static_cast<void>(read_head(lines));
       const Result<std::int64_t> annotations = each_item(lines, "\"annotations\": [", [&](Json annotation) {
         renumber_annotation(annotation, offsets_[i]);
@@ -182,7 +182,7 @@ class CocoMerge {
     List list(out_);
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
       const VideoLabels& video = labels_.videos[i];
-      WrittenLines lines(video.path);
+      LineReader lines(video.path);
       static_cast<void>(read_head(lines));
       const Result<std::int64_t> annotations =
           each_item(lines, "\"annotations\": [", [](const Json&) { return Result<void>(); });

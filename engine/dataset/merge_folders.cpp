@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "annotation/label_words.h"
-#include "annotation/picture_links.h"
-#include "annotation/text_file.h"
-#include "annotation/yaml_text.h"
 #include "base/folder_contents.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "dataset/merge_formats.h"
+#include "labels/hard_link.h"
+#include "labels/label_text.h"
+#include "labels/text_file.h"
+#include "labels/yaml_text.h"
 
 namespace sigs {
 
@@ -51,24 +51,24 @@ std::string from_line(const std::string& text, const std::string& begin) {
   return place == std::string::npos ? std::string() : text.substr(place + 1);
 }
 
-// The pictures of a split, a folder for each video, as seen from where `from` leads to the dataset.
+// The images of a split, a folder for each video, as seen from where `from` leads to the dataset.
 Result<std::string> yolo_list(const SplitLabels& labels, const std::string& from) {
   std::string list;
   for (const VideoLabels& video : labels.videos) {
-    // As labels/yolo's writer lays them: one folder in labels/, and in images/ where there are pictures.
+    // As labels/yolo's writer lays them: one folder in labels/, and in images/ where there are images.
     const Result<std::vector<fs::path>> folders = folder_contents(video.path / "labels");
     if (!folders) return fail(folders.error());
     for (const fs::path& folder : *folders) {
       if (!is_folder(folder)) continue;  // readers leave caches there
-      const fs::path pictures = fs::path(from) / video.video / video.path.filename() / "images" / folder.filename();
-      list += "  - " + yaml_text(pictures.string()) + "\n";
+      const fs::path images = fs::path(from) / video.video / video.path.filename() / "images" / folder.filename();
+      list += "  - " + yaml_text(images.string()) + "\n";
     }
   }
   return list;
 }
 
 // Readers ask for train and val: where there is no such split, another stands for it.
-const SplitLabels& stand_in(const std::vector<SplitLabels>& splits, const char* name) {
+const SplitLabels& substitute_split(const std::vector<SplitLabels>& splits, const char* name) {
   for (const char* const wanted : {name, "test", "train"})
     for (const SplitLabels& labels : splits)
       if (labels.split == wanted) return labels;
@@ -128,7 +128,7 @@ Result<void> merge_yolo(const std::vector<SplitLabels>& splits, const fs::path& 
     return {};
   };
   for (const char* const name : {"train", "val"}) {
-    const SplitLabels& labels = stand_in(splits, name);
+    const SplitLabels& labels = substitute_split(splits, name);
     if (labels.split != name)
       text += "# There is no split of this name: " + yaml_text(labels.split) + " stands for it.\n";
     if (const Result<void> step = add(name, labels); !step) return step;

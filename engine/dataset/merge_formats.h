@@ -26,7 +26,7 @@ struct SplitLabels {
 // Each puts the labels of several videos together, reading them line by line, so that memory does not grow with them.
 // Errors: bad_data where a file is not as this program writes it, cannot_read, cannot_create, write_failed.
 
-// One file, ids numbered on from video to video. Names of pictures start from the dataset's folder.
+// One file, ids numbered on from video to video. Names of images start from the dataset's folder.
 [[nodiscard]] Result<void> merge_coco(const SplitLabels& labels, const std::filesystem::path& file);
 
 // One file with the samples (flights) of all.
@@ -44,7 +44,7 @@ struct SplitLabels {
 // folder/SPLIT/ with list.txt and the sequences.
 [[nodiscard]] Result<void> merge_vot(const SplitLabels& labels, const std::filesystem::path& folder);
 
-// folder/data.yaml, which names the pictures of all splits where they lie, in the videos' own folders. `from` is the
+// folder/data.yaml, which names the images of all splits where they lie, in the videos' own folders. `from` is the
 // dataset's folder as seen from data.yaml.
 [[nodiscard]] Result<void> merge_yolo(const std::vector<SplitLabels>& splits, const std::filesystem::path& folder,
                                       const std::string& from);

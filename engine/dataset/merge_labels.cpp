@@ -7,9 +7,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "annotation/label_words.h"
-#include "annotation/labels.h"
 #include "dataset/merge_formats.h"
+#include "labels/label_text.h"
+#include "labels/labels.h"
 
 namespace sigs {
 

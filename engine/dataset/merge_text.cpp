@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "annotation/text_file.h"
+#include "dataset/line_reader.h"
 #include "dataset/merge_formats.h"
-#include "dataset/written_lines.h"
+#include "labels/text_file.h"
 
 namespace sigs {
 
@@ -12,9 +12,9 @@ Result<void> merge_csv(const SplitLabels& labels, const fs::path& file) {
   if (!out) return fail(out.error());
   std::optional<std::string> header;
   for (const VideoLabels& video : labels.videos) {
-    WrittenLines lines(video.path);
+    LineReader lines(video.path);
     const std::optional<std::string> first = lines.next();
-    if (!first || (header && *first != *header)) lines.blame();
+    if (!first || (header && *first != *header)) lines.mark_malformed();
     if (!header && first)
       if (const Result<void> put = out->put(*first + "\n"); !put) return put;
     if (!header) header = first;
@@ -38,7 +38,7 @@ Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
   if (!out) return fail(out.error());
   std::string before;
   for (const VideoLabels& video : labels.videos) {
-    WrittenLines lines(video.path);
+    LineReader lines(video.path);
     const std::string metadata = lines.between("{\"metadata\": ", ",");
     const std::string sample = lines.between(kSamples, "");
     before += before.empty() ? "{\"metadata\": " + metadata + ",\n" + std::string(kSamples) : ",\n";
@@ -46,7 +46,7 @@ Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
     std::optional<std::string> line = lines.next();
     for (; line && *line != kEnd; line = lines.next())
       if (const Result<void> put = out->put(*line + "\n"); !put) return put;
-    if (!line) lines.blame();
+    if (!line) lines.mark_malformed();
     if (const Result<void> state = lines.state(); !state) return state;
     before = "]}";
   }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "dataset/footage_book.h"
+#include "dataset/footage_cache.h"
 #include "dataset/splits.h"
-#include "dataset/video_draw.h"
 #include "dataset/video_name.h"
-#include "dataset/video_view.h"
+#include "dataset/video_sample.h"
+#include "dataset/video_visibility.h"
 #include "project/validate.h"
 
 namespace sigs {
@@ -21,42 +21,42 @@ std::size_t index_of(const std::vector<Named>& all, const std::string& name) {
   return static_cast<std::size_t>(place - all.begin());
 }
 
-std::vector<Cast> casts_of(const Recipe& recipe, std::size_t group_index) {
+std::vector<VideoSpec> specs_of(const Recipe& recipe, std::size_t group_index) {
   const VideoGroup& group = recipe.groups[group_index];
-  std::vector<Cast> casts;
-  if (group.is_drawn) {
+  std::vector<VideoSpec> specs;
+  if (group.is_sampled) {
     for (int number = 1; number <= group.count; ++number)
-      casts.push_back({.group = group_index, .name = name_from(group.name, {.number = number})});
-    return casts;
+      specs.push_back({.group = group_index, .name = name_from(group.name, {.number = number})});
+    return specs;
   }
   for (const std::string& background : group.backgrounds)
     for (const std::string& aircraft : group.aircraft)
       for (std::size_t flight = 0; flight < group.flights.size(); ++flight)
         for (int number = 1; number <= group.count; ++number)
-          casts.push_back({.group = group_index,
+          specs.push_back({.group = group_index,
                            .name = name_from(group.name, {background, aircraft, group.flights[flight].name, number}),
                            .background = index_of(recipe.backgrounds, background),
                            .aircraft = index_of(recipe.aircraft, aircraft),
                            .flight = flight});
-  return casts;
+  return specs;
 }
 
-Result<std::vector<Cast>> all_casts(const Recipe& recipe) {
-  std::vector<Cast> casts;
+Result<std::vector<VideoSpec>> all_specs(const Recipe& recipe) {
+  std::vector<VideoSpec> specs;
   std::map<std::string, std::size_t> group_of_name;
   for (std::size_t i = 0; i < recipe.groups.size(); ++i) {
     const std::string key = recipe.file.string() + ": videos[" + std::to_string(i) + "].name";
-    for (Cast& cast : casts_of(recipe, i)) {
-      if (const std::string wrong = wrong_with_video_name(cast.name); !wrong.empty())
-        return fail(key, "gives \"" + cast.name + "\", which " + wrong);
-      const auto [place, is_new] = group_of_name.emplace(folded(cast.name), i);
+    for (VideoSpec& spec : specs_of(recipe, i)) {
+      if (const std::string wrong = wrong_with_video_name(spec.name); !wrong.empty())
+        return fail(key, "gives \"" + spec.name + "\", which " + wrong);
+      const auto [place, is_new] = group_of_name.emplace(case_folded(spec.name), i);
       if (!is_new)
-        return fail(key, "gives \"" + cast.name + "\", which videos[" + std::to_string(place->second) +
+        return fail(key, "gives \"" + spec.name + "\", which videos[" + std::to_string(place->second) +
                              "] gives already; names must differ in more than case, as by {number}");
-      casts.push_back(std::move(cast));
+      specs.push_back(std::move(spec));
     }
   }
-  return casts;
+  return specs;
 }
 
 Result<void> check_projects(const Recipe& recipe, const Plan& plan) {
@@ -82,81 +82,81 @@ Result<void> split_up(const Recipe& recipe, Plan& plan) {
   return {};
 }
 
-// What stood against a draw: the quantity that its reason begins with.
+// What stood against a sample: the quantity that its reason begins with.
 std::string condition_of(const std::string& why) {
   return why.substr(0, std::min(why.find(':'), why.find(" in frame")));
 }
 
-// Draws the recipe's videos one by one.
+// Samples the recipe's videos one by one.
 class Planner {
  public:
   Planner(const Recipe& recipe, const std::vector<Result<OpenedBackground>>& backgrounds)
       : recipe_(recipe), backgrounds_(backgrounds) {
     for (std::size_t i = 0; i < backgrounds.size(); ++i)
-      if (backgrounds[i]) viewer_.remember(recipe.backgrounds[i].footage.video, backgrounds[i]->footage);
+      if (backgrounds[i]) estimator_.remember(recipe.backgrounds[i].footage.video, backgrounds[i]->footage);
   }
 
-  void add(const Cast& cast, Plan& plan);
+  void add(const VideoSpec& spec, Plan& plan);
 
  private:
-  // A draw, or why it is none; where a video may be drawn again it must be seen, too.
-  [[nodiscard]] tl::expected<PlannedVideo, std::string> one_draw(const Cast& cast, const OpenedBackground& background,
-                                                                 int again);
+  // A sample, or why it is none; where a video may be sampled anew it must be seen, too.
+  [[nodiscard]] tl::expected<PlannedVideo, std::string> one_sample(const VideoSpec& spec,
+                                                                   const OpenedBackground& background, int again);
 
   const Recipe& recipe_;
   const std::vector<Result<OpenedBackground>>& backgrounds_;
-  VideoViewer viewer_;
+  VideoVisibility estimator_;
 };
 
-tl::expected<PlannedVideo, std::string> Planner::one_draw(const Cast& cast, const OpenedBackground& background,
-                                                          int again) {
-  tl::expected<PlannedVideo, std::string> video = drawn_video(recipe_, cast, background, again);
-  if (!video || !recipe_.groups[cast.group].redraws) return video;
-  const std::optional<Visibility> view = viewer_.view_of(video->project, kFramesLookedAt);
+tl::expected<PlannedVideo, std::string> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background,
+                                                            int again) {
+  tl::expected<PlannedVideo, std::string> video = sampled_video(recipe_, spec, background, again);
+  if (!video || !recipe_.groups[spec.group].resamples) return video;
+  const std::optional<Visibility> view = estimator_.visibility_of(video->project, kVisibilityFrames);
   if (view && view->visible == 0)
     return tl::unexpected(std::string("never in the picture: the intruder is beside it or behind the own body"));
   return video;
 }
 
-void Planner::add(const Cast& cast, Plan& plan) {
-  const std::optional<int>& redraws = recipe_.groups[cast.group].redraws;
+void Planner::add(const VideoSpec& spec, Plan& plan) {
+  const std::optional<int>& resamples = recipe_.groups[spec.group].resamples;
   std::map<std::string, int> failed;
   std::string why;
-  for (int again = 0; again <= redraws.value_or(0); ++again) {
-    const Cast drawn = drawn_cast(recipe_, cast, again);
-    const Result<OpenedBackground>& background = backgrounds_.at(drawn.background);
+  for (int again = 0; again <= resamples.value_or(0); ++again) {
+    const VideoSpec sampled = sampled_spec(recipe_, spec, again);
+    const Result<OpenedBackground>& background = backgrounds_.at(sampled.background);
     if (!background) {
-      plan.unopened.push_back({cast.name, background.error()});
+      plan.unopened.push_back({spec.name, background.error()});
       return;
     }
-    tl::expected<PlannedVideo, std::string> video = one_draw(drawn, *background, again);
+    tl::expected<PlannedVideo, std::string> video = one_sample(sampled, *background, again);
     if (video) {
-      video->redraws = std::move(failed);
+      video->resamples = std::move(failed);
       plan.videos.push_back(*std::move(video));
       return;
     }
     why = video.error();
     ++failed[condition_of(why)];
   }
-  if (redraws)
-    why = "none of " + std::to_string(*redraws + 1) + " draws can be used: " + redraws_text(failed) +
-          "; change what is drawn from, or raise videos[" + std::to_string(cast.group) +
+  if (resamples)
+    why = "none of " + std::to_string(*resamples + 1) + " samples can be used: " + resamples_text(failed) +
+          "; change what is sampled from, or raise videos[" + std::to_string(spec.group) +
           "].redraws; the last one: " + why;
-  plan.impossible.push_back({cast.name, why});
+  plan.impossible.push_back({spec.name, why});
 }
 
 }  // namespace
 
 Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
-  const Result<std::vector<Cast>> casts = all_casts(recipe);
-  if (!casts) return fail(casts.error());
+  const Result<std::vector<VideoSpec>> specs = all_specs(recipe);
+  if (!specs) return fail(specs.error());
   const Result<std::vector<Result<OpenedBackground>>> backgrounds = opened_backgrounds(recipe);
   if (!backgrounds) return fail(backgrounds.error());
   Plan plan{.name = recipe.name};
   Planner planner(recipe, *backgrounds);
-  for (const Cast& cast : *casts) {
+  for (const VideoSpec& spec : *specs) {
     if (cancel != nullptr && *cancel) return fail("", "interrupted", ErrorKind::interrupted);
-    planner.add(cast, plan);
+    planner.add(spec, plan);
   }
   Result<void> step = check_projects(recipe, plan);
   if (step) step = split_up(recipe, plan);
@@ -164,15 +164,15 @@ Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
   return plan;
 }
 
-std::map<std::string, int> redraws_of(const std::vector<const PlannedVideo*>& videos) {
-  std::map<std::string, int> redraws;
+std::map<std::string, int> resamples_of(const std::vector<const PlannedVideo*>& videos) {
+  std::map<std::string, int> resamples;
   for (const PlannedVideo* const video : videos)
-    for (const auto& [condition, count] : video->redraws) redraws[condition] += count;
-  return redraws;
+    for (const auto& [condition, count] : video->resamples) resamples[condition] += count;
+  return resamples;
 }
 
-std::string redraws_text(const std::map<std::string, int>& redraws) {
-  std::vector<std::pair<std::string, int>> list(redraws.begin(), redraws.end());
+std::string resamples_text(const std::map<std::string, int>& resamples) {
+  std::vector<std::pair<std::string, int>> list(resamples.begin(), resamples.end());
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
   for (const auto& [condition, count] : list) {

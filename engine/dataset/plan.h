@@ -18,8 +18,8 @@ struct PlannedVideo {
   Project project;   // its paths are absolute
   std::string split;
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
-  std::map<std::string, double> drawn;      // what was drawn or fixed for it: "miss_distance_m", ...
-  std::map<std::string, int> redraws;       // how often it was drawn again, by what stood against the draw
+  std::map<std::string, double> sampled;    // what was sampled or fixed for it: "miss_distance_m", ...
+  std::map<std::string, int> resamples;     // how often it was sampled anew, by what stood against the sample
 };
 
 // A video that cannot be: the intruder under the ground, a closing speed that cannot meet the miss distance, ...
@@ -28,7 +28,7 @@ struct ImpossibleVideo {
   std::string why;  // one line that names the quantity
 };
 
-// A video whose background cannot be opened; once that is mended it can be.
+// A video whose background cannot be opened; once that is repaired it can be.
 struct UnopenedVideo {
   std::string name;
   Error error;  // names recipe and key
@@ -41,17 +41,17 @@ struct Plan {
   std::vector<UnopenedVideo> unopened;
 };
 
-// Expands a recipe. Draws depend on seed, video and quantity alone: not on order, nor on how many videos there are.
+// Expands a recipe. Samples depend on seed, video and quantity alone: not on order, nor on how many videos there are.
 // Opens the footage that the recipe names, to know its length; where a
 // clip cannot be opened its videos are `unopened`, where none can it is an error. A video that cannot be flown or is
-// never seen is drawn again, as often as its group allows; one that is not made after that is impossible, with what
+// never seen is sampled anew, as often as its group allows; one that is not made after that is impossible, with what
 // stood against it and how often. Errors: what is wrong with the recipe as a whole; interrupted.
 [[nodiscard]] Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel = nullptr);
 
 // Of several videos together.
-[[nodiscard]] std::map<std::string, int> redraws_of(const std::vector<const PlannedVideo*>& videos);
+[[nodiscard]] std::map<std::string, int> resamples_of(const std::vector<const PlannedVideo*>& videos);
 
 // "never in the picture 4 times; speed_mps once"; the most frequent one first.
-[[nodiscard]] std::string redraws_text(const std::map<std::string, int>& redraws);
+[[nodiscard]] std::string resamples_text(const std::map<std::string, int>& resamples);
 
 }  // namespace sigs

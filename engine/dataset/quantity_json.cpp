@@ -12,8 +12,8 @@ namespace sigs {
 
 namespace {
 
-constexpr double kLargest = 1e12;     // of any number that a recipe gives
-constexpr double kFarthestBound = 8;  // deviations from the mean at which hardly anything is left to draw from
+constexpr double kMaxNumber = 1e12;        // of any number that a recipe gives
+constexpr double kMaxBoundDeviations = 8;  // deviations from the mean at which hardly anything is left to sample from
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Read = tl::expected<Quantity, std::string>;
@@ -21,7 +21,7 @@ using Read = tl::expected<Quantity, std::string>;
 std::optional<double> number_of(const Json& json) {
   if (!json.is_number()) return std::nullopt;
   const double number = json.get<double>();
-  return std::abs(number) <= kLargest ? std::optional(number) : std::nullopt;
+  return std::abs(number) <= kMaxNumber ? std::optional(number) : std::nullopt;
 }
 
 Read uniform_of(const Json& json) {
@@ -61,9 +61,10 @@ Read normal_of(const Json& json) {
     has_mean = has_mean || key == "mean";
   }
   if (!has_mean || normal.deviation < 0 || normal.low > normal.high) return tl::unexpected(expected);
-  const double reach = kFarthestBound * normal.deviation;
-  if (normal.low > normal.mean + reach || normal.high < normal.mean - reach)
-    return tl::unexpected(std::string("the bounds lie more than 8 deviations from the mean; nothing is left to draw"));
+  const double max_offset = kMaxBoundDeviations * normal.deviation;
+  if (normal.low > normal.mean + max_offset || normal.high < normal.mean - max_offset)
+    return tl::unexpected(
+        std::string("the bounds lie more than 8 deviations from the mean; nothing is left to sample"));
   return normal;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <tl/expected.hpp>
 
-#include "dataset/draw.h"
+#include "dataset/sample.h"
 #include "project/field_json.h"
 
 namespace sigs {

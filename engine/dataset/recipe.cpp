@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "dataset/quantity_json.h"
 #include "dataset/recipe_node.h"
 #include "dataset/recipe_sections.h"
@@ -51,7 +51,7 @@ Background read_background(RecipeNode node, const Project& base, const std::vect
   read_section(node, "footage", "footage", project);
   read_section(node, "camera", "camera", project);
   read_section(node, "light", "light", project);
-  put_over(settings, project);
+  apply_settings(settings, project);
   background.footage = project.footage;
   background.camera = project.camera;
   background.light = project.light;
@@ -102,7 +102,7 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
     recipe.backgrounds.push_back(read_background(background, recipe.base, settings));
   for (const RecipeNode& aircraft : node.nodes("aircraft"))
     recipe.aircraft.push_back(read_aircraft(aircraft, recipe.base));
-  warn_of_overruled(node);
+  warn_of_overridden(node);
   check_names(recipe.backgrounds, "backgrounds", node.log());
   check_names(recipe.aircraft, "aircraft", node.log());
   read_splits(node, recipe);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "dataset/draw.h"
 #include "dataset/flight_quantities.h"
+#include "dataset/sample.h"
 #include "project/project.h"
 
 namespace sigs {
@@ -44,20 +44,20 @@ struct LightPlan {
 };
 
 // A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each; or `count` videos
-// whose background, aircraft and flight are drawn.
+// whose background, aircraft and flight are sampled.
 struct VideoGroup {
   std::string name;  // pattern: {background} {aircraft} {flight} {number}
   std::vector<std::string> backgrounds;
   std::vector<std::string> aircraft;
   std::vector<FlightPlan> flights;
-  bool is_drawn = false;
+  bool is_sampled = false;
   int count = 1;
-  std::optional<int> redraws;  // how often at most a video that cannot be flown or is never seen is drawn again; none:
-                               // it is drawn once, and made though it is never seen
-  std::vector<LightPlan> lights;  // one of them is drawn; empty: the background's light
+  std::optional<int> resamples;  // how often at most a video that cannot be flown or is never seen is sampled anew;
+                                 // none: it is sampled once, and made though it is never seen
+  std::vector<LightPlan> lights;  // one of them is sampled; empty: the background's light
   std::optional<int> frames;      // length; none: to the end of what the background has
   Quantity first_frame;           // counted from the background's first one; the whole part is taken
-  std::string split;              // fixed; empty: drawn
+  std::string split;              // fixed; empty: sampled
   std::map<std::string, std::string> tags;
 };
 

@@ -14,7 +14,7 @@ namespace sigs {
 namespace {
 
 // What the recipe itself says for each video; where to say it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOwned{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPerVideoSettings{
     {{"name", "videos[].name"},
      {"footage.", "backgrounds[].footage"},
      {"intruders[0].name", "aircraft[].name"},
@@ -36,10 +36,10 @@ Json::json_pointer pointer_of(const std::string& key) {
 }
 
 // Of what is left once all fields are taken out.
-void judge_rest(const Json& rest, const std::string& key, RecipeLog& log) {
+void warn_of_unknown_keys(const Json& rest, const std::string& key, RecipeLog& log) {
   for (const auto& [name, item] : rest.items())
     if (item.is_object())
-      judge_rest(item, key + "." + name, log);
+      warn_of_unknown_keys(item, key + "." + name, log);
     else
       log.warn(key + "." + name, "unknown key, not used");
 }
@@ -67,13 +67,13 @@ void put_section(const Json& section, const std::string& project_key, const std:
       log.wrong(key + "." + name, wrong);
     rest.at(place.parent_pointer()).erase(place.back());
   }
-  judge_rest(rest, key, log);
+  warn_of_unknown_keys(rest, key, log);
 }
 
 // What is wrong with a setting for all videos; empty: nothing, and the project has it.
 std::string put_setting(const std::string& assignment, Project& base) {
   const std::string key = assignment.substr(0, assignment.find('='));
-  for (const auto& [owned, owner] : kOwned)
+  for (const auto& [owned, owner] : kPerVideoSettings)
     if (owned.ends_with('.') ? key.starts_with(owned) : key == owned)
       return "is not the same for all videos; say it in " + std::string(owner);
   const Result<void> set = set_field(base, assignment);
@@ -121,13 +121,13 @@ void add_settings(const std::vector<std::string>& more, std::vector<std::string>
   }
 }
 
-void put_over(const std::vector<std::string>& settings, Project& project) {
+void apply_settings(const std::vector<std::string>& settings, Project& project) {
   for (const std::string& setting : settings)
     if (!set_field(project, setting)) return;  // add_settings() has told of it
   make_paths_absolute(project);
 }
 
-void warn_of_overruled(RecipeNode& recipe) {
+void warn_of_overridden(RecipeNode& recipe) {
   const Json* const settings = recipe.value("settings");
   const Json* const backgrounds = recipe.value("backgrounds");
   if (settings == nullptr || !settings->is_object() || backgrounds == nullptr || !backgrounds->is_array()) return;

@@ -21,9 +21,9 @@ void add_settings(const std::vector<std::string>& more, std::vector<std::string>
                   RecipeLog& log);
 
 // Puts KEY=VALUE that add_settings() has taken over what a background says of itself.
-void put_over(const std::vector<std::string>& settings, Project& project);
+void apply_settings(const std::vector<std::string>& settings, Project& project);
 
 // Warns of the recipe's settings of camera and light that each of its backgrounds says otherwise.
-void warn_of_overruled(RecipeNode& recipe);
+void warn_of_overridden(RecipeNode& recipe);
 
 }  // namespace sigs

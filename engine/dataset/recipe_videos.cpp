@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "dataset/light_draw.h"
+#include "dataset/light_sample.h"
 #include "dataset/quantity_json.h"
 #include "dataset/short_text.h"
 #include "dataset/video_name.h"
@@ -14,12 +14,12 @@ namespace sigs {
 
 namespace {
 
-constexpr int kMostVideos = 100'000;
-constexpr int kMostFrames = 1'000'000'000;
-constexpr int kRedraws = 100;  // of drawn groups that do not say
-constexpr int kMostRedraws = 10'000;
+constexpr int kMaxVideos = 100'000;
+constexpr int kMaxFrames = 1'000'000'000;
+constexpr int kResamples = 100;  // of sampled groups that do not say
+constexpr int kMaxResamples = 10'000;
 
-// What a drawn group flies that does not say. docs/dataset.md shows it.
+// What a sampled group flies that does not say. docs/dataset.md shows it.
 constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
   "miss_distance_m": {"uniform": [0, 150]}, "miss_angle_deg": {"uniform": [-180, 180]},
   "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},
@@ -104,11 +104,11 @@ FlightPlan read_flight(RecipeNode node) {
 }
 
 // A flight that is a text is its kind, all else as it comes.
-std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_drawn) {
+std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_sampled) {
   static const Json random_encounter = Json::parse(kRandomEncounter);
   std::vector<FlightPlan> flights;
   const Json* list = group.value("flights");
-  if (list == nullptr && is_drawn) list = &random_encounter;
+  if (list == nullptr && is_sampled) list = &random_encounter;
   if (list == nullptr || !list->is_array() || list->empty()) {
     group.log().wrong(group.key_of("flights"), "expected a list of at least one flight");
     return flights;
@@ -132,27 +132,28 @@ void check_split(const std::string& split, RecipeNode& group, const Recipe& reci
 
 // How many videos, of each combination or in all.
 void read_count(RecipeNode& node, VideoGroup& group) {
-  const std::optional<int> videos = node.whole("videos", 1, kMostVideos);
-  const std::optional<int> count = node.whole("count", 1, kMostVideos);
-  group.is_drawn = node.value("videos") != nullptr;
-  if (group.is_drawn && node.value("count") != nullptr)
-    node.log().wrong(node.key_of("count"), "counts each combination, videos draws so many in all; give one of the two");
+  const std::optional<int> videos = node.whole("videos", 1, kMaxVideos);
+  const std::optional<int> count = node.whole("count", 1, kMaxVideos);
+  group.is_sampled = node.value("videos") != nullptr;
+  if (group.is_sampled && node.value("count") != nullptr)
+    node.log().wrong(node.key_of("count"),
+                     "counts each combination, videos samples so many in all; give one of the two");
   group.count = videos.value_or(count.value_or(1));
-  group.redraws = node.whole("redraws", 0, kMostRedraws);
-  if (group.is_drawn && !group.redraws) group.redraws = kRedraws;
+  group.resamples = node.whole("redraws", 0, kMaxResamples);
+  if (group.is_sampled && !group.resamples) group.resamples = kResamples;
 }
 
 std::string standard_name(const VideoGroup& group) {
-  if (group.is_drawn) return "video-{number}";
+  if (group.is_sampled) return "video-{number}";
   return group.count > 1 ? "{background}-{aircraft}-{flight}-{number}" : "{background}-{aircraft}-{flight}";
 }
 
-// Draws belong to the video's name, so that cannot hold what is drawn.
-void check_drawn_name(const VideoGroup& group, RecipeNode& node) {
+// Samples belong to the video's name, so it cannot hold what is sampled.
+void check_sampled_name(const VideoGroup& group, RecipeNode& node) {
   for (const char* const part : {"{background}", "{aircraft}", "{flight}"})
     if (group.name.find(part) != std::string::npos)
       node.log().wrong(node.key_of("name"),
-                       std::string("has ") + part + ", which is drawn for each name; use {number} alone");
+                       std::string("has ") + part + ", which is sampled for each name; use {number} alone");
   if (group.count > 1 && group.name.find("{number}") == std::string::npos)
     node.log().wrong(node.key_of("name"), "is the same for " + std::to_string(group.count) + " videos; add {number}");
 }
@@ -162,17 +163,17 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<s
   read_count(node, group);
   group.backgrounds = picked(node, "backgrounds", names_of(recipe.backgrounds));
   group.aircraft = picked(node, "aircraft", names_of(recipe.aircraft));
-  group.flights = read_flights(node, group.is_drawn);
+  group.flights = read_flights(node, group.is_sampled);
   group.lights = read_lights(node, settings);
   group.name = node.text("name").value_or(standard_name(group));
-  group.frames = node.whole("frames", 1, kMostFrames);
+  group.frames = node.whole("frames", 1, kMaxFrames);
   group.first_frame = read_quantity(node, "first_frame").value_or(Quantity{});
   if (span_of(group.first_frame).low < 0) node.log().wrong(node.key_of("first_frame"), "must not be less than 0");
   group.split = node.text("split").value_or("");
   group.tags = node.text_map("tags");
   if (const std::string wrong = wrong_with_pattern(group.name); !wrong.empty())
     node.log().wrong(node.key_of("name"), wrong);
-  if (group.is_drawn) check_drawn_name(group, node);
+  if (group.is_sampled) check_sampled_name(group, node);
   check_split(group.split, node, recipe);
   check_tags(group.tags, node);
   node.done();
@@ -200,11 +201,11 @@ std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recip
     const VideoGroup& group = groups.back();
     const double combinations =
         double(group.backgrounds.size()) * double(group.aircraft.size()) * double(group.flights.size());
-    videos += group.count * (group.is_drawn ? 1 : combinations);
+    videos += group.count * (group.is_sampled ? 1 : combinations);
   }
-  if (videos > kMostVideos)
+  if (videos > kMaxVideos)
     recipe_node.log().wrong("videos",
-                            "make " + short_text(videos) + " videos; a recipe may have " + std::to_string(kMostVideos));
+                            "make " + short_text(videos) + " videos; a recipe may have " + std::to_string(kMaxVideos));
   return groups;
 }
 

@@ -15,6 +15,6 @@ struct RelativeMotion {
 };
 
 // Least distance between the first frame and `length_s` after it.
-[[nodiscard]] double nearest_m(const RelativeMotion& motion, double length_s);
+[[nodiscard]] double min_range_m(const RelativeMotion& motion, double length_s);
 
 }  // namespace sigs

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "base/guarded.h"
+#include "base/parallel_for.h"
 #include "base/staging_folder.h"
 #include "base/stopwatch.h"
 #include "dataset/fingerprint.h"
 #include "dataset/merge_labels.h"
 #include "dataset/shared_files.h"
-#include "dataset/side_by_side.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
 #include "video/frame_source.h"
@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kListed = 20;                 // videos that a message names
-constexpr std::size_t kLongestList = 2000;  // bytes
+constexpr int kListed = 20;                  // videos that a message names
+constexpr std::size_t kMaxListBytes = 2000;  // bytes
 
 int cores() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -50,16 +50,16 @@ struct Task {
 
   std::string why_not;  // what is there is not kept
 
-  [[nodiscard]] bool is_to_do() const { return !entry && !error; }
+  [[nodiscard]] bool is_pending() const { return !entry && !error; }
   [[nodiscard]] std::string unusable() const {
     if (error) return error->text();
     return why_not.empty() ? "missing" : why_not;
   }
 };
 
-class Run {
+class DatasetRun {
  public:
-  Run(const Plan& plan, const DatasetRequest& request, const DatasetControl& control, const fs::path& dataset)
+  DatasetRun(const Plan& plan, const DatasetRequest& request, const DatasetControl& control, const fs::path& dataset)
       : plan_(plan), request_(request), control_(control), dataset_(dataset), inputs_(control.cancel) {
     for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i)
       if (!request.shard || request.shard->has(i)) tasks_.push_back({.folder = {dataset, &plan.videos[i]}});
@@ -71,15 +71,15 @@ class Run {
   [[nodiscard]] bool is_cancelled() const { return control_.cancel != nullptr && *control_.cancel; }
   [[nodiscard]] Error interrupted() const;
   void warn(const Warning& warning);
-  void look_at(Task& task);
+  void inspect(Task& task);
   [[nodiscard]] std::string outdated(const Task& task, const VideoEntry& entry);
   [[nodiscard]] Result<void> check_all_there() const;
-  [[nodiscard]] Result<void> make_missing(DatasetReport& report);
+  [[nodiscard]] Result<void> export_missing(DatasetReport& report);
   void make(Task& task, int jobs);
   void advance(Task& task, int done);
   [[nodiscard]] Result<void> write_index(DatasetReport& report);
-  void warn_of_strays();
-  [[nodiscard]] Result<void> clear_workshop() const;
+  void warn_of_unplanned_videos();
+  [[nodiscard]] Result<void> clear_staging_folder() const;
 
   const Plan& plan_;
   const DatasetRequest& request_;
@@ -92,7 +92,7 @@ class Run {
   int frames_done_ = 0;
 };
 
-Error Run::interrupted() const {
+Error DatasetRun::interrupted() const {
   const auto complete = std::count_if(tasks_.begin(), tasks_.end(), [](const Task& task) { return task.entry; });
   return {"",
           "interrupted; " + std::to_string(complete) + " of " + std::to_string(tasks_.size()) +
@@ -100,20 +100,20 @@ Error Run::interrupted() const {
           ErrorKind::interrupted};
 }
 
-void Run::warn(const Warning& warning) {
+void DatasetRun::warn(const Warning& warning) {
   const std::lock_guard lock(mutex_);
   if (control_.warn) control_.warn(warning);
 }
 
 // Why a video that is there is not kept; empty: it is.
-std::string Run::outdated(const Task& task, const VideoEntry& entry) {
+std::string DatasetRun::outdated(const Task& task, const VideoEntry& entry) {
   if (entry.planned != task.planned)
     return "was made from other settings (recipe or --set), inputs or with another program";
   const Result<std::string> damage = damage_of(task.folder.path(), entry, control_.cancel);
   return damage ? *damage : damage.error().text();
 }
 
-void Run::look_at(Task& task) {
+void DatasetRun::inspect(Task& task) {
   if (is_cancelled()) return;
   remove_abandoned_staging(task.folder.path());  // of notes that a killed run was writing
   const PlannedVideo& video = *task.folder.video;
@@ -130,7 +130,7 @@ void Run::look_at(Task& task) {
     if (entry && why.empty()) task.entry = std::move(*entry);
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
-  if (!task.is_to_do() || request_.merge_only) return;
+  if (!task.is_pending() || request_.merge_only) return;
   const Result<int> frames = frames_of(video.project, control_.cancel);
   if (frames)
     task.frames = *frames;
@@ -138,7 +138,7 @@ void Run::look_at(Task& task) {
     task.error = frames.error();
 }
 
-Result<void> Run::check_all_there() const {
+Result<void> DatasetRun::check_all_there() const {
   std::map<std::string, std::string> names_of_reason;
   int missing = 0;
   for (const Task& task : tasks_) {
@@ -151,7 +151,7 @@ Result<void> Run::check_all_there() const {
   std::string list;
   for (const auto& [reason, names] : names_of_reason) list += (list.empty() ? "" : "; ") + names + ": " + reason;
   for (const UnopenedVideo& video : plan_.unopened) {
-    if (list.size() > kLongestList) break;
+    if (list.size() > kMaxListBytes) break;
     list += (list.empty() ? "" : "; ") + video.name + ": " + video.error.text();
   }
   return fail(dataset_.string(),
@@ -159,14 +159,14 @@ Result<void> Run::check_all_there() const {
                   " cannot go into the index; --resume makes them: " + list + (missing > kListed ? "; ..." : ""));
 }
 
-void Run::advance(Task& task, int done) {
+void DatasetRun::advance(Task& task, int done) {
   const std::lock_guard lock(mutex_);
   frames_done_ += done - task.done;
   task.done = done;
   if (control_.progress && frames_to_do_ > 0) control_.progress(frames_done_, frames_to_do_);
 }
 
-void Run::make(Task& task, int jobs) {
+void DatasetRun::make(Task& task, int jobs) {
   const VideoExport wanted{.planned = task.planned,
                            .jobs = jobs,
                            .progress = [&](int done, int) { advance(task, done); },
@@ -183,20 +183,20 @@ void Run::make(Task& task, int jobs) {
   if (control_.finished) control_.finished(task.folder.video->name);
 }
 
-Result<void> Run::make_missing(DatasetReport& report) {
-  std::vector<Task*> to_do;
+Result<void> DatasetRun::export_missing(DatasetReport& report) {
+  std::vector<Task*> pending;
   for (Task& task : tasks_)
-    if (task.is_to_do()) to_do.push_back(&task);
-  if (to_do.empty()) return {};
+    if (task.is_pending()) pending.push_back(&task);
+  if (pending.empty()) return {};
   if (const Result<void> step = remove_index(dataset_); !step) return step;
-  for (const Task* const task : to_do) frames_to_do_ += task->frames;
-  const int count = static_cast<int>(to_do.size());
+  for (const Task* const task : pending) frames_to_do_ += task->frames;
+  const int count = static_cast<int>(pending.size());
   const int at_a_time = videos_at_a_time(request_, count);
   const int jobs_of_each = std::max(1, cores() / at_a_time - 1);
-  side_by_side(count, at_a_time, [&](int i) {
-    if (!is_cancelled()) make(*to_do[i], jobs_of_each);
+  parallel_for(count, at_a_time, [&](int i) {
+    if (!is_cancelled()) make(*pending[i], jobs_of_each);
   });
-  for (const Task* const task : to_do) {
+  for (const Task* const task : pending) {
     if (!task->entry) continue;
     ++report.exported;
     report.frames += task->entry->frames;
@@ -206,23 +206,23 @@ Result<void> Run::make_missing(DatasetReport& report) {
 }
 
 // What killed runs have left goes, but where other shares of the dataset may be in the making only what is empty.
-Result<void> Run::clear_workshop() const {
+Result<void> DatasetRun::clear_staging_folder() const {
   for (const char* const name : {"new", "old", "labels", "splits"}) {
     std::error_code code;
     if (request_.shard) {
-      fs::remove(workshop_of(dataset_) / name, code);
+      fs::remove(staging_folder_of(dataset_) / name, code);
       continue;
     }
-    fs::remove_all(workshop_of(dataset_) / name, code);
+    fs::remove_all(staging_folder_of(dataset_) / name, code);
     if (code)
-      return fail((workshop_of(dataset_) / name).string(), "cannot be removed: " + code.message(),
+      return fail((staging_folder_of(dataset_) / name).string(), "cannot be removed: " + code.message(),
                   ErrorKind::cannot_create);
   }
   return {};
 }
 
 // Videos of an older recipe.
-void Run::warn_of_strays() {
+void DatasetRun::warn_of_unplanned_videos() {
   std::set<std::string> planned;
   for (const Task& task : tasks_) planned.insert(task.folder.video->name);
   std::error_code code;
@@ -233,8 +233,8 @@ void Run::warn_of_strays() {
   }
 }
 
-Result<void> Run::write_index(DatasetReport& report) {
-  warn_of_strays();
+Result<void> DatasetRun::write_index(DatasetReport& report) {
+  warn_of_unplanned_videos();
   std::vector<FinishedVideo> videos;
   for (const Task& task : tasks_) videos.push_back({task.folder.video, *task.entry});
   Result<DatasetIndex> index = make_index(plan_, request_.source, dataset_, videos, control_.cancel);
@@ -244,22 +244,22 @@ Result<void> Run::write_index(DatasetReport& report) {
   return {};
 }
 
-Result<DatasetReport> Run::all() {
+Result<DatasetReport> DatasetRun::all() {
   const Stopwatch watch;
   DatasetReport report;
-  side_by_side(static_cast<int>(tasks_.size()), std::min(cores(), 8), [&](int i) { look_at(tasks_[i]); });
+  parallel_for(static_cast<int>(tasks_.size()), std::min(cores(), 8), [&](int i) { inspect(tasks_[i]); });
   if (is_cancelled()) return fail(interrupted());
   if (request_.merge_only)
     if (const Result<void> there = check_all_there(); !there) return fail(there.error());
   report.kept = static_cast<int>(std::count_if(tasks_.begin(), tasks_.end(), [](const Task& t) { return t.entry; }));
   for (Task& task : tasks_)
     if (task.entry)
-      if (const Result<void> step = update_notes(task.folder, *task.entry); !step) task.error = step.error();
-  if (const Result<void> step = make_missing(report); !step) return fail(step.error());
+      if (const Result<void> step = update_metadata(task.folder, *task.entry); !step) task.error = step.error();
+  if (const Result<void> step = export_missing(report); !step) return fail(step.error());
   for (const Task& task : tasks_)
     if (task.error) report.failures.push_back({task.folder.video->name, *task.error});
   for (const UnopenedVideo& video : plan_.unopened) report.failures.push_back({video.name, video.error});
-  Result<void> step = clear_workshop();
+  Result<void> step = clear_staging_folder();
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();
   if (step && is_whole) step = write_index(report);
@@ -332,9 +332,9 @@ Result<void> check_free(const Plan& plan, const DatasetRequest& request, const f
 Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const DatasetRequest& request,
                               const DatasetControl& control) {
   if (const Result<void> free = check_free(plan, request, dataset); !free) return fail(free.error());
-  const Result<Claim> claim = Claim::take(dataset, request.shard.value_or(Shard{}));
-  if (!claim) return fail(claim.error());
-  return Run(plan, request, control, dataset).all();
+  const Result<DatasetLock> dataset_lock = DatasetLock::acquire(dataset, request.shard.value_or(Shard{}));
+  if (!dataset_lock) return fail(dataset_lock.error());
+  return DatasetRun(plan, request, control, dataset).all();
 }
 
 }  // namespace

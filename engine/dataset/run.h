@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "dataset/claim.h"
+#include "dataset/dataset_lock.h"
 #include "dataset/index.h"
 #include "dataset/plan.h"
 

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "base/text_pieces.h"
 #include "dataset/checksum.h"
 #include "dataset/entry.h"
@@ -87,7 +87,7 @@ Result<Paths> known_paths(const fs::path& dataset) {
   return known;
 }
 
-// The files of FOLDER/NAME among the paths, as stranger_in() takes them.
+// The files of FOLDER/NAME among the paths, as unlisted_file_in() takes them.
 VideoEntry files_below(const std::string& name, const Paths& paths) {
   VideoEntry entry;
   for (const std::string& path : paths)
@@ -103,8 +103,8 @@ Result<void> check_shared_files(const fs::path& dataset) {
   for (const char* const name : kSharedFolders) {
     std::error_code code;
     if (fs::exists(dataset / name, code) && !fs::is_directory(dataset / name, code)) return foreign(dataset / name);
-    const std::optional<std::string> stranger = stranger_in(dataset / name, files_below(name, *known), {});
-    if (stranger) return foreign(dataset / name / *stranger);
+    const std::optional<std::string> unlisted_file = unlisted_file_in(dataset / name, files_below(name, *known), {});
+    if (unlisted_file) return foreign(dataset / name / *unlisted_file);
   }
   return {};
 }

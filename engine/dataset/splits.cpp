@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "dataset/draw.h"
+#include "dataset/sample.h"
 
 namespace sigs {
 

@@ -14,7 +14,7 @@ namespace sigs {
 // A video, as far as splits look at it.
 struct SplitCandidate {
   std::string video;
-  std::string fixed;  // the split that its group names; empty: drawn
+  std::string fixed;  // the split that its group names; empty: sampled
   std::string unit;   // candidates of one unit share a split; empty: it stands alone
 };
 

@@ -37,12 +37,13 @@ struct VideoExport {
 [[nodiscard]] std::string project_text(const VideoFolder& folder);
 
 // Writes project and entry where they are not as they should be.
-[[nodiscard]] Result<void> update_notes(const VideoFolder& folder, const VideoEntry& entry);
+[[nodiscard]] Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry);
 
 // Why a folder may not be replaced: it holds what no sigs dataset wrote. Empty: it may, or is not there.
 [[nodiscard]] std::string not_replaceable(const VideoFolder& folder);
 
-// Exports the video in the workshop and gives the folder its name when all of it is on the disk; an older one goes.
+// Exports the video in the staging folder and gives the folder its name when all of it is on the disk; an older one
+// goes.
 [[nodiscard]] Result<VideoEntry> make_video(const VideoFolder& folder, const VideoExport& request);
 
 }  // namespace sigs

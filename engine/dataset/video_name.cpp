@@ -13,7 +13,8 @@ namespace sigs {
 namespace {
 
 constexpr std::array<std::string_view, 4> kParts{"background", "aircraft", "flight", "number"};
-constexpr std::array<std::string_view, 5> kOwnNames{"labels", "splits", "index.json", "sha256sums", "entry"};  // folded
+constexpr std::array<std::string_view, 5> kOwnNames{"labels", "splits", "index.json", "sha256sums",
+                                                    "entry"};  // case_folded
 
 std::string numbered(int number) {
   const std::string digits = std::to_string(number);
@@ -59,12 +60,12 @@ std::string wrong_with_name(const std::string& name) {
 }
 
 std::string wrong_with_video_name(const std::string& name) {
-  if (std::find(kOwnNames.begin(), kOwnNames.end(), folded(name)) != kOwnNames.end())
+  if (std::find(kOwnNames.begin(), kOwnNames.end(), case_folded(name)) != kOwnNames.end())
     return "is kept for what the dataset has beside its videos; choose another name";
   return wrong_with_name(name);
 }
 
-std::string folded(const std::string& name) {
+std::string case_folded(const std::string& name) {
   std::string lower = name;
   for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

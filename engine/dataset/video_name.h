@@ -28,6 +28,6 @@ struct NameParts {
 [[nodiscard]] std::string wrong_with_video_name(const std::string& name);
 
 // Equal for names that some file systems take for the same: ASCII letters in lower case.
-[[nodiscard]] std::string folded(const std::string& name);
+[[nodiscard]] std::string case_folded(const std::string& name);
 
 }  // namespace sigs

@@ -10,7 +10,7 @@ namespace sigs {
 
 namespace {
 
-Box grown_to(const Box& box, double area_px2) {
+Box enlarged_to(const Box& box, double area_px2) {
   const double area = box.width * box.height;
   if (area >= area_px2) return box;
   const double side = std::sqrt(area_px2);
@@ -21,17 +21,17 @@ Box grown_to(const Box& box, double area_px2) {
 }
 
 double overlap_with(const std::optional<Box>& truth, const Box& reported, const DetectionPolicy& policy) {
-  return truth ? extended_overlap(*truth, reported, policy.least_area_px2) : 0;
+  return truth ? extended_overlap(*truth, reported, policy.min_area_px2) : 0;
 }
 
 // One report against all that is there. Adds what it matches; false: it is near nothing.
-bool is_near_any(const FilmTruth& truth, std::size_t frame, const ReportedBox& reported, const DetectionPolicy& policy,
-                 FilmMatches& matches) {
+bool matches_or_is_near(const ClipTruth& truth, std::size_t frame, const ReportedBox& reported,
+                        const DetectionPolicy& policy, ClipMatches& matches) {
   double nearest = 0;
   for (std::size_t i = 0; i < truth.targets.size(); ++i) {
     const TargetFrame& target = truth.targets[i].frames[frame];
     const double visible = overlap_with(target.visible, reported.box, policy);
-    nearest = std::max({nearest, visible, overlap_with(target.silhouette, reported.box, policy)});
+    nearest = std::max({nearest, visible, overlap_with(target.amodal_box, reported.box, policy)});
     if (target.visible && !exceeds(policy.match_overlap, visible)) matches.tracks[i][frame].insert(reported.track);
   }
   return !exceeds(policy.false_overlap, nearest);
@@ -39,21 +39,21 @@ bool is_near_any(const FilmTruth& truth, std::size_t frame, const ReportedBox& r
 
 }  // namespace
 
-double extended_overlap(const Box& truth, const Box& reported, double least_area_px2) {
-  if (truth.width * truth.height >= least_area_px2) return overlap(truth, reported);
-  return overlap(grown_to(truth, least_area_px2), grown_to(reported, least_area_px2));
+double extended_overlap(const Box& truth, const Box& reported, double min_area_px2) {
+  if (truth.width * truth.height >= min_area_px2) return overlap(truth, reported);
+  return overlap(enlarged_to(truth, min_area_px2), enlarged_to(reported, min_area_px2));
 }
 
-FilmMatches matches_of(const DetectedFilm& film, const DetectionPolicy& policy) {
-  const FilmTruth& truth = film.truth;
-  FilmMatches matches;
+ClipMatches matches_of(const DetectedClip& clip, const DetectionPolicy& policy) {
+  const ClipTruth& truth = clip.truth;
+  ClipMatches matches;
   matches.tracks.assign(truth.targets.size(), std::vector<std::set<int>>(truth.times_s.size()));
-  for (const auto& [number, boxes] : film.results.frames) {
+  for (const auto& [number, boxes] : clip.results.frames) {
     const int frame = number - truth.footage.first_frame;
     if (frame < 0 || frame >= truth.frames()) continue;
     for (const ReportedBox& reported : boxes) {
-      if (reported.score < policy.least_score) continue;
-      if (is_near_any(truth, static_cast<std::size_t>(frame), reported, policy, matches)) continue;
+      if (reported.score < policy.min_score) continue;
+      if (matches_or_is_near(truth, static_cast<std::size_t>(frame), reported, policy, matches)) continue;
       ++matches.false_boxes;
       if (reported.track == kNoTrack) {
         ++matches.untracked_false_boxes;

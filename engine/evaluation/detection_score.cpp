@@ -16,56 +16,59 @@ double ratio(double part, double whole) {
   return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
 }
 
-// One target of one film, with what matches it in each frame.
-struct Followed {
-  const DetectedFilm& film;
+// One target of one clip, with what matches it in each frame.
+struct MatchedTarget {
+  const DetectedClip& clip;
   const TargetTruth& target;
   std::span<const std::set<int>> tracks;
   double rate_hz = 0;
 };
 
 template <class Visit>
-void for_frames_in_range(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy,
-                         Visit&& visit) {
+void for_frames_in_range(const MatchedTarget& matched_target, const EncounterSpan& encounter,
+                         const DetectionPolicy& policy, Visit&& visit) {
   for (int frame = encounter.first; frame <= encounter.last; ++frame) {
-    const TargetFrame& truth = followed.target.frames[static_cast<std::size_t>(frame)];
+    const TargetFrame& truth = matched_target.target.frames[static_cast<std::size_t>(frame)];
     if (is_in_range(truth, policy)) visit(frame, truth);
   }
 }
 
 // Above or below in all its frames, else on. Unknown where it is so in any.
-HorizonSide horizon_of(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy) {
+HorizonSide horizon_of(const MatchedTarget& matched_target, const EncounterSpan& encounter,
+                       const DetectionPolicy& policy) {
   std::set<HorizonSide> sides;
-  for_frames_in_range(followed, encounter, policy, [&](int, const TargetFrame& truth) { sides.insert(truth.horizon); });
+  for_frames_in_range(matched_target, encounter, policy,
+                      [&](int, const TargetFrame& truth) { sides.insert(truth.horizon); });
   if (sides.contains(HorizonSide::unknown)) return HorizonSide::unknown;
   return sides.size() == 1 ? *sides.begin() : HorizonSide::on;
 }
 
-EncounterScore score_of(const Followed& followed, const EncounterSpan& encounter, const DetectionPolicy& policy) {
-  const FilmTruth& film = followed.film.truth;
+EncounterScore score_of(const MatchedTarget& matched_target, const EncounterSpan& encounter,
+                        const DetectionPolicy& policy) {
+  const ClipTruth& clip = matched_target.clip.truth;
   const auto time_in_s = [&](int frame) {
-    return film.times_s[static_cast<std::size_t>(frame)] - film.times_s[static_cast<std::size_t>(encounter.first)];
+    return clip.times_s[static_cast<std::size_t>(frame)] - clip.times_s[static_cast<std::size_t>(encounter.first)];
   };
-  EncounterScore score{.film = followed.film.name,
-                       .target = followed.target.id,
-                       .first_frame = film.footage.first_frame + encounter.first,
-                       .last_frame = film.footage.first_frame + encounter.last,
-                       .horizon = horizon_of(followed, encounter, policy),
-                       .nearest_m = std::numeric_limits<double>::infinity()};
-  for_frames_in_range(followed, encounter, policy, [&](int frame, const TargetFrame& truth) {
-    score.nearest_m = std::min(score.nearest_m, truth.distance_m);
+  EncounterScore score{.clip = matched_target.clip.name,
+                       .target = matched_target.target.id,
+                       .first_frame = clip.footage.first_frame + encounter.first,
+                       .last_frame = clip.footage.first_frame + encounter.last,
+                       .horizon = horizon_of(matched_target, encounter, policy),
+                       .min_range_m = std::numeric_limits<double>::infinity()};
+  for_frames_in_range(matched_target, encounter, policy, [&](int frame, const TargetFrame& truth) {
+    score.min_range_m = std::min(score.min_range_m, truth.distance_m);
     ++score.frames_visible;
-    if (followed.tracks[static_cast<std::size_t>(frame)].empty()) return;
+    if (matched_target.tracks[static_cast<std::size_t>(frame)].empty()) return;
     if (score.frames_matched++ > 0) return;
     score.first_detection_range_m = truth.distance_m;
     score.first_detection_time_s = time_in_s(frame);
   });
   const std::optional<int> confirmed =
-      confirmed_at(encounter, followed.target, followed.tracks, followed.rate_hz, policy);
+      confirmed_at(encounter, matched_target.target, matched_target.tracks, matched_target.rate_hz, policy);
   if (!confirmed) return score;
-  score.confirmed_range_m = followed.target.frames[static_cast<std::size_t>(*confirmed)].distance_m;
+  score.confirmed_range_m = matched_target.target.frames[static_cast<std::size_t>(*confirmed)].distance_m;
   score.confirmed_time_s = time_in_s(*confirmed);
-  score.is_detected = *confirmed <= deadline_of(encounter, followed.target, followed.rate_hz, policy);
+  score.is_detected = *confirmed <= deadline_of(encounter, matched_target.target, matched_target.rate_hz, policy);
   return score;
 }
 
@@ -88,8 +91,8 @@ DetectionRate& rate_of(DetectionScore& sum, HorizonSide side) {
   return sum.unknown_horizon;
 }
 
-void take_encounter(DetectionScore& sum, EncounterScore encounter, const DetectionPolicy& policy) {
-  if (encounter.nearest_m > policy.nearest_range_m) {
+void add_encounter(DetectionScore& sum, EncounterScore encounter, const DetectionPolicy& policy) {
+  if (encounter.min_range_m > policy.max_closest_range_m) {
     ++sum.encounters_too_far;
     return;
   }
@@ -104,25 +107,25 @@ struct Pairs {
   int matched = 0;
 };
 
-void take_film(DetectionScore& sum, Pairs& pairs, const DetectedFilm& film, const DetectionPolicy& policy) {
-  const double rate_hz = rate_hz_of(film.truth);
+void add_clip(DetectionScore& sum, Pairs& pairs, const DetectedClip& clip, const DetectionPolicy& policy) {
+  const double rate_hz = rate_hz_of(clip.truth);
   ENSURE(rate_hz > 0);
-  const FilmMatches matches = matches_of(film, policy);
-  sum.frames += film.truth.frames();
-  sum.hours += film.truth.frames() / rate_hz / 3600;
+  const ClipMatches matches = matches_of(clip, policy);
+  sum.frames += clip.truth.frames();
+  sum.hours += clip.truth.frames() / rate_hz / 3600;
   sum.false_alarm_boxes += matches.false_boxes;
   sum.false_alarm_tracks += static_cast<int>(matches.false_tracks.size()) + matches.untracked_false_boxes;
-  for (std::size_t i = 0; i < film.truth.targets.size(); ++i) {
-    const Followed followed{film, film.truth.targets[i], matches.tracks[i], rate_hz};
-    for (const EncounterSpan& encounter : encounters_of(followed.target, rate_hz, policy)) {
+  for (std::size_t i = 0; i < clip.truth.targets.size(); ++i) {
+    const MatchedTarget matched_target{clip, clip.truth.targets[i], matches.tracks[i], rate_hz};
+    for (const EncounterSpan& encounter : encounters_of(matched_target.target, rate_hz, policy)) {
       if (is_long_enough(encounter, rate_hz, policy))
-        take_encounter(sum, score_of(followed, encounter, policy), policy);
+        add_encounter(sum, score_of(matched_target, encounter, policy), policy);
       else
         ++sum.encounters_too_short;
     }
-    for_frames_in_range(followed, {0, film.truth.frames() - 1}, policy, [&](int frame, const TargetFrame&) {
+    for_frames_in_range(matched_target, {0, clip.truth.frames() - 1}, policy, [&](int frame, const TargetFrame&) {
       ++pairs.all;
-      pairs.matched += !followed.tracks[static_cast<std::size_t>(frame)].empty();
+      pairs.matched += !matched_target.tracks[static_cast<std::size_t>(frame)].empty();
     });
   }
 }
@@ -143,11 +146,11 @@ double DetectionRate::rate() const {
   return ratio(detected, encounters);
 }
 
-DetectionScore score_detections(const std::string& name, const std::vector<DetectedFilm>& films,
+DetectionScore score_detections(const std::string& name, const std::vector<DetectedClip>& clips,
                                 const DetectionPolicy& policy) {
   DetectionScore score{.name = name};
   Pairs pairs;
-  for (const DetectedFilm& film : films) take_film(score, pairs, film, policy);
+  for (const DetectedClip& clip : clips) add_clip(score, pairs, clip, policy);
   score.false_alarms_per_hour = ratio(score.false_alarm_tracks, score.hours);
   score.false_boxes_per_frame = ratio(score.false_alarm_boxes, score.frames);
   score.frame_detection_rate = ratio(pairs.matched, pairs.all);

@@ -5,47 +5,47 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/clip_truth.h"
 #include "evaluation/results.h"
-#include "evaluation/truth.h"
 
 namespace sigs {
 
 // The airborne metrics, as published with the Airborne Object Tracking challenge; docs/evaluation.md defines each, and
 // says where this differs. What is published in frames at 10 Hz is in seconds here.
 struct DetectionPolicy {
-  double least_area_px2 = 100;   // extended overlap: where the truth's box is smaller, both boxes are grown to it
-  double match_overlap = 0.2;    // extended overlap of a match, or more
-  double false_overlap = 0.02;   // less with every truth: a false alarm; between the two: neither
-  double least_score = 0;        // reports below it are left out
-  double longest_range_m = 700;  // an encounter is within it
-  double nearest_range_m = 330;  // ... and comes at least so near
-  double least_encounter_s = 3;
-  double longest_gap_s = 0.3;   // not visible or out of range, within an encounter
+  double min_area_px2 = 100;         // extended overlap: where the truth's box is smaller, both boxes are grown to it
+  double match_overlap = 0.2;        // extended overlap of a match, or more
+  double false_overlap = 0.02;       // less with every truth: a false alarm; between the two: neither
+  double min_score = 0;              // reports below it are left out
+  double max_range_m = 700;          // an encounter is within it
+  double max_closest_range_m = 330;  // ... and comes at least so near
+  double min_encounter_s = 3;
+  double max_gap_s = 0.3;       // not visible or out of range, within an encounter
   double detect_range_m = 300;  // an encounter counts as detected where it is before it comes nearer than this, or
   double window_s = 3;          // in its first window: by one track in a share of the frames of a window of this length
-  double least_window_share = 0.5;
+  double min_window_share = 0.5;
 };
 
-// One film and what a detector says of it.
-struct DetectedFilm {
+// One clip and what a detector says of it.
+struct DetectedClip {
   std::string name;
-  FilmTruth truth;
+  ClipTruth truth;
   Results results;
 };
 
 struct EncounterScore {
-  std::string film;
+  std::string clip;
   int target = 0;
   int first_frame = 0;
   int last_frame = 0;
   HorizonSide horizon = HorizonSide::unknown;  // above or below: in all its frames; unknown: in any
-  double nearest_m = 0;
+  double min_range_m = 0;
   bool is_detected = false;                       // in time
   std::optional<double> first_detection_range_m;  // of its first match
   std::optional<double> first_detection_time_s;   // from the encounter's first frame
   std::optional<double> confirmed_range_m;        // at the end of the first window with matches enough, in time or not
   std::optional<double> confirmed_time_s;         // from the encounter's first frame
-  int frames_visible = 0;                         // within longest_range_m
+  int frames_visible = 0;                         // within max_range_m
   int frames_matched = 0;                         // of these
 };
 
@@ -63,20 +63,20 @@ struct DetectionScore {
   DetectionRate on_horizon;
   DetectionRate below_horizon;
   DetectionRate unknown_horizon;
-  int encounters_too_short = 0;  // shorter than least_encounter_s, however near: not counted, not listed
-  int encounters_too_far = 0;    // of the others, those that never come within nearest_range_m: nor are these
+  int encounters_too_short = 0;  // shorter than min_encounter_s, however near: not counted, not listed
+  int encounters_too_far = 0;    // of the others, those that never come within max_closest_range_m: nor are these
   int frames = 0;
   double hours = 0;
   int false_alarm_tracks = 0;  // tracks of the reporter with at least one false alarm; a box without one is its own
   double false_alarms_per_hour = 0;  // HFAR: false_alarm_tracks / hours; NaN for no hours
   int false_alarm_boxes = 0;
   double false_boxes_per_frame = 0;  // FPPI; NaN for no frames
-  double frame_detection_rate = 0;   // AFDR: matched (frame, target) pairs of all within longest_range_m; NaN for none
+  double frame_detection_rate = 0;   // AFDR: matched (frame, target) pairs of all within max_range_m; NaN for none
   double mean_first_range_m = 0;     // first_detection_range_m over encounters with one; NaN where there is none
 };
 
-// Names of films tell their tracks apart: two films may both have a track 7.
-[[nodiscard]] DetectionScore score_detections(const std::string& name, const std::vector<DetectedFilm>& films,
+// Names of clips tell their tracks apart: two clips may both have a track 7.
+[[nodiscard]] DetectionScore score_detections(const std::string& name, const std::vector<DetectedClip>& clips,
                                               const DetectionPolicy& policy);
 
 }  // namespace sigs

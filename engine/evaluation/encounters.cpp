@@ -36,28 +36,28 @@ bool is_confirmed(const TargetTruth& target, std::span<const std::set<int>> trac
     ++in_range;
     for (const int track : tracks[static_cast<std::size_t>(frame)]) most = std::max(most, ++frames_of_track[track]);
   }
-  return most > 0 && !exceeds(policy.least_window_share, double(most) / in_range);
+  return most > 0 && !exceeds(policy.min_window_share, double(most) / in_range);
 }
 
 }  // namespace
 
-double rate_hz_of(const FilmTruth& film) {
-  const double length_s = film.frames() > 1 ? film.times_s.back() - film.times_s.front() : 0;
-  if (length_s > 0 && std::isfinite(length_s)) return (film.frames() - 1) / length_s;
-  return double(film.footage.frame_rate_num) / film.footage.frame_rate_den;
+double rate_hz_of(const ClipTruth& clip) {
+  const double length_s = clip.frames() > 1 ? clip.times_s.back() - clip.times_s.front() : 0;
+  if (length_s > 0 && std::isfinite(length_s)) return (clip.frames() - 1) / length_s;
+  return double(clip.footage.frame_rate_num) / clip.footage.frame_rate_den;
 }
 
 bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy) {
-  return frame.visible && frame.distance_m <= policy.longest_range_m;
+  return frame.visible && frame.distance_m <= policy.max_range_m;
 }
 
 std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
   std::vector<EncounterSpan> found;
-  const double longest_gap = policy.longest_gap_s * rate_hz + kFrameRounding;
+  const double max_gap_frames = policy.max_gap_s * rate_hz + kFrameRounding;
   for (int frame = 0; frame < static_cast<int>(target.frames.size()); ++frame) {
     if (!is_in_range(frame_at(target, frame), policy)) continue;
-    const bool goes_on = !found.empty() && frame - found.back().last - 1 <= longest_gap;
-    if (goes_on) {
+    const bool continues = !found.empty() && frame - found.back().last - 1 <= max_gap_frames;
+    if (continues) {
       found.back().last = frame;
     } else {
       found.push_back({frame, frame});
@@ -67,7 +67,7 @@ std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_
 }
 
 bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
-  return length_of(encounter) >= policy.least_encounter_s * rate_hz - kFrameRounding;
+  return length_of(encounter) >= policy.min_encounter_s * rate_hz - kFrameRounding;
 }
 
 std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,

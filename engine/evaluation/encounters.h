@@ -10,16 +10,16 @@
 
 namespace sigs {
 
-// Frames of a film, from 0, both included, in which one target is visible and in range, but for short gaps.
+// Frames of a clip, from 0, both included, in which one target is visible and in range, but for short gaps.
 struct EncounterSpan {
   int first = 0;
   int last = 0;
 };
 
-// Mean frame rate of a film; of a single frame, its nominal one.
-[[nodiscard]] double rate_hz_of(const FilmTruth& film);
+// Mean frame rate of a clip; of a single frame, its nominal one.
+[[nodiscard]] double rate_hz_of(const ClipTruth& clip);
 
-// Whether a target's frame belongs to an encounter: something of it is visible, within longest_range_m.
+// Whether a target's frame belongs to an encounter: something of it is visible, within max_range_m.
 [[nodiscard]] bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy);
 
 // All such stretches, in order, however short and however near they come.
@@ -29,8 +29,8 @@ struct EncounterSpan {
 [[nodiscard]] bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy);
 
 // The last frame of the first window in which one track (boxes without a track together are one) matches the target in
-// least_window_share of the frames in which it is in range. Windows lie within the encounter; one longer than it is
-// the encounter. tracks: of each frame of the film.
+// min_window_share of the frames in which it is in range. Windows lie within the encounter; one longer than it is
+// the encounter. tracks: of each frame of the clip.
 [[nodiscard]] std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,
                                               std::span<const std::set<int>> tracks, double rate_hz,
                                               const DetectionPolicy& policy);

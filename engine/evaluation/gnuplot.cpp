@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 
 namespace sigs {
 
@@ -21,20 +21,20 @@ namespace {
 namespace fs = std::filesystem;
 
 // A folder for one run's files, gone afterwards.
-class ScratchFolder {
+class TemporaryFolder {
  public:
-  ScratchFolder() {
+  TemporaryFolder() {
     std::error_code code;
     const fs::path all = fs::temp_directory_path(code);
     std::string name = (all / "sigs-plot-XXXXXX").string();
     if (!code && mkdtemp(name.data()) != nullptr) path_ = name;
   }
-  ~ScratchFolder() {
+  ~TemporaryFolder() {
     std::error_code code;
     if (!path_.empty()) fs::remove_all(path_, code);
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] const fs::path& path() const { return path_; }  // empty: none could be made
 
@@ -42,7 +42,7 @@ class ScratchFolder {
   fs::path path_;
 };
 
-constexpr int kNotFound = 127;  // what a child that cannot be started ends with
+constexpr int kCommandNotFound = 127;  // what a child that cannot be started ends with
 
 // Exit status; errno as a negative number where it could not be started.
 int run(const fs::path& program, const fs::path& out, const fs::path& err) {
@@ -67,7 +67,7 @@ int run(const fs::path& program, const fs::path& out, const fs::path& err) {
 }
 
 // What it complains of, in one line.
-std::string complaint(const fs::path& err) {
+std::string error_line(const fs::path& err) {
   std::string text = read_text(err).value_or("");
   text.erase(0, text.find_first_not_of("\n "));
   const std::size_t place = text.find("line ");
@@ -78,21 +78,21 @@ std::string complaint(const fs::path& err) {
 }  // namespace
 
 Result<std::string> gnuplot_output(const std::string& program) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   if (scratch.path().empty())
     return fail("gnuplot", "no temporary folder can be made, no plots are drawn: set TMPDIR to one",
                 ErrorKind::unavailable);
   const fs::path file = scratch.path() / "plot.gp";
   if (const Result<void> written = write_text(file, program, true); !written) return fail(written.error());
-  const int status = run(file, scratch.path() / "picture", scratch.path() / "messages");
-  if (status == -ENOENT || status == kNotFound)
+  const int status = run(file, scratch.path() / "image", scratch.path() / "messages");
+  if (status == -ENOENT || status == kCommandNotFound)
     return fail("gnuplot", "is not installed, no plots are drawn", ErrorKind::unavailable);
   if (status < 0)
     return fail("gnuplot", std::string("cannot be started: ") + std::strerror(-status), ErrorKind::unavailable);
-  if (status != 0) return fail("gnuplot", "fails: " + complaint(scratch.path() / "messages"));
-  Result<std::string> picture = read_text(scratch.path() / "picture");
-  if (picture && picture->empty()) return fail("gnuplot", "drew nothing: " + complaint(scratch.path() / "messages"));
-  return picture;
+  if (status != 0) return fail("gnuplot", "fails: " + error_line(scratch.path() / "messages"));
+  Result<std::string> image = read_text(scratch.path() / "image");
+  if (image && image->empty()) return fail("gnuplot", "drew nothing: " + error_line(scratch.path() / "messages"));
+  return image;
 }
 
 }  // namespace sigs

@@ -28,10 +28,10 @@ std::optional<int> integer_of(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 32;
-  std::string shown(text.substr(0, kLongest));
-  if (text.size() > kLongest) {
-    std::size_t end = kLongest;  // not amid a UTF-8 sequence
+  constexpr std::size_t kMaxLength = 32;
+  std::string shown(text.substr(0, kMaxLength));
+  if (text.size() > kMaxLength) {
+    std::size_t end = kMaxLength;  // not amid a UTF-8 sequence
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
     shown.resize(end);
     shown += "...";

@@ -22,38 +22,38 @@ namespace {
 
 // OpenCV has two interfaces to its trackers, of whole pixels and of fractions; this is what they have in common. Boxes
 // are in OpenCV's way: x is the number of the first column covered.
-class AnyTracker {
+class TrackerAdapter {
  public:
-  virtual ~AnyTracker() = default;
-  virtual bool init(const cv::Mat& picture, const cv::Rect& box) = 0;
-  virtual std::optional<cv::Rect2d> update(const cv::Mat& picture) = 0;
+  virtual ~TrackerAdapter() = default;
+  virtual bool init(const cv::Mat& image, const cv::Rect& box) = 0;
+  virtual std::optional<cv::Rect2d> update(const cv::Mat& image) = 0;
 };
 
-class PresentTracker : public AnyTracker {
+class CurrentTracker : public TrackerAdapter {
  public:
-  explicit PresentTracker(cv::Ptr<cv::Tracker> tracker) : tracker_(std::move(tracker)) {}
+  explicit CurrentTracker(cv::Ptr<cv::Tracker> tracker) : tracker_(std::move(tracker)) {}
 
-  bool init(const cv::Mat& picture, const cv::Rect& box) override {
-    tracker_->init(picture, box);
+  bool init(const cv::Mat& image, const cv::Rect& box) override {
+    tracker_->init(image, box);
     return true;
   }
-  std::optional<cv::Rect2d> update(const cv::Mat& picture) override {
+  std::optional<cv::Rect2d> update(const cv::Mat& image) override {
     cv::Rect box;
-    return tracker_->update(picture, box) ? std::optional<cv::Rect2d>(box) : std::nullopt;
+    return tracker_->update(image, box) ? std::optional<cv::Rect2d>(box) : std::nullopt;
   }
 
  private:
   cv::Ptr<cv::Tracker> tracker_;
 };
 
-class LegacyTracker : public AnyTracker {
+class LegacyTracker : public TrackerAdapter {
  public:
   explicit LegacyTracker(cv::Ptr<cv::legacy::Tracker> tracker) : tracker_(std::move(tracker)) {}
 
-  bool init(const cv::Mat& picture, const cv::Rect& box) override { return tracker_->init(picture, cv::Rect2d(box)); }
-  std::optional<cv::Rect2d> update(const cv::Mat& picture) override {
+  bool init(const cv::Mat& image, const cv::Rect& box) override { return tracker_->init(image, cv::Rect2d(box)); }
+  std::optional<cv::Rect2d> update(const cv::Mat& image) override {
     cv::Rect2d box;
-    return tracker_->update(picture, box) ? std::optional(box) : std::nullopt;
+    return tracker_->update(image, box) ? std::optional(box) : std::nullopt;
   }
 
  private:
@@ -62,11 +62,11 @@ class LegacyTracker : public AnyTracker {
 
 constexpr std::array<std::string_view, 7> kNames{"csrt", "kcf", "mil", "mosse", "medianflow", "tld", "boosting"};
 
-std::unique_ptr<AnyTracker> made(std::string_view name) {
+std::unique_ptr<TrackerAdapter> new_tracker(std::string_view name) {
   namespace legacy = cv::legacy;
-  if (name == "csrt") return std::make_unique<PresentTracker>(cv::TrackerCSRT::create());
-  if (name == "kcf") return std::make_unique<PresentTracker>(cv::TrackerKCF::create());
-  if (name == "mil") return std::make_unique<PresentTracker>(cv::TrackerMIL::create());
+  if (name == "csrt") return std::make_unique<CurrentTracker>(cv::TrackerCSRT::create());
+  if (name == "kcf") return std::make_unique<CurrentTracker>(cv::TrackerKCF::create());
+  if (name == "mil") return std::make_unique<CurrentTracker>(cv::TrackerMIL::create());
   if (name == "mosse") return std::make_unique<LegacyTracker>(legacy::TrackerMOSSE::create());
   if (name == "medianflow") return std::make_unique<LegacyTracker>(legacy::TrackerMedianFlow::create());
   if (name == "tld") return std::make_unique<LegacyTracker>(legacy::TrackerTLD::create());
@@ -80,7 +80,7 @@ std::string known_names() {
 }
 
 // OpenCV's trackers draw from the thread's generator, the boosting ones from the C library's too. Both are set anew for
-// each picture, so that no tracker sees what another has drawn.
+// each image, so that no tracker sees what another has drawn.
 void seed(int frame) {
   cv::theRNG().state = 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
   std::srand(static_cast<unsigned>(frame) + 1U);
@@ -99,7 +99,7 @@ cv::Rect pixels_of(const Box& box, cv::Size size) {
 }
 
 // MIL and boosting look for rectangles of 9 px or more that fit into the box, at random and without end where none
-// does: one of 3 by 3, twice beside or below itself, must fit. TLD enlarges the picture until the box's shorter side
+// does: one of 3 by 3, twice beside or below itself, must fit. TLD enlarges the image until the box's shorter side
 // has 20 px, and looks everywhere in it: on a box of 2 px that takes minutes a frame.
 bool is_large_enough(std::string_view name, const cv::Rect& box) {
   if (name != "mil" && name != "boosting" && name != "tld") return true;
@@ -135,9 +135,9 @@ std::string frame_text(int frame) {
 
 }  // namespace
 
-struct OpenCvTracker::Inside {
+struct OpenCvTracker::Impl {
   Results results;
-  std::unique_ptr<AnyTracker> tracker;
+  std::unique_ptr<TrackerAdapter> tracker;
   double spent_s = 0;
   int followed = 0;
 
@@ -153,7 +153,7 @@ struct OpenCvTracker::Inside {
   }
 };
 
-OpenCvTracker::OpenCvTracker(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+OpenCvTracker::OpenCvTracker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 OpenCvTracker::OpenCvTracker(OpenCvTracker&&) noexcept = default;
 OpenCvTracker& OpenCvTracker::operator=(OpenCvTracker&&) noexcept = default;
 OpenCvTracker::~OpenCvTracker() = default;
@@ -165,25 +165,25 @@ std::span<const std::string_view> tracker_names() {
 Result<OpenCvTracker> OpenCvTracker::make(std::string_view name) {
   if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
     return fail(std::string(name), "no such tracker; there are " + known_names(), ErrorKind::usage);
-  auto inside = std::make_unique<Inside>();
-  inside->results.name = name;
-  return OpenCvTracker(std::move(inside));
+  auto impl = std::make_unique<Impl>();
+  impl->results.name = name;
+  return OpenCvTracker(std::move(impl));
 }
 
-Result<void> OpenCvTracker::start(int frame, const cv::Mat& picture, const Box& box) {
-  ENSURE(picture.type() == CV_8UC3);
-  Inside& in = *inside_;
+Result<void> OpenCvTracker::start(int frame, const cv::Mat& image, const Box& box) {
+  ENSURE(image.type() == CV_8UC3);
+  Impl& in = *impl_;
   ENSURE(!in.tracker);
-  if (!lies_in(box, picture.size()))
-    return fail(in.results.name + ": " + frame_text(frame), "cannot be started with a box outside the picture");
-  const cv::Rect pixels = pixels_of(box, picture.size());
+  if (!lies_in(box, image.size()))
+    return fail(in.results.name + ": " + frame_text(frame), "cannot be started with a box outside the image");
+  const cv::Rect pixels = pixels_of(box, image.size());
   if (!is_large_enough(in.results.name, pixels))
     return fail(in.results.name + ": " + frame_text(frame),
                 "cannot be started with a box of " + std::to_string(pixels.width) + "x" +
                     std::to_string(pixels.height) + " px: it takes 8x4 or more");
   return in.guarded(frame, "start on", [&]() -> Result<void> {
-    std::unique_ptr<AnyTracker> tracker = made(in.results.name);
-    if (!tracker->init(picture, pixels))
+    std::unique_ptr<TrackerAdapter> tracker = new_tracker(in.results.name);
+    if (!tracker->init(image, pixels))
       return fail(in.results.name + ": " + frame_text(frame), "OpenCV cannot start on it");
     in.tracker = std::move(tracker);
     in.results.frames[frame] = {{.box = *box_of(cv::Rect2d(pixels))}};
@@ -191,13 +191,13 @@ Result<void> OpenCvTracker::start(int frame, const cv::Mat& picture, const Box& 
   });
 }
 
-Result<void> OpenCvTracker::follow(int frame, const cv::Mat& picture) {
-  ENSURE(picture.type() == CV_8UC3);
-  Inside& in = *inside_;
+Result<void> OpenCvTracker::follow(int frame, const cv::Mat& image) {
+  ENSURE(image.type() == CV_8UC3);
+  Impl& in = *impl_;
   ENSURE(in.tracker);
   return in.guarded(frame, "follow in", [&]() -> Result<void> {
     const Stopwatch watch;
-    const std::optional<Box> box = box_of(in.tracker->update(picture));
+    const std::optional<Box> box = box_of(in.tracker->update(image));
     in.spent_s += watch.elapsed_s();
     ++in.followed;
     if (in.spent_s > 0) in.results.frames_per_s = in.followed / in.spent_s;
@@ -207,7 +207,7 @@ Result<void> OpenCvTracker::follow(int frame, const cv::Mat& picture) {
 }
 
 const Results& OpenCvTracker::results() const {
-  return inside_->results;
+  return impl_->results;
 }
 
 }  // namespace sigs

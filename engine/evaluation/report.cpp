@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/report_files.h"
 
@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> kFiles{"summary.csv", "frames.csv", "encounters.csv", "evaluation.json",
                                                  "report.html"};
-constexpr std::array<std::string_view, 8> kPictures{"center_error", "x_error",       "y_error",
-                                                    "precision",    "success",       "normalized_precision",
-                                                    "first_range",  "detection_rate"};
+constexpr std::array<std::string_view, 8> kPlotNames{"center_error", "x_error",       "y_error",
+                                                     "precision",    "success",       "normalized_precision",
+                                                     "first_range",  "detection_rate"};
 
 // Files that are there are replaced.
 class ReportFolder {
@@ -33,29 +33,29 @@ class ReportFolder {
     return written;
   }
 
-  // A picture that cannot be drawn is a warning; where gnuplot is not there, one is enough. "": none.
-  [[nodiscard]] Result<std::string> draw(const Plot& plot, PictureKind kind) {
+  // An image that cannot be drawn is a warning; where gnuplot is not there, one is enough. "": none.
+  [[nodiscard]] Result<std::string> draw(const Plot& plot, PlotFormat kind) {
     if (!has_gnuplot_) return std::string();
-    const std::string name = plot.name + (kind == PictureKind::svg ? ".svg" : ".png");
-    Result<std::string> picture = gnuplot_output(gnuplot_program(plot, kind));
-    if (!picture) {
-      has_gnuplot_ = picture.error().kind != ErrorKind::unavailable;
-      report_.warnings.push_back({has_gnuplot_ ? name : "plots", picture.error().text()});
+    const std::string name = plot.name + (kind == PlotFormat::svg ? ".svg" : ".png");
+    Result<std::string> image = gnuplot_output(gnuplot_program(plot, kind));
+    if (!image) {
+      has_gnuplot_ = image.error().kind != ErrorKind::unavailable;
+      report_.warnings.push_back({has_gnuplot_ ? name : "plots", image.error().text()});
       return std::string();
     }
-    if (const Result<void> written = put(name, *picture); !written) return fail(written.error());
-    return picture;
+    if (const Result<void> written = put(name, *image); !written) return fail(written.error());
+    return image;
   }
 
-  [[nodiscard]] Result<std::vector<ReportPicture>> draw_all(const std::vector<Plot>& plots) {
-    std::vector<ReportPicture> pictures;
+  [[nodiscard]] Result<std::vector<ReportPlot>> render_all(const std::vector<Plot>& plots) {
+    std::vector<ReportPlot> images;
     for (const Plot& plot : plots) {
-      Result<std::string> svg = draw(plot, PictureKind::svg);
+      Result<std::string> svg = draw(plot, PlotFormat::svg);
       if (!svg) return fail(svg.error());
-      if (const Result<std::string> png = draw(plot, PictureKind::png); !png) return fail(png.error());
-      if (!svg->empty()) pictures.push_back({plot.name, plot.title, std::move(*svg)});
+      if (const Result<std::string> png = draw(plot, PlotFormat::png); !png) return fail(png.error());
+      if (!svg->empty()) images.push_back({plot.name, plot.title, std::move(*svg)});
     }
-    return pictures;
+    return images;
   }
 
   [[nodiscard]] WrittenReport written() { return std::move(report_); }
@@ -74,9 +74,9 @@ Result<WrittenReport> write_all(const fs::path& folder, const Report& report, co
   if (step) step = out.put(details_name, details);
   if (step) step = out.put("evaluation.json", evaluation_json(report));
   if (!step) return fail(step.error());
-  const Result<std::vector<ReportPicture>> pictures = out.draw_all(plots_of(report));
-  if (!pictures) return fail(pictures.error());
-  if (step = out.put("report.html", report_html(report, *pictures)); !step) return fail(step.error());
+  const Result<std::vector<ReportPlot>> images = out.render_all(plots_of(report));
+  if (!images) return fail(images.error());
+  if (step = out.put("report.html", report_html(report, *images)); !step) return fail(step.error());
   return out.written();
 }
 
@@ -93,7 +93,7 @@ Result<WrittenReport> write_report(const fs::path& folder, const DetectionReport
 bool is_report_file(const std::string& name) {
   if (std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end()) return true;
   return (name.ends_with(".svg") || name.ends_with(".png")) &&
-         std::find(kPictures.begin(), kPictures.end(), name.substr(0, name.size() - 4)) != kPictures.end();
+         std::find(kPlotNames.begin(), kPlotNames.end(), name.substr(0, name.size() - 4)) != kPlotNames.end();
 }
 
 }  // namespace sigs

@@ -11,9 +11,9 @@
 
 namespace sigs {
 
-// Several trackers on one film.
+// Several trackers on one clip.
 struct TrackReport {
-  std::string film;  // the project's or label file's name
+  std::string clip;  // the project's or label file's name
   FootageTruth footage;
   std::string target;
   TrackPolicy policy;
@@ -21,9 +21,9 @@ struct TrackReport {
   std::vector<std::string> remarks;  // a tracker that could not be started, ...
 };
 
-// Several detectors on the same films.
+// Several detectors on the same clips.
 struct DetectionReport {
-  std::vector<std::string> films;
+  std::vector<std::string> clips;
   DetectionPolicy policy;
   std::vector<DetectionScore> scores;
 };

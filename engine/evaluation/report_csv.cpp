@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <initializer_list>
 
-#include "annotation/label_words.h"
 #include "evaluation/report_files.h"
 #include "evaluation/report_numbers.h"
+#include "labels/label_text.h"
 
 namespace sigs {
 
@@ -70,19 +70,32 @@ std::string summary_csv(const DetectionReport& report) {
       "detector,encounters,encounters_too_short,encounters_too_far,detected,encounters_above,detected_above,encounters_"
       "on,detected_on,"
       "encounters_below,"
-      "detected_below,encounters_unknown,detected_unknown,false_alarm_tracks,false_alarms_per_hour,false_alarm_boxes,false_boxes_per_frame,"
+      "detected_below,encounters_unknown,detected_unknown,false_alarm_tracks,false_alarms_per_hour,false_alarm_boxes,"
+      "false_boxes_per_frame,"
       "frame_detection_rate,mean_first_range_m,frames,hours\n";
   for (const DetectionScore& score : report.scores) {
     const auto count = [](int number) { return std::to_string(number); };
-    text +=
-        row({line_text(score.name), count(score.all.encounters), count(score.encounters_too_short),
-             count(score.encounters_too_far), count(score.all.detected), count(score.above_horizon.encounters),
-             count(score.above_horizon.detected), count(score.on_horizon.encounters), count(score.on_horizon.detected),
-             count(score.below_horizon.encounters), count(score.below_horizon.detected),
-             count(score.unknown_horizon.encounters), count(score.unknown_horizon.detected),
-             count(score.false_alarm_tracks), exact_text(score.false_alarms_per_hour), count(score.false_alarm_boxes),
-             exact_text(score.false_boxes_per_frame), exact_text(score.frame_detection_rate),
-             exact_text(score.mean_first_range_m), count(score.frames), exact_text(score.hours)});
+    text += row({line_text(score.name),
+                 count(score.all.encounters),
+                 count(score.encounters_too_short),
+                 count(score.encounters_too_far),
+                 count(score.all.detected),
+                 count(score.above_horizon.encounters),
+                 count(score.above_horizon.detected),
+                 count(score.on_horizon.encounters),
+                 count(score.on_horizon.detected),
+                 count(score.below_horizon.encounters),
+                 count(score.below_horizon.detected),
+                 count(score.unknown_horizon.encounters),
+                 count(score.unknown_horizon.detected),
+                 count(score.false_alarm_tracks),
+                 exact_text(score.false_alarms_per_hour),
+                 count(score.false_alarm_boxes),
+                 exact_text(score.false_boxes_per_frame),
+                 exact_text(score.frame_detection_rate),
+                 exact_text(score.mean_first_range_m),
+                 count(score.frames),
+                 exact_text(score.hours)});
   }
   return text;
 }
@@ -93,12 +106,12 @@ std::string encounters_csv(const DetectionReport& report) {
       "confirmed_range_m,confirmed_time_s,nearest_m,frames_visible,frames_matched\n";
   for (const DetectionScore& score : report.scores)
     for (const EncounterScore& encounter : score.encounters)
-      text += row({line_text(score.name), line_text(encounter.film), std::to_string(encounter.target),
+      text += row({line_text(score.name), line_text(encounter.clip), std::to_string(encounter.target),
                    std::to_string(encounter.first_frame), std::to_string(encounter.last_frame),
                    std::string(name_of(encounter.horizon)), flag(encounter.is_detected),
                    exact_text(encounter.first_detection_range_m), exact_text(encounter.first_detection_time_s),
                    exact_text(encounter.confirmed_range_m), exact_text(encounter.confirmed_time_s),
-                   exact_text(encounter.nearest_m), std::to_string(encounter.frames_visible),
+                   exact_text(encounter.min_range_m), std::to_string(encounter.frames_visible),
                    std::to_string(encounter.frames_matched)});
   return text;
 }

@@ -20,16 +20,16 @@ namespace sigs {
 [[nodiscard]] std::string encounters_csv(const DetectionReport& report);  // a row for each detector and encounter
 [[nodiscard]] std::string evaluation_json(const DetectionReport& report);
 
-// A picture as an SVG file has it, and what it is called.
-struct ReportPicture {
+// An image as an SVG file has it, and what it is called.
+struct ReportPlot {
   std::string name;   // of its files, without extension
   std::string title;  // for those who cannot see it
   std::string svg;
 };
 
 // One page without anything from elsewhere.
-[[nodiscard]] std::string report_html(const TrackReport& report, const std::vector<ReportPicture>& pictures);
-[[nodiscard]] std::string report_html(const DetectionReport& report, const std::vector<ReportPicture>& pictures);
+[[nodiscard]] std::string report_html(const TrackReport& report, const std::vector<ReportPlot>& images);
+[[nodiscard]] std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images);
 
 [[nodiscard]] std::vector<Plot> plots_of(const TrackReport& report);
 [[nodiscard]] std::vector<Plot> plots_of(const DetectionReport& report);

@@ -78,15 +78,15 @@ std::string replaced(std::string text, std::string_view from, const std::string&
   return text;
 }
 
-// Within a page, names are shared by all pictures; each gets its own.
-std::string inlined(const ReportPicture& picture) {
-  const std::size_t begin = picture.svg.find("<svg");
+// Within a page, names are shared by all images; each gets its own.
+std::string inlined(const ReportPlot& image) {
+  const std::size_t begin = image.svg.find("<svg");
   if (begin == std::string::npos) return "";
-  std::string svg = picture.svg.substr(begin);
-  const std::string own = picture.name + "-";
+  std::string svg = image.svg.substr(begin);
+  const std::string own = image.name + "-";
   for (const std::string_view before : {" id='", " id=\"", "href='#", "href=\"#", "url(#"})
     svg = replaced(std::move(svg), before, std::string(before) + own);
-  return "<figure>\n<svg role=\"img\" aria-label=\"" + html(picture.title) + "\"" + svg.substr(4) + "</figure>\n";
+  return "<figure>\n<svg role=\"img\" aria-label=\"" + html(image.title) + "\"" + svg.substr(4) + "</figure>\n";
 }
 
 std::string list_of(const std::vector<std::string>& lines) {
@@ -95,10 +95,10 @@ std::string list_of(const std::vector<std::string>& lines) {
   return text + "</ul>\n";
 }
 
-std::string pictures_html(const std::vector<ReportPicture>& pictures) {
+std::string plots_html(const std::vector<ReportPlot>& images) {
   std::string text = element("h2", "Plots") + "\n";
-  if (pictures.empty()) return text + element("p", "None: gnuplot was not at hand.") + "\n";
-  for (const ReportPicture& picture : pictures) text += inlined(picture);
+  if (images.empty()) return text + element("p", "None: gnuplot was not at hand.") + "\n";
+  for (const ReportPlot& image : images) text += inlined(image);
   return text;
 }
 
@@ -111,7 +111,7 @@ std::string page(const std::string& title, const std::string& body) {
          "figure.</footer>\n</main>\n</body>\n</html>\n";
 }
 
-std::string film_text(const TrackReport& report) {
+std::string clip_text(const TrackReport& report) {
   const FootageTruth& footage = report.footage;
   return footage.video + ", " + std::to_string(footage.size_px.width) + " x " + std::to_string(footage.size_px.height) +
          " pixels, frames " + std::to_string(footage.first_frame) + " to " + std::to_string(footage.last_frame) + ", " +
@@ -121,28 +121,28 @@ std::string film_text(const TrackReport& report) {
 
 }  // namespace
 
-std::string report_html(const TrackReport& report, const std::vector<ReportPicture>& pictures) {
-  std::string body = element("p", film_text(report)) + "\n" + table_html(table_of(report));
+std::string report_html(const TrackReport& report, const std::vector<ReportPlot>& images) {
+  std::string body = element("p", clip_text(report)) + "\n" + table_html(table_of(report));
   if (!report.remarks.empty()) body += element("h2", "Remarks") + "\n" + list_of(report.remarks);
-  body += pictures_html(pictures);
-  if (!pictures.empty())
+  body += plots_html(images);
+  if (!images.empty())
     body += element("p",
                     "In the plots over frames a line stops where nothing is reported; where the ground is grey, "
                     "nothing is scored.") +
             "\n";
-  return page("Trackers on " + report.film,
+  return page("Trackers on " + report.clip,
               body + element("h2", "What is counted") + "\n" + list_of(policies_of(report)));
 }
 
-std::string report_html(const DetectionReport& report, const std::vector<ReportPicture>& pictures) {
-  const std::string films = report.films.size() == 1 ? "1 film" : std::to_string(report.films.size()) + " films";
+std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
+  const std::string clips = report.clips.size() == 1 ? "1 film" : std::to_string(report.clips.size()) + " films";
   std::string body = table_html(table_of(report));
   for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())
     body += element("h2", "Encounters") + "\n" + table_html(encounters);
-  return page("Detectors on " + films, body + pictures_html(pictures) + element("h2", "What is counted") + "\n" +
+  return page("Detectors on " + clips, body + plots_html(images) + element("h2", "What is counted") + "\n" +
                                            list_of(policies_of(report)) + element("h2", "Films") + "\n" +
-                                           list_of(report.films));
+                                           list_of(report.clips));
 }
 
 }  // namespace sigs

@@ -54,17 +54,17 @@ Json json_of(const FootageTruth& footage) {
 Json json_of(const TrackPolicy& policy, const TrackReport& report) {
   return {{"truth", policy.truth == TruthBox::visible ? "visible" : "silhouette"},
           {"from_frame", policy.from_frame},
-          {"least_visible_fraction", policy.least_visible_fraction},
+          {"least_visible_fraction", policy.min_visible_fraction},
           {"in_words", policies_of(report)}};
 }
 
 Json json_of(const DetectionPolicy& policy, const DetectionReport& report) {
-  return {{"least_area_px2", policy.least_area_px2},         {"match_overlap", policy.match_overlap},
-          {"false_overlap", policy.false_overlap},           {"least_score", policy.least_score},
-          {"longest_range_m", policy.longest_range_m},       {"nearest_range_m", policy.nearest_range_m},
-          {"least_encounter_s", policy.least_encounter_s},   {"longest_gap_s", policy.longest_gap_s},
-          {"detect_range_m", policy.detect_range_m},         {"window_s", policy.window_s},
-          {"least_window_share", policy.least_window_share}, {"in_words", policies_of(report)}};
+  return {{"least_area_px2", policy.min_area_px2},         {"match_overlap", policy.match_overlap},
+          {"false_overlap", policy.false_overlap},         {"least_score", policy.min_score},
+          {"longest_range_m", policy.max_range_m},         {"nearest_range_m", policy.max_closest_range_m},
+          {"least_encounter_s", policy.min_encounter_s},   {"longest_gap_s", policy.max_gap_s},
+          {"detect_range_m", policy.detect_range_m},       {"window_s", policy.window_s},
+          {"least_window_share", policy.min_window_share}, {"in_words", policies_of(report)}};
 }
 
 Json json_of(const DetectionRate& rate) {
@@ -74,7 +74,7 @@ Json json_of(const DetectionRate& rate) {
 }
 
 Json json_of(const EncounterScore& encounter) {
-  return {{"film", line_text(encounter.film)},
+  return {{"film", line_text(encounter.clip)},
           {"target", encounter.target},
           {"first_frame", encounter.first_frame},
           {"last_frame", encounter.last_frame},
@@ -84,7 +84,7 @@ Json json_of(const EncounterScore& encounter) {
           {"first_detection_time_s", json_of(encounter.first_detection_time_s)},
           {"confirmed_range_m", json_of(encounter.confirmed_range_m)},
           {"confirmed_time_s", json_of(encounter.confirmed_time_s)},
-          {"nearest_m", encounter.nearest_m},
+          {"nearest_m", encounter.min_range_m},
           {"frames_visible", encounter.frames_visible},
           {"frames_matched", encounter.frames_matched}};
 }
@@ -131,7 +131,7 @@ Json scores_of(const std::vector<Score>& scores) {
 std::string evaluation_json(const TrackReport& report) {
   const Json json{{"sigs_evaluation", 1},
                   {"kind", "track"},
-                  {"film", line_text(report.film)},
+                  {"film", line_text(report.clip)},
                   {"footage", json_of(report.footage)},
                   {"target", line_text(report.target)},
                   {"policy", json_of(report.policy, report)},
@@ -143,7 +143,7 @@ std::string evaluation_json(const TrackReport& report) {
 std::string evaluation_json(const DetectionReport& report) {
   const Json json{{"sigs_evaluation", 1},
                   {"kind", "detect"},
-                  {"films", lines_of(report.films)},
+                  {"films", lines_of(report.clips)},
                   {"policy", json_of(report.policy, report)},
                   {"detectors", scores_of(report.scores)}};
   return json.dump(1) + "\n";

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "annotation/xml_text.h"
+#include "labels/xml_text.h"
 
 namespace sigs {
 

@@ -30,8 +30,8 @@ std::string range_text(const PlotSpan& range) {
   return std::string("[").append(exact_text(range.first)).append(":").append(exact_text(range.last)).append("]");
 }
 
-std::string terminal(const Plot& plot, PictureKind kind) {
-  if (kind == PictureKind::svg)
+std::string terminal(const Plot& plot, PlotFormat kind) {
+  if (kind == PlotFormat::svg)
     return "set terminal svg noenhanced size 960,500 font 'DejaVu Sans,Verdana,Arial,sans-serif,13' background "
            "'#ffffff' name " +
            quoted(plot.name) + "\n";
@@ -43,44 +43,44 @@ std::string blocks(const PlotSeries& series, std::size_t number) {
   std::string lines = "$runs" + std::to_string(number) + " << END\n";
   std::string lone = "$lone" + std::to_string(number) + " << END\n";
   for (const std::vector<PlotPoint>& run : series.runs) {
-    const bool is_lone = series.is_loose || run.size() == 1;  // a line needs two
+    const bool is_isolated = series.is_scatter || run.size() == 1;  // a line needs two
     for (const PlotPoint& point : run)
-      (is_lone ? lone : lines) += exact_text(point.x) + " " + exact_text(point.y) + "\n";
-    if (!is_lone) lines += "\n";
+      (is_isolated ? lone : lines) += exact_text(point.x) + " " + exact_text(point.y) + "\n";
+    if (!is_isolated) lines += "\n";
   }
   return lines + "END\n" + lone + "END\n";
 }
 
 bool has_lines(const PlotSeries& series) {
-  return !series.is_loose &&
+  return !series.is_scatter &&
          std::any_of(series.runs.begin(), series.runs.end(), [](const auto& r) { return r.size() > 1; });
 }
 
-bool has_lone_points(const PlotSeries& series) {
+bool has_isolated_points(const PlotSeries& series) {
   return std::any_of(series.runs.begin(), series.runs.end(),
-                     [&](const auto& run) { return run.size() == 1 || (series.is_loose && !run.empty()); });
+                     [&](const auto& run) { return run.size() == 1 || (series.is_scatter && !run.empty()); });
 }
 
 // A series and its entry in the key, which is there even where nothing of it is to be seen.
-std::string drawn(const PlotSeries& series, std::size_t number) {
+std::string plot_entries(const PlotSeries& series, std::size_t number) {
   const std::string color = " linecolor rgb '" + std::string(kColors[number % kColors.size()]) + "'";
   const std::size_t dash = (number + number / kColors.size()) % kDashes.size();
   const std::string line = " with lines linewidth 2 dashtype " + std::string(kDashes[dash]) + color;
   const int mark = kMarks[(number + number / kColors.size()) % kMarks.size()];
-  const std::string points = " with points pointsize " + std::string(series.is_loose ? "1.4" : "0.4") + " pointtype " +
-                             std::to_string(series.is_loose ? mark : 7) + " linewidth 2" + color;
-  std::string text = ", \\\n  keyentry" + (series.is_loose ? points : line) + " title " + quoted(series.title);
+  const std::string points = " with points pointsize " + std::string(series.is_scatter ? "1.4" : "0.4") +
+                             " pointtype " + std::to_string(series.is_scatter ? mark : 7) + " linewidth 2" + color;
+  std::string text = ", \\\n  keyentry" + (series.is_scatter ? points : line) + " title " + quoted(series.title);
   const std::string n = std::to_string(number);
   if (has_lines(series)) text += ", \\\n  $runs" + n + " using 1:2" + line + " notitle";
-  if (has_lone_points(series)) text += ", \\\n  $lone" + n + " using 1:2" + points + " notitle";
+  if (has_isolated_points(series)) text += ", \\\n  $lone" + n + " using 1:2" + points + " notitle";
   return text;
 }
 
 // Beside 0, from it outwards; those too near the one before for both labels to be read are left out.
-std::vector<double> wide_ticks(const PlotSpan& range) {
-  constexpr double kLeastGap = 0.035;  // of the axis; about a label's height
+std::vector<double> symlog_ticks(const PlotSpan& range) {
+  constexpr double kMinTickGap = 0.035;  // of the axis; about a label's height
   const auto place = [](double value) { return std::asinh(value / 10); };
-  const double gap = kLeastGap * (place(range.last) - place(range.first));
+  const double gap = kMinTickGap * (place(range.last) - place(range.first));
   std::vector<double> ticks;
   double last = 0;
   for (const double tick : {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}) {
@@ -96,9 +96,9 @@ std::string axes(const Plot& plot) {
   std::string text = "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
                      quoted(plot.y_label) + "\nset xrange " + range_text(plot.x_range) + "\nset yrange " +
                      range_text(plot.y_range) + "\n";
-  if (plot.y_scale == PlotScale::wide) {
+  if (plot.y_scale == PlotScale::symlog) {
     text += "set nonlinear y via asinh(y/10.) inverse 10.*sinh(y)\nset ytics (0";
-    for (const double tick : wide_ticks(plot.y_range)) text.append(",").append(exact_text(tick));
+    for (const double tick : symlog_ticks(plot.y_range)) text.append(",").append(exact_text(tick));
     text += ")\n";
   }
   int object = 0;
@@ -111,13 +111,13 @@ std::string axes(const Plot& plot) {
 
 }  // namespace
 
-std::string gnuplot_program(const Plot& plot, PictureKind kind) {
+std::string gnuplot_program(const Plot& plot, PlotFormat kind) {
   std::string text = "set encoding utf8\n" + terminal(plot, kind) + axes(plot) +
                      "set grid linecolor rgb '#d0d0d0' linewidth 1 dashtype solid\nset border linecolor rgb '#404040'\n"
                      "set key below left Left reverse samplen 4 width 2 spacing 1.2\nset tics nomirror\n";
   for (std::size_t i = 0; i < plot.series.size(); ++i) text += blocks(plot.series[i], i);
   text += "plot NaN notitle";
-  for (std::size_t i = 0; i < plot.series.size(); ++i) text += drawn(plot.series[i], i);
+  for (std::size_t i = 0; i < plot.series.size(); ++i) text += plot_entries(plot.series[i], i);
   return text + "\n";
 }
 

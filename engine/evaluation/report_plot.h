@@ -15,7 +15,7 @@ struct PlotPoint {
 struct PlotSeries {
   std::string title;
   std::vector<std::vector<PlotPoint>> runs;  // each is drawn on its own, with nothing between it and the next
-  bool is_loose = false;                     // points without lines
+  bool is_scatter = false;                   // points without lines
 };
 
 struct PlotSpan {
@@ -23,7 +23,7 @@ struct PlotSpan {
   double last = 0;
 };
 
-enum class PlotScale { linear, wide };  // wide: linear near zero, logarithmic beyond 10
+enum class PlotScale { linear, symlog };  // symlog: linear near zero, logarithmic beyond 10
 
 struct Plot {
   std::string name;  // of its files, without extension
@@ -37,11 +37,11 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-enum class PictureKind { svg, png };
+enum class PlotFormat { svg, png };
 
-// The plot as a program for gnuplot 5.2 or later that writes the picture to its standard output. No text of the plot is
+// The plot as a program for gnuplot 5.2 or later that writes the image to its standard output. No text of the plot is
 // run: names may hold what they like. Series differ by colour (all can be told apart by the colour-blind) and by dashes
 // or marks.
-[[nodiscard]] std::string gnuplot_program(const Plot& plot, PictureKind kind);
+[[nodiscard]] std::string gnuplot_program(const Plot& plot, PlotFormat kind);
 
 }  // namespace sigs

@@ -12,18 +12,18 @@ namespace sigs {
 
 namespace {
 
-constexpr double kLargestLinear_px = 60;  // beyond it, small errors would lie on the axis
+constexpr double kMaxLinear_px = 60;  // beyond it, small errors would lie on the axis
 
 using ErrorOf = std::function<std::optional<double>(const FrameScore&)>;
 
 std::vector<std::vector<PlotPoint>> runs_of(const TrackScore& score, const ErrorOf& error) {
   std::vector<std::vector<PlotPoint>> runs;
-  bool goes_on = false;
+  bool continues = false;
   for (const FrameScore& frame : score.frames) {
     const std::optional<double> y = frame.is_scored ? error(frame) : std::nullopt;
-    if (y && !goes_on) runs.emplace_back();
+    if (y && !continues) runs.emplace_back();
     if (y) runs.back().push_back({static_cast<double>(frame.frame), *y});
-    goes_on = y.has_value();
+    continues = y.has_value();
   }
   return runs;
 }
@@ -45,14 +45,14 @@ std::vector<PlotSpan> unscored(const TrackReport& report) {
   return spans;
 }
 
-// All points, zero, and some room.
+// All points and zero, with a margin.
 PlotSpan range_around(const std::vector<PlotSeries>& series) {
   PlotSpan range;
   for (const PlotSeries& one : series)
     for (const std::vector<PlotPoint>& run : one.runs)
       for (const PlotPoint& point : run) range = {std::min(range.first, point.y), std::max(range.last, point.y)};
-  const double room = std::max(0.05 * (range.last - range.first), 0.5);
-  return {range.first < 0 ? range.first - room : 0.0, range.last + room};
+  const double margin = std::max(0.05 * (range.last - range.first), 0.5);
+  return {range.first < 0 ? range.first - margin : 0.0, range.last + margin};
 }
 
 // A mean over a part of the frames alone says so; of fewer than half there is none.
@@ -74,7 +74,7 @@ struct ErrorPlot {
 
 Plot error_plot(const TrackReport& report, const ErrorPlot& kind) {
   Plot plot{.name = kind.name,
-            .title = std::string(kind.title) + ": " + report.film,
+            .title = std::string(kind.title) + ": " + report.clip,
             .x_label = "frame of the footage",
             .x_range = {double(report.policy.from_frame),
                         double(std::max(report.footage.last_frame, report.policy.from_frame + 1))},
@@ -82,10 +82,10 @@ Plot error_plot(const TrackReport& report, const ErrorPlot& kind) {
   for (const TrackScore& score : report.scores)
     plot.series.push_back({title_of(score, score.*kind.mean), runs_of(score, kind.error)});
   plot.y_range = range_around(plot.series);
-  const bool is_wide = std::max(-plot.y_range.first, plot.y_range.last) > kLargestLinear_px;
-  plot.y_scale = is_wide ? PlotScale::wide : PlotScale::linear;
-  if (is_wide) plot.y_range = {1.2 * plot.y_range.first, 1.2 * plot.y_range.last};
-  plot.y_label = std::string(kind.label) + (is_wide ? " (px; logarithmic beyond 10)" : " (px)");
+  const bool is_symlog = std::max(-plot.y_range.first, plot.y_range.last) > kMaxLinear_px;
+  plot.y_scale = is_symlog ? PlotScale::symlog : PlotScale::linear;
+  if (is_symlog) plot.y_range = {1.2 * plot.y_range.first, 1.2 * plot.y_range.last};
+  plot.y_label = std::string(kind.label) + (is_symlog ? " (px; logarithmic beyond 10)" : " (px)");
   return plot;
 }
 
@@ -101,7 +101,7 @@ struct CurvePlot {
 
 Plot curve_plot(const TrackReport& report, const CurvePlot& kind) {
   Plot plot{.name = kind.name,
-            .title = std::string(kind.title) + ": " + report.film,
+            .title = std::string(kind.title) + ": " + report.clip,
             .x_label = kind.x_label,
             .y_label = "share of the scored frames",
             .x_range = {0, kind.last_threshold},
@@ -117,12 +117,12 @@ Plot curve_plot(const TrackReport& report, const CurvePlot& kind) {
 }
 
 // How many of the encounters were seen by the time the range had come down to x: a staircase from far to near.
-PlotSeries first_ranges(const DetectionScore& score, double farthest_m) {
+PlotSeries first_ranges(const DetectionScore& score, double max_range_m) {
   std::vector<double> ranges_m;
   for (const EncounterScore& encounter : score.encounters)
     if (encounter.first_detection_range_m) ranges_m.push_back(*encounter.first_detection_range_m);
   std::sort(ranges_m.rbegin(), ranges_m.rend());
-  std::vector<PlotPoint> run{{farthest_m, 0}};
+  std::vector<PlotPoint> run{{max_range_m, 0}};
   double share = 0;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
     run.push_back({ranges_m[i], share});
@@ -135,17 +135,17 @@ PlotSeries first_ranges(const DetectionScore& score, double farthest_m) {
 }
 
 Plot first_range_plot(const DetectionReport& report) {
-  double farthest_m = report.policy.longest_range_m;
+  double max_range_m = report.policy.max_range_m;
   for (const DetectionScore& score : report.scores)
     for (const EncounterScore& encounter : score.encounters)
-      farthest_m = std::max(farthest_m, encounter.first_detection_range_m.value_or(0));
+      max_range_m = std::max(max_range_m, encounter.first_detection_range_m.value_or(0));
   Plot plot{.name = "first_range",
             .title = "Range of first detection",
             .x_label = "range (m)",
             .y_label = "share of encounters first seen at this range or before",
-            .x_range = {farthest_m, 0},
+            .x_range = {max_range_m, 0},
             .y_range = {0, 1.02}};
-  for (const DetectionScore& score : report.scores) plot.series.push_back(first_ranges(score, farthest_m));
+  for (const DetectionScore& score : report.scores) plot.series.push_back(first_ranges(score, max_range_m));
   return plot;
 }
 
@@ -157,7 +157,7 @@ Plot detection_rate_plot(const DetectionReport& report) {
             .y_range = {-0.05, 1.05}};
   double most = 1;
   for (const DetectionScore& score : report.scores) {
-    PlotSeries series{.title = score.name, .is_loose = true};
+    PlotSeries series{.title = score.name, .is_scatter = true};
     if (score.all.encounters > 0) series.runs.push_back({{score.false_alarms_per_hour, score.all.rate()}});
     if (std::isfinite(score.false_alarms_per_hour)) most = std::max(most, score.false_alarms_per_hour);
     plot.series.push_back(std::move(series));

@@ -6,9 +6,9 @@ namespace sigs {
 
 namespace {
 
-std::string least_seen(const TrackPolicy& policy) {
-  if (policy.least_visible_fraction <= 0) return "";
-  return " and of which at least " + exact_text(100 * policy.least_visible_fraction) + " % can be seen";
+std::string min_visible_text(const TrackPolicy& policy) {
+  if (policy.min_visible_fraction <= 0) return "";
+  return " and of which at least " + exact_text(100 * policy.min_visible_fraction) + " % can be seen";
 }
 
 std::string not_counted(int encounters) {
@@ -23,14 +23,14 @@ std::vector<std::string> uncounted_in(const DetectionReport& report) {
   const DetectionPolicy& policy = report.policy;
   const DetectionScore& score = report.scores.front();  // the truth is the same for all
   if (score.encounters_too_short > 0)
-    reasons.push_back(not_counted(score.encounters_too_short) + "shorter than " + exact_text(policy.least_encounter_s) +
-                      " s (--least-encounter)");
+    reasons.push_back(not_counted(score.encounters_too_short) + "shorter than " + exact_text(policy.min_encounter_s) +
+                      " s (--min-encounter)");
   if (score.encounters_too_far > 0)
     reasons.push_back(not_counted(score.encounters_too_far) + "the intruder comes no nearer than " +
-                      exact_text(policy.nearest_range_m) + " m (--nearest-range)");
+                      exact_text(policy.max_closest_range_m) + " m (--max-closest-range)");
   if (score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
-    reasons.push_back("there is no encounter: no intruder is seen within " + exact_text(policy.longest_range_m) +
-                      " m (--longest-range)");
+    reasons.push_back("there is no encounter: no intruder is seen within " + exact_text(policy.max_range_m) +
+                      " m (--max-range)");
   return reasons;
 }
 
@@ -43,7 +43,7 @@ std::vector<std::string> policies_of(const TrackReport& report) {
       "Centre: the middle of a box's edges. Errors are reported less true centre, x to the right, y down; CLE is the "
       "length of (X, Y). The middles x + w/2 and x + (w-1)/2 differ alike in both and give the same errors.",
       "Scored: frames from " + std::to_string(policy.from_frame) + " to " + std::to_string(report.footage.last_frame) +
-          " in which the intruder has such a box" + least_seen(policy) +
+          " in which the intruder has such a box" + min_visible_text(policy) +
           ". OpenCV's trackers are given the true box in whole pixels in the first of them, which counts too. "
           "Frames in which a result file marks its tracker as started anew do not count for it.",
       "Nothing reported in a scored frame: lost, and past every threshold of precision, success and normalised "
@@ -61,15 +61,15 @@ std::vector<std::string> policies_of(const DetectionReport& report) {
   const DetectionPolicy& policy = report.policy;
   return {
       "Match: extended overlap of at least " + exact_text(policy.match_overlap) +
-          ". Where the true box is smaller than " + exact_text(policy.least_area_px2) +
+          ". Where the true box is smaller than " + exact_text(policy.min_area_px2) +
           " square pixels, it and the reported one are grown to that area about their middles first.",
       "False alarm: a report with an extended overlap below " + exact_text(policy.false_overlap) +
           " with every true box; between the two it is neither.",
-      "Reports with a score below " + exact_text(policy.least_score) + " are left out.",
-      "Encounter: at least " + exact_text(policy.least_encounter_s) + " s in which an intruder is within " +
-          exact_text(policy.longest_range_m) + " m, with gaps of at most " + exact_text(policy.longest_gap_s) +
-          " s; it counts where it comes within " + exact_text(policy.nearest_range_m) + " m.",
-      "Detected (EDR): by one track in at least " + exact_text(100 * policy.least_window_share) +
+      "Reports with a score below " + exact_text(policy.min_score) + " are left out.",
+      "Encounter: at least " + exact_text(policy.min_encounter_s) + " s in which an intruder is within " +
+          exact_text(policy.max_range_m) + " m, with gaps of at most " + exact_text(policy.max_gap_s) +
+          " s; it counts where it comes within " + exact_text(policy.max_closest_range_m) + " m.",
+      "Detected (EDR): by one track in at least " + exact_text(100 * policy.min_window_share) +
           " % of the frames of some " + exact_text(policy.window_s) +
           " s before the intruder first comes nearer than " + exact_text(policy.detect_range_m) +
           " m, or in the encounter's first " + exact_text(policy.window_s) + " s.",

@@ -60,14 +60,14 @@ std::vector<std::string> lines_of(const TableColumn& column) {
   return lines;
 }
 
-std::string noted(const std::vector<TableColumn>& columns) {
+std::string with_notes(const std::vector<TableColumn>& columns) {
   std::string text = aligned(columns);
   for (const std::string& note : notes_on(columns)) text += note + "\n";
   return text;
 }
 
 // Fewer than half of the frames scored have a report.
-bool is_of_few(const TrackScore& score) {
+bool has_few_reports(const TrackScore& score) {
   return score.reported > 0 && 2 * score.reported < score.scored;
 }
 
@@ -77,9 +77,9 @@ TableColumn error_column(const std::vector<TrackScore>& scores, std::string titl
                          double TrackScore::*error) {
   TableColumn made =
       column<TrackScore>(scores, std::move(title), std::move(unit), 2, Best::none, [error](const TrackScore& score) {
-        return is_of_few(score) ? std::numeric_limits<double>::quiet_NaN() : score.*error;
+        return has_few_reports(score) ? std::numeric_limits<double>::quiet_NaN() : score.*error;
       });
-  for (const TrackScore& score : scores) made.is_partial.push_back(is_of_few(score));
+  for (const TrackScore& score : scores) made.is_partial.push_back(has_few_reports(score));
   return made;
 }
 
@@ -96,7 +96,7 @@ std::string padded(const std::string& text, std::size_t width, bool to_left) {
   return to_left ? text + blank : blank + text;
 }
 
-std::string without_end(std::string line) {
+std::string right_trimmed(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
   return line;
 }
@@ -142,7 +142,7 @@ std::vector<TableColumn> table_of(const DetectionReport& report) {
       column<Score>(scores, "first seen", "mean m", 0, Best::none, [](const Score& s) { return s.mean_first_range_m; }),
       column<Score>(scores, "frames", "", 0, Best::none, [](const Score& s) { return double(s.frames); }),
       column<Score>(scores, "time", "h", 4, Best::none, [](const Score& s) { return s.hours; })};
-  // Most films say where their horizon lies.
+  // Most clips say where their horizon lies.
   const bool has_unknown = std::any_of(scores.begin(), scores.end(),
                                        [](const Score& score) { return score.unknown_horizon.encounters > 0; });
   if (has_unknown) columns.insert(columns.begin() + 5, rates(scores, "unknown", &Score::unknown_horizon));
@@ -159,11 +159,11 @@ std::vector<TableColumn> encounters_of(const DetectionReport& report) {
     for (const EncounterScore& encounter : score.encounters) {
       const double none = std::numeric_limits<double>::quiet_NaN();
       const std::vector<std::string> cells{line_text(score.name),
-                                           line_text(encounter.film),
+                                           line_text(encounter.clip),
                                            std::to_string(encounter.target),
                                            frames_text(encounter),
                                            std::string(name_of(encounter.horizon)),
-                                           fixed_text(encounter.nearest_m, 0),
+                                           fixed_text(encounter.min_range_m, 0),
                                            encounter.is_detected ? "yes" : "no",
                                            fixed_text(encounter.first_detection_range_m.value_or(none), 0),
                                            fixed_text(encounter.first_detection_time_s.value_or(none), 2),
@@ -204,16 +204,16 @@ std::string aligned(const std::vector<TableColumn>& columns) {
       rows[row] += (c == 0 ? "" : "  ") + padded(lines[row], width, c == 0);
   }
   std::string text;
-  for (const std::string& row : rows) text += without_end(row) + "\n";
+  for (const std::string& row : rows) text += right_trimmed(row) + "\n";
   return text;
 }
 
 std::string table_text(const TrackReport& report) {
-  return noted(table_of(report));
+  return with_notes(table_of(report));
 }
 
 std::string table_text(const DetectionReport& report) {
-  return noted(table_of(report));
+  return with_notes(table_of(report));
 }
 
 }  // namespace sigs

@@ -5,9 +5,9 @@
 #include <array>
 #include <cctype>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "evaluation/numbers.h"
-#include "evaluation/results_layouts.h"
+#include "evaluation/results_formats.h"
 #include "evaluation/text_lines.h"
 
 namespace sigs {
@@ -43,11 +43,11 @@ Result<void> check_text(const ResultsFile& file) {
   return {};
 }
 
-Result<ResultsFormat> told_format(const ResultsFile& file) {
+Result<ResultsFormat> detected_format(const ResultsFile& file) {
   const TextLine first = *first_line(file.text);  // check_text has seen that there is one
   if (lower_case(file.path.extension().string()) == ".json" || first.text.starts_with('[') ||
       first.text.starts_with('{'))
-    return json_layout(file);
+    return json_format(file);
   std::vector<std::string_view> fields;
   split_values(first.text, fields);
   if (std::ranges::find(fields, "frame") != fields.end()) return ResultsFormat::csv;
@@ -96,20 +96,20 @@ std::span<const std::string_view> results_format_names() {
   return kFormatNames;
 }
 
-Result<Results> read_results(const std::filesystem::path& path, const FootageTruth& film,
+Result<Results> read_results(const std::filesystem::path& path, const FootageTruth& clip,
                              const ResultsOptions& options) {
   Result<std::string> text = read_text(path);
   if (!text) return fail(text.error());
-  const ResultsFile file{path, std::move(*text), film, options};
+  const ResultsFile file{path, std::move(*text), clip, options};
   if (const Result<void> good = check_text(file); !good) return fail(good.error());
   ResultsFormat format = options.format;
   if (format == ResultsFormat::automatic) {
-    const Result<ResultsFormat> told = told_format(file);
-    if (!told) return fail(told.error());
-    format = *told;
+    const Result<ResultsFormat> detected = detected_format(file);
+    if (!detected) return fail(detected.error());
+    format = *detected;
   }
   if (options.last_image_id && format != ResultsFormat::coco)
-    return fail(path.string(), "tells of several films and is not in the layout coco; name a file for each film");
+    return fail(path.string(), "tells of several clips and is not in the layout coco; name a file for each clip");
   Result<Results> results = read_as(format, file);
   if (results) results->name = results_name(path);
   return results;

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "annotation/annotation.h"
 #include "base/image.h"
 #include "base/result.h"
+#include "truth/annotation.h"
 
 namespace sigs {
 
@@ -27,12 +27,12 @@ struct ReportedBox {
   int line = 0;      // of the file it came from, from 1; 0: from no file
 };
 
-// What one tracker or detector says of one film.
+// What one tracker or detector says of one clip.
 struct Results {
   std::string name;                                // of the tracker, for tables and plots
   std::map<int, std::vector<ReportedBox>> frames;  // by the footage's frame number; absent: nothing reported there
-  std::set<int> given;                             // frames in which it was given the truth (VOT's 1): not scored
-  std::string film;                                // that an aot file names, as folder of its pictures; empty: not said
+  std::set<int> initializations;                   // frames in which it was given the truth (VOT's 1): not scored
+  std::string clip;                                // that an aot file names, as folder of its images; empty: not said
   std::optional<double> frames_per_s;              // of the tracker alone, where it is known
 
   [[nodiscard]] const ReportedBox* best_at(int frame) const;  // highest score, first of equals; nullptr: none
@@ -45,21 +45,21 @@ enum class ResultsFormat { automatic, otb, vot, mot, csv, aot, coco };
 
 struct ResultsOptions {
   ResultsFormat format = ResultsFormat::automatic;  // automatic: told by the file's name and first lines
-  bool may_hold_many = false;                       // several boxes a frame, as a detector reports; else an error
-  // Layouts with a line a frame (otb, vot) tell no frame numbers. They must have a line for each of the film's frames,
+  bool multiple_per_frame = false;                  // several boxes a frame, as a detector reports; else an error
+  // Layouts with a line a frame (otb, vot) tell no frame numbers. They must have a line for each of the clip's frames,
   // or for each from this one on (the footage's number), the one the tracker was started in.
   std::optional<int> start_frame;
-  // Layout coco: the image_id of the film's first frame.
+  // Layout coco: the image_id of the clip's first frame.
   int first_image_id = 1;
-  // Layout coco, one file for several films: the last image_id of all of them. Boxes of the other films are passed
+  // Layout coco, one file for several clips: the last image_id of all of them. Boxes of the other clips are passed
   // over. Any other layout is an error then.
   std::optional<int> last_image_id;
 };
 
-// Errors bad_data name file and line: a number of frames that is not the film's, frames past its end, NaN or infinite
+// Errors bad_data name file and line: a number of frames that is not the clip's, frames past its end, NaN or infinite
 // numbers, coordinates beyond a billion pixels, widths or heights of zero or less, the same id twice in a frame, lines
 // of another layout than the first. Error cannot_read.
-[[nodiscard]] Result<Results> read_results(const std::filesystem::path& path, const FootageTruth& film,
+[[nodiscard]] Result<Results> read_results(const std::filesystem::path& path, const FootageTruth& clip,
                                            const ResultsOptions& options = {});
 
 // The tracker's name of a result file: its name without extension.

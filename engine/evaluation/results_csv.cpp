@@ -3,7 +3,7 @@
 #include <array>
 
 #include "evaluation/numbers.h"
-#include "evaluation/results_layouts.h"
+#include "evaluation/results_formats.h"
 #include "evaluation/text_lines.h"
 
 namespace sigs {
@@ -39,8 +39,8 @@ Result<Header> header_of(const ResultsFile& file, const TextLine& line) {
   return header;
 }
 
-Result<void> take_line(const ResultsFile& file, const Header& header, const TextLine& line,
-                       const std::vector<std::string_view>& fields, ResultsIntake& intake) {
+Result<void> add_line(const ResultsFile& file, const Header& header, const TextLine& line,
+                      const std::vector<std::string_view>& fields, ResultsBuilder& builder) {
   std::array<double, kColumns> values{};
   values[score_column] = 1;
   values[track_column] = kNoTrack;
@@ -57,17 +57,17 @@ Result<void> take_line(const ResultsFile& file, const Header& header, const Text
   const std::optional<int> track = integer_of(values[track_column]);
   if (!track)
     return file.wrong(line.number, "track " + in_quotes(fields[header.place[track_column]]) + " is no whole number");
-  return intake.add(*frame, {.box = {values[x_column] - kEdgeFrom0, values[y_column] - kEdgeFrom0, values[width_column],
-                                     values[height_column]},
-                             .score = values[score_column],
-                             .track = *track < 0 ? kNoTrack : *track,
-                             .line = line.number});
+  return builder.add(*frame, {.box = {values[x_column] - kEdgeFrom0, values[y_column] - kEdgeFrom0,
+                                      values[width_column], values[height_column]},
+                              .score = values[score_column],
+                              .track = *track < 0 ? kNoTrack : *track,
+                              .line = line.number});
 }
 
 }  // namespace
 
 Result<Results> read_csv(const ResultsFile& file) {
-  ResultsIntake intake(file);
+  ResultsBuilder builder(file);
   TextLines lines(file.text);
   std::optional<Header> header;
   std::vector<std::string_view> fields;
@@ -84,9 +84,9 @@ Result<Results> read_csv(const ResultsFile& file) {
     if (fields.size() != header->columns)
       return file.wrong(line->number, "has " + std::to_string(fields.size()) + " values, line " +
                                           std::to_string(header->line) + " names " + std::to_string(header->columns));
-    if (const Result<void> taken = take_line(file, *header, *line, fields, intake); !taken) return fail(taken.error());
+    if (const Result<void> taken = add_line(file, *header, *line, fields, builder); !taken) return fail(taken.error());
   }
-  return intake.taken();
+  return builder.results();
 }
 
 }  // namespace sigs

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the layouts in JSON have in common: which of them a file has, and what a picture's name tells.
+// What the layouts in JSON have in common: which of them a file has, and what an image's name tells.
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "evaluation/numbers.h"
-#include "evaluation/results_layouts.h"
+#include "evaluation/results_formats.h"
 
 namespace sigs {
 
@@ -51,7 +51,7 @@ class FirstKeys : public nlohmann::json_sax<nlohmann::json> {
 
 }  // namespace
 
-Result<ResultsFormat> json_layout(const ResultsFile& file) {
+Result<ResultsFormat> json_format(const ResultsFile& file) {
   FirstKeys keys;
   static_cast<void>(nlohmann::json::sax_parse(file.text, &keys));
   if (keys.format()) return *keys.format();
@@ -61,8 +61,8 @@ Result<ResultsFormat> json_layout(const ResultsFile& file) {
                     "bbox (coco)");
 }
 
-std::optional<int> frame_of_picture(std::string_view picture) {
-  std::string_view name = picture.substr(picture.find_last_of("/\\") + 1);  // npos + 1 is 0
+std::optional<int> frame_of_image(std::string_view image) {
+  std::string_view name = image.substr(image.find_last_of("/\\") + 1);  // npos + 1 is 0
   name = name.substr(0, name.find_last_of('.'));
   const auto is_digit = [](char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; };
   const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_digit).base();
@@ -70,8 +70,8 @@ std::optional<int> frame_of_picture(std::string_view picture) {
   return digits.empty() ? std::nullopt : integer_of(digits);
 }
 
-std::string folder_of_picture(const std::string& picture) {
-  std::string folder = picture.substr(0, picture.find_last_of("/\\") + 1);  // npos + 1 is 0
+std::string folder_of_image(const std::string& image) {
+  std::string folder = image.substr(0, image.find_last_of("/\\") + 1);  // npos + 1 is 0
   if (!folder.empty()) folder.pop_back();
   return folder.substr(folder.find_last_of("/\\") + 1);
 }

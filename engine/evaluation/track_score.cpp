@@ -16,17 +16,17 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const std::optional<Box>& true_box(const TargetFrame& truth, const TrackPolicy& policy) {
-  return policy.truth == TruthBox::visible ? truth.visible : truth.silhouette;
+  return policy.truth == TruthBox::visible ? truth.visible : truth.amodal_box;
 }
 
 // Whether there is something to follow: a silhouette of which nothing can be seen is not.
-bool is_there(const TargetFrame& truth, const TrackPolicy& policy) {
+bool is_trackable(const TargetFrame& truth, const TrackPolicy& policy) {
   return truth.visible.has_value() && true_box(truth, policy).has_value();
 }
 
 bool is_counted(int frame, const TargetFrame& truth, const TrackPolicy& policy) {
-  return frame >= policy.from_frame && is_there(truth, policy) &&
-         truth.visible_fraction >= policy.least_visible_fraction;
+  return frame >= policy.from_frame && is_trackable(truth, policy) &&
+         truth.visible_fraction >= policy.min_visible_fraction;
 }
 
 // An error of nothing is nothing, also of a box without width.
@@ -49,7 +49,7 @@ FrameScore frame_score(int frame, double time_s, const TargetFrame& truth, const
   FrameScore score{.frame = frame, .time_s = time_s, .truth = true_box(truth, policy), .distance_m = truth.distance_m};
   const ReportedBox* reported = results.best_at(frame);
   const std::optional<Box>& box = true_box(truth, policy);
-  score.is_scored = is_counted(frame, truth, policy) && !results.given.contains(frame);
+  score.is_scored = is_counted(frame, truth, policy) && !results.initializations.contains(frame);
   score.is_reported = reported != nullptr;
   if (reported) score.reported = reported->box;
   if (box && reported) compare(score, *box, reported->box);
@@ -118,7 +118,7 @@ void sum_errors(TrackScore& score) {
   score.mean_overlap = mean(overlaps);
 }
 
-void draw_curves(TrackScore& score) {
+void compute_curves(TrackScore& score) {
   score.precision = curve_of<kPrecisionSteps>(score, [](const FrameScore& frame, int step) {
     return frame.center_error_px && !exceeds(*frame.center_error_px, step);
   });
@@ -136,32 +136,32 @@ void draw_curves(TrackScore& score) {
 
 }  // namespace
 
-TrackScore score_track(const FilmTruth& film, const TargetTruth& target, const Results& results,
+TrackScore score_track(const ClipTruth& clip, const TargetTruth& target, const Results& results,
                        const TrackPolicy& policy) {
-  ENSURE(target.frames.size() == film.times_s.size());
+  ENSURE(target.frames.size() == clip.times_s.size());
   TrackScore score{.name = results.name, .frames_per_s = results.frames_per_s};
   score.frames.reserve(target.frames.size());
   for (std::size_t i = 0; i < target.frames.size(); ++i) {
-    const int frame = film.footage.first_frame + static_cast<int>(i);
+    const int frame = clip.footage.first_frame + static_cast<int>(i);
     const TargetFrame& truth = target.frames[i];
-    score.frames.push_back(frame_score(frame, film.times_s[i], truth, results, policy));
-    if (score.frames.back().is_reported && frame >= policy.from_frame && !is_there(truth, policy))
+    score.frames.push_back(frame_score(frame, clip.times_s[i], truth, results, policy));
+    if (score.frames.back().is_reported && frame >= policy.from_frame && !is_trackable(truth, policy))
       ++score.reported_absent;
   }
   count_frames(score);
   sum_errors(score);
-  draw_curves(score);
+  compute_curves(score);
   return score;
 }
 
-std::optional<int> first_frame_to_track(const FilmTruth& film, const TargetTruth& target, const TrackPolicy& policy,
-                                        double least_side_px) {
+std::optional<int> first_frame_to_track(const ClipTruth& clip, const TargetTruth& target, const TrackPolicy& policy,
+                                        double min_side_px) {
   for (std::size_t i = 0; i < target.frames.size(); ++i) {
-    const int frame = film.footage.first_frame + static_cast<int>(i);
+    const int frame = clip.footage.first_frame + static_cast<int>(i);
     const TargetFrame& truth = target.frames[i];
     if (!is_counted(frame, truth, policy)) continue;
     const Box& box = *true_box(truth, policy);
-    if (std::min(box.width, box.height) >= least_side_px) return frame;
+    if (std::min(box.width, box.height) >= min_side_px) return frame;
   }
   return std::nullopt;
 }

@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/clip_truth.h"
 #include "evaluation/results.h"
-#include "evaluation/truth.h"
 
 namespace sigs {
 
 // Which of the truth's boxes a tracker is measured against.
-enum class TruthBox { visible, silhouette };
+enum class TruthBox { visible, amodal };
 
 // What is scored. docs/evaluation.md says why.
 struct TrackPolicy {
   TruthBox truth = TruthBox::visible;
   int from_frame = 0;  // the footage's number; frames before it are not scored (the tracker was started there)
-  double least_visible_fraction = 0;  // frames in which less of the intruder can be seen are not scored: hidden by the
-                                      // own body, or cut off by the picture's edge
+  double min_visible_fraction = 0;  // frames in which less of the intruder can be seen are not scored: hidden by the
+                                    // own body, or cut off by the image's edge
 };
 
 struct FrameScore {
@@ -48,7 +48,7 @@ inline constexpr int kNormalizedSteps = 51;  // thresholds 0, 0.01, ... 0.5
 // report. NaN where there is no such frame.
 struct TrackScore {
   std::string name;
-  std::vector<FrameScore> frames;  // one for each of the film
+  std::vector<FrameScore> frames;  // one for each of the clip
   int scored = 0;
   int reported = 0;         // of the scored
   int lost = 0;             // of the scored
@@ -68,12 +68,12 @@ struct TrackScore {
   std::optional<double> frames_per_s;
 };
 
-[[nodiscard]] TrackScore score_track(const FilmTruth& film, const TargetTruth& target, const Results& results,
+[[nodiscard]] TrackScore score_track(const ClipTruth& clip, const TargetTruth& target, const Results& results,
                                      const TrackPolicy& policy);
 
-// First frame from which a tracker can be started: the truth has a box whose sides are both at least least_side_px, and
+// First frame from which a tracker can be started: the truth has a box whose sides are both at least min_side_px, and
 // the policy counts it. The footage's number.
-[[nodiscard]] std::optional<int> first_frame_to_track(const FilmTruth& film, const TargetTruth& target,
-                                                      const TrackPolicy& policy, double least_side_px);
+[[nodiscard]] std::optional<int> first_frame_to_track(const ClipTruth& clip, const TargetTruth& target,
+                                                      const TrackPolicy& policy, double min_side_px);
 
 }  // namespace sigs

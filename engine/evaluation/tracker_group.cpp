@@ -19,21 +19,21 @@ Result<TrackerGroup> TrackerGroup::make(const std::vector<std::string>& names) {
   return group;
 }
 
-void TrackerGroup::start(int frame, const cv::Mat& picture, const Box& box) {
+void TrackerGroup::start(int frame, const cv::Mat& image, const Box& box) {
   ENSURE(!is_started_);
   is_started_ = true;
   for (Member& member : members_) {
-    const Result<void> step = member.tracker.start(frame, picture, box);
+    const Result<void> step = member.tracker.start(frame, image, box);
     member.has_started = step.has_value();
     if (!step) remarks_.push_back(step.error().text() + "; it is left out");
   }
 }
 
-void TrackerGroup::follow(int frame, const cv::Mat& picture) {
+void TrackerGroup::follow(int frame, const cv::Mat& image) {
   ENSURE(is_started_);
   for (Member& member : members_) {
     if (!member.has_started || member.has_failed) continue;
-    const Result<void> step = member.tracker.follow(frame, picture);
+    const Result<void> step = member.tracker.follow(frame, image);
     member.has_failed = !step.has_value();
     if (!step) remarks_.push_back(step.error().text() + "; it reports nothing from there on");
   }

@@ -13,17 +13,17 @@
 
 namespace sigs {
 
-// Several of OpenCV's trackers on one film, fed the same pictures in turn. Each says what it would say alone.
+// Several of OpenCV's trackers on one clip, fed the same images in turn. Each says what it would say alone.
 class TrackerGroup {
  public:
   // Error usage: there is none of some name, or one is named twice.
   [[nodiscard]] static Result<TrackerGroup> make(const std::vector<std::string>& names);
 
   // Starts all. Those that cannot are left out, with a remark.
-  void start(int frame, const cv::Mat& picture, const Box& box);
+  void start(int frame, const cv::Mat& image, const Box& box);
 
-  // The next picture. A tracker that fails says nothing from there on, with a remark.
-  void follow(int frame, const cv::Mat& picture);
+  // The next image. A tracker that fails says nothing from there on, with a remark.
+  void follow(int frame, const cv::Mat& image);
 
   [[nodiscard]] bool is_started() const { return is_started_; }
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }

@@ -73,7 +73,7 @@ void read_library(const fs::path& path, MtlMaterials& found) {
     std::string error;
     tinyobj::LoadMtl(&index_of_name, &materials, &stream, &warning, &error);
   } catch (const std::exception&) {
-    if (is_out_of_memory()) throw;  // a model without its materials would be a wrong picture
+    if (is_out_of_memory()) throw;  // a model without its materials would be a wrong texture
     return;
   }
   std::map<std::string, Aside> asides = asides_of(*text);
@@ -138,17 +138,17 @@ class Painter {
   cv::Mat texture_of(const MtlMaterial& source, const std::string& written) {
     if (written.empty()) return {};
     const fs::path path = found_file(source.folder, std::string(trimmed(written)));
-    const cv::Mat texture = path.empty() ? cv::Mat() : shelf_.picture(path);
+    const cv::Mat texture = path.empty() ? cv::Mat() : texture_cache_.texture(path);
     if (texture.empty() && !is_known(written)) {
       reported_.push_back(written);
-      const std::string wrong = path.empty() ? "is missing" : wrong_with_picture(path);
+      const std::string wrong = path.empty() ? "is missing" : texture_problem(path);
       warnings_.push_back(
           {obj_name_, "texture " + written + " " + (wrong.empty() ? "cannot be read" : wrong) + "; drawn grey"});
     }
     return texture;
   }
 
-  // Exporters name the colour picture again where its own opacity is meant; that is in the texture already.
+  // Exporters name the colour texture again where its own opacity is meant; that is in the texture already.
   void thin_out(Material& material, const MtlMaterial& source) {
     const std::string& written = source.material.alpha_texname;
     if (written.empty() || written == source.material.diffuse_texname) return;
@@ -165,7 +165,7 @@ class Painter {
   std::string obj_name_;
   std::vector<Warning>& warnings_;
   std::vector<std::string> reported_;
-  TextureShelf shelf_;
+  TextureCache texture_cache_;
 };
 
 TexturePlacement placement_of(const tinyobj::texture_option_t& option) {

@@ -19,7 +19,7 @@ struct Material {
   glm::vec3 specular{0, 0, 0};
   float shininess = 1;
   float opacity = 1;  // 1: solid
-  cv::Mat texture{};  // CV_8UC4, RGBA, first row is the top of the picture (v = 1); empty: none
+  cv::Mat texture{};  // CV_8UC4, RGBA, first row is the top of the image (v = 1); empty: none
 };
 
 // Vertices of one triangle soup corner; float is enough for a body of some 100 m (0.01 mm).

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "base/text_pieces.h"
 #include "mesh/textures.h"
 
@@ -59,8 +59,8 @@ Result<std::vector<fs::path>> files_of_model(const fs::path& file) {
   std::vector<fs::path> files{file};
   for (const fs::path& library : *libraries) {
     files.push_back(library);
-    const Result<std::vector<fs::path>> pictures = files_named_in(library, names_picture);
-    if (pictures) files.insert(files.end(), pictures->begin(), pictures->end());
+    const Result<std::vector<fs::path>> images = files_named_in(library, names_picture);
+    if (images) files.insert(files.end(), images->begin(), images->end());
   }
   return files;
 }

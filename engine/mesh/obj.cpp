@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "mesh/axes.h"
 #include "mesh/materials.h"
 #include "mesh/mesh.h"

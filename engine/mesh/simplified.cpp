@@ -8,16 +8,16 @@
 #include <numeric>
 #include <utility>
 
-#include "mesh/nearness.h"
-#include "mesh/sets.h"
+#include "base/disjoint_sets.h"
+#include "mesh/surface_deviation.h"
 
 namespace sigs {
 namespace {
 
-constexpr double kMostSine = 0.1;          // between a normal and that of the surface where it went
-constexpr double kLeastCosine = 0.3;       // between a triangle and what it becomes: none folds over
-constexpr std::size_t kMostAround = 24;    // triangles around a vertex: fans stay fans, and the work stays small
-constexpr std::size_t kMostSamples = 400;  // in them
+constexpr double kMaxSine = 0.1;          // between a normal and that of the surface where it went
+constexpr double kMinCosine = 0.3;        // between a triangle and what it becomes: none folds over
+constexpr std::size_t kMaxAround = 24;    // triangles around a vertex: fans stay fans, and the work stays small
+constexpr std::size_t kMaxSamples = 400;  // in them
 
 // By vertex, the number of its place: equal positions share one.
 std::vector<std::uint32_t> places_of(std::span<const Vertex> vertices) {
@@ -39,20 +39,20 @@ std::vector<std::uint32_t> places_of(std::span<const Vertex> vertices) {
 
 // By vertex, a number of what hangs together by triangles that share vertices: to either side of a seam another one.
 std::vector<std::uint32_t> sheets_of(std::size_t vertex_count, std::span<const std::uint32_t> indices) {
-  Sets sets(vertex_count);
+  DisjointSets disjoint_sets(vertex_count);
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    sets.join(indices[i], indices[i + 1]);
-    sets.join(indices[i], indices[i + 2]);
+    disjoint_sets.join(indices[i], indices[i + 1]);
+    disjoint_sets.join(indices[i], indices[i + 2]);
   }
   std::vector<std::uint32_t> sheets(vertex_count);
-  for (std::uint32_t v = 0; v < vertex_count; ++v) sheets[v] = sets.root(v);
+  for (std::uint32_t v = 0; v < vertex_count; ++v) sheets[v] = disjoint_sets.root(v);
   return sheets;
 }
 
 struct Sample {
   Vertex at;
   std::uint32_t sheet;
-  bool is_pictured;
+  bool is_textured;
 };
 
 struct Face {
@@ -128,7 +128,7 @@ class Collapser {
       if (around_[place].empty() || around_[place].back() != number) around_[place].push_back(number);
       if (keep == Keep::all || (corners[i] > next && has_side(next, corners[i]))) continue;  // it is the other's
       triangle.samples.push_back(static_cast<std::uint32_t>(samples_.size()));
-      samples_.push_back({middle_of(vertices_[corners[i]], vertices_[next]), sheets_[next], keep == Keep::picture});
+      samples_.push_back({middle_of(vertices_[corners[i]], vertices_[next]), sheets_[next], keep == Keep::texture});
     }
     triangles_.push_back(std::move(triangle));
   }
@@ -140,8 +140,8 @@ class Collapser {
   // The places around one, one after the other; none where they are no closed ring, or must stay.
   [[nodiscard]] std::vector<std::uint32_t> ring_of(std::uint32_t place) const {
     const std::vector<std::uint32_t>& around = around_[place];
-    if (is_fixed_[place] != 0 || around.size() < 3 || around.size() > kMostAround) return {};
-    std::array<std::pair<std::uint32_t, std::uint32_t>, kMostAround> edges;
+    if (is_fixed_[place] != 0 || around.size() < 3 || around.size() > kMaxAround) return {};
+    std::array<std::pair<std::uint32_t, std::uint32_t>, kMaxAround> edges;
     for (std::size_t i = 0; i < around.size(); ++i) {
       const Corner3& v = triangles_[around[i]].vertices;
       const int at = places_[v[0]] == place ? 0 : places_[v[1]] == place ? 1 : 2;
@@ -228,7 +228,7 @@ class Collapser {
         corner = known->second;
       }
       const glm::dvec3 after = across(v);
-      if (!(glm::dot(before, after) > kLeastCosine * glm::length(before) * glm::length(after))) return false;
+      if (!(glm::dot(before, after) > kMinCosine * glm::length(before) * glm::length(after))) return false;
       change.becomes.emplace_back(number, v);
     }
     return true;
@@ -239,14 +239,14 @@ class Collapser {
     change.moves.clear();
     change.gone.clear();
     const auto finds = [&](const Sample& sample, std::uint32_t number) {
-      double least_m = error_m;
+      double min_m = error_m;
       const std::uint32_t* nearest = nullptr;
       for (const auto& [triangle, v] : change.becomes) {
         if (sheets_[v[0]] != sample.sheet) continue;
         const double off_m = offset_m(sample.at, {&vertices_[v[0]], &vertices_[v[1]], &vertices_[v[2]]},
-                                      sample.is_pictured, least_m, kMostSine);
-        if (!(off_m <= least_m)) continue;
-        least_m = off_m;
+                                      sample.is_textured, min_m, kMaxSine);
+        if (!(off_m <= min_m)) continue;
+        min_m = off_m;
         nearest = &triangle;
         if (off_m == 0) break;
       }
@@ -256,12 +256,12 @@ class Collapser {
     const std::vector<std::uint32_t> wedges = wedges_at(place);
     auto number = static_cast<std::uint32_t>(samples_.size());
     for (const std::uint32_t v : wedges) {
-      change.gone.push_back({vertices_[v], sheets_[v], is_pictured(place, v)});
+      change.gone.push_back({vertices_[v], sheets_[v], is_textured(place, v)});
       if (!finds(change.gone.back(), number++)) return false;
     }
     for (const std::uint32_t triangle : around_[place])
       for (const std::uint32_t sample : triangles_[triangle].samples)
-        if (!finds(samples_[sample], sample) || change.moves.size() > kMostSamples) return false;
+        if (!finds(samples_[sample], sample) || change.moves.size() > kMaxSamples) return false;
     return true;
   }
 
@@ -273,11 +273,11 @@ class Collapser {
     return wedges;
   }
 
-  [[nodiscard]] bool is_pictured(std::uint32_t place, std::uint32_t vertex) const {
+  [[nodiscard]] bool is_textured(std::uint32_t place, std::uint32_t vertex) const {
     const std::vector<std::uint32_t>& around = around_[place];
     return std::any_of(around.begin(), around.end(), [&](std::uint32_t number) {
       const Face& triangle = triangles_[number];
-      return triangle.keep == Keep::picture &&
+      return triangle.keep == Keep::texture &&
              std::find(triangle.vertices.begin(), triangle.vertices.end(), vertex) != triangle.vertices.end();
     });
   }

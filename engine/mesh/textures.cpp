@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/guarded.h"
-#include "base/picture_size.h"
+#include "base/image_size.h"
 
 namespace sigs {
 
@@ -38,38 +38,38 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, code);
 }
 
-// 16-bit pictures hold 257 steps for each of 8 bits; floating-point ones run from 0 to 1.
-cv::Mat as_8_bit(const cv::Mat& picture) {
-  cv::Mat result = picture;
-  if (picture.depth() == CV_16U) picture.convertTo(result, CV_8U, 1.0 / 257.0);
-  if (picture.depth() == CV_32F || picture.depth() == CV_64F) picture.convertTo(result, CV_8U, 255.0);
+// 16-bit textures hold 257 steps for each of 8 bits; floating-point ones run from 0 to 1.
+cv::Mat as_8_bit(const cv::Mat& texture) {
+  cv::Mat result = texture;
+  if (texture.depth() == CV_16U) texture.convertTo(result, CV_8U, 1.0 / 257.0);
+  if (texture.depth() == CV_32F || texture.depth() == CV_64F) texture.convertTo(result, CV_8U, 255.0);
   return result;
 }
 
-cv::Mat as_rgba(const cv::Mat& picture) {
+cv::Mat as_rgba(const cv::Mat& texture) {
   cv::Mat rgba;
-  if (picture.depth() != CV_8U) return rgba;
-  if (picture.channels() == 1) cv::cvtColor(picture, rgba, cv::COLOR_GRAY2RGBA);
-  if (picture.channels() == 2) {
+  if (texture.depth() != CV_8U) return rgba;
+  if (texture.channels() == 1) cv::cvtColor(texture, rgba, cv::COLOR_GRAY2RGBA);
+  if (texture.channels() == 2) {
     const std::vector<int> from_to{0, 0, 0, 1, 0, 2, 1, 3};
-    rgba.create(picture.size(), CV_8UC4);
-    cv::mixChannels({picture}, {rgba}, from_to);
+    rgba.create(texture.size(), CV_8UC4);
+    cv::mixChannels({texture}, {rgba}, from_to);
   }
-  if (picture.channels() == 3) cv::cvtColor(picture, rgba, cv::COLOR_BGR2RGBA);
-  if (picture.channels() == 4) cv::cvtColor(picture, rgba, cv::COLOR_BGRA2RGBA);
+  if (texture.channels() == 3) cv::cvtColor(texture, rgba, cv::COLOR_BGR2RGBA);
+  if (texture.channels() == 4) cv::cvtColor(texture, rgba, cv::COLOR_BGRA2RGBA);
   return rgba;
 }
 
-constexpr int kLongestSide_px = 16384;               // what OpenGL takes nearly everywhere
-constexpr std::int64_t kMostPixels = 8192LL * 8192;  // a quarter of a gigabyte in RGBA
+constexpr int kMaxSide_px = 16384;                  // what OpenGL takes nearly everywhere
+constexpr std::int64_t kMaxPixels = 8192LL * 8192;  // a quarter of a gigabyte in RGBA
 
-cv::Mat read_picture(const fs::path& path) {
-  if (!wrong_with_picture(path).empty()) return {};
+cv::Mat read_image(const fs::path& path) {
+  if (!texture_problem(path).empty()) return {};
   try {
-    const cv::Mat picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
-    return picture.empty() ? cv::Mat() : as_rgba(as_8_bit(picture));
+    const cv::Mat texture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    return texture.empty() ? cv::Mat() : as_rgba(as_8_bit(texture));
   } catch (const cv::Exception&) {
-    if (is_out_of_memory()) throw;  // a model without its texture would be a wrong picture
+    if (is_out_of_memory()) throw;  // a model without its texture would be a wrong texture
     return {};
   }
 }
@@ -86,19 +86,19 @@ fs::path found_file(const fs::path& folder, std::string written) {
   return {};
 }
 
-std::string wrong_with_picture(const fs::path& path) {
-  const std::optional<cv::Size> size = picture_size_px(path);
+std::string texture_problem(const fs::path& path) {
+  const std::optional<cv::Size> size = image_size_px(path);
   if (!size) return "cannot be read (png, jpeg, bmp, tiff, webp, pnm)";
   const bool is_large =
-      std::max(size->width, size->height) > kLongestSide_px || std::int64_t{size->width} * size->height > kMostPixels;
+      std::max(size->width, size->height) > kMaxSide_px || std::int64_t{size->width} * size->height > kMaxPixels;
   if (!is_large) return "";
   return "is " + std::to_string(size->width) + "x" + std::to_string(size->height) +
          "; at most 8192x8192 pixels are read, and 16384 a side";
 }
 
-cv::Mat TextureShelf::picture(const fs::path& path) {
-  const auto [entry, is_first] = pictures_.try_emplace(path);
-  if (is_first) entry->second = read_picture(path);
+cv::Mat TextureCache::texture(const fs::path& path) {
+  const auto [entry, is_first] = textures_.try_emplace(path);
+  if (is_first) entry->second = read_image(path);
   return entry->second;
 }
 

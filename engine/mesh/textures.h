@@ -12,21 +12,21 @@ namespace sigs {
 // or with a path of his own machine (then the file beside the model counts). Empty: there is none.
 [[nodiscard]] std::filesystem::path found_file(const std::filesystem::path& folder, std::string written);
 
-// Empty where the picture can be read; else why not: "is 16000x16000; at most ...". Looks at the
+// Empty where the texture can be read; else why not: "is 16000x16000; at most ...". Looks at the
 // header alone, so that no memory is taken for what is too large (docs/limits.md).
-[[nodiscard]] std::string wrong_with_picture(const std::filesystem::path& path);
+[[nodiscard]] std::string texture_problem(const std::filesystem::path& path);
 
-// Pictures by path, each read once: materials that name the same file share its pixels.
-class TextureShelf {
+// Images by path, each read once: materials that name the same file share its pixels.
+class TextureCache {
  public:
-  // CV_8UC4, RGBA; empty where the file cannot be read as a picture or wrong_with_picture().
-  [[nodiscard]] cv::Mat picture(const std::filesystem::path& path);
+  // CV_8UC4, RGBA; empty where the file cannot be read as a texture or texture_problem().
+  [[nodiscard]] cv::Mat texture(const std::filesystem::path& path);
 
  private:
-  std::map<std::filesystem::path, cv::Mat> pictures_;
+  std::map<std::filesystem::path, cv::Mat> textures_;
 };
 
-// A copy of the texture whose opacity is multiplied by the brightness of a map_d picture.
+// A copy of the texture whose opacity is multiplied by the brightness of a map_d texture.
 [[nodiscard]] cv::Mat with_opacity_map(const cv::Mat& texture, const cv::Mat& opacity_map);
 
 }  // namespace sigs

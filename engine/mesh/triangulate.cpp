@@ -97,16 +97,16 @@ class PointGrid {
   void put(int point) { square(cell(points_[point])).push_back(point); }
   void take(int point) { std::erase(square(cell(points_[point])), point); }
 
-  // Whether meets(point) for one of those in squares that the box from low to high touches. Looks at most_looks points
+  // Whether meets(point) for one of those in squares that the box from low to high touches. Looks at max_looks points
   // and squares at most, and takes them off.
   template <class Meets>
-  bool any_in(const glm::dvec2& low, const glm::dvec2& high, std::int64_t& most_looks, const Meets& meets) {
+  bool any_in(const glm::dvec2& low, const glm::dvec2& high, std::int64_t& max_looks, const Meets& meets) {
     const glm::ivec2 first = cell(low);
     const glm::ivec2 last = cell(high);
     for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x && most_looks > 0; ++x) {
+      for (int x = first.x; x <= last.x && max_looks > 0; ++x) {
         const std::vector<int>& there = square({x, y});
-        most_looks -= 1 + static_cast<std::int64_t>(there.size());
+        max_looks -= 1 + static_cast<std::int64_t>(there.size());
         if (std::any_of(there.begin(), there.end(), meets)) return true;
       }
     return false;
@@ -145,15 +145,15 @@ class Clipper {
   }
 
   // Nothing: it would take more looks than that.
-  std::optional<std::vector<std::array<int, 3>>> clipped(std::int64_t most_looks) {
+  std::optional<std::vector<std::array<int, 3>>> clipped(std::int64_t max_looks) {
     std::vector<std::array<int, 3>> triangles;
     triangles.reserve(flat_.size());
     int left = static_cast<int>(flat_.size());
     int at = 0;
     for (int passed = 0; left > 3;) {
-      if (--most_looks < 0) return std::nullopt;
+      if (--max_looks < 0) return std::nullopt;
       const bool is_forced = passed > left;  // crosses itself or has no area: any corner will do
-      if (!is_forced && !is_ear(at, most_looks)) {
+      if (!is_forced && !is_ear(at, max_looks)) {
         at = next_[at];
         ++passed;
         continue;
@@ -179,12 +179,12 @@ class Clipper {
     is_inward ? grid_.put(i) : grid_.take(i);
   }
 
-  bool is_ear(int i, std::int64_t& most_looks) {
+  bool is_ear(int i, std::int64_t& max_looks) {
     if (is_inward_[i]) return false;
     const glm::dvec2 a = flat_[before_[i]];
     const glm::dvec2 b = flat_[i];
     const glm::dvec2 c = flat_[next_[i]];
-    return !grid_.any_in(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), most_looks,
+    return !grid_.any_in(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), max_looks,
                          [&](int other) { return inside(flat_[other], a, b, c); });
   }
 

@@ -19,13 +19,14 @@ namespace {
 // What a part's evidence says for it, in natural logarithms of odds. Each says nothing at its first number, between
 // what aircraft's parts and others show, and counts as one unit at the second's distance from there. None decides
 // alone: a rim that is sharp all around outweighs some unrest inside.
-constexpr double kLoneRim = 0.55;     // walls in the rim over those just outside: a sky's or a texture's own walls are
+constexpr double kLoneRim =
+    0.55;  // boundaries in the rim over those just outside: a sky's or a texture's own boundaries are
 constexpr double kLoneRimUnit = 0.1;  // as many beside the rim as in it, and a world passing by shows hardly any
 constexpr double kEdgedRim = 0.6;     // of the rim, by edges that stay; abrupt ends of motion count half
 constexpr double kEdgedRimUnit = 0.2;
 constexpr double kRestlessness = 3;  // times noise, the median inside; one unit for each doubling above
 constexpr double kDriftUnit = 0.25;  // the mean inside, above none
-constexpr double kLeastOdds = 0.5;
+constexpr double kMinOdds = 0.5;
 constexpr double kNever = -100;
 constexpr double kRivalry = 0.6;  // odds by which a part may be behind an overlapping one and still add to it
 
@@ -33,8 +34,8 @@ constexpr double kNext = 1.5;    // pixels: the eight next to one are less far a
 constexpr int kBandShare = 160;  // of the width: that far off the rim, what it is made of no longer shows
 constexpr int kBandWidth = 2;    // times that
 
-cv::Mat square(int reach) {
-  return cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8UC1);
+cv::Mat square(int radius) {
+  return cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
 }
 
 double median(const cv::Mat& values, const cv::Mat& mask) {
@@ -48,7 +49,7 @@ double median(const cv::Mat& values, const cv::Mat& mask) {
   return *middle;
 }
 
-// The walls' middles may lie on either side of the labels' border.
+// The boundaries' middles may lie on either side of the labels' border.
 struct Rim {
   cv::Mat middle;
   cv::Mat edged;
@@ -108,7 +109,7 @@ struct Part {
   double odds = 0;
 };
 
-std::vector<Part> parts_of(const cv::Mat& labels, const PartEvidence& evidence, const Rim& rim, double least_area_px) {
+std::vector<Part> parts_of(const cv::Mat& labels, const PartEvidence& evidence, const Rim& rim, double min_area_px) {
   const cv::Size size = labels.size();
   const int off = std::max(1, size.width / kBandShare);
   cv::Mat numbers;
@@ -118,7 +119,7 @@ std::vector<Part> parts_of(const cv::Mat& labels, const PartEvidence& evidence, 
   std::vector<Part> parts;
   for (int i = 1; i < count; ++i) {
     const int* row = boxes.ptr<int>(i);
-    if (row[cv::CC_STAT_AREA] < least_area_px) continue;
+    if (row[cv::CC_STAT_AREA] < min_area_px) continue;
     const cv::Rect box(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH], row[cv::CC_STAT_HEIGHT]);
     Part part{.box = grown(box, (1 + kBandWidth) * off + 2, size), .odds = kNever};
     part.mask = numbers(part.box) == i;
@@ -133,13 +134,13 @@ std::vector<Part> parts_of(const cv::Mat& labels, const PartEvidence& evidence, 
 
 }  // namespace
 
-BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence& evidence, double least_area_px) {
+BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence& evidence, double min_area_px) {
   ENSURE(!labellings.empty());
   const cv::Size size = labellings.front().size();
   const Rim rim = rim_evidence(evidence);
   std::vector<Part> parts;
   for (const cv::Mat& labels : labellings) {
-    std::vector<Part> more = parts_of(labels, evidence, rim, least_area_px);
+    std::vector<Part> more = parts_of(labels, evidence, rim, min_area_px);
     std::ranges::move(more, std::back_inserter(parts));
   }
   std::ranges::stable_sort(parts, std::greater{}, &Part::odds);
@@ -147,7 +148,7 @@ BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence&
   cv::Mat best = cv::Mat::zeros(size, CV_32FC1);  // odds of the part that a pixel was first kept with
   for (const Part& part : parts) {
     sorted.doubtful(part.box).setTo(255, part.mask);
-    if (part.odds < kLeastOdds) continue;
+    if (part.odds < kMinOdds) continue;
     double rival = 0;
     cv::minMaxLoc(best(part.box), nullptr, &rival, nullptr, nullptr, part.mask);
     if (part.odds < rival - kRivalry) continue;

@@ -6,7 +6,7 @@
 
 namespace sigs {
 
-// What tells parts of the carrying aircraft from other parts of the picture; CV_32FC1, of the labels' size.
+// What tells parts of the carrying aircraft from other parts of the image; CV_32FC1, of the labels' size.
 struct PartEvidence {
   cv::Mat staying;    // 0..1: edges that stay
   cv::Mat ending;     // 0..1: places where motion ends abruptly
@@ -23,13 +23,13 @@ struct BodyParts {
 
 // Those connected parts of a labelling that can be the carrying aircraft's:
 // - large enough,
-// - at the picture's border: the aircraft goes on to where the camera is fixed to it,
+// - at the image's border: the aircraft goes on to where the camera is fixed to it,
 // - of which the following together speak more for the aircraft than against it: what separates them from the rest is
 //   an edge that stays or an abrupt end of motion, with few such just outside, as a world passing by has none; they are
 //   still inside, not a road, whose faint texture passes by, and no clouds that creep.
 // labellings: one or more, CV_8UC1, non-zero: may be body. Where parts of several overlap, the more convincing one
 // stays, with what is nearly as convincing.
 [[nodiscard]] BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence& evidence,
-                                   double least_area_px);
+                                   double min_area_px);
 
 }  // namespace sigs

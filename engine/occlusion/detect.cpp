@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "occlusion/convergence.h"
 #include "occlusion/luma_stream.h"
-#include "occlusion/settling.h"
 #include "occlusion/soft_edge.h"
 
 namespace sigs {
@@ -37,11 +37,11 @@ class Detection {
         control_(control),
         steps_(steps_of(footage.info(), first_frame, settings)),
         method_(detection_method(settings, footage.info().size_px)),
-        settling_(settings.settled_percent / 100) {}
+        convergence_(settings.settled_percent / 100) {}
 
   [[nodiscard]] Result<OwnBody> run() {
     if (steps_.count < 2) return fail(too_few());
-    if (const Result<void> seen = see_frames(); !seen) return fail(seen.error());
+    if (const Result<void> seen = process_frames(); !seen) return fail(seen.error());
     if (used_ < 2) return fail(too_few());
     if (!anything_differs_)
       return fail(path_, "nothing moves: all " + std::to_string(used_) + " frames are equal; take a clip in flight");
@@ -51,7 +51,7 @@ class Detection {
   }
 
  private:
-  [[nodiscard]] Result<void> see_frames() {
+  [[nodiscard]] Result<void> process_frames() {
     LumaStream stream(footage_, steps_);
     while (std::optional<Result<LumaFrame>> frame = stream.next()) {
       if (control_.cancel != nullptr && control_.cancel->load())
@@ -59,7 +59,7 @@ class Detection {
       if (!*frame) return fail(unreadable(frame->error()));
       see(**frame);
       if (control_.progress) control_.progress(passed_, passed_of_all());
-      if (settling_.is_settled()) break;
+      if (convergence_.is_converged()) break;
     }
     return {};
   }
@@ -77,14 +77,14 @@ class Detection {
     method_->add(frame.luma);
     ++used_;
     verdict_.reset();
-    if (settling_.is_look_due(used_)) look(frame.number);
+    if (convergence_.is_check_due(used_)) check(frame.number);
   }
 
-  void look(int number) {
+  void check(int number) {
     const std::vector<double>& times_s = footage_.info().times_s;
     const double passed_s = times_s[static_cast<std::size_t>(number)] - times_s[static_cast<std::size_t>(steps_.first)];
     verdict_ = method_->verdict(KeepStages::no);
-    settling_.look(*verdict_, used_, passed_s);
+    convergence_.check(*verdict_, used_, passed_s);
   }
 
   [[nodiscard]] OwnBody own_body() {
@@ -92,8 +92,8 @@ class Detection {
                   .stages = std::move(verdict_->stages),
                   .frames_used = used_,
                   .frames_passed = passed_,
-                  .settled = settling_.is_settled(),
-                  .last_change = settling_.is_settled() ? settling_.last_change() : 0,
+                  .converged = convergence_.is_converged(),
+                  .last_change = convergence_.is_converged() ? convergence_.last_change() : 0,
                   .share = static_cast<double>(cv::countNonZero(verdict_->own_body)) /
                            static_cast<double>(verdict_->own_body.total())};
     verdict_->confidence.convertTo(found.confidence, CV_16U, 65535);
@@ -131,7 +131,7 @@ class Detection {
   const DetectionControl& control_;
   FrameSteps steps_;
   std::unique_ptr<DetectionMethod> method_;
-  Settling settling_;
+  ConvergenceCheck convergence_;
   cv::Mat first_luma_;
   bool anything_differs_ = false;
   int used_ = 0;

@@ -20,13 +20,13 @@ struct OwnBody {
   std::vector<DetectionStage> stages;
   int frames_used = 0;
   int frames_passed = 0;   // of the footage, from the first used to the last
-  bool settled = false;    // stopped early: more frames no longer changed the mask (settling.h)
-  double last_change = 0;  // where settled: 1 - intersection over union of the masks of the last two looks
-  double share = 0;        // of the picture that is masked, 0..1
+  bool converged = false;  // stopped early: more frames no longer changed the mask (convergence.h)
+  double last_change = 0;  // where converged: 1 - intersection over union of the masks of the last two checks
+  double share = 0;        // of the image that is masked, 0..1
   std::vector<Warning> warnings;
 };
 
-// A mask from less footage, or one that covers more of the picture, should be looked at before it is used.
+// A mask from less footage, or one that covers more of the image, should be looked at before it is used.
 inline constexpr double kEnoughFootage_s = 10;
 inline constexpr double kLargeShare = 0.5;
 

@@ -13,11 +13,11 @@ GradientSums::GradientSums(cv::Size size)
       sum_y_(cv::Mat::zeros(size, CV_32FC1)),
       sum_square_(cv::Mat::zeros(size, CV_32FC1)) {}
 
-void GradientSums::add(const MeanPicture& picture) {
-  ENSURE(picture.luma.size() == sum_x_.size() && picture.luma.type() == CV_32FC1);
+void GradientSums::add(const MeanFrame& image) {
+  ENSURE(image.luma.size() == sum_x_.size() && image.luma.type() == CV_32FC1);
   cv::Mat blurred;
-  cv::GaussianBlur(picture.luma, blurred, {3, 3}, 0);
-  const auto weight = static_cast<float>(picture.frames);
+  cv::GaussianBlur(image.luma, blurred, {3, 3}, 0);
+  const auto weight = static_cast<float>(image.frames);
   const int right = blurred.cols - 1;
   const int bottom = blurred.rows - 1;
   for (int y = 0; y <= bottom; ++y) {
@@ -38,8 +38,8 @@ void GradientSums::add(const MeanPicture& picture) {
     for (int x = 1; x < right; ++x) add_at(x, x - 1, x + 1);
     if (right > 0) add_at(right, right - 1, right);
   }
-  frames_ += picture.frames;
-  ++pictures_;
+  frames_ += image.frames;
+  ++mean_frames_;
 }
 
 GradientSums GradientSums::clone() const {
@@ -53,7 +53,7 @@ GradientSums GradientSums::clone() const {
 GradientMoments GradientSums::moments() const {
   ENSURE(frames_ > 0);
   const double share = 1.0 / frames_;
-  return {sum_x_ * share, sum_y_ * share, sum_square_ * share, 1.0 * frames_ / pictures_};
+  return {sum_x_ * share, sum_y_ * share, sum_square_ * share, 1.0 * frames_ / mean_frames_};
 }
 
 }  // namespace sigs

@@ -12,11 +12,11 @@
 
 namespace sigs {
 
-// One step of the detection as a picture for people: 8 bit, one channel, of the footage's size.
+// One step of the detection as an image for people: 8 bit, one channel, of the footage's size.
 struct DetectionStage {
   std::string name;   // part of a file name: "difference_sum"
   std::string title;  // "Sum of normalised differences"
-  cv::Mat picture;
+  cv::Mat image;
 };
 
 enum class KeepStages { no, yes };

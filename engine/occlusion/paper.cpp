@@ -46,7 +46,7 @@ RefinedMask refined_mask(const cv::Mat& rough, const PaperOwnBodySettings& setti
   return refined;
 }
 
-// A padded mask in the picture's size: its padding lies on the rim.
+// A padded mask in the image's size: its padding lies on the rim.
 cv::Mat padding_shown(const cv::Mat& with_padding) {
   cv::Mat out = unpadded(with_padding);
   cv::bitwise_or(out.col(0), with_padding(cv::Rect(0, 0, 1, out.rows)), out.col(0));

@@ -14,11 +14,11 @@ namespace sigs {
 namespace {
 
 // As cv::Canny sees it.
-cv::Mat gradient_length(const cv::Mat& picture) {
+cv::Mat gradient_length(const cv::Mat& image) {
   cv::Mat across;
   cv::Mat down;
-  cv::Sobel(picture, across, CV_32F, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
-  cv::Sobel(picture, down, CV_32F, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
+  cv::Sobel(image, across, CV_32F, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
+  cv::Sobel(image, down, CV_32F, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
   cv::Mat length;
   cv::magnitude(across, down, length);
   return length;
@@ -81,19 +81,19 @@ cv::Mat normalised_sum(const cv::Mat& sum) {
   return out;
 }
 
-CannyThresholds canny_thresholds(const cv::Mat& picture, const PaperOwnBodySettings& settings) {
+CannyThresholds canny_thresholds(const cv::Mat& image, const PaperOwnBodySettings& settings) {
   constexpr double kLowToHigh = 0.4;
   double high = settings.canny_high;
-  if (high == 0) high = std::max(otsu_threshold(gradient_length(picture)), settings.canny_low);
+  if (high == 0) high = std::max(otsu_threshold(gradient_length(image)), settings.canny_low);
   const double low = settings.canny_low == 0 ? kLowToHigh * high : settings.canny_low;
   return {.low = std::min(low, high), .high = high};
 }
 
-cv::Mat canny_edges(const cv::Mat& picture, const CannyThresholds& thresholds) {
+cv::Mat canny_edges(const cv::Mat& image, const CannyThresholds& thresholds) {
   ENSURE(thresholds.low <= thresholds.high);
   cv::Mat out;
   constexpr bool kLengthAndNotSumOfAxes = true;
-  cv::Canny(picture, out, thresholds.low, thresholds.high, 3, kLengthAndNotSumOfAxes);
+  cv::Canny(image, out, thresholds.low, thresholds.high, 3, kLengthAndNotSumOfAxes);
   return out;
 }
 
@@ -152,10 +152,10 @@ cv::Mat without_small(const cv::Mat& mask, double least_area_percent) {
   cv::Mat measures;
   cv::Mat unused;
   const int parts = cv::connectedComponentsWithStats(mask, part_of, measures, unused, 8, CV_32S);
-  const double least_px = least_area_percent / 100 * static_cast<double>(mask.total());
+  const double min_px = least_area_percent / 100 * static_cast<double>(mask.total());
   std::vector<uchar> shade(static_cast<std::size_t>(parts), 0);  // part 0 is the black
   for (int part = 1; part < parts; ++part)
-    if (measures.at<int>(part, cv::CC_STAT_AREA) >= least_px) shade[static_cast<std::size_t>(part)] = 255;
+    if (measures.at<int>(part, cv::CC_STAT_AREA) >= min_px) shade[static_cast<std::size_t>(part)] = 255;
   cv::Mat out(mask.size(), CV_8UC1);
   for (int y = 0; y < out.rows; ++y)
     for (int x = 0; x < out.cols; ++x) out.at<uchar>(y, x) = shade[static_cast<std::size_t>(part_of.at<int>(y, x))];

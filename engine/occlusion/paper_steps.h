@@ -5,7 +5,7 @@
 
 #include "project/project.h"
 
-// The steps of the paper's section 4, in its order. Pictures are CV_8UC1; masks hold 0 and 255.
+// The steps of the paper's section 4, in its order. Images are CV_8UC1; masks hold 0 and 255.
 namespace sigs {
 
 // Adds a difference of two frames (CV_8UC1), scaled so that its largest sample counts 1, to the sum (CV_32FC1). One
@@ -15,17 +15,17 @@ bool add_normalised(const cv::Mat& difference, cv::Mat& sum);
 // The sum with its least value at 0 and its largest at 255; black where all of it is one value.
 [[nodiscard]] cv::Mat normalised_sum(const cv::Mat& sum);
 
-// Of the gradient's length by Sobel's 3x3 operators, in a picture of 0..255. low <= high.
+// Of the gradient's length by Sobel's 3x3 operators, in an image of 0..255. low <= high.
 struct CannyThresholds {
   double low = 0;
   double high = 0;
 };
 
-// The settings' thresholds. Where they are 0: high parts the gradients of the picture in two by Otsu's method (IEEE
+// The settings' thresholds. Where they are 0: high parts the gradients of the image in two by Otsu's method (IEEE
 // Trans. SMC 9, 1979), low is 0.4 of high.
-[[nodiscard]] CannyThresholds canny_thresholds(const cv::Mat& picture, const PaperOwnBodySettings& settings);
+[[nodiscard]] CannyThresholds canny_thresholds(const cv::Mat& image, const PaperOwnBodySettings& settings);
 
-[[nodiscard]] cv::Mat canny_edges(const cv::Mat& picture, const CannyThresholds& thresholds);
+[[nodiscard]] cv::Mat canny_edges(const cv::Mat& image, const CannyThresholds& thresholds);
 
 // The settings' diameters. Where they are 0: 5 and 9 px on the paper's 1280x960, in proportion to the diagonal on other
 // sizes, and at least 3 px.
@@ -38,7 +38,7 @@ struct CannyThresholds {
 // Dilated, then eroded by as much: gaps narrower than the diameter are closed. Beyond the rim nothing is eroded from.
 [[nodiscard]] cv::Mat closed(const cv::Mat& mask, int diameter_px);
 
-// The mask's external contours filled: all that cannot be reached from outside the picture, going over black by sides.
+// The mask's external contours filled: all that cannot be reached from outside the image, going over black by sides.
 // What is open towards the rim is open.
 [[nodiscard]] cv::Mat contours_filled(const cv::Mat& mask);
 
@@ -51,10 +51,10 @@ struct CannyThresholds {
 // A mask without pixels gets no white sides.
 [[nodiscard]] cv::Mat padded(const cv::Mat& mask);
 
-// The part of a padded mask that is the picture.
+// The part of a padded mask that is the image.
 [[nodiscard]] cv::Mat unpadded(const cv::Mat& padded_mask);
 
-// Without the parts (8-connected) of fewer pixels than this share of the picture's.
+// Without the parts (8-connected) of fewer pixels than this share of the image's.
 [[nodiscard]] cv::Mat without_small(const cv::Mat& mask, double least_area_percent);
 
 }  // namespace sigs

@@ -16,9 +16,9 @@ namespace {
 
 // Whole numbers, so that sums do not depend on their order.
 constexpr double kUnit = 20000;
-constexpr double kWallCost = 0.001;  // of the border's length, on a sure wall: the shorter of two is the better
+constexpr double kBoundaryCost = 0.001;  // of the border's length, on a sure boundary: the shorter of two is the better
 
-constexpr int kSmall = 240;  // pixels: a picture as small as this is cut in one go
+constexpr int kSmall = 240;  // pixels: an image as small as this is cut in one go
 constexpr int kBand = 4;     // pixels beside a coarser border in which the finer one lies
 
 int whole(double cost) {
@@ -33,9 +33,9 @@ struct Neighbour {
 // Eight neighbours, so that a slanting border costs about its length (Boykov and Kolmogorov, 2003).
 constexpr std::array<Neighbour, 4> kNeighbours{{{1, 0, 0.55}, {0, 1, 0.55}, {1, 1, 0.27}, {-1, 1, 0.27}}};
 
-double border_cost(float wall, float other_wall) {
-  const double open = 1 - std::min(1.0, (static_cast<double>(wall) + other_wall) / 2);
-  return open * open + kWallCost;
+double border_cost(float boundary, float other_boundary) {
+  const double open = 1 - std::min(1.0, (static_cast<double>(boundary) + other_boundary) / 2);
+  return open * open + kBoundaryCost;
 }
 
 using Graph = cv::detail::GCGraph<int>;
@@ -65,28 +65,28 @@ void add_link(Graph& graph, const Known& known, const cv::Mat& numbers, cv::Poin
 }
 
 cv::Mat cut(const CutCosts& costs, const Known& known) {
-  const cv::Rect picture({}, costs.wall.size());
+  const cv::Rect image({}, costs.boundary.size());
   const cv::Mat numbers = numbered(known.free);
   const auto pixels = static_cast<unsigned>(cv::countNonZero(known.free));
   Graph graph(pixels + 2, (pixels + 1) * 2 * kNeighbours.size());
   for (unsigned i = 0; i < pixels + 2; ++i) graph.addVtx();
   graph.addEdges(static_cast<int>(pixels), static_cast<int>(pixels) + 1, 0, 0);  // no graph without a link is allowed
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
       const int number = numbers.at<int>(y, x);
       if (number >= 0)
         graph.addTermWeights(number, whole(costs.as_world.at<float>(y, x)), whole(costs.as_body.at<float>(y, x)));
       for (const Neighbour& to : kNeighbours) {
         const cv::Point other(x + to.dx, y + to.dy);
-        if (!picture.contains(other)) continue;
-        const double open = border_cost(costs.wall.at<float>(y, x), costs.wall.at<float>(other));
+        if (!image.contains(other)) continue;
+        const double open = border_cost(costs.boundary.at<float>(y, x), costs.boundary.at<float>(other));
         add_link(graph, known, numbers, {x, y}, other, whole(to.length * open));
       }
     }
   graph.maxFlow();
   cv::Mat labels = known.labels.clone();
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x)
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
       if (const int number = numbers.at<int>(y, x); number >= 0)
         labels.at<std::uint8_t>(y, x) = graph.inSourceSegment(number) ? 255 : 0;
   return labels;
@@ -99,19 +99,19 @@ cv::Mat halved(const cv::Mat& values, cv::Size size) {
 }
 
 // Pixels twice as large: an area's costs are fourfold and a border's length twofold, so that in the larger unit areas
-// cost twice as much. A wall stays a wall, however thin.
+// cost twice as much. A boundary stays a boundary, however thin.
 CutCosts halved(const CutCosts& costs) {
-  const cv::Size half(costs.wall.cols / 2, costs.wall.rows / 2);
+  const cv::Size half(costs.boundary.cols / 2, costs.boundary.rows / 2);
   cv::Mat thick;
-  cv::dilate(costs.wall, thick, cv::Mat::ones(2, 2, CV_8UC1), {0, 0});
+  cv::dilate(costs.boundary, thick, cv::Mat::ones(2, 2, CV_8UC1), {0, 0});
   CutCosts coarse{halved(costs.as_body, half) * 2, halved(costs.as_world, half) * 2};
-  cv::resize(thick, coarse.wall, half, 0, 0, cv::INTER_NEAREST);
+  cv::resize(thick, coarse.boundary, half, 0, 0, cv::INTER_NEAREST);
   return coarse;
 }
 
 // Pixels near the border of labels.
-cv::Mat band_along(const cv::Mat& labels, int reach) {
-  const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
+cv::Mat band_along(const cv::Mat& labels, int radius) {
+  const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
   cv::Mat band;
   cv::morphologyEx(labels, band, cv::MORPH_GRADIENT, element);
   return band;
@@ -120,7 +120,7 @@ cv::Mat band_along(const cv::Mat& labels, int reach) {
 }  // namespace
 
 cv::Mat cheapest_cut(const CutCosts& costs) {
-  const cv::Size size = costs.wall.size();
+  const cv::Size size = costs.boundary.size();
   ENSURE(costs.as_body.size() == size && costs.as_world.size() == size);
   if (size.width < kSmall || size.height < kSmall)
     return cut(costs, {cv::Mat::zeros(size, CV_8UC1), cv::Mat(size, CV_8UC1, cv::Scalar(255))});
@@ -129,8 +129,8 @@ cv::Mat cheapest_cut(const CutCosts& costs) {
   return cheapest_cut_near(labels, kBand, costs);
 }
 
-cv::Mat cheapest_cut_near(const cv::Mat& labels, int reach, const CutCosts& costs) {
-  return cut(costs, {labels, band_along(labels, reach)});
+cv::Mat cheapest_cut_near(const cv::Mat& labels, int radius, const CutCosts& costs) {
+  return cut(costs, {labels, band_along(labels, radius)});
 }
 
 }  // namespace sigs

@@ -10,14 +10,14 @@ namespace sigs {
 
 namespace {
 
-constexpr int kScale = 2;                   // of the pictures worked on: shifts are of things, not of pixels
-constexpr int kWindow = 9;                  // pixels of these that share a shift
-constexpr int kSpill = 3;                   // pixels of the mean pictures beside what moves that do not count either
-constexpr double kLeastBend = 0.1;          // gray levels per pixel and pixel, squared: below, noise bends as much
-constexpr double kLeastSlope = 0.05;        // gray levels per pixel, squared
-constexpr double kLeastChange = 0.01;       // likewise, per segment
-constexpr double kLeastShiftSquare = 1e-4;  // pixels
-constexpr double kStays = 0.1;              // pixels of the mean pictures
+constexpr int kScale = 2;                 // of the images worked on: shifts are of things, not of pixels
+constexpr int kWindow = 9;                // pixels of these that share a shift
+constexpr int kSpill = 3;                 // pixels of the mean images beside what moves that do not count either
+constexpr double kMinBend = 0.1;          // gray levels per pixel and pixel, squared: below, noise bends as much
+constexpr double kMinSlope = 0.05;        // gray levels per pixel, squared
+constexpr double kMinChange = 0.01;       // likewise, per segment
+constexpr double kMinShiftSquare = 1e-4;  // pixels
+constexpr double kStays = 0.1;            // pixels of the mean images
 constexpr double kCreeps = 0.3;
 constexpr double kByChance = 0.3;     // correlation of successive shifts: of two dozen vibrating ones below,
 constexpr double kSteady = 0.6;       // of ones that creep one way above
@@ -28,22 +28,21 @@ struct Slope {
   cv::Mat x, y;
 };
 
-Slope slope_of(const cv::Mat& picture) {
+Slope slope_of(const cv::Mat& image) {
   const cv::Mat half = (cv::Mat_<float>(1, 3) << -0.5F, 0, 0.5F);
   Slope slope;
-  cv::filter2D(picture, slope.x, CV_32F, half, {-1, -1}, 0, cv::BORDER_REPLICATE);
-  cv::filter2D(picture, slope.y, CV_32F, half.t(), {-1, -1}, 0, cv::BORDER_REPLICATE);
+  cv::filter2D(image, slope.x, CV_32F, half, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  cv::filter2D(image, slope.y, CV_32F, half.t(), {-1, -1}, 0, cv::BORDER_REPLICATE);
   return slope;
 }
 
-cv::Mat halved(const cv::Mat& picture) {
+cv::Mat halved(const cv::Mat& image) {
   cv::Mat small;
-  cv::resize(picture, small, {std::max(1, picture.cols / kScale), std::max(1, picture.rows / kScale)}, 0, 0,
-             cv::INTER_AREA);
+  cv::resize(image, small, {std::max(1, image.cols / kScale), std::max(1, image.rows / kScale)}, 0, 0, cv::INTER_AREA);
   return small;
 }
 
-cv::Mat small_picture(const MeanPicture& segment) {
+cv::Mat small_picture(const MeanFrame& segment) {
   cv::Mat small = halved(segment.luma);
   cv::GaussianBlur(small, small, {5, 5}, 0);
   return small;
@@ -53,7 +52,7 @@ cv::Mat clamped(const cv::Mat& values, double zero_at, double one_at) {
   return cv::min(cv::max((values - zero_at) / (one_at - zero_at), 0.0), 1.0);
 }
 
-// The normal equations of a window's shift: what belongs to the mean picture is worked out once.
+// The normal equations of a window's shift: what belongs to the mean image is worked out once.
 class ShiftFinder {
  public:
   ShiftFinder(const cv::Mat& mean, cv::Mat weight) : weight_(std::move(weight)), slope_(slope_of(mean)) {
@@ -61,15 +60,15 @@ class ShiftFinder {
     bend_xx_ = along_x.x;
     bend_xy_ = along_x.y;
     bend_yy_ = slope_of(slope_.y).y;
-    xx_ = windowed(bend_xx_.mul(bend_xx_) + bend_xy_.mul(bend_xy_)) + kLeastBend;
-    yy_ = windowed(bend_yy_.mul(bend_yy_) + bend_xy_.mul(bend_xy_)) + kLeastBend;
+    xx_ = windowed(bend_xx_.mul(bend_xx_) + bend_xy_.mul(bend_xy_)) + kMinBend;
+    yy_ = windowed(bend_yy_.mul(bend_yy_) + bend_xy_.mul(bend_xy_)) + kMinBend;
     xy_ = windowed(bend_xy_.mul(bend_xx_ + bend_yy_));
     determinant_ = xx_.mul(yy_) - xy_.mul(xy_);
-    slope_square_ = windowed(slope_.x.mul(slope_.x) + slope_.y.mul(slope_.y)) + kLeastSlope;
+    slope_square_ = windowed(slope_.x.mul(slope_.x) + slope_.y.mul(slope_.y)) + kMinSlope;
   }
 
   struct Shift {
-    cv::Mat x, y;       // pixels of the small pictures
+    cv::Mat x, y;       // pixels of the small images
     cv::Mat explained;  // of the change, in squared gray levels per pixel
     cv::Mat change;     // that change of contrast does not explain
   };
@@ -109,28 +108,28 @@ cv::Mat weight_of(const cv::Mat& ratio) {
   return halved(1.0 / cv::Mat(near.mul(near) + 1.0));
 }
 
-cv::Mat mean_of(const std::vector<cv::Mat>& pictures) {
-  cv::Mat sum = cv::Mat::zeros(pictures.front().size(), CV_32FC1);
-  for (const cv::Mat& picture : pictures) sum += picture;
-  return sum / static_cast<double>(pictures.size());
+cv::Mat mean_of(const std::vector<cv::Mat>& images) {
+  cv::Mat sum = cv::Mat::zeros(images.front().size(), CV_32FC1);
+  for (const cv::Mat& image : images) sum += image;
+  return sum / static_cast<double>(images.size());
 }
 
 }  // namespace
 
-cv::Mat drifting(const std::vector<MeanPicture>& segments, const cv::Mat& ratio) {
+cv::Mat drifting(const std::vector<MeanFrame>& segments, const cv::Mat& ratio) {
   ENSURE(!segments.empty());
-  std::vector<cv::Mat> pictures;
-  for (const MeanPicture& segment : segments) pictures.push_back(small_picture(segment));
-  const cv::Mat mean = mean_of(pictures);
+  std::vector<cv::Mat> images;
+  for (const MeanFrame& segment : segments) images.push_back(small_picture(segment));
+  const cv::Mat mean = mean_of(images);
   const ShiftFinder finder(mean, weight_of(ratio));
   const cv::Size size = mean.size();
   cv::Mat agreeing = cv::Mat::zeros(size, CV_32FC1);
-  cv::Mat square(size, CV_32FC1, cv::Scalar(kLeastShiftSquare * static_cast<double>(segments.size())));
+  cv::Mat square(size, CV_32FC1, cv::Scalar(kMinShiftSquare * static_cast<double>(segments.size())));
   cv::Mat explained = cv::Mat::zeros(size, CV_32FC1);
-  cv::Mat change(size, CV_32FC1, cv::Scalar(kLeastChange * static_cast<double>(segments.size())));
+  cv::Mat change(size, CV_32FC1, cv::Scalar(kMinChange * static_cast<double>(segments.size())));
   ShiftFinder::Shift before;
-  for (const cv::Mat& picture : pictures) {
-    ShiftFinder::Shift shift = finder.shift_of(picture - mean);
+  for (const cv::Mat& image : images) {
+    ShiftFinder::Shift shift = finder.shift_of(image - mean);
     if (!before.x.empty()) agreeing += before.x.mul(shift.x) + before.y.mul(shift.y);
     square += shift.x.mul(shift.x) + shift.y.mul(shift.y);
     explained += shift.explained;

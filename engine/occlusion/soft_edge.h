@@ -10,7 +10,7 @@ namespace sigs {
 [[nodiscard]] cv::Mat distance_px(const cv::Mat& mask);
 
 // Distance of each pixel's middle from the mask's border, CV_32FC1: positive inside, negative outside. The border runs
-// half a pixel from the middles on its two sides. The picture's rim is no border: a body that reaches it goes on
+// half a pixel from the middles on its two sides. The image's rim is no border: a body that reaches it goes on
 // beyond. +infinity in a white mask, -infinity in a black one.
 [[nodiscard]] cv::Mat signed_distance_px(const cv::Mat& mask);
 

@@ -5,19 +5,19 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "occlusion/film_segments.h"
+#include "occlusion/footage_segments.h"
 #include "occlusion/gradient_sums.h"
-#include "occlusion/mean_picture.h"
+#include "occlusion/mean_frame.h"
 #include "occlusion/stable_decision.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr int kLeastFrames = 2;
+constexpr int kMinFrames = 2;
 constexpr double kSmoothing = 0.7;  // pixels of the means; takes the steps out of a border, moves no straight one
 
-cv::Mat softened(const cv::Mat& mask, int scale) {
+cv::Mat gaussian_blurred(const cv::Mat& mask, int scale) {
   cv::Mat soft;
   mask.convertTo(soft, CV_32F, 1.0 / 255);
   if (scale > 1) cv::GaussianBlur(soft, soft, {}, kSmoothing);
@@ -27,7 +27,7 @@ cv::Mat softened(const cv::Mat& mask, int scale) {
 class StableMethod final : public DetectionMethod {
  public:
   StableMethod(const StableOwnBodySettings& settings, cv::Size size_px)
-      : settings_(settings), size_px_(size_px), gatherer_(size_px), gradients_(gatherer_.size()) {}
+      : settings_(settings), size_px_(size_px), averager_(size_px), gradients_(averager_.size()) {}
 
   void add(const cv::Mat& luma) override;
   [[nodiscard]] Verdict verdict(KeepStages keep) const override;
@@ -40,28 +40,28 @@ class StableMethod final : public DetectionMethod {
 
   StableOwnBodySettings settings_;
   cv::Size size_px_;
-  FrameGatherer gatherer_;
+  FrameAverager averager_;
   GradientSums gradients_;
-  FilmSegments segments_;
+  FootageSegments segments_;
 };
 
 void StableMethod::add(const cv::Mat& luma) {
-  gatherer_.add(luma);
-  if (!gatherer_.is_full()) return;
-  const MeanPicture picture = gatherer_.picture();
-  gradients_.add(picture);
-  segments_.add(picture);
-  gatherer_.clear();
+  averager_.add(luma);
+  if (!averager_.is_full()) return;
+  const MeanFrame image = averager_.image();
+  gradients_.add(image);
+  segments_.add(image);
+  averager_.clear();
 }
 
 StableDecision StableMethod::decision() const {
   StableOwnBodySettings settings = settings_;
-  settings.vibration_px /= gatherer_.scale();
-  if (gatherer_.waiting() == 0) return stable_decision(gradients_.moments(), segments_.segments(), settings);
+  settings.vibration_px /= averager_.scale();
+  if (averager_.waiting() == 0) return stable_decision(gradients_.moments(), segments_.segments(), settings);
   GradientSums gradients = gradients_.clone();
-  FilmSegments segments = segments_;
-  gradients.add(gatherer_.picture());
-  segments.add(gatherer_.picture());
+  FootageSegments segments = segments_;
+  gradients.add(averager_.image());
+  segments.add(averager_.image());
   return stable_decision(gradients.moments(), segments.segments(), settings);
 }
 
@@ -74,9 +74,9 @@ Verdict StableMethod::undecided(std::string reason) const {
 // A pixel of the means is a square of the footage's; what these leave over at the right and the bottom is as its
 // neighbour.
 cv::Mat StableMethod::at_full_size(const cv::Mat& small) const {
-  if (gatherer_.scale() == 1) return small;
+  if (averager_.scale() == 1) return small;
   cv::Mat large;
-  cv::resize(small, large, small.size() * gatherer_.scale(), 0, 0, cv::INTER_LINEAR);
+  cv::resize(small, large, small.size() * averager_.scale(), 0, 0, cv::INTER_LINEAR);
   cv::copyMakeBorder(large, large, 0, size_px_.height - large.rows, 0, size_px_.width - large.cols,
                      cv::BORDER_REPLICATE);
   return large;
@@ -84,8 +84,8 @@ cv::Mat StableMethod::at_full_size(const cv::Mat& small) const {
 
 std::vector<DetectionStage> StableMethod::stages_of(const StableDecision& decision, const cv::Mat& mask) const {
   std::vector<DetectionStage> stages;
-  for (const DetectionStage& stage : pictures_of(decision))
-    stages.push_back({stage.name, stage.title, at_full_size(stage.picture)});
+  for (const DetectionStage& stage : stage_images(decision))
+    stages.push_back({stage.name, stage.title, at_full_size(stage.image)});
   stages.push_back({"own_body", "Own body", mask});
   cv::Mat confidence;
   at_full_size(decision.confidence).convertTo(confidence, CV_8U, 255);
@@ -94,11 +94,11 @@ std::vector<DetectionStage> StableMethod::stages_of(const StableDecision& decisi
 }
 
 Verdict StableMethod::verdict(KeepStages keep) const {
-  if (gatherer_.frames() < kLeastFrames) return undecided("fewer than 2 frames");
+  if (averager_.frames() < kMinFrames) return undecided("fewer than 2 frames");
   const StableDecision decided = decision();
   Verdict verdict = decided.undecided
                         ? undecided(*decided.undecided)
-                        : Verdict{.own_body = at_full_size(softened(decided.body, gatherer_.scale())) >= 0.5,
+                        : Verdict{.own_body = at_full_size(gaussian_blurred(decided.body, averager_.scale())) >= 0.5,
                                   .confidence = at_full_size(decided.confidence)};
   if (keep == KeepStages::yes) verdict.stages = stages_of(decided, verdict.own_body);
   return verdict;

@@ -15,14 +15,14 @@ namespace {
 // Costs in the cut's unit: a border as long as a pixel.
 constexpr double kMovingCost = 0.3;     // of calling a pixel body that surely moves
 constexpr double kDriftingCost = 0.05;  // that creeps: less, as this is known for windows, not pixels
-constexpr double kStillCost = 1;        // of calling a still column of the picture world
+constexpr double kStillCost = 1;        // of calling a still column of the image world
 constexpr double kStayingCost = 0.05;   // of calling an edge world that stays
 
 // Plain sky is still too, so that stillness alone says little, but a lot where all around moves.
 constexpr int kNear = 33;           // pixels: what is around
 constexpr double kFarShare = 0.25;  // of it that moves: what creeps there may be the moving world seen in a border
 
-// First all of the picture with care, more than once: plain sky beside a body comes along with it unless calling a
+// First all of the image with care, more than once: plain sky beside a body comes along with it unless calling a
 // pixel body costs something, and a slender body is lost if it does. Then the borders of what was found with more trust
 // in it: an edge within a body, such as a line of rivets, is then no border as long as nothing moves directly beside
 // it.
@@ -30,45 +30,45 @@ struct Trust {
   int sure_reach = 0;           // pixels around a pixel that must move too, so that it counts as moving
   bool is_doubt_still = false;  // a pixel that does not count as moving counts as still
   double still_near_cost = 0;   // of calling a still pixel world where all around moves
-  double lone_wall = 1;         // share that is left of a wall beside which nothing moves
+  double lone_boundary = 1;     // share that is left of a boundary beside which nothing moves
   double body_cost = 0;         // of calling any pixel body
 };
 constexpr Trust kCareful{.sure_reach = 3, .still_near_cost = 0.04};
 constexpr Trust kSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.01};
-constexpr Trust kMostSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.02};
-constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_wall = 0.7};
+constexpr Trust kMaxSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.02};
+constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_boundary = 0.7};
 constexpr int kTrustReach = 10;  // pixels beside the borders
 
 constexpr double kStrong = 4;   // gray levels per pixel: half an edge whose strength hides what creeps beside it
 constexpr int kDriftSpill = 6;  // pixels
 
-constexpr double kMostShare = 0.85;     // of the picture that a body can fill
-constexpr double kDoubtfulShare = 0.6;  // of the picture that stays, though nothing in it looks like a body
+constexpr double kMaxShare = 0.85;      // of the image that a body can fill
+constexpr double kDoubtfulShare = 0.6;  // of the image that stays, though nothing in it looks like a body
 constexpr double kNothingPercent = 0.1;
 constexpr double kUnsureBorder = 3;  // pixels beside the border where its place is not sure
 constexpr double kPlainWorld = 0.5;  // certainty of world that is not seen to move
 
 // The odds that parts of made flights and reflections had, and which of them were body, give how likely a part is body:
-// reflections that stay in the picture are mostly kept with odds below 3, bodies with 3 and more (docs/own-body.md).
+// reflections that stay in the image are mostly kept with odds below 3, bodies with 3 and more (docs/own-body.md).
 constexpr double kEvenOdds = 2.6;  // as often body as not
 constexpr double kOddsUnit = 0.5;  // more odds by which its likelihood grows e-fold
 
-cv::Mat disc(int reach) {
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
+cv::Mat disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
 // 0 near strong edges that stay .. 1: what passes beside them changes them more than creeping would.
 cv::Mat away_from_edges(const StableDecision& decision) {
   const cv::Mat& square = decision.motion.mean_square;
-  cv::Mat near = decision.walls.staying.mul(square / cv::Mat(square + kStrong * kStrong));
+  cv::Mat near = decision.boundaries.staying.mul(square / cv::Mat(square + kStrong * kStrong));
   cv::dilate(near, near, disc(kDriftSpill));
   return 1.0 - near;
 }
 
-cv::Mat wall_of(const Walls& walls, const cv::Mat& moving, const Trust& trust) {
+cv::Mat boundary_of(const Boundaries& boundaries, const cv::Mat& moving, const Trust& trust) {
   cv::Mat beside;
   cv::dilate(moving, beside, disc(trust.sure_reach + 1));
-  return cv::max(walls.ridge, walls.motion).mul(beside * (1 - trust.lone_wall) + trust.lone_wall);
+  return cv::max(boundaries.ridge, boundaries.motion).mul(beside * (1 - trust.lone_boundary) + trust.lone_boundary);
 }
 
 CutCosts costs_of(const StableDecision& decision, const cv::Mat& drift, const Trust& trust) {
@@ -80,8 +80,8 @@ CutCosts costs_of(const StableDecision& decision, const cv::Mat& drift, const Tr
   const cv::Mat far = cv::max(1.0 - near / kFarShare, 0.0);
   return {.as_body = moving.mul(moving).mul(moving) * kMovingCost + drift.mul(far) * kDriftingCost + trust.body_cost,
           .as_world = still.mul(near * trust.still_near_cost + kStillCost / moving.rows) +
-                      decision.walls.staying.mul(1.0 - decision.moving) * kStayingCost,
-          .wall = wall_of(decision.walls, moving, trust)};
+                      decision.boundaries.staying.mul(1.0 - decision.moving) * kStayingCost,
+          .boundary = boundary_of(decision.boundaries, moving, trust)};
 }
 
 // Drift beside strong edges may be a creeping highlight on the body, or a cloud that ends there: once with it, once
@@ -90,7 +90,7 @@ std::vector<cv::Mat> labellings_of(const StableDecision& decision, const cv::Mat
   return {cheapest_cut(costs_of(decision, decision.drift, kCareful)),
           cheapest_cut(costs_of(decision, drift_away, kCareful)),
           cheapest_cut(costs_of(decision, decision.drift, kSparing)),
-          cheapest_cut(costs_of(decision, drift_away, kMostSparing))};
+          cheapest_cut(costs_of(decision, drift_away, kMaxSparing))};
 }
 
 // How much more likely than not a part is body, 0..1: 0 where it is not.
@@ -126,16 +126,16 @@ std::optional<std::string> why_undecided(const StableDecision& decision, const S
   const double moving_percent = 100 * cv::countNonZero(decision.moving > 0.5) / pixels;
   if (moving_percent < kNothingPercent) return "nothing moves";
   if (moving_percent < settings.least_moving_percent) return "too little moves";
-  if (cv::countNonZero(decision.body) > kMostShare * pixels) return "nearly everything stays";
+  if (cv::countNonZero(decision.body) > kMaxShare * pixels) return "nearly everything stays";
   if (cv::countNonZero(decision.body) == 0 && cv::countNonZero(decision.labels) > kDoubtfulShare * pixels)
     return "too little moves";
   return std::nullopt;
 }
 
-cv::Mat as_picture(const cv::Mat& values, double white_at) {
-  cv::Mat picture;
-  values.convertTo(picture, CV_8U, 255 / white_at);
-  return picture;
+cv::Mat as_image(const cv::Mat& values, double white_at) {
+  cv::Mat image;
+  values.convertTo(image, CV_8U, 255 / white_at);
+  return image;
 }
 
 cv::Mat root(const cv::Mat& values) {
@@ -146,20 +146,20 @@ cv::Mat root(const cv::Mat& values) {
 
 }  // namespace
 
-StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanPicture>& segments,
+StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanFrame>& segments,
                                const StableOwnBodySettings& settings) {
   StableDecision decision{.motion = motion_of(moments, settings.vibration_px)};
-  decision.walls = walls_of(decision.motion);
+  decision.boundaries = boundaries_of(decision.motion);
   decision.drift = drifting(segments, decision.motion.ratio);
   decision.moving = cv::max(decision.motion.moving, decision.drift);
   const cv::Mat away = decision.drift.mul(away_from_edges(decision));
   const std::vector<cv::Mat> labellings = labellings_of(decision, away);
   decision.labels = labellings.front();
-  const PartEvidence inside{.staying = decision.walls.staying,
-                            .ending = decision.walls.ending,
+  const PartEvidence inside{.staying = decision.boundaries.staying,
+                            .ending = decision.boundaries.ending,
                             .variation = decision.motion.variation / decision.motion.noise,
                             .drift = decision.drift,
-                            .middle = cv::max(decision.walls.ridge, decision.walls.motion)};
+                            .middle = cv::max(decision.boundaries.ridge, decision.boundaries.motion)};
   const BodyParts parts =
       body_parts(labellings, inside, settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
   decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, away, kTrusting));
@@ -168,17 +168,17 @@ StableDecision stable_decision(const GradientMoments& moments, const std::vector
   return decision;
 }
 
-std::vector<DetectionStage> pictures_of(const StableDecision& decision) {
+std::vector<DetectionStage> stage_images(const StableDecision& decision) {
   constexpr double kWhiteGradient = 20;  // gray levels per pixel
-  return {{"mean_gradient", "Mean gradient: edges that stay",
-           as_picture(root(decision.motion.mean_square), kWhiteGradient)},
-          {"coherence", "Coherence of the gradient over time", as_picture(coherence_of(decision.motion), 1)},
-          {"variation", "Variation of the gradient: what passes by",
-           as_picture(root(decision.motion.variation), kWhiteGradient)},
-          {"drift", "Slow drift", as_picture(decision.drift, 1)},
-          {"moving", "What moves", as_picture(decision.moving, 1)},
-          {"walls", "Where a body can end", as_picture(cv::max(decision.walls.ridge, decision.walls.motion), 1)},
-          {"labels", "What the cheapest cut calls body", decision.labels}};
+  return {
+      {"mean_gradient", "Mean gradient: edges that stay", as_image(root(decision.motion.mean_square), kWhiteGradient)},
+      {"coherence", "Coherence of the gradient over time", as_image(coherence_of(decision.motion), 1)},
+      {"variation", "Variation of the gradient: what passes by",
+       as_image(root(decision.motion.variation), kWhiteGradient)},
+      {"drift", "Slow drift", as_image(decision.drift, 1)},
+      {"moving", "What moves", as_image(decision.moving, 1)},
+      {"walls", "Where a body can end", as_image(cv::max(decision.boundaries.ridge, decision.boundaries.motion), 1)},
+      {"labels", "What the cheapest cut calls body", decision.labels}};
 }
 
 }  // namespace sigs

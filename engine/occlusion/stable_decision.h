@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "occlusion/gradient_sums.h"
-#include "occlusion/mean_picture.h"
+#include "occlusion/mean_frame.h"
 #include "occlusion/method.h"
+#include "occlusion/stable_boundaries.h"
 #include "occlusion/stable_motion.h"
-#include "occlusion/stable_walls.h"
 #include "project/project.h"
 
 namespace sigs {
 
-// How the method `stable` decides, step by step; pictures of the means' size.
+// How the method `stable` decides, step by step; images of the means' size.
 struct StableDecision {
   Motion motion;
   cv::Mat drift;   // slow_drift.h
   cv::Mat moving;  // the larger of both, CV_32FC1, 0..1
-  Walls walls;
+  Boundaries boundaries;
   cv::Mat labels;      // CV_8UC1, 255: may be body, by the first of several cuts
   cv::Mat body;        // CV_8UC1, 255: body
   cv::Mat confidence;  // CV_32FC1: 0 surely world, 0.5 nobody can tell, 1 surely body
@@ -28,10 +28,10 @@ struct StableDecision {
 };
 
 // settings: lengths in pixels of the means.
-[[nodiscard]] StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanPicture>& segments,
+[[nodiscard]] StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanFrame>& segments,
                                              const StableOwnBodySettings& settings);
 
 // The steps for people, CV_8UC1, of the means' size; without the result.
-[[nodiscard]] std::vector<DetectionStage> pictures_of(const StableDecision& decision);
+[[nodiscard]] std::vector<DetectionStage> stage_images(const StableDecision& decision);
 
 }  // namespace sigs

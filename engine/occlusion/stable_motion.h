@@ -7,7 +7,7 @@
 
 namespace sigs {
 
-// What the gradient's moments tell of each pixel; CV_32FC1, gray levels and pixels of the mean pictures.
+// What the gradient's moments tell of each pixel; CV_32FC1, gray levels and pixels of the mean images.
 struct Motion {
   cv::Mat mean_square;  // of the mean gradient: edges that stay are strong in it
   cv::Mat variation;    // of the gradient about its mean, squared: what passes by is strong in it
@@ -17,7 +17,7 @@ struct Motion {
   double quietest = 0;  // variation in the stillest places
 };
 
-// vibration: how far the body shakes, in pixels of the mean pictures.
+// vibration: how far the body shakes, in pixels of the mean images.
 [[nodiscard]] Motion motion_of(const GradientMoments& moments, double vibration);
 
 // What share of the gradient's energy stays, 0..1: 1 where it is always the same.

@@ -52,9 +52,9 @@ void add_footage(FieldList list, FootageSettings& footage) {
   list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye"}), "",
            "lens model of the calibration's numbers; auto: as the file says, else as they look");
   list.path("own_body_mask", footage.own_body_mask, false,
-            "picture of the footage's size, white where the UAV's own body hides the intruder; empty: none");
+            "image of the footage's size, white where the UAV's own body hides the intruder; empty: none");
   list.number("max_substituted_percent", &footage.max_substituted_percent, "%", 0, 100,
-              "how many of the exported frames may be damaged, a sound one standing in; more are an error");
+              "how many of the exported frames may be damaged, an intact one is used instead; more are an error");
 }
 
 void add_own_body(FieldList list, OwnBodySettings& own_body) {
@@ -69,16 +69,16 @@ void add_own_body(FieldList list, OwnBodySettings& own_body) {
   list.number("paper.canny_low", &own_body.paper.canny_low, "", 0, 1e6, "lower threshold; 0: as the clip asks for");
   list.number("paper.canny_high", &own_body.paper.canny_high, "", 0, 1e6, "upper threshold; 0: as the clip asks for");
   list.number("paper.dilation_px", &own_body.paper.dilation_px, "px", 0, 1000,
-              "diameter by which edges grow before they are filled; 0: as the picture's size asks for");
+              "diameter by which edges grow before they are filled; 0: as the image's size asks for");
   list.number("paper.closing_px", &own_body.paper.closing_px, "px", 0, 1000,
-              "gaps in contours that are closed; 0: as the picture's size asks for");
+              "gaps in contours that are closed; 0: as the image's size asks for");
   list.number("paper.least_area_percent", &own_body.paper.least_area_percent, "%", 0, 100,
-              "smaller contours are dropped; of the picture");
+              "smaller contours are dropped; of the image");
   list.number("stable.vibration_px", &own_body.stable.vibration_px, "px", 0, 50, "how far the body may shake");
   list.number("stable.least_area_percent", &own_body.stable.least_area_percent, "%", 0, 100,
-              "smaller parts are dropped; of the picture");
+              "smaller parts are dropped; of the image");
   list.number("stable.least_moving_percent", &own_body.stable.least_moving_percent, "%", 0, 100,
-              "of the picture that has to move, or nothing can be told");
+              "of the image that has to move, or nothing can be told");
 }
 
 void add_camera(FieldList list, CameraSettings& camera) {
@@ -124,17 +124,17 @@ void add_compositing(FieldList list, CompositingSettings& compositing) {
   list.add("blend", choice_of(compositing.blend, {"linear", "display"}), "",
            "mix light, or mix code values as the paper does (direct only)");
   list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10, "Gaussian blur: sigma a metre of distance");
-  list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels a picture pixel, each way");
+  list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels an image pixel, each way");
 }
 
 void add_output(FieldList list, ExportSettings& output) {
   list.add("video.codec", choice_of(output.codec, {"ffv1", "h264", "mjpeg", "png"}), "",
-           "ffv1: lossless; h264: small; mjpeg; png: numbered pictures");
+           "ffv1: lossless; h264: small; mjpeg; png: numbered images");
   list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi"}), "",
            "auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
   list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
   list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "",
-           "opacity of the intruders, as video or pictures");
+           "opacity of the intruders, as video or images");
   list.add("labels", &output.labels, "",
            "annotation formats to write: xml, coco, yolo, voc, mot, kitti, cvat, vot, aot, csv");
   list.number("label_least_pixels", &output.label_least_pixels, "px", 1, 1e9,

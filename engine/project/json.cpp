@@ -4,7 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "project/json_reading.h"
 #include "project/near_key.h"
 
@@ -95,21 +95,21 @@ struct KeyPlace {
 
 // What may have been meant is said of the first unknown keys: looking for it takes a comparison with each known key.
 std::string meant(const KeyPlace& place, const std::string& key, std::size_t warnings_so_far) {
-  constexpr std::size_t kLongestKey = 100;
-  constexpr std::size_t kMostSuggestions = 20;
-  return warnings_so_far < kMostSuggestions && key.size() <= kLongestKey ? suggestion(place.known, key) : "";
+  constexpr std::size_t kMaxKey = 100;
+  constexpr std::size_t kMaxSuggestions = 20;
+  return warnings_so_far < kMaxSuggestions && key.size() <= kMaxKey ? suggestion(place.known, key) : "";
 }
 
 // So many at most: beyond them nobody reads on.
-constexpr std::size_t kMostWarnings = 100;
+constexpr std::size_t kMaxWarnings = 100;
 
 void warn_of(const Json& unknown, const KeyPlace& place, const std::string& path, std::vector<Warning>& warnings) {
   for (const auto& [name, value] : unknown.items()) {
     const std::string key = path + name;
-    if (warnings.size() > kMostWarnings) return;
+    if (warnings.size() > kMaxWarnings) return;
     if (value.is_object())
       warn_of(value, place, key + ".", warnings);
-    else if (warnings.size() < kMostWarnings)
+    else if (warnings.size() < kMaxWarnings)
       warnings.push_back({place.where + key, "unknown key, kept but not used" + meant(place, key, warnings.size())});
     else
       warnings.push_back({place.where + key, "unknown key, and there are more; all are kept but not used"});

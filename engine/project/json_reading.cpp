@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/text_place.h"
+#include "base/text_position.h"
 
 namespace sigs {
 
@@ -91,12 +91,12 @@ class JsonMaker : public nlohmann::json_sax<Json> {
 }  // namespace
 
 Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind) {
-  if (json_depth(text) > kDeepestJson)
-    return fail(file, "has more than " + std::to_string(kDeepestJson) + " brackets within one another", kind);
+  if (json_depth(text) > kMaxJsonNesting)
+    return fail(file, "has more than " + std::to_string(kMaxJsonNesting) + " brackets within one another", kind);
   JsonMaker maker;
   if (Json::sax_parse(text, &maker)) return std::move(maker.made());
   if (maker.is_too_large()) return fail(file, "holds a number that is too large", kind);
-  return fail(file, "is not JSON: unexpected text at " + place_of(text, maker.wrong_byte()), kind);
+  return fail(file, "is not JSON: unexpected text at " + text_position(text, maker.wrong_byte()), kind);
 }
 
 void append_members(Json& object, Json more) {
@@ -105,10 +105,10 @@ void append_members(Json& object, Json more) {
 }
 
 std::string shown(const Json& json) {
-  constexpr std::size_t kLongest = 40;
+  constexpr std::size_t kMax = 40;
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() <= kLongest) return text;
-  std::size_t end = kLongest - 3;
+  if (text.size() <= kMax) return text;
+  std::size_t end = kMax - 3;
   while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not amid a letter
   return text.substr(0, end) + "...";
 }

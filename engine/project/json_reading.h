@@ -9,7 +9,7 @@
 
 namespace sigs {
 
-inline constexpr int kDeepestJson = kDeepestNesting;
+inline constexpr int kMaxJsonNesting = kMaxNesting;
 
 // The text of a file as JSON; what is wrong with it is an error of this kind, which names the file.
 [[nodiscard]] Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind);

@@ -38,7 +38,7 @@ struct PaperOwnBodySettings {
   double canny_high = 0;
   int dilation_px = 0;
   int closing_px = 0;
-  double least_area_percent = 0.5;  // of the picture; paper section 4.2
+  double least_area_percent = 0.5;  // of the image; paper section 4.2
 
   [[nodiscard]] bool operator==(const PaperOwnBodySettings&) const = default;
 };
@@ -66,8 +66,8 @@ struct OwnBodySettings {
 
 struct CameraSettings {
   glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
-  std::optional<double> roll_deg;   // none: not known; mount_attitude() takes it as 0
-  std::optional<double> pitch_deg;  // likewise
+  std::optional<double> roll_deg;     // none: not known; mount_attitude() takes it as 0
+  std::optional<double> pitch_deg;    // likewise
   double yaw_deg = 0;
   std::string attitude_file;  // how what carries the camera is turned, frame by frame; empty: level
   double speed_mps = 0;       // along world X

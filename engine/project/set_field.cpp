@@ -18,7 +18,7 @@ std::vector<std::string> keys_of(const std::vector<Field>& fields) {
 }
 
 Json json_or_text(const std::string& text) {
-  if (json_depth(text) > kDeepestJson) return text;
+  if (json_depth(text) > kMaxJsonNesting) return text;
   Json json = Json::parse(text, nullptr, false);
   return json.is_discarded() ? Json(text) : json;
 }

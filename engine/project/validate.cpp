@@ -107,7 +107,7 @@ void check_output(const ExportSettings& output, Problems& problems) {
   if (output.codec == CodecChoice::ffv1 && container == ContainerChoice::mp4)
     problems.push_back({"export.video.container", "mp4 cannot hold ffv1; use mkv or avi"});
   if (output.codec == CodecChoice::png && container != ContainerChoice::automatic)
-    problems.push_back({"export.video.container", "png writes numbered pictures, not a container; use auto"});
+    problems.push_back({"export.video.container", "png writes numbered images, not a container; use auto"});
 }
 
 bool is_twice(const std::vector<std::string>& list, const std::string& text) {

@@ -22,7 +22,7 @@ namespace sigs {
 namespace {
 
 // A way to a display, and what it is called.
-struct Door {
+struct Platform {
   std::string name;
   EGLDisplay display = EGL_NO_DISPLAY;
 };
@@ -31,24 +31,25 @@ bool has_client_extension(const char* name) {
   return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
 }
 
-std::optional<Door> surfaceless_door() {
+std::optional<Platform> surfaceless_platform() {
   if (!has_client_extension("EGL_EXT_platform_base") || !has_client_extension("EGL_MESA_platform_surfaceless"))
     return std::nullopt;
-  return Door{"surfaceless", eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
+  return Platform{"surfaceless", eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
 }
 
-std::vector<Door> device_doors() {
+std::vector<Platform> device_platforms() {
   const bool can_list =
       has_client_extension("EGL_EXT_device_enumeration") || has_client_extension("EGL_EXT_device_base");
   if (!can_list || !has_client_extension("EGL_EXT_platform_device")) return {};
   std::array<EGLDeviceEXT, 64> devices{};
   EGLint count = 0;
   if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return {};
-  std::vector<Door> doors;
+  std::vector<Platform> platforms;
   for (EGLint i = 0; i < count; ++i)
-    doors.push_back({"EGL device " + std::to_string(i),
-                     eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr)});
-  return doors;
+    platforms.push_back(
+        {"EGL device " + std::to_string(i),
+         eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr)});
+  return platforms;
 }
 
 std::string hexadecimal(EGLint code) {
@@ -80,13 +81,13 @@ std::string text_of(GLenum name) {
   return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
 }
 
-std::string description_of(const Door& door) {
+std::string description_of(const Platform& platform) {
   const int version = epoxy_gl_version();
-  return door.name + ", " + text_of(GL_RENDERER) + ", OpenGL " + std::to_string(version / 10) + "." +
+  return platform.name + ", " + text_of(GL_RENDERER) + ", OpenGL " + std::to_string(version / 10) + "." +
          std::to_string(version % 10);
 }
 
-// Mesa's driver and its compiler crash where memory cannot be had. They and the first pictures take some 400 MiB of
+// Mesa's driver and its compiler crash where memory cannot be had. They and the first textures take some 400 MiB of
 // addresses.
 Result<void> check_room() {
   constexpr std::size_t kRoom_bytes = std::size_t{512} << 20;
@@ -129,28 +130,28 @@ Result<EGLContext> new_context(EGLDisplay display) {
 }
 
 // The context, current, or why there is none.
-Result<EGLContext> opened(const Door& door) {
+Result<EGLContext> opened(const Platform& platform) {
   const auto failed = [&](const char* step) {
-    return fail(door.name, step + (" (" + hexadecimal(eglGetError()) + ")"));
+    return fail(platform.name, step + (" (" + hexadecimal(eglGetError()) + ")"));
   };
-  if (door.display == EGL_NO_DISPLAY) return failed("no display");
+  if (platform.display == EGL_NO_DISPLAY) return failed("no display");
   EGLint major = 0;
   EGLint minor = 0;
-  if (!eglInitialize(door.display, &major, &minor)) return failed("cannot be initialised");
+  if (!eglInitialize(platform.display, &major, &minor)) return failed("cannot be initialised");
   if (!eglBindAPI(EGL_OPENGL_API)) return failed("has no OpenGL");
-  if (!epoxy_has_egl_extension(door.display, "EGL_KHR_surfaceless_context")) return failed("needs a surface");
-  const Result<EGLContext> context = new_context(door.display);
+  if (!epoxy_has_egl_extension(platform.display, "EGL_KHR_surfaceless_context")) return failed("needs a surface");
+  const Result<EGLContext> context = new_context(platform.display);
   if (!context) return context;
   if (*context == EGL_NO_CONTEXT) return failed("has no OpenGL 3.3 core");
-  if (eglMakeCurrent(door.display, EGL_NO_SURFACE, EGL_NO_SURFACE, *context)) return context;
-  eglDestroyContext(door.display, *context);
+  if (eglMakeCurrent(platform.display, EGL_NO_SURFACE, EGL_NO_SURFACE, *context)) return context;
+  eglDestroyContext(platform.display, *context);
   return failed("cannot make its context current");
 }
 
-std::vector<Door> doors() {
-  std::vector<Door> all;
-  if (const auto door = surfaceless_door()) all.push_back(*door);
-  for (Door& door : device_doors()) all.push_back(std::move(door));
+std::vector<Platform> platforms() {
+  std::vector<Platform> all;
+  if (const auto platform = surfaceless_platform()) all.push_back(*platform);
+  for (Platform& platform : device_platforms()) all.push_back(std::move(platform));
   return all;
 }
 
@@ -160,9 +161,9 @@ Result<EglContext> EglContext::create() {
   if (const Result<void> library = check_egl_library(); !library) return fail(library.error());
   if (const Result<void> room = check_room(); !room) return fail(room.error());
   std::string tried;
-  for (const Door& door : doors()) {
-    const Result<EGLContext> context = opened(door);
-    if (context) return EglContext(door.display, *context, description_of(door));
+  for (const Platform& platform : platforms()) {
+    const Result<EGLContext> context = opened(platform);
+    if (context) return EglContext(platform.display, *context, description_of(platform));
     tried += (tried.empty() ? "" : "; ") + context.error().text();
   }
   if (tried.empty()) tried = "EGL offers neither the surfaceless platform nor devices";

@@ -13,7 +13,7 @@
 
 #include "base/ensure.h"
 #include "base/transfer.h"
-#include "render/paint.h"
+#include "render/vertex_material.h"
 
 namespace sigs {
 namespace {
@@ -32,19 +32,19 @@ cv::Mat premultiplied(const cv::Mat& rgba) {
   return result;
 }
 
-cv::Mat fitting(const cv::Mat& picture) {
+cv::Mat fitting(const cv::Mat& texture) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  if (picture.cols <= largest && picture.rows <= largest) return picture;
+  if (texture.cols <= largest && texture.rows <= largest) return texture;
   cv::Mat smaller;
-  cv::resize(picture, smaller, {std::min(picture.cols, largest), std::min(picture.rows, largest)}, 0, 0,
+  cv::resize(texture, smaller, {std::min(texture.cols, largest), std::min(texture.rows, largest)}, 0, 0,
              cv::INTER_AREA);
   return smaller;
 }
 
-GLuint uploaded(const cv::Mat& picture) {
-  ENSURE(picture.type() == CV_8UC4);
-  const cv::Mat texels = premultiplied(fitting(picture));
+GLuint uploaded(const cv::Mat& texture) {
+  ENSURE(texture.type() == CV_8UC4);
+  const cv::Mat texels = premultiplied(fitting(texture));
   GLuint name = 0;
   glGenTextures(1, &name);
   glBindTexture(GL_TEXTURE_2D, name);
@@ -125,34 +125,34 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
 }  // namespace
 
 GpuMesh::GpuMesh(const Mesh& mesh)
-    : fingerprint_(fingerprint_of(mesh)), picture_of_material_(pictures_of(mesh)), radius_m_(mesh.radius_m) {
+    : fingerprint_(fingerprint_of(mesh)), texture_of_material_(texture_numbers(mesh)), radius_m_(mesh.radius_m) {
   Mesh split = split_by_material(mesh);
   const std::vector<Surface> surfaces = surfaces_of(split);
-  whole_ = solid_list(split, surfaces, picture_of_material_);
-  see_through_ = sigs::see_through(split, surfaces);
+  whole_ = solid_list(split, surfaces, texture_of_material_);
+  transparent_triangles_ = sigs::transparent_triangles(split, surfaces);
 
   glGenVertexArrays(1, &vertex_array_);
   glGenBuffers(1, &vertex_buffer_);
-  glGenBuffers(1, &paint_buffer_);
+  glGenBuffers(1, &material_buffer_);
   glGenBuffers(1, &sorted_indices_);
   glBindVertexArray(vertex_array_);
   bytes_uploaded_ += upload(GL_ARRAY_BUFFER, vertex_buffer_, split.vertices, GL_STATIC_DRAW);
   set_attribute<Vertex>(0, 3, offsetof(Vertex, position_m));
   set_attribute<Vertex>(1, 3, offsetof(Vertex, normal));
   set_attribute<Vertex>(2, 2, offsetof(Vertex, uv));
-  bytes_uploaded_ += upload(GL_ARRAY_BUFFER, paint_buffer_, paints_of(split), GL_STATIC_DRAW);
-  set_attribute<Paint>(3, 4, offsetof(Paint, color));
-  set_attribute<Paint>(4, 4, offsetof(Paint, gloss));
+  bytes_uploaded_ += upload(GL_ARRAY_BUFFER, material_buffer_, vertex_materials(split), GL_STATIC_DRAW);
+  set_attribute<VertexMaterial>(3, 4, offsetof(VertexMaterial, color));
+  set_attribute<VertexMaterial>(4, 4, offsetof(VertexMaterial, gloss));
   whole_level_ = uploaded_level(whole_);
-  upload_pictures(mesh);
+  upload_textures(mesh);
   vertices_ = std::move(split.vertices);
 }
 
-void GpuMesh::upload_pictures(const Mesh& mesh) {
+void GpuMesh::upload_textures(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const cv::Mat& texture = mesh.materials[i].texture;
-    if (picture_of_material_[i] != static_cast<int>(pictures_.size())) continue;  // has none, or it is there
-    pictures_.push_back(uploaded(texture));
+    if (texture_of_material_[i] != static_cast<int>(textures_.size())) continue;  // has none, or it is there
+    textures_.push_back(uploaded(texture));
     bytes_uploaded_ += static_cast<std::int64_t>(texture.total() * texture.elemSize());
   }
 }
@@ -169,30 +169,30 @@ bool GpuMesh::is_copy_of(const Mesh& mesh) const {
 }
 
 void GpuMesh::release() {
-  std::vector<GLuint> buffers{vertex_buffer_, paint_buffer_, sorted_indices_, whole_level_.indices};
+  std::vector<GLuint> buffers{vertex_buffer_, material_buffer_, sorted_indices_, whole_level_.indices};
   for (const auto& [step, level] : levels_) buffers.push_back(level.indices);
   glDeleteBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   glDeleteVertexArrays(1, &vertex_array_);
-  glDeleteTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
+  glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
 }
 
 DrawList GpuMesh::sorted_for(const glm::dvec3& eye_m) const {
-  return sorted_list(see_through_, picture_of_material_, eye_m);
+  return sorted_list(transparent_triangles_, texture_of_material_, eye_m);
 }
 
 std::optional<int> GpuMesh::worthwhile_step(double error_m) const {
   constexpr std::size_t kFewTriangles = 1000;  // are drawn as fast whole
-  constexpr double kLeastError = 1.0 / 4096;   // of the radius: in so large a view it is pixels that cost
-  constexpr double kMostError = 1.0 / 64;      // of the radius: what is coarser is not worth its memory
-  if (whole_.indices.size() < 3 * kFewTriangles || !(error_m > kLeastError * radius_m_)) return std::nullopt;
-  return step_for(std::min(error_m, kMostError * radius_m_));
+  constexpr double kMinError = 1.0 / 4096;     // of the radius: in so large a view it is pixels that cost
+  constexpr double kMaxError = 1.0 / 64;       // of the radius: what is coarser is not worth its memory
+  if (whole_.indices.size() < 3 * kFewTriangles || !(error_m > kMinError * radius_m_)) return std::nullopt;
+  return step_for(std::min(error_m, kMaxError * radius_m_));
 }
 
 const std::vector<Run>& GpuMesh::bind_solid(double error_m) {
   glBindVertexArray(vertex_array_);
   const std::optional<int> step = worthwhile_step(error_m);
   if (step && !levels_.contains(*step))
-    levels_.emplace(*step, uploaded_level(detail_of(vertices_, whole_, *step)));
+    levels_.emplace(*step, uploaded_level(simplified_list(vertices_, whole_, *step)));
   const Level& level = step ? levels_.at(*step) : whole_level_;
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, level.indices);
   return level.runs;
@@ -208,10 +208,10 @@ void GpuMesh::draw(const Run& run) const {
                  reinterpret_cast<const void*>(run.first * sizeof(std::uint32_t)));
 }
 
-void GpuMesh::bind_picture(int picture) const {
-  if (picture == kNoPicture) return;
+void GpuMesh::bind_texture(int texture) const {
+  if (texture == kNoTexture) return;
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, pictures_[picture]);
+  glBindTexture(GL_TEXTURE_2D, textures_[texture]);
 }
 
 }  // namespace sigs

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "render/detail.h"
 #include "render/draw_list.h"
+#include "render/level_of_detail.h"
 
 namespace sigs {
 
@@ -34,8 +34,8 @@ class GpuMesh {
   void bind_sorted(const DrawList& list) const;
   void draw(const Run& run) const;
 
-  // Binds the picture of a run; nothing where it has none.
-  void bind_picture(int picture) const;
+  // Binds the texture of a run; nothing where it has none.
+  void bind_texture(int texture) const;
 
   // Since the last time it was asked.
   [[nodiscard]] std::int64_t take_bytes_uploaded() { return std::exchange(bytes_uploaded_, 0); }
@@ -48,13 +48,13 @@ class GpuMesh {
 
   // Nothing: the whole mesh.
   [[nodiscard]] std::optional<int> worthwhile_step(double error_m) const;
-  void upload_pictures(const Mesh& mesh);
+  void upload_textures(const Mesh& mesh);
   [[nodiscard]] Level uploaded_level(const DrawList& list);
 
   std::uint64_t fingerprint_;
   std::vector<Vertex> vertices_;
-  std::vector<int> picture_of_material_;
-  std::vector<SeeThrough> see_through_;
+  std::vector<int> texture_of_material_;
+  std::vector<TransparentTriangle> transparent_triangles_;
   DrawList whole_;
   Level whole_level_;
   std::map<int, Level> levels_;  // by step, detail.h
@@ -62,9 +62,9 @@ class GpuMesh {
   double radius_m_;
   unsigned int vertex_array_ = 0;
   unsigned int vertex_buffer_ = 0;
-  unsigned int paint_buffer_ = 0;
+  unsigned int material_buffer_ = 0;
   unsigned int sorted_indices_ = 0;
-  std::vector<unsigned int> pictures_;
+  std::vector<unsigned int> textures_;
 };
 
 }  // namespace sigs

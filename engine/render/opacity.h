@@ -9,7 +9,7 @@ namespace sigs {
 
 enum class Surface {
   solid,   // hides all behind it
-  cutout,  // a solid material whose picture lets light through in places
+  cutout,  // a solid material whose texture lets light through in places
   glass,   // lets light through everywhere
 };
 

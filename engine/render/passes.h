@@ -13,7 +13,7 @@ namespace sigs {
 
 // The shaders for each kind of surface, so that none does what it does not need.
 struct Programs {
-  enum Kind { kPlain, kPictured, kLayered };  // assets/shaders/intruder.frag
+  enum Kind { kPlain, kTextured, kLayered };  // assets/shaders/intruder.frag
 
   // Error unavailable as Program's.
   [[nodiscard]] static Result<Programs> create();
@@ -21,16 +21,16 @@ struct Programs {
   std::array<Program, 3> all;
 };
 
-struct PassWork {
+struct PassCounts {
   std::int64_t triangles = 0;
   std::int64_t draw_calls = 0;
 };
 
 // Solid parts and the opaque texels of cutouts, by the depth buffer, off by error_m at most.
 //   from_outside  nothing of the body is at or behind the eye: sides that face inwards need not be drawn
-PassWork draw_solid(const Programs& programs, GpuMesh& gpu, double error_m, bool from_outside);
+PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, double error_m, bool from_outside);
 
 // Glass and the other texels of cutouts, blended in the order of the list.
-PassWork draw_see_through(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted);
+PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted);
 
 }  // namespace sigs

@@ -20,7 +20,7 @@ std::optional<Planes> planes_around(double distance_m, double radius_m) {
   return Planes{std::max(distance_m - radius_m - margin_m, closest_m), far_m};
 }
 
-glm::dmat4 clip_from_view(const VirtualView& view, const cv::Rect& piece, const Planes& planes) {
+glm::dmat4 clip_from_view(const VirtualCamera& view, const cv::Rect& piece, const Planes& planes) {
   const double width = piece.width;
   const double height = piece.height;
   const double depth_m = planes.far_m - planes.near_m;
@@ -36,7 +36,7 @@ glm::dmat4 clip_from_view(const VirtualView& view, const cv::Rect& piece, const 
 }  // namespace
 
 std::optional<glm::dmat4> clip_from_body(const Pose<frame::View, frame::Body>& view_from_body, double radius_m,
-                                         const VirtualView& view, const cv::Rect& piece) {
+                                         const VirtualCamera& view, const cv::Rect& piece) {
   const std::optional<Planes> planes = planes_around(view_from_body.translation_m.x, std::max(radius_m, 1e-6));
   if (!planes) return std::nullopt;
   glm::dmat4 placed = glm::mat4_cast(view_from_body.rotation);

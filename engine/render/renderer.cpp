@@ -26,13 +26,14 @@ struct Renderer::State {
   Programs programs;
   Target target;
   std::map<const Mesh*, GpuMesh> meshes;
-  RenderWork work;
+  RenderCounts counts;
 };
 
 namespace {
 
 constexpr int kLargestView_px = 16384;
-constexpr double kDetail_px = 1.0 / 16;  // of a view: solid parts may be drawn so far off, below the step of its samples
+constexpr double kDetail_px =
+    1.0 / 16;  // of a view: solid parts may be drawn so far off, below the step of its samples
 using ViewFromBody = Pose<frame::View, frame::Body>;
 
 bool is_finite(const glm::dvec3& v) {
@@ -72,7 +73,7 @@ bool sees_from_outside(const ViewFromBody& view_from_body, const Mesh& mesh) {
 }
 
 // What solid parts may be off by, where the body is nearest. 0 around the eye.
-double allowed_error_m(const ViewFromBody& view_from_body, const Mesh& mesh, const VirtualView& view) {
+double allowed_error_m(const ViewFromBody& view_from_body, const Mesh& mesh, const VirtualCamera& view) {
   const double nearest_m = view_from_body.translation_m.x - mesh.radius_m;
   return std::max(0.0, kDetail_px * nearest_m / view.focal_px);
 }
@@ -81,7 +82,7 @@ void set_fixed_state() {
   glEnable(GL_MULTISAMPLE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glFrontFace(GL_CW);  // the window's rows run down the picture, so counter-clockwise triangles turn the other way
+  glFrontFace(GL_CW);  // the window's rows run down the texture, so counter-clockwise triangles turn the other way
 }
 
 std::vector<cv::Rect> pieces_of(const cv::Size& size) {
@@ -107,12 +108,12 @@ Layer blank(const cv::Size& size) {
   return {cv::Rect({0, 0}, size), cv::Mat::zeros(size, CV_32FC4), cv::Mat::zeros(size, CV_32FC1)};
 }
 
-void count(const PassWork& pass, RenderWork& work) {
-  work.triangles_drawn += pass.triangles;
-  work.draw_calls += pass.draw_calls;
+void count(const PassCounts& pass, RenderCounts& counts) {
+  counts.triangles_drawn += pass.triangles;
+  counts.draw_calls += pass.draw_calls;
 }
 
-void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const VirtualView& view) {
+void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const VirtualCamera& view) {
   ENSURE(is_finite(view_from_body.translation_m));
   ENSURE(std::isfinite(glm::dot(view_from_body.rotation, view_from_body.rotation)));
   ENSURE(is_finite(light.p_in_camera) && is_finite(light.color) && std::isfinite(light.ambient));
@@ -141,8 +142,8 @@ const std::string& Renderer::description() const {
   return state_->context.description();
 }
 
-const RenderWork& Renderer::work() const {
-  return state_->work;
+const RenderCounts& Renderer::counts() const {
+  return state_->counts;
 }
 
 int Renderer::max_size_px() const {
@@ -150,7 +151,7 @@ int Renderer::max_size_px() const {
 }
 
 Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
-                             const Light& light, const VirtualView& view) {
+                             const Light& light, const VirtualCamera& view) {
   const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
   ensure_sane(view_from_body, light, view);
   if (view.size_px.empty()) return Layer{};
@@ -176,12 +177,12 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
       program.use();
       program.set("clip_from_body", glm::mat4(*clip));
     }
-    count(draw_solid(state_->programs, gpu, error_m, from_outside), state_->work);
-    count(draw_see_through(state_->programs, gpu, sorted), state_->work);
+    count(draw_solid(state_->programs, gpu, error_m, from_outside), state_->counts);
+    count(draw_transparent(state_->programs, gpu, sorted), state_->counts);
     state_->target.read(layer.color(piece), layer.coverage(piece));
-    state_->work.pixels_drawn += piece.area();
+    state_->counts.pixels_drawn += piece.area();
   }
-  state_->work.bytes_uploaded += gpu.take_bytes_uploaded();
+  state_->counts.bytes_uploaded += gpu.take_bytes_uploaded();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR)
     return fail("OpenGL", "drawing failed with error " + std::to_string(code), ErrorKind::unavailable);
   return layer;

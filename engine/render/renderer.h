@@ -10,7 +10,7 @@
 #include "base/layer.h"
 #include "base/pose.h"
 #include "base/result.h"
-#include "camera/virtual_view.h"
+#include "camera/pinhole_view.h"
 #include "mesh/mesh.h"
 
 namespace sigs {
@@ -23,10 +23,10 @@ struct Light {
 };
 
 // What a renderer has done since it was made.
-struct RenderWork {
+struct RenderCounts {
   std::int64_t pixels_drawn = 0;     // of the views
   std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view
-  std::int64_t bytes_uploaded = 0;   // vertices, triangles and pictures; what a view says about itself is left out
+  std::int64_t bytes_uploaded = 0;   // vertices, triangles and textures; what a view says about itself is left out
   std::int64_t draw_calls = 0;
 };
 
@@ -48,7 +48,7 @@ class Renderer {
   // Largest side of a view that draw() can make, px.
   [[nodiscard]] int max_size_px() const;
 
-  [[nodiscard]] const RenderWork& work() const;
+  [[nodiscard]] const RenderCounts& counts() const;
 
   // The mesh as the view sees it, covering the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
   // several samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and
@@ -58,7 +58,7 @@ class Renderer {
   // finite. A view of no size gives an empty layer. Errors: bad_data where the view is larger than max_size_px();
   // unavailable where the driver fails.
   [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
-                                   const Light& light, const VirtualView& view);
+                                   const Light& light, const VirtualCamera& view);
 
   // Gives back what was uploaded of a mesh. Nothing happens where it was never drawn.
   void forget(const Mesh& mesh);

@@ -20,7 +20,7 @@ class Target {
   // Makes room for size and clears it. Error unavailable where the driver cannot draw to such buffers.
   [[nodiscard]] Result<void> begin(const cv::Size& size);
 
-  // Averages the samples and copies them to the given parts of larger pictures (CV_32FC4 and CV_32FC1).
+  // Averages the samples and copies them to the given parts of larger textures (CV_32FC4 and CV_32FC1).
   void read(cv::Mat color, cv::Mat coverage) const;
 
  private:

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "base/angles.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "base/text_pieces.h"
 
 namespace sigs {

@@ -13,9 +13,9 @@ namespace sigs {
 namespace {
 
 constexpr int kSamplesAFrame = 4;
-constexpr int kMostSamples = 20'000;
-constexpr std::size_t kMostValleys = 16;  // of the sampled distance that are looked at closely, the deepest ones
-constexpr int kNarrowings = 60;           // by the golden section: from two samples to 1e-12 of it
+constexpr int kMaxSamples = 20'000;
+constexpr std::size_t kMaxValleys = 16;  // of the sampled distance that are looked at closely, the deepest ones
+constexpr int kNarrowings = 60;          // by the golden section: from two samples to 1e-12 of it
 constexpr double kEqual_m = 1e-6;
 
 struct Moment {
@@ -40,7 +40,7 @@ class Distance {
 
 std::vector<Moment> sampled(const Distance& distance, int first_frame, int last_frame) {
   const int frames = std::max(0, last_frame - first_frame);
-  const int steps = frames <= kMostSamples / kSamplesAFrame ? frames * kSamplesAFrame : kMostSamples;
+  const int steps = frames <= kMaxSamples / kSamplesAFrame ? frames * kSamplesAFrame : kMaxSamples;
   std::vector<Moment> samples;
   for (int i = 0; i <= steps; ++i)
     samples.push_back(distance.at(first_frame + (steps > 0 ? double(frames) * i / steps : 0)));
@@ -55,10 +55,10 @@ std::vector<std::size_t> valleys_of(const std::vector<Moment>& samples) {
     const bool rises = i + 1 == samples.size() || samples[i].distance_m <= samples[i + 1].distance_m;
     if (falls && rises) valleys.push_back(i);
   }
-  if (valleys.size() > kMostValleys) {
+  if (valleys.size() > kMaxValleys) {
     std::stable_sort(valleys.begin(), valleys.end(),
                      [&](std::size_t a, std::size_t b) { return samples[a].distance_m < samples[b].distance_m; });
-    valleys.resize(kMostValleys);
+    valleys.resize(kMaxValleys);
     std::sort(valleys.begin(), valleys.end());
   }
   return valleys;

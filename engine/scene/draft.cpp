@@ -8,20 +8,20 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "scene/doubts.h"
+#include "scene/placeholders.h"
+#include "scene/plausibility.h"
 #include "scene/scene_parts.h"
-#include "scene/stand_ins.h"
 
 namespace sigs {
 
 namespace {
 
 constexpr double kCrossLength_m = 10;
-constexpr int kStandInWidth_px = 1280;
-constexpr int kStandInHeight_px = 960;
-constexpr double kStandInInterval_s = 1.0 / 25;
-constexpr int kFewestFrames = 250;
-constexpr int kMostFrames = 100'000;
+constexpr int kPlaceholderWidth_px = 1280;
+constexpr int kPlaceholderHeight_px = 960;
+constexpr double kPlaceholderInterval_s = 1.0 / 25;
+constexpr int kMinFrames = 250;
+constexpr int kMaxFrames = 100'000;
 
 // "intruders[1]" holds "intruders[1].model.file", but not "intruders[12]".
 bool holds(std::string_view outer, std::string_view inner) {
@@ -51,10 +51,10 @@ std::vector<Problem> checked(const Project& project) {
 }
 
 template <class T>
-T made_or(Made<T> made, T stand_in, std::vector<Problem>& problems) {
+T made_or_fallback(OrProblem<T> made, T placeholder, std::vector<Problem>& problems) {
   if (made) return *std::move(made);
   note(problems, made.error());
-  return stand_in;
+  return placeholder;
 }
 
 FrameRange clamped_range(const FootageSettings& settings, const FootageShape& footage) {
@@ -69,29 +69,29 @@ bool is_finite(const WaypointSettings& waypoint) {
          (!waypoint.frame || std::isfinite(*waypoint.frame));
 }
 
-// As written: a number that is none was mended in `sound`, but nobody wants to fly through its default.
+// As written: a number that is none was sanitized in `clean`, but nobody wants to fly through its default.
 bool can_be_flown(const Project& written, std::size_t intruder) {
   const std::vector<WaypointSettings>& waypoints = written.intruders[intruder].trajectory.waypoints;
   return std::all_of(waypoints.begin(), waypoints.end(), is_finite);
 }
 
-Trajectory hovering(const Project& sound, std::size_t intruder) {
-  const TrajectoryPlan& plan = sound.intruders[intruder].trajectory;
+Trajectory hovering(const Project& clean, std::size_t intruder) {
+  const TrajectoryPlan& plan = clean.intruders[intruder].trajectory;
   return *Trajectory::make({{0, plan.waypoints.front().position_m}}, trajectory_settings(plan));
 }
 
-Trajectory drafted_trajectory(const Project& written, const Project& sound, std::size_t intruder, DraftScene& draft) {
-  if (!can_be_flown(written, intruder)) return hovering(sound, intruder);
-  Made<Trajectory> made = made_trajectory(sound, intruder, draft.scene);
-  return made_or(std::move(made), hovering(sound, intruder), draft.problems);
+Trajectory drafted_trajectory(const Project& written, const Project& clean, std::size_t intruder, DraftScene& draft) {
+  if (!can_be_flown(written, intruder)) return hovering(clean, intruder);
+  OrProblem<Trajectory> made = scene_trajectory(clean, intruder, draft.scene);
+  return made_or_fallback(std::move(made), hovering(clean, intruder), draft.problems);
 }
 
-std::shared_ptr<const Model> drafted_model(const Project& sound, std::size_t intruder, DraftScene& draft,
+std::shared_ptr<const Model> drafted_model(const Project& clean, std::size_t intruder, DraftScene& draft,
                                            SceneFiles& files) {
-  Made<std::shared_ptr<const Model>> model = made_model(sound, intruder, files);
+  OrProblem<std::shared_ptr<const Model>> model = scene_model(clean, intruder, files);
   if (model) return *model;
   note(draft.problems, model.error());
-  const double length_m = sound.intruders[intruder].model.length_m;
+  const double length_m = clean.intruders[intruder].model.length_m;
   return files.cross(length_m > 0 ? length_m : kCrossLength_m);
 }
 
@@ -99,42 +99,43 @@ std::shared_ptr<const Model> drafted_model(const Project& sound, std::size_t int
 
 DraftScene draft_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
   ENSURE(!footage.times_s.empty() && !footage.size_px.empty());
-  const Project sound = mended(project);
-  DraftScene draft{.scene = bare_scene(sound, footage), .problems = checked(project)};
+  const Project clean = sanitized(project);
+  DraftScene draft{.scene = bare_scene(clean, footage), .problems = checked(project)};
   Scene& scene = draft.scene;
   const FrameRange range =
-      made_or(made_range(sound.footage, footage), clamped_range(sound.footage, footage), draft.problems);
+      made_or_fallback(scene_range(clean.footage, footage), clamped_range(clean.footage, footage), draft.problems);
   scene.first_frame = range.first;
   scene.last_frame = range.last;
-  scene.camera =
-      made_or(made_camera(sound, footage.size_px, files), stand_in_camera(footage.size_px), draft.problems);
-  scene.motion.turns = made_or(made_turns(sound, footage, files), std::vector<CarrierTurn>(), draft.problems);
-  scene.own_body = made_or(made_own_body(sound, footage.size_px, files), cv::Mat(), draft.problems);
-  for (std::size_t i = 0; i < sound.intruders.size(); ++i) {
-    const bool has_waypoint = !sound.intruders[i].trajectory.waypoints.empty();
+  scene.camera = made_or_fallback(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
+                                  draft.problems);
+  scene.motion.turns =
+      made_or_fallback(scene_carrier_attitudes(clean, footage, files), std::vector<CarrierAttitude>(), draft.problems);
+  scene.own_body = made_or_fallback(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
+  for (std::size_t i = 0; i < clean.intruders.size(); ++i) {
+    const bool has_waypoint = !clean.intruders[i].trajectory.waypoints.empty();
     draft.intruder_of_project.push_back(has_waypoint ? static_cast<int>(scene.intruders.size()) : -1);
-    const std::shared_ptr<const Model> model = drafted_model(sound, i, draft, files);
-    if (has_waypoint) add_intruder(scene, sound.intruders[i].name, model, drafted_trajectory(project, sound, i, draft));
+    const std::shared_ptr<const Model> model = drafted_model(clean, i, draft, files);
+    if (has_waypoint) add_intruder(scene, clean.intruders[i].name, model, drafted_trajectory(project, clean, i, draft));
   }
-  scene.doubts = doubts_of(sound, scene, draft.intruder_of_project);
+  scene.issues = plausibility_issues(clean, scene, draft.intruder_of_project);
   // Of what is wrong there is nothing to doubt.
-  std::erase_if(scene.doubts, [&](const Problem& doubt) { return is_known(draft.problems, doubt); });
+  std::erase_if(scene.issues, [&](const Problem& issue) { return is_known(draft.problems, issue); });
   return draft;
 }
 
-FootageShape stand_in_footage(const Project& project) {
-  const Project sound = mended(project);
-  double last = std::max(sound.footage.first_frame, sound.footage.last_frame.value_or(0));
-  for (const IntruderSettings& intruder : sound.intruders)
+FootageShape placeholder_footage(const Project& project) {
+  const Project clean = sanitized(project);
+  double last = std::max(clean.footage.first_frame, clean.footage.last_frame.value_or(0));
+  for (const IntruderSettings& intruder : clean.intruders)
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
       last = std::max(last, std::ceil(waypoint.frame.value_or(0)));
-  const int count = static_cast<int>(std::clamp<double>(last + 1, kFewestFrames, kMostFrames));
+  const int count = static_cast<int>(std::clamp<double>(last + 1, kMinFrames, kMaxFrames));
   // The size that the calibration is made for: else a second fault would be seen where there is one.
-  const Result<Camera> camera = 
-      read_calibration(resolved(sound, sound.footage.calibration), {}, lens_model_of(sound.footage.lens_model));
-  FootageShape footage{.size_px = camera ? camera->size_px : cv::Size(kStandInWidth_px, kStandInHeight_px),
-                       .frame_interval_s = kStandInInterval_s};
-  for (int frame = 0; frame < count; ++frame) footage.times_s.push_back(frame * kStandInInterval_s);
+  const Result<Camera> camera =
+      read_calibration(resolved(clean, clean.footage.calibration), {}, lens_model_of(clean.footage.lens_model));
+  FootageShape footage{.size_px = camera ? camera->size_px : cv::Size(kPlaceholderWidth_px, kPlaceholderHeight_px),
+                       .frame_interval_s = kPlaceholderInterval_s};
+  for (int frame = 0; frame < count; ++frame) footage.times_s.push_back(frame * kPlaceholderInterval_s);
   return footage;
 }
 

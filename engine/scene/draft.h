@@ -24,6 +24,6 @@ struct DraftScene {
 
 // The footage of a project whose video cannot be opened: of the size that its calibration states, else 1280x960; 25
 // frames a second, as long as the project's last frame or waypoint asks for, at least 250 and at most 100000 frames.
-[[nodiscard]] FootageShape stand_in_footage(const Project& project);
+[[nodiscard]] FootageShape placeholder_footage(const Project& project);
 
 }  // namespace sigs

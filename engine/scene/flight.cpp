@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLargeAircraft_m = 18;
 constexpr int kSamplesAFrame = 3;
-constexpr int kMostSamples = 6000;
+constexpr int kMaxSamples = 6000;
 constexpr double kRounding = 1e-9;  // of a value that lies on its limit, relative
 
 const SceneIntruder& intruder_of(const Scene& scene, int intruder) {
@@ -61,7 +61,7 @@ struct Sample {
 std::vector<Sample> samples_of(const Scene& scene, const SceneIntruder& intruder) {
   const int frames = std::max(0, scene.last_frame - scene.first_frame);
   // Whole frames stay on the grid as long as it is fine enough for them.
-  const int steps = frames <= kMostSamples / kSamplesAFrame ? frames * kSamplesAFrame : kMostSamples;
+  const int steps = frames <= kMaxSamples / kSamplesAFrame ? frames * kSamplesAFrame : kMaxSamples;
   std::vector<Sample> samples;
   for (int i = 0; i <= steps; ++i) {
     const double frame = scene.first_frame + (steps > 0 ? double(frames) * i / steps : 0);

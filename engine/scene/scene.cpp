@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "project/validate.h"
-#include "scene/doubts.h"
+#include "scene/plausibility.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 
@@ -16,27 +16,27 @@ namespace {
 Result<Scene> opened(const Project& project, const FootageShape& footage, SceneFiles& files) {
   const auto stop = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, footage);
-  const Made<FrameRange> range = made_range(project.footage, footage);
+  const OrProblem<FrameRange> range = scene_range(project.footage, footage);
   if (!range) return stop(range.error());
   scene.first_frame = range->first;
   scene.last_frame = range->last;
-  Made<Camera> camera = made_camera(project, footage.size_px, files);
+  OrProblem<Camera> camera = scene_camera(project, footage.size_px, files);
   if (!camera) return stop(camera.error());
   scene.camera = *std::move(camera);
-  Made<std::vector<CarrierTurn>> turns = made_turns(project, footage, files);
+  OrProblem<std::vector<CarrierAttitude>> turns = scene_carrier_attitudes(project, footage, files);
   if (!turns) return stop(turns.error());
   scene.motion.turns = *std::move(turns);
-  const Made<cv::Mat> own_body = made_own_body(project, footage.size_px, files);
+  const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return stop(own_body.error());
   scene.own_body = *own_body;
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
-    const Made<std::shared_ptr<const Model>> model = made_model(project, i, files);
+    const OrProblem<std::shared_ptr<const Model>> model = scene_model(project, i, files);
     if (!model) return stop(model.error());
-    const Made<Trajectory> trajectory = made_trajectory(project, i, scene);
+    const OrProblem<Trajectory> trajectory = scene_trajectory(project, i, scene);
     if (!trajectory) return stop(trajectory.error());
     add_intruder(scene, project.intruders[i].name, *model, *trajectory);
   }
-  scene.doubts = doubts_of(project, scene);
+  scene.issues = plausibility_issues(project, scene);
   return scene;
 }
 

@@ -46,7 +46,7 @@ struct SceneIntruder {
 };
 
 // How what carries the camera is turned: level with its nose along world X where it is 1.
-struct CarrierTurn {
+struct CarrierAttitude {
   double time_s = 0;
   glm::dquat world_from_carrier{1, 0, 0, 0};
 };
@@ -56,7 +56,7 @@ struct CarrierTurn {
 struct CameraMotion {
   Pose<frame::World, frame::Camera> world_from_camera_at_start;  // with the carrier level
   double speed_mps = 0;
-  std::vector<CarrierTurn> turns = {};  // times rise; empty: always level
+  std::vector<CarrierAttitude> turns = {};  // times rise; empty: always level
 };
 
 // Everything that a project names, opened and checked; nothing in it changes any more.
@@ -70,10 +70,10 @@ struct Scene {
   CompositingSettings compositing;
   FootageShape footage;
   int first_frame = 0;
-  int last_frame = 0;  // included
+  int last_frame = 0;             // included
   bool horizon_is_known = false;  // somebody has said how the camera is turned
   std::vector<Warning> warnings;  // of the files that were read
-  std::vector<Problem> doubts;    // what can be used but is hardly meant, by field (scene/doubts.h)
+  std::vector<Problem> issues;    // what can be used but is hardly meant, by field (scene/plausibility.h)
 };
 
 // Errors name project file and field: "x.json: intruders[0].model.file: no such file".

@@ -6,10 +6,10 @@
 
 namespace sigs {
 
-glm::dquat world_from_carrier_at(const std::vector<CarrierTurn>& turns, double time_s) {
+glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s) {
   if (turns.empty()) return {1, 0, 0, 0};
   const auto after = std::upper_bound(turns.begin(), turns.end(), time_s,
-                                      [](double time, const CarrierTurn& turn) { return time < turn.time_s; });
+                                      [](double time, const CarrierAttitude& turn) { return time < turn.time_s; });
   if (after == turns.begin()) return after->world_from_carrier;
   const auto before = std::prev(after);
   if (after == turns.end() || before->time_s == time_s) return before->world_from_carrier;

@@ -26,7 +26,7 @@ struct SceneMoment {
 
 // Between two known turns at constant rate about one axis, the shorter way; before the first as the first, after the
 // last as the last; none: level.
-[[nodiscard]] glm::dquat world_from_carrier_at(const std::vector<CarrierTurn>& turns, double time_s);
+[[nodiscard]] glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s);
 
 // The carrier's turn on top of the constant attitude: R = world_from_carrier * R at start.
 [[nodiscard]] Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s);

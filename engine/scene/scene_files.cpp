@@ -11,7 +11,7 @@
 
 #include "scene/measuring_points.h"
 #include "scene/own_body_mask.h"
-#include "scene/stand_ins.h"
+#include "scene/placeholders.h"
 
 namespace sigs {
 
@@ -51,7 +51,7 @@ bool is_held(const std::vector<AttitudeAtFrame>&) {
 
 // Things by key, each with the state of its file when it was read; the longest unused ones are let go of.
 template <class Key, class T>
-class Shelf {
+class FileCache {
  public:
   template <class Read>
   Result<T> take(const Key& key, const Stamp& stamp, const Read& read) {
@@ -91,7 +91,7 @@ class Shelf {
 
 // Numbers by their bits: NaN too then has its place.
 using ModelKey = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool>;
-using PictureKey = std::tuple<std::string, int, int>;
+using ImageKey = std::tuple<std::string, int, int>;
 using CameraKey = std::tuple<std::string, int, int, std::optional<LensModel>>;
 
 std::string name_of(const std::filesystem::path& file) {
@@ -107,7 +107,7 @@ ModelKey key_of(const std::filesystem::path& file, const ModelAxes& axes) {
           axes.anchor_at_bounds};
 }
 
-PictureKey key_of(const std::filesystem::path& file, cv::Size size_px) {
+ImageKey key_of(const std::filesystem::path& file, cv::Size size_px) {
   return {name_of(file), size_px.width, size_px.height};
 }
 
@@ -119,44 +119,44 @@ Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& fil
 
 }  // namespace
 
-struct SceneFiles::Shelves {
-  Shelf<ModelKey, std::shared_ptr<const Model>> models;
-  Shelf<CameraKey, Camera> cameras;
-  Shelf<PictureKey, cv::Mat> masks;
-  Shelf<std::string, std::vector<AttitudeAtFrame>> attitudes;
-  Shelf<std::uint64_t, std::shared_ptr<const Model>> crosses;
+struct SceneFiles::Caches {
+  FileCache<ModelKey, std::shared_ptr<const Model>> models;
+  FileCache<CameraKey, Camera> cameras;
+  FileCache<ImageKey, cv::Mat> masks;
+  FileCache<std::string, std::vector<AttitudeAtFrame>> attitudes;
+  FileCache<std::uint64_t, std::shared_ptr<const Model>> crosses;
 };
 
-SceneFiles::SceneFiles() : shelves_(std::make_unique<Shelves>()) {}
+SceneFiles::SceneFiles() : caches_(std::make_unique<Caches>()) {}
 SceneFiles::SceneFiles(SceneFiles&&) noexcept = default;
 SceneFiles& SceneFiles::operator=(SceneFiles&&) noexcept = default;
 SceneFiles::~SceneFiles() = default;
 
 Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::path& file, const ModelAxes& axes) {
-  return shelves_->models.take(key_of(file, axes), stamp_of(file), [&] { return read_model(file, axes); });
+  return caches_->models.take(key_of(file, axes), stamp_of(file), [&] { return read_model(file, axes); });
 }
 
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                   std::optional<LensModel> model) {
   const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
-  return shelves_->cameras.take(key, stamp_of(calibration),
-                                [&] { return read_calibration(calibration, footage_size_px, model); });
+  return caches_->cameras.take(key, stamp_of(calibration),
+                               [&] { return read_calibration(calibration, footage_size_px, model); });
 }
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {
-  return shelves_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
+  return caches_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
 }
 
 Result<cv::Mat> SceneFiles::own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px) {
-  return shelves_->masks.take(key_of(file, footage_size_px), stamp_of(file),
-                              [&] { return read_own_body_mask(file, footage_size_px); });
+  return caches_->masks.take(key_of(file, footage_size_px), stamp_of(file),
+                             [&] { return read_own_body_mask(file, footage_size_px); });
 }
 
 std::shared_ptr<const Model> SceneFiles::cross(double length_m) {
   const auto make = [&]() -> Result<std::shared_ptr<const Model>> {
     return std::make_shared<const Model>(model_of(cross_mesh(length_m)));
   };
-  return *shelves_->crosses.take(std::bit_cast<std::uint64_t>(length_m), Stamp{}, make);
+  return *caches_->crosses.take(std::bit_cast<std::uint64_t>(length_m), Stamp{}, make);
 }
 
 }  // namespace sigs

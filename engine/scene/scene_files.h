@@ -34,12 +34,12 @@ class SceneFiles {
   // Shared: not to be written to.
   [[nodiscard]] Result<cv::Mat> own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px);
 
-  // What stands in for a model (scene/stand_ins.h): the same object for the same length. length_m > 0.
+  // What stands in for a model (scene/placeholders.h): the same object for the same length. length_m > 0.
   [[nodiscard]] std::shared_ptr<const Model> cross(double length_m);
 
  private:
-  struct Shelves;
-  std::unique_ptr<Shelves> shelves_;
+  struct Caches;
+  std::unique_ptr<Caches> caches_;
 };
 
 }  // namespace sigs

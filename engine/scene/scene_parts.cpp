@@ -60,7 +60,7 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
           .horizon_is_known = knows_horizon(camera)};
 }
 
-Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage) {
+OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage) {
   const int count = static_cast<int>(footage.times_s.size());
   const FrameRange range{settings.first_frame, settings.last_frame.value_or(count - 1)};
   const std::string held = "the footage has " + std::to_string(count) + " frames, 0 to " + std::to_string(count - 1);
@@ -74,15 +74,16 @@ std::optional<LensModel> lens_model_of(LensModelChoice choice) {
   return choice == LensModelChoice::fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
 }
 
-Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
   Result<Camera> camera = files.camera(resolved(project, project.footage.calibration), footage_size_px,
                                        lens_model_of(project.footage.lens_model));
   if (!camera) return in_field("footage.calibration", camera.error());
   return *std::move(camera);
 }
 
-Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage, SceneFiles& files) {
-  std::vector<CarrierTurn> turns;
+OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& project, const FootageShape& footage,
+                                                                SceneFiles& files) {
+  std::vector<CarrierAttitude> turns;
   if (project.camera.attitude_file.empty()) return turns;
   const Result<std::vector<AttitudeAtFrame>> known = files.attitudes(resolved(project, project.camera.attitude_file));
   if (!known) return in_field("camera.attitude_file", known.error());
@@ -91,14 +92,14 @@ Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageS
   return turns;
 }
 
-Made<cv::Mat> made_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
   if (project.footage.own_body_mask.empty()) return cv::Mat();
   const Result<cv::Mat> mask = files.own_body_mask(resolved(project, project.footage.own_body_mask), footage_size_px);
   if (!mask) return in_field("footage.own_body_mask", mask.error());
   return *mask;
 }
 
-Made<std::shared_ptr<const Model>> made_model(const Project& project, std::size_t intruder, SceneFiles& files) {
+OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder, SceneFiles& files) {
   const ModelSettings& settings = project.intruders[intruder].model;
   const Result<std::shared_ptr<const Model>> model = files.model(resolved(project, settings.file), axes_of(settings));
   if (model) return *model;
@@ -115,7 +116,7 @@ TrajectorySettings trajectory_settings(const TrajectoryPlan& plan) {
           .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
 }
 
-Made<Trajectory> made_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
+OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
   const TrajectoryPlan& plan = project.intruders[intruder].trajectory;
   const std::string key = key_of_intruder(intruder) + ".trajectory.";
   const std::vector<double> frames = waypoint_frames(plan.waypoints, scene.first_frame, scene.last_frame);

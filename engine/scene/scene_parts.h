@@ -20,29 +20,30 @@ namespace sigs {
 // The steps in which a scene is made of a project. open_scene stops at the first problem, draft_scene stands in for
 // what could not be made and goes on.
 template <class T>
-using Made = tl::expected<T, Problem>;
+using OrProblem = tl::expected<T, Problem>;
 
 // What needs no file and cannot fail: motion with the carrier level, light, compositing, footage; no lens yet.
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
 
-[[nodiscard]] Made<FrameRange> made_range(const FootageSettings& settings, const FootageShape& footage);
-[[nodiscard]] Made<Camera> made_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage);
+[[nodiscard]] OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 
 // None: as the file says, or as it looks.
 [[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
 
 // Empty where the project names no attitude file.
-[[nodiscard]] Made<std::vector<CarrierTurn>> made_turns(const Project& project, const FootageShape& footage,
-                                                        SceneFiles& files);
+[[nodiscard]] OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& project,
+                                                                              const FootageShape& footage,
+                                                                              SceneFiles& files);
 
 // Empty where the project names none.
-[[nodiscard]] Made<cv::Mat> made_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 
-[[nodiscard]] Made<std::shared_ptr<const Model>> made_model(const Project& project, std::size_t intruder,
-                                                            SceneFiles& files);
+[[nodiscard]] OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder,
+                                                                  SceneFiles& files);
 
 // Of the project's intruder, over the scene's footage and range.
-[[nodiscard]] Made<Trajectory> made_trajectory(const Project& project, std::size_t intruder, const Scene& scene);
+[[nodiscard]] OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene);
 
 [[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan);
 

@@ -11,8 +11,8 @@ namespace sigs {
 namespace {
 
 constexpr double kAccuracy = 1e-13;  // of the whole way
-constexpr int kMostHalvings = 30;    // at a cusp the integrand has a kink: the error falls by four with each halving
-constexpr int kMostNewtonSteps = 60;
+constexpr int kMaxHalvings = 30;     // at a cusp the integrand has a kink: the error falls by four with each halving
+constexpr int kMaxNewtonSteps = 60;
 
 // Abramowitz and Stegun, table 25.4, n = 8; the other four nodes are the mirror image.
 struct Node {
@@ -31,7 +31,7 @@ ArcLength::ArcLength(PiecewiseCubic curve) : curve_(std::move(curve)) {
   double rough_m = 0;
   for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) rough_m += quadrature_m(knots_s[i], knots_s[i + 1]);
   for (std::size_t i = 0; i + 1 < knots_s.size(); ++i)
-    append_arcs(knots_s[i], knots_s[i + 1], kAccuracy * rough_m, kMostHalvings);
+    append_arcs(knots_s[i], knots_s[i + 1], kAccuracy * rough_m, kMaxHalvings);
 }
 
 double ArcLength::quadrature_m(double from_s, double to_s) const {
@@ -64,28 +64,28 @@ void ArcLength::append_arc(double from_s, double to_s, double length_m) {
   total_m_ += length_m;
 }
 
-double ArcLength::way_m_at(double parameter_s) const {
+double ArcLength::arc_length_m_at(double parameter_s) const {
   const auto next = std::upper_bound(arcs_.begin(), arcs_.end(), parameter_s,
                                      [](double value, const Arc& arc) { return value < arc.from_s; });
   if (next == arcs_.begin()) return 0;
   const Arc& arc = *std::prev(next);
-  if (parameter_s >= arc.to_s) return next == arcs_.end() ? total_m_ : next->way_before_m;
-  return arc.way_before_m + quadrature_m(arc.from_s, parameter_s);
+  if (parameter_s >= arc.to_s) return next == arcs_.end() ? total_m_ : next->arc_length_before_m;
+  return arc.arc_length_before_m + quadrature_m(arc.from_s, parameter_s);
 }
 
-double ArcLength::parameter_s_at(double way_m) const {
+double ArcLength::parameter_s_at(double arc_length_m) const {
   if (arcs_.empty()) return curve_.first_s();
-  if (way_m >= total_m_) return arcs_.back().to_s;
-  const auto next = std::upper_bound(arcs_.begin(), arcs_.end(), way_m,
-                                     [](double value, const Arc& arc) { return value < arc.way_before_m; });
+  if (arc_length_m >= total_m_) return arcs_.back().to_s;
+  const auto next = std::upper_bound(arcs_.begin(), arcs_.end(), arc_length_m,
+                                     [](double value, const Arc& arc) { return value < arc.arc_length_before_m; });
   const Arc& arc = next == arcs_.begin() ? arcs_.front() : *std::prev(next);
-  const double wanted_m = std::max(way_m - arc.way_before_m, 0.0);
-  const double length_m = (next == arcs_.end() ? total_m_ : next->way_before_m) - arc.way_before_m;
+  const double wanted_m = std::max(arc_length_m - arc.arc_length_before_m, 0.0);
+  const double length_m = (next == arcs_.end() ? total_m_ : next->arc_length_before_m) - arc.arc_length_before_m;
 
   double low_s = arc.from_s;
   double high_s = arc.to_s;
   double guess_s = low_s + (high_s - low_s) * std::min(wanted_m / length_m, 1.0);
-  for (int step = 0; step < kMostNewtonSteps && low_s < high_s; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps && low_s < high_s; ++step) {
     const double excess_m = quadrature_m(arc.from_s, guess_s) - wanted_m;
     (excess_m < 0 ? low_s : high_s) = guess_s;
     const double speed_mps = length(curve_.motion_at(guess_s).velocity_mps);

@@ -20,17 +20,17 @@ class ArcLength {
   [[nodiscard]] double total_m() const { return total_m_; }
 
   // parameter_s is clamped to the curve's knots.
-  [[nodiscard]] double way_m_at(double parameter_s) const;
+  [[nodiscard]] double arc_length_m_at(double parameter_s) const;
 
-  // way_m is clamped to 0..total_m(). Where the curve stands still for a while, the end of that while.
-  [[nodiscard]] double parameter_s_at(double way_m) const;
+  // arc_length_m is clamped to 0..total_m(). Where the curve stands still for a while, the end of that while.
+  [[nodiscard]] double parameter_s_at(double arc_length_m) const;
 
  private:
   // A stretch of the curve on which the quadrature is good; stretches without length are left out.
   struct Arc {
     double from_s;
     double to_s;
-    double way_before_m;
+    double arc_length_before_m;
   };
 
   [[nodiscard]] double quadrature_m(double from_s, double to_s) const;

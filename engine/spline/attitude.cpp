@@ -13,11 +13,12 @@ namespace sigs {
 namespace {
 
 // In a turn of its own the aircraft goes by no path, so no force tells its bank: it is taken as level.
-std::vector<FlightSample> samples_of(const Course& course, const Nose& nose, const std::vector<double>& times_s) {
+std::vector<FlightSample> samples_of(const TimedCurve& timed_curve, const Nose& nose,
+                                     const std::vector<double>& times_s) {
   std::vector<FlightSample> samples;
   samples.reserve(times_s.size());
   for (const double time_s : times_s) {
-    const Motion motion = motion_at(course, time_s);
+    const Motion motion = motion_at(timed_curve, time_s);
     samples.push_back({.time_s = time_s,
                        .nose = nose.at(time_s, motion.velocity_mps),
                        .specific_force_mps2 = specific_force_mps2(nose.turning_at(time_s) ? Motion{} : motion)});
@@ -31,10 +32,10 @@ glm::dvec3 first_up(const glm::dvec3& nose) {
   return normalize(length(level) > 1e-6 ? level : across(glm::dvec3(nose.z, 0, 0), nose));
 }
 
-std::vector<glm::dvec3> carried_ups(const std::vector<FlightSample>& samples) {
+std::vector<glm::dvec3> transported_ups(const std::vector<FlightSample>& samples) {
   std::vector<glm::dvec3> ups{first_up(samples.front().nose)};
   for (std::size_t i = 1; i < samples.size(); ++i)
-    ups.push_back(carried(ups.back(), samples[i - 1].nose, samples[i].nose));
+    ups.push_back(transported(ups.back(), samples[i - 1].nose, samples[i].nose));
   return ups;
 }
 
@@ -44,18 +45,20 @@ glm::dquat rotation_to(const glm::dvec3& nose, const glm::dvec3& up) {
 
 }  // namespace
 
-AttitudeTable::AttitudeTable(const Course& course, Bank bank, double bank_limit_rad)
-    : AttitudeTable(course, probes_of(course), bank, bank_limit_rad) {}
+AttitudeTable::AttitudeTable(const TimedCurve& timed_curve, Bank bank, double bank_limit_rad)
+    : AttitudeTable(timed_curve, sampled_path(timed_curve), bank, bank_limit_rad) {}
 
-AttitudeTable::AttitudeTable(const Course& course, const Probes& probes, Bank bank, double bank_limit_rad)
-    : nose_(course, probes) {
-  const std::vector<FlightSample> samples = samples_of(course, nose_, nose_.sample_times_s(probes));
+AttitudeTable::AttitudeTable(const TimedCurve& timed_curve, const PathSamples& path_samples, Bank bank,
+                             double bank_limit_rad)
+    : nose_(timed_curve, path_samples) {
+  const std::vector<FlightSample> samples = samples_of(timed_curve, nose_, nose_.sample_times_s(path_samples));
   const std::vector<UpTarget> targets = up_targets(samples, bank, bank_limit_rad);
-  const std::vector<glm::dvec3> ups = carried_ups(samples);
-  std::vector<RollWish> wishes;
+  const std::vector<glm::dvec3> ups = transported_ups(samples);
+  std::vector<DesiredRoll> desired_rolls;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    wishes.push_back({samples[i].time_s, signed_angle(ups[i], targets[i].up, samples[i].nose), targets[i].weight});
-  const std::vector<double> roll_rad = smoothed_roll_rad(wishes);
+    desired_rolls.push_back(
+        {samples[i].time_s, signed_angle(ups[i], targets[i].up, samples[i].nose), targets[i].weight});
+  const std::vector<double> roll_rad = smoothed_roll_rad(desired_rolls);
   for (std::size_t i = 0; i < samples.size(); ++i)
     entries_.push_back({samples[i].time_s, samples[i].nose, ups[i], roll_rad[i]});
 }
@@ -66,7 +69,7 @@ glm::dquat AttitudeTable::world_from_body(double time_s, const glm::dvec3& veloc
                                       [](double value, const Entry& entry) { return value < entry.time_s; });
   const Entry& before = *std::prev(after);
   const glm::dvec3 nose = nose_.at(inside_s, velocity_mps);
-  const glm::dvec3 unrolled = carried(before.carried_up, before.nose, nose);
+  const glm::dvec3 unrolled = transported(before.transported_up, before.nose, nose);
   return rotation_to(nose, turned(unrolled, nose, roll_rad_at(std::size_t(&before - entries_.data()), inside_s)));
 }
 

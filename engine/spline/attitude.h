@@ -4,13 +4,13 @@
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
-#include "spline/course.h"
 #include "spline/nose.h"
+#include "spline/timed_curve.h"
 #include "spline/trajectory.h"
 
 namespace sigs {
 
-// How an aircraft lies in the air along a course: the nose of nose.h, the up of up_target.h, the roll of roll.h.
+// How an aircraft lies in the air along a curve: the nose of nose.h, the up of up_target.h, the roll of roll.h.
 // Worked out once for the whole flight; a look-up depends on the time alone, and is continuous in it everywhere.
 //
 // Roll is counted from an up vector that is carried along with the nose and never rolls by itself (parallel transport),
@@ -19,20 +19,20 @@ namespace sigs {
 // table's spacing does not show in the nose.
 class AttitudeTable {
  public:
-  AttitudeTable(const Course& course, Bank bank, double bank_limit_rad);
+  AttitudeTable(const TimedCurve& timed_curve, Bank bank, double bank_limit_rad);
 
-  // Unit quaternion from body to world. velocity_mps: the course's, at that time.
+  // Unit quaternion from body to world. velocity_mps: the curve's, at that time.
   [[nodiscard]] glm::dquat world_from_body(double time_s, const glm::dvec3& velocity_mps) const;
 
  private:
   struct Entry {
     double time_s;
     glm::dvec3 nose;
-    glm::dvec3 carried_up;  // unit, across the nose
-    double roll_rad;        // from carried_up, right wing down
+    glm::dvec3 transported_up;  // unit, across the nose
+    double roll_rad;            // from transported_up, right wing down
   };
 
-  AttitudeTable(const Course& course, const Probes& probes, Bank bank, double bank_limit_rad);
+  AttitudeTable(const TimedCurve& timed_curve, const PathSamples& path_samples, Bank bank, double bank_limit_rad);
   [[nodiscard]] double roll_rad_at(std::size_t before, double time_s) const;
   [[nodiscard]] double roll_rate_at_entry(std::size_t i) const;
   [[nodiscard]] double roll_rate_between(std::size_t i) const;

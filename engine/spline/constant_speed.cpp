@@ -11,21 +11,21 @@ namespace {
 // Share of the mean speed below which rounding decides where the curve's velocity points.
 constexpr double kStanding = 1e-9;
 // Where to begin to look beside such a point, as a share of the whole time.
-constexpr double kNearest = 1e-7;
+constexpr double kMin = 1e-7;
 
 }  // namespace
 
-ConstantSpeed::ConstantSpeed(PiecewiseCubic curve) : way_(std::move(curve)) {
-  if (way_.total_m() > 0) speed_mps_ = way_.total_m() / (last_s() - first_s());
+ConstantSpeed::ConstantSpeed(PiecewiseCubic curve) : arc_length_(std::move(curve)) {
+  if (arc_length_.total_m() > 0) speed_mps_ = arc_length_.total_m() / (last_s() - first_s());
 }
 
 // Where the curve itself stands: the direction in which it goes on, else the one in which it came. Looked for nearby,
 // and farther away only where more than the velocity vanishes and the direction changes the less.
 glm::dvec3 ConstantSpeed::tangent_beside(double parameter_s) const {
-  for (double share = kNearest; share < 1; share *= 10) {
+  for (double share = kMin; share < 1; share *= 10) {
     const double step_s = share * (last_s() - first_s());
     for (const double beside_s : {parameter_s + step_s, parameter_s - step_s}) {
-      const glm::dvec3 velocity_mps = way_.curve().motion_at(beside_s).velocity_mps;
+      const glm::dvec3 velocity_mps = arc_length_.curve().motion_at(beside_s).velocity_mps;
       const double curve_mps = length(velocity_mps);
       if (curve_mps > kStanding * speed_mps_) return velocity_mps / curve_mps;
     }
@@ -34,11 +34,11 @@ glm::dvec3 ConstantSpeed::tangent_beside(double parameter_s) const {
 }
 
 Motion ConstantSpeed::motion_at(double time_s) const {
-  if (speed_mps_ == 0) return {.position_m = way_.curve().motion_at(last_s()).position_m};
+  if (speed_mps_ == 0) return {.position_m = arc_length_.curve().motion_at(last_s()).position_m};
   const double inside_s = std::clamp(time_s, first_s(), last_s());
-  const double way_m = inside_s == last_s() ? way_.total_m() : speed_mps_ * (inside_s - first_s());
-  const double parameter_s = way_.parameter_s_at(way_m);
-  const Motion on_curve = way_.curve().motion_at(parameter_s);
+  const double arc_length_m = inside_s == last_s() ? arc_length_.total_m() : speed_mps_ * (inside_s - first_s());
+  const double parameter_s = arc_length_.parameter_s_at(arc_length_m);
+  const Motion on_curve = arc_length_.curve().motion_at(parameter_s);
   const double curve_mps = length(on_curve.velocity_mps);
   const bool standing = curve_mps <= kStanding * speed_mps_;
 
@@ -52,9 +52,10 @@ Motion ConstantSpeed::motion_at(double time_s) const {
 }
 
 std::vector<double> ConstantSpeed::sample_times_s(int per_piece) const {
-  std::vector<double> times_s = way_.curve().sample_times_s(per_piece);
+  std::vector<double> times_s = arc_length_.curve().sample_times_s(per_piece);
   if (speed_mps_ == 0) return times_s;
-  for (double& time_s : times_s) time_s = std::min(first_s() + way_.way_m_at(time_s) / speed_mps_, last_s());
+  for (double& time_s : times_s)
+    time_s = std::min(first_s() + arc_length_.arc_length_m_at(time_s) / speed_mps_, last_s());
   return times_s;
 }
 

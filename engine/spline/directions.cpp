@@ -25,7 +25,7 @@ glm::dvec3 along_arc(const glm::dvec3& from, const glm::dvec3& to, double share)
   return normalize((std::sin((1 - share) * angle_rad) * from + std::sin(share * angle_rad) * to) / sine);
 }
 
-glm::dvec3 carried(const glm::dvec3& up, const glm::dvec3& from_nose, const glm::dvec3& to_nose) {
+glm::dvec3 transported(const glm::dvec3& up, const glm::dvec3& from_nose, const glm::dvec3& to_nose) {
   // The rotation about cross(from, to), written without the axis; it has no meaning for a nose turned right about.
   const double one_plus_cosine = std::max(1 + dot(from_nose, to_nose), 1e-12);
   const glm::dvec3 moved = up - dot(up, to_nose) / one_plus_cosine * (from_nose + to_nose);

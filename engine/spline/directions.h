@@ -28,6 +28,6 @@ inline constexpr glm::dvec3 kWorldUp{0, 0, -1};
 
 // An up vector taken along when the nose turns from one direction to another the shortest way (parallel transport on
 // the sphere): across the new nose, unit. up is across the old nose.
-[[nodiscard]] glm::dvec3 carried(const glm::dvec3& up, const glm::dvec3& from_nose, const glm::dvec3& to_nose);
+[[nodiscard]] glm::dvec3 transported(const glm::dvec3& up, const glm::dvec3& from_nose, const glm::dvec3& to_nose);
 
 }  // namespace sigs

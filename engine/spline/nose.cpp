@@ -40,17 +40,17 @@ glm::dvec3 Nose::Turn::nose_at(double time_s) const {
   return eased < 0.5 ? along_arc(from_nose, by_nose, 2 * eased) : along_arc(by_nose, to_nose, 2 * eased - 1);
 }
 
-Nose::Nose(const Course& course, const Probes& probes) {
-  for (const Span& span : unclear_spans(probes)) turns_.push_back(turn_over(span, course, probes));
+Nose::Nose(const TimedCurve& timed_curve, const PathSamples& path_samples) {
+  for (const Span& span : unclear_spans(path_samples)) turns_.push_back(turn_over(span, timed_curve, path_samples));
 }
 
 // Widened to the time that their turns take, and none over another.
-std::vector<Nose::Span> Nose::unclear_spans(const Probes& probes) {
-  const std::vector<Probe>& all = probes.all;
+std::vector<Nose::Span> Nose::unclear_spans(const PathSamples& path_samples) {
+  const std::vector<PathSample>& all = path_samples.all;
   std::vector<Span> spans;
   for (std::size_t first = 0, past = 0; first + 1 < all.size(); first = past + 1) {
     past = first;
-    while (past + 1 < all.size() && probes.unclear_after(past)) ++past;
+    while (past + 1 < all.size() && path_samples.unclear_after(past)) ++past;
     if (past == first) continue;
     const double half_s = angle_between(all[first].nose, all[past].nose) / std::numbers::pi * kAboutTurn_s / 2;
     const double middle_s = std::midpoint(all[first].time_s, all[past].time_s);
@@ -64,11 +64,11 @@ std::vector<Nose::Span> Nose::unclear_spans(const Probes& probes) {
   return spans;
 }
 
-Nose::Turn Nose::turn_over(const Span& span, const Course& course, const Probes& probes) {
-  const bool stands_before = span.from_s == probes.all.front().time_s && probes.all.front().stands();
-  const bool stands_after = span.to_s == probes.all.back().time_s && probes.all.back().stands();
-  glm::dvec3 from = direction_of(motion_at(course, span.from_s).velocity_mps);
-  glm::dvec3 to = direction_of(motion_at(course, span.to_s).velocity_mps);
+Nose::Turn Nose::turn_over(const Span& span, const TimedCurve& timed_curve, const PathSamples& path_samples) {
+  const bool stands_before = span.from_s == path_samples.all.front().time_s && path_samples.all.front().stands();
+  const bool stands_after = span.to_s == path_samples.all.back().time_s && path_samples.all.back().stands();
+  glm::dvec3 from = direction_of(motion_at(timed_curve, span.from_s).velocity_mps);
+  glm::dvec3 to = direction_of(motion_at(timed_curve, span.to_s).velocity_mps);
   if (stands_before && stands_after) from = to = kForward;
   if (stands_before) from = to;
   if (stands_after) to = from;
@@ -88,10 +88,10 @@ glm::dvec3 Nose::at(double time_s, const glm::dvec3& velocity_mps) const {
   return turn ? turn->nose_at(time_s) : direction_of(velocity_mps);
 }
 
-std::vector<double> Nose::sample_times_s(const Probes& probes) const {
+std::vector<double> Nose::sample_times_s(const PathSamples& path_samples) const {
   std::vector<double> times_s;
-  for (const Probe& probe : probes.all)
-    if (!turning_at(probe.time_s)) times_s.push_back(probe.time_s);
+  for (const PathSample& path_sample : path_samples.all)
+    if (!turning_at(path_sample.time_s)) times_s.push_back(path_sample.time_s);
   for (const Turn& turn : turns_)
     for (int i = 0; i <= kSamplesPerTurn; ++i)
       times_s.push_back(std::lerp(turn.from_s, turn.to_s, static_cast<double>(i) / kSamplesPerTurn));

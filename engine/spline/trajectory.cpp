@@ -10,8 +10,8 @@
 #include "base/ensure.h"
 #include "spline/approximating_spline.h"
 #include "spline/attitude.h"
-#include "spline/course.h"
 #include "spline/interpolating_spline.h"
+#include "spline/timed_curve.h"
 
 namespace sigs {
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kFarthest_m = 1e12;  // a double still counts tenths of a millimetre there
 constexpr double kLatest_s = 1e12;
-constexpr double kShortestLeg_s = 1e-9;
+constexpr double kMinLeg_s = 1e-9;
 
 bool within(const glm::dvec3& v, double limit) {  // false for NaN
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
@@ -29,7 +29,7 @@ std::optional<std::string> mistake_in(const TimedWaypoint& waypoint, const Timed
   if (!within(waypoint.position_m, kFarthest_m))
     return "position must be three numbers, each within 1e12 m of the origin";
   if (!(std::abs(waypoint.time_s) <= kLatest_s)) return "time must be a number of seconds within 1e12";
-  if (before && !(waypoint.time_s - before->time_s >= kShortestLeg_s))
+  if (before && !(waypoint.time_s - before->time_s >= kMinLeg_s))
     return "time " + std::to_string(waypoint.time_s) + " s must be later than that of the waypoint before, " +
            std::to_string(before->time_s) + " s";
   return std::nullopt;
@@ -45,7 +45,7 @@ Result<void> checked(const std::vector<TimedWaypoint>& waypoints, const Trajecto
   return {};
 }
 
-Course course_of(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
+TimedCurve course_of(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
   PiecewiseCubic curve =
       settings.spline == SplineKind::interpolating ? interpolating_spline(waypoints) : approximating_spline(waypoints);
   if (settings.timing == Timing::frames) return curve;
@@ -55,11 +55,11 @@ Course course_of(const std::vector<TimedWaypoint>& waypoints, const TrajectorySe
 }  // namespace
 
 struct Trajectory::Path {
-  Course course;
+  TimedCurve timed_curve;
   AttitudeTable attitude;
 
-  Path(Course walked, const TrajectorySettings& settings)
-      : course(std::move(walked)), attitude(course, settings.bank, settings.bank_limit_rad) {}
+  Path(TimedCurve timed, const TrajectorySettings& settings)
+      : timed_curve(std::move(timed)), attitude(timed_curve, settings.bank, settings.bank_limit_rad) {}
 };
 
 Trajectory::Trajectory(std::shared_ptr<const Path> path) : path_(std::move(path)) {}
@@ -70,20 +70,20 @@ Result<Trajectory> Trajectory::make(const std::vector<TimedWaypoint>& waypoints,
 }
 
 glm::dvec3 Trajectory::position_m(double time_s) const {
-  return motion_at(path_->course, time_s).position_m;
+  return motion_at(path_->timed_curve, time_s).position_m;
 }
 
 glm::dvec3 Trajectory::velocity_mps(double time_s) const {
-  return motion_at(path_->course, time_s).velocity_mps;
+  return motion_at(path_->timed_curve, time_s).velocity_mps;
 }
 
 glm::dvec3 Trajectory::acceleration_mps2(double time_s) const {
-  return motion_at(path_->course, time_s).acceleration_mps2;
+  return motion_at(path_->timed_curve, time_s).acceleration_mps2;
 }
 
 Pose<frame::World, frame::Body> Trajectory::world_from_body(double time_s) const {
   ENSURE(std::isfinite(time_s));
-  const Motion motion = motion_at(path_->course, time_s);
+  const Motion motion = motion_at(path_->timed_curve, time_s);
   return {path_->attitude.world_from_body(time_s, motion.velocity_mps), motion.position_m};
 }
 

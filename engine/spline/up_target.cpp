@@ -81,8 +81,8 @@ UpTarget coordinated_target(const FlightSample& sample, Side side, double bank_l
 
   const glm::dvec3 middle = (side == Side::inverted ? -level : level) / cos_pitch;
   if (dot(force_mps2, middle) < 0) force_mps2 = -force_mps2;  // pushed, not pulled: still nothing pulls sideways
-  const double most_rad = limit_rad(bank_limit_rad, cos_pitch);
-  const double bank_rad = std::clamp(signed_angle(middle, force_mps2, sample.nose), -most_rad, most_rad);
+  const double max_rad = limit_rad(bank_limit_rad, cos_pitch);
+  const double bank_rad = std::clamp(signed_angle(middle, force_mps2, sample.nose), -max_rad, max_rad);
   return {turned(middle, sample.nose, bank_rad), weight};
 }
 

@@ -38,7 +38,7 @@ struct ChromaShare {
 // chroma lies midway, weights 1/4 1/2 1/4 where it lies on the luma sample. Edges are repeated. Result CV_32FC1.
 [[nodiscard]] cv::Mat shrunk_chroma(const cv::Mat& full, PixelLayout layout, ChromaSite site);
 
-// Size of the chroma planes of a picture.
+// Size of the chroma planes of an image.
 [[nodiscard]] cv::Size chroma_size(PixelLayout layout, cv::Size luma_size);
 
 }  // namespace sigs

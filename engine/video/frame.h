@@ -6,7 +6,7 @@
 
 namespace sigs {
 
-// How the 8-bit samples of a picture lie.
+// How the 8-bit samples of an image lie.
 enum class PixelLayout {
   gray,    // plane 0: luma
   yuv420,  // planes Y, Cb, Cr; chroma halved both ways, rounded up
@@ -29,19 +29,19 @@ struct ColorInfo {
   ChromaSite chroma_site = ChromaSite::left;
   int primaries = 2;  // ISO/IEC 23091-2 code points, 2: unspecified
   int transfer = 2;
-  bool matrix_stated = false;  // false: the file does not say, the matrix above is assumed from the picture's height
+  bool matrix_stated = false;  // false: the file does not say, the matrix above is assumed from the image's height
   bool range_stated = false;
 
   [[nodiscard]] bool operator==(const ColorInfo&) const = default;
 };
 
-// One picture of the footage in its own planes, CV_8UC1 each. Unused planes are empty.
+// One image of the footage in its own planes, CV_8UC1 each. Unused planes are empty.
 struct Frame {
   PixelLayout layout = PixelLayout::yuv420;
   ColorInfo color;
   std::array<cv::Mat, 3> planes{};
   double time_s = 0;     // presentation time, 0 at the footage's first frame
-  bool damaged = false;  // the footage's own frame is damaged: another one, which is sound, stands in for it
+  bool damaged = false;  // the footage's own frame is damaged: another one, which is intact, stands in for it
 
   [[nodiscard]] cv::Size size_px() const { return planes[0].size(); }
   [[nodiscard]] int plane_count() const { return layout == PixelLayout::gray ? 1 : 3; }
@@ -65,8 +65,8 @@ struct CodeToRgb {
 };
 [[nodiscard]] CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color);
 
-// Whole pictures as 8-bit BGR (OpenCV's order), chroma read at its own site (bilinear), and back (chroma averaged at
-// its site). For showing, for PNG files and for the classic method; the direct method never converts a whole picture.
+// Whole images as 8-bit BGR (OpenCV's order), chroma read at its own site (bilinear), and back (chroma averaged at
+// its site). For showing, for PNG files and for the classic method; the direct method never converts a whole image.
 [[nodiscard]] cv::Mat bgr_of(const Frame& frame);
 [[nodiscard]] Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color);
 

@@ -6,25 +6,25 @@
 
 #include "base/ensure.h"
 #include "base/guarded.h"
+#include "video/frame_seeker.h"
+#include "video/libav/orientation.h"
 #include "video/libav/planes.h"
-#include "video/libav/stream_facts.h"
-#include "video/libav/turn.h"
-#include "video/picture_seeker.h"
+#include "video/libav/stream_info.h"
 
 namespace sigs {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kBytesToKeep = 64 << 20;  // of pictures already decoded, for stepping back
+constexpr size_t kBytesToKeep = 64 << 20;  // of images already decoded, for stepping back
 
 Error named(Error error, const fs::path& path) {
   if (error.where.empty() && error.kind != ErrorKind::interrupted) error.where = path.string();
   return error;
 }
 
-// Pictures before the first that can be decoded (a clip cut out of an open group of pictures) are no frames.
-int drop_undecodable_head(libav::PictureOrder& order, int first_ordinal) {
+// Images before the first that can be decoded (a clip cut out of an open group of images) are no frames.
+int drop_undecodable_head(libav::FrameOrder& order, int first_ordinal) {
   int n = 0;
   while (n < static_cast<int>(order.ordinals.size()) && order.ordinals[static_cast<size_t>(n)] != first_ordinal) ++n;
   if (n == static_cast<int>(order.ordinals.size())) return 0;
@@ -37,16 +37,16 @@ int drop_undecodable_head(libav::PictureOrder& order, int first_ordinal) {
 }
 
 // From the packets where that is sure, else by decoding everything.
-Result<libav::PictureOrder> order_of(const libav::PacketTable& table, libav::PictureStream& stream) {
+Result<libav::FrameOrder> order_of(const libav::PacketTable& table, libav::FrameDecoder& stream) {
   const libav::Demuxer& source = stream.demuxer();
   if (auto order = libav::order_from_packets(table, source.format(), source.stream())) return std::move(*order);
   return libav::order_from_decoding(table, stream, libav::frame_rate_of(source));
 }
 
-Result<libav::Picture> first_picture(libav::PictureStream& stream, const libav::PictureOrder& order) {
+Result<libav::DecodedFrame> first_image(libav::FrameDecoder& stream, const libav::FrameOrder& order) {
   const Result<void> started = stream.start(0, {.threads = 1, .reorder_depth = order.reorder_depth});
   if (!started) return fail(started.error());
-  Result<std::optional<libav::Picture>> first = stream.next();
+  Result<std::optional<libav::DecodedFrame>> first = stream.next();
   if (!first) return fail(first.error());
   if (!*first) return fail("", "no frame of this video can be decoded");
   return std::move(**first);
@@ -76,10 +76,10 @@ std::string size_text(cv::Size size) {
 struct FrameSource::State {
   libav::PacketTable table;
   VideoInfo info;
-  std::optional<PictureSeeker> seeker;
+  std::optional<FrameSeeker> seeker;
   const std::atomic<bool>* cancel = nullptr;  // null: none
   FileState file;
-  libav::Turn turn;
+  libav::Orientation orientation;
 
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
   [[nodiscard]] Result<Frame> read(int n);
@@ -88,24 +88,24 @@ struct FrameSource::State {
 Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   table = libav::PacketTable::read(demuxer);
   if (const Result<void> on = demuxer.check_interrupt(); !on) return on;
-  libav::PictureStream stream(libav::PacketReader(info.path, std::move(demuxer), table), table);
-  Result<libav::PictureOrder> order = order_of(table, stream);
+  libav::FrameDecoder stream(libav::PacketReader(info.path, std::move(demuxer), table), table);
+  Result<libav::FrameOrder> order = order_of(table, stream);
   if (!order) return fail(order.error());
-  const Result<libav::Picture> first = first_picture(stream, *order);
+  const Result<libav::DecodedFrame> first = first_image(stream, *order);
   if (!first) return fail(first.error());
   const int dropped = drop_undecodable_head(*order, first->ordinal);
-  const Result<libav::Turn> asked = libav::turn_of(stream.demuxer().stream());
+  const Result<libav::Orientation> asked = libav::orientation_of(stream.demuxer().stream());
   if (!asked) return fail(asked.error());
-  turn = *asked;
-  info = libav::facts_of(info.path, stream.demuxer(), table, *order, *first->frame, turn);
-  if (const Result<void> possible = libav::check_turn(turn, info.layout); !possible) return possible;
+  orientation = *asked;
+  info = libav::video_info_of(info.path, stream.demuxer(), table, *order, *first->frame, orientation);
+  if (const Result<void> possible = libav::check_orientation(orientation, info.layout); !possible) return possible;
   if (dropped > 0)
     info.warnings.push_back(
-        {info.path.string(), std::to_string(dropped) + " pictures before the first that can be decoded are left out"});
+        {info.path.string(), std::to_string(dropped) + " images before the first that can be decoded are left out"});
   seeker.emplace(std::move(stream), std::move(*order), table, kBytesToKeep);
-  const Result<PictureSeeker::Found> sound = seeker->find(0);
-  if (!sound) return fail(sound.error());
-  if (sound->picture == nullptr) return fail("", "every frame of this video is damaged");
+  const Result<FrameSeeker::Found> intact = seeker->find(0);
+  if (!intact) return fail(intact.error());
+  if (intact->image == nullptr) return fail("", "every frame of this video is damaged");
   return {};
 }
 
@@ -134,16 +134,16 @@ const VideoInfo& FrameSource::info() const {
 
 Result<Frame> FrameSource::State::read(int n) {
   const std::string where = info.path.string() + ": frame " + std::to_string(n);
-  const Result<PictureSeeker::Found> found = seeker->find(n);
+  const Result<FrameSeeker::Found> found = seeker->find(n);
   if (!found) return fail(named(found.error(), info.path));
-  if (found->picture == nullptr) return fail(where, "is damaged, and so are all others");
-  const AVFrame& picture = *found->picture->frame;
-  const cv::Size size = libav::turned(cv::Size(picture.width, picture.height), turn);
+  if (found->image == nullptr) return fail(where, "is damaged, and so are all others");
+  const AVFrame& image = *found->image->frame;
+  const cv::Size size = libav::oriented(cv::Size(image.width, image.height), orientation);
   if (size != info.size_px)
-    return fail(where, "the picture's size changes from " + size_text(info.size_px) + " to " + size_text(size));
-  Result<Frame> frame = libav::frame_of(picture, info.layout, info.color);
+    return fail(where, "the image's size changes from " + size_text(info.size_px) + " to " + size_text(size));
+  Result<Frame> frame = libav::frame_of(image, info.layout, info.color);
   if (!frame) return fail(where, frame.error().what);
-  if (!(turn == libav::Turn{})) frame = libav::turned(*frame, turn);
+  if (!(orientation == libav::Orientation{})) frame = libav::oriented(*frame, orientation);
   frame->time_s = info.times_s[static_cast<size_t>(n)];
   frame->damaged = found->n != n;
   return frame;

@@ -36,7 +36,7 @@ struct VideoInfo {
 };
 
 // A video, any frame by its number. The number counts the frames in order of presentation from 0 and is exact: frame n
-// is the n-th picture that a whole decode from the start gives, whatever the codec, container or seek table.
+// is the n-th image that a whole decode from the start gives, whatever the codec, container or seek table.
 class FrameSource {
  public:
   // Reads the container's packets once to build the index; nothing is decoded but what is needed for the format.
@@ -53,9 +53,9 @@ class FrameSource {
   [[nodiscard]] const VideoInfo& info() const;
 
   // Frame n, 0 <= n < frame_count(). It depends on the file and n alone. Where the file is damaged so that the frame
-  // itself cannot be decoded soundly, the last sound frame before it is given in its place (before the first sound one:
-  // that one), marked damaged. Errors: bad_data (the picture's size changes), cannot_read (the file was changed since
-  // it was opened).
+  // itself cannot be decoded soundly, the last intact frame before it is given in its place (before the first intact
+  // one: that one), marked damaged. Errors: bad_data (the image's size changes), cannot_read (the file was changed
+  // since it was opened).
   [[nodiscard]] Result<Frame> read(int n);
 
  private:

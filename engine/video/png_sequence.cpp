@@ -13,25 +13,25 @@
 namespace sigs {
 namespace {
 
-std::string picture_name(int number) {
+std::string image_name(int number) {
   std::array<char, 32> name{};
   std::snprintf(name.data(), name.size(), "frame_%06d.png", number);
   return name.data();
 }
 
-cv::Mat picture_of(const Frame& frame) {
-  cv::Mat picture = bgr_of(frame);
-  if (frame.layout == PixelLayout::gray) cv::extractChannel(picture, picture, 0);
-  return picture;
+cv::Mat av_frame_of(const Frame& frame) {
+  cv::Mat image = bgr_of(frame);
+  if (frame.layout == PixelLayout::gray) cv::extractChannel(image, image, 0);
+  return image;
 }
 
 }  // namespace
 
 Result<void> write_png(const std::filesystem::path& folder, const Frame& frame, int number) {
-  const std::filesystem::path path = folder / picture_name(number);
+  const std::filesystem::path path = folder / image_name(number);
   std::vector<uchar> bytes;
   try {
-    cv::imencode(".png", picture_of(frame), bytes);
+    cv::imencode(".png", av_frame_of(frame), bytes);
   } catch (const cv::Exception& problem) {
     return fail(path.string(), "cannot be written as PNG: " + problem.err, ErrorKind::write_failed);
   }

@@ -145,7 +145,7 @@ double display_of_linear(TransferFunction function, double linear) {
   return std::copysign(display_of_size(function, std::fabs(linear)), linear);
 }
 
-double least_light(TransferFunction function) {
+double min_light(TransferFunction function) {
   // Every curve is steepest at black and mirrored there, so nothing rises faster than across it.
   return 2 * linear_of_display(function, 0.25 / 255);
 }

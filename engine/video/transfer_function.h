@@ -21,8 +21,8 @@ enum class TransferFunction {
 //
 // sRGB's also stands for unspecified, BT.709, BT.601, BT.2020, SMPTE 240M and xvYCC. Those standards' own curves are
 // of cameras that no camera in the field has, made for displays with a gamma of 2.4 (BT.1886). sRGB's lies between that
-// inverse (about 1.9) and the display, and textures keep their code values under it. Half way through an edge it differs
-// by at most 4 code values of 255 from the display's, 8 from the cameras'.
+// inverse (about 1.9) and the display, and textures keep their code values under it. Half way through an edge it
+// differs by at most 4 code values of 255 from the display's, 8 from the cameras'.
 [[nodiscard]] std::optional<TransferFunction> transfer_function_of(int code_point);
 
 // "PQ" for 16; "number 19" where the standard has none.
@@ -34,6 +34,6 @@ enum class TransferFunction {
 [[nodiscard]] double display_of_linear(TransferFunction function, double linear);
 
 // The light above black that is half an 8-bit step: what adds less to whatever is there changes no sample.
-[[nodiscard]] double least_light(TransferFunction function);
+[[nodiscard]] double min_light(TransferFunction function);
 
 }  // namespace sigs

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 struct VideoWriter::State {
   fs::path path;
   VideoFormat format;
-  std::optional<libav::VideoFile> file;  // empty: a folder of pictures
+  std::optional<libav::VideoFile> file;  // empty: a folder of images
   bool finished = false;
 };
 
@@ -27,7 +27,7 @@ Result<VideoWriter> VideoWriter::open(const fs::path& path, const VideoFormat& f
   if (format.codec == VideoCodec::png) {
     std::error_code code;
     if (!fs::is_directory(path, code))
-      return fail(path.string(), "no such folder to write pictures into", ErrorKind::cannot_create);
+      return fail(path.string(), "no such folder to write images into", ErrorKind::cannot_create);
     return VideoWriter(std::move(state));
   }
   Result<libav::VideoFile> file = guarded([&] { return libav::VideoFile::create(path, format); });

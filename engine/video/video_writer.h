@@ -15,7 +15,7 @@ enum class Container { mkv, mp4, avi };
 
 struct VideoFormat {
   VideoCodec codec = VideoCodec::ffv1;
-  Container container = Container::mkv;  // png: a folder of numbered pictures instead
+  Container container = Container::mkv;  // png: a folder of numbered images instead
   int crf = 18;                          // h264: 0 (lossless) to 51
   int threads = 1;                       // of the encoder; the bytes do not depend on it
   cv::Size size_px;
@@ -28,7 +28,7 @@ struct VideoFormat {
 };
 
 // Writes frames to a file or, for png, to a folder. The bytes depend on the format and the frames alone: no dates, no
-// machine, no thread count. The caller gives the file its final name (base/partial_file.h).
+// machine, no thread count. The caller gives the file its final name (base/temporary_file.h).
 class VideoWriter {
  public:
   // Errors: usage (codec and container do not go together: ffv1 wants mkv or avi, png wants none), unavailable (no such
@@ -40,14 +40,14 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) noexcept;
   ~VideoWriter();
 
-  // Does what the first pictures would have to wait for, so that they need not. The bytes are the same without it.
+  // Does what the first images would have to wait for, so that they need not. The bytes are the same without it.
   void warm_up();
 
-  // Frames in order, each with a time after the one before. number names the picture of a png sequence:
+  // Frames in order, each with a time after the one before. number names the image of a png sequence:
   // frame_000123.png. Error write_failed (disk full).
   [[nodiscard]] Result<void> write(const Frame& frame, int number);
 
-  // The same for a picture whose samples are all 0. FFV1 encodes one of them alone; the bytes are those of write().
+  // The same for an image whose samples are all 0. FFV1 encodes one of them alone; the bytes are those of write().
   [[nodiscard]] Result<void> write_blank(double time_s, int number);
 
   // Writes what the encoder still holds and the container's end. Without it the file is not complete.

@@ -46,7 +46,7 @@ TEST_CASE("the sample calibration is a fisheye lens for the sample clip") {
   CHECK(lens.matrix.at<double>(0, 0) == doctest::Approx(lens.matrix.at<double>(1, 1)).epsilon(0.01));  // square pixels
 }
 
-TEST_CASE("the sample lens is one to one over the whole picture and wider than 110 degrees") {
+TEST_CASE("the sample lens is one to one over the whole image and wider than 110 degrees") {
   const Numbers lens = sample_lens();
   REQUIRE(lens.k.total() == 4);
   const double focal_px = lens.matrix.at<double>(0, 0);

@@ -136,7 +136,7 @@ TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
       const glm::dvec3 normal = glm::normalize(winding_normal(s.obj, face));
       const double area = uv_area(s.obj, face);
       if (std::abs(normal.y) < 0.5 || std::abs(area) < 1e-6) continue;  // seen from above, or rounded to nothing
-      // Counter-clockwise in the picture as on the body: turned at most, never mirrored.
+      // Counter-clockwise in the image as on the body: turned at most, never mirrored.
       REQUIRE(area > 0);
       ++(normal.y > 0 ? left : right);
     }
@@ -151,11 +151,11 @@ TEST_CASE("every texture of the models is there and of moderate size") {
     for (const auto& [name, material] : s.mtl.materials) {
       if (material.texture.empty()) continue;
       ++textured;
-      const cv::Mat picture = cv::imread((s.obj_path.parent_path() / material.texture).string(), cv::IMREAD_UNCHANGED);
-      REQUIRE_FALSE(picture.empty());
-      CHECK(picture.type() == CV_8UC3);
-      CHECK(picture.cols <= 1024);
-      CHECK(picture.rows <= 512);
+      const cv::Mat image = cv::imread((s.obj_path.parent_path() / material.texture).string(), cv::IMREAD_UNCHANGED);
+      REQUIRE_FALSE(image.empty());
+      CHECK(image.type() == CV_8UC3);
+      CHECK(image.cols <= 1024);
+      CHECK(image.rows <= 512);
     }
     CHECK(textured >= 4);
     for (const glm::dvec2& uv : s.obj.uvs) REQUIRE((uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1));

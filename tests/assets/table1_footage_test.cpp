@@ -43,7 +43,7 @@ glm::dvec2 ahead_px(const Camera& camera, const Attitude& attitude) {
   return camera.lens.pixel(glm::conjugate(rotation_of(attitude)) * glm::dvec3(1, 0, 0)).value();
 }
 
-// A piece of the picture around the horizon straight ahead: all of it is a kilometre away or more.
+// A piece of the image around the horizon straight ahead: all of it is a kilometre away or more.
 cv::Mat far_piece(const Frame& frame) {
   cv::Mat piece;
   frame.planes[0](cv::Rect(430, 376, 420, 176)).convertTo(piece, CV_32F);
@@ -57,18 +57,18 @@ double colourless_share(const Frame& frame) {
   return cv::countNonZero(colourless) / static_cast<double>(colourless.total());
 }
 
-struct Swing {
+struct Overshoot {
   double mean = 0;
   double rms = 0;
 };
 
-Swing swing_of(const std::vector<AttitudeAtFrame>& all, double Attitude::*angle) {
-  Swing swing;
-  for (const AttitudeAtFrame& one : all) swing.mean += one.attitude.*angle / static_cast<double>(all.size());
+Overshoot swing_of(const std::vector<AttitudeAtFrame>& all, double Attitude::*angle) {
+  Overshoot overshoot;
+  for (const AttitudeAtFrame& one : all) overshoot.mean += one.attitude.*angle / static_cast<double>(all.size());
   for (const AttitudeAtFrame& one : all)
-    swing.rms += std::pow(one.attitude.*angle, 2) / static_cast<double>(all.size());
-  swing.rms = std::sqrt(swing.rms);
-  return swing;
+    overshoot.rms += std::pow(one.attitude.*angle, 2) / static_cast<double>(all.size());
+  overshoot.rms = std::sqrt(overshoot.rms);
+  return overshoot;
 }
 
 }  // namespace
@@ -93,16 +93,17 @@ TEST_CASE("the vibration is known for every frame, has no mean, and is strongest
   const std::vector<AttitudeAtFrame> all = attitudes();
   REQUIRE(all.size() == kFrames);
   for (int n = 0; n < kFrames; ++n) CHECK(all[static_cast<std::size_t>(n)].frame == n);
-  const Swing pitch = swing_of(all, &Attitude::pitch_rad), yaw = swing_of(all, &Attitude::yaw_rad);
+  const Overshoot pitch = swing_of(all, &Attitude::pitch_rad), yaw = swing_of(all, &Attitude::yaw_rad);
   // The file's last digit is a millionth of a degree.
-  for (const Swing& swing : {pitch, yaw, swing_of(all, &Attitude::roll_rad)}) CHECK(std::abs(swing.mean) < 2e-8);
+  for (const Overshoot& overshoot : {pitch, yaw, swing_of(all, &Attitude::roll_rad)})
+    CHECK(std::abs(overshoot.mean) < 2e-8);
   constexpr double kRadPerPixel = 1 / 561.8;
   CHECK(yaw.rms / kRadPerPixel > 1.5);
   CHECK(yaw.rms / kRadPerPixel < 6);
   CHECK(yaw.rms > 1.5 * pitch.rms);
 }
 
-TEST_CASE("the vibrating picture moves as its attitude file says") {
+TEST_CASE("the vibrating image moves as its attitude file says") {
   const Camera lens = camera();
   const std::vector<AttitudeAtFrame> all = attitudes();
   FrameSource source = opened("table1_vibration");

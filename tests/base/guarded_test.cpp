@@ -44,7 +44,7 @@ TEST_CASE("memory that cannot be had is unavailable, whoever asked for it") {
 
 TEST_CASE("anything else that is thrown keeps its words") {
   CHECK(error_of(std::runtime_error("is odd")).text() == "job: is odd");
-  CHECK(error_of(cv::Exception(cv::Error::StsBadArg, "is no picture", "f", "x.cpp", 1)).text() == "job: is no picture");
+  CHECK(error_of(cv::Exception(cv::Error::StsBadArg, "is no image", "f", "x.cpp", 1)).text() == "job: is no image");
   CHECK(error_of(std::runtime_error("is odd")).kind == ErrorKind::bad_data);
   CHECK_FALSE(error_of(42).what.empty());
   const auto no_more = std::make_error_code(std::errc::resource_unavailable_try_again);

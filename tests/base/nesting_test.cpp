@@ -18,8 +18,8 @@ int depth_of(const cv::FileNode& node) {
   return deepest + 1;
 }
 
-// How deep OpenCV went into a text: the nodes that it made, -1 where it took none of it. It may never come back from one
-// that begins with anything but a key.
+// How deep OpenCV went into a text: the nodes that it made, -1 where it took none of it. It may never come back from
+// one that begins with anything but a key.
 int opencv_depth(const std::string& text) {
   try {
     const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);

@@ -132,7 +132,8 @@ TEST_CASE("YAML with OpenCV tags is read with its own header and without") {
       "image_width: 640\nimage_height: 480\n"
       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., 0., 320., 0.,\n"
       "       5.1e+02, 240., 0., 0., 1. ]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.25, 0.125, 0., .05 ]\n";
+      "distortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.25, 0.125, 0., .05 "
+      "]\n";
   for (const char* head : {"%YAML:1.0\n---\n", "%YAML:1.0\n", "", "---\n", "\xEF\xBB\xBF", "\n\n  \n"})
     check_reads_as(head + body, kBrown, {-0.25, 0.125, 0, 0.05});
 }
@@ -169,7 +170,7 @@ std::string profile(const std::string& rest, const std::string& size = R"({"w": 
 
 }  // namespace
 
-TEST_CASE("a Gyroflow profile's stabilisation crop keeps the middle of the picture and enlarges it") {
+TEST_CASE("a Gyroflow profile's stabilisation crop keeps the middle of the image and enlarges it") {
   const auto whole = read(profile(R"(, "crop": null)"));
   const auto cropped = read(profile(R"(, "crop": 0.8)"));
   REQUIRE(whole.has_value());
@@ -181,7 +182,7 @@ TEST_CASE("a Gyroflow profile's stabilisation crop keeps the middle of the pictu
     CHECK_FALSE(read(profile(std::string(R"(, "crop": )") + wrong)).has_value());
 }
 
-TEST_CASE("a Gyroflow profile's stretch is that of its pictures and not of the footage's") {
+TEST_CASE("a Gyroflow profile's stretch is that of its images and not of the footage's") {
   // Of real footage of 3840x2160 with a 1.212 anamorphic lens: 3840 * 1.212 = 4654.
   const std::string text = profile(R"(, "input_horizontal_stretch": 1.212)", R"({"w": 4654, "h": 2160})");
   const auto own = read(text);
@@ -242,7 +243,7 @@ TEST_CASE("a calibration is scaled to footage of the same shape") {
   REQUIRE(doubled.has_value());
   CHECK(same->lens.parameters().cx == 320);
   CHECK(doubled->size_px == cv::Size(1280, 960));
-  // The picture's edges and middle stay where they are: -0.5 is the left edge at any size.
+  // The image's edges and middle stay where they are: -0.5 is the left edge at any size.
   for (const glm::dvec3& at : {glm::dvec3{1, 0, 0}, glm::dvec3{1, 0.3, -0.2}, glm::dvec3{1, -0.4, 0.3}}) {
     const glm::dvec2 small = *own->lens.pixel(at);
     const glm::dvec2 large = *doubled->lens.pixel(at);

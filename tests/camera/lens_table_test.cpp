@@ -113,7 +113,7 @@ TEST_CASE("a mild lens is asked for less than a tenth of its rays, once") {
   CHECK(table.evaluations() == after_one);
 }
 
-TEST_CASE("the rays of one tile cost no more in a large picture than in a small one") {
+TEST_CASE("the rays of one tile cost no more in a large image than in a small one") {
   std::int64_t evaluations = 0;
   for (const int width : {640, 8192}) {
     const Lens lens = lens_of(LensModel::brown_conrady, 900, 900, {300, 200}, {-0.26, 0.1, 0.0018, -0.0003, -0.02});
@@ -124,7 +124,7 @@ TEST_CASE("the rays of one tile cost no more in a large picture than in a small 
   }
 }
 
-TEST_CASE("a table of a picture of 8192 by 4320 pixels takes some megabytes") {
+TEST_CASE("a table of an image of 8192 by 4320 pixels takes some megabytes") {
   const Lens lens = lens_of(LensModel::brown_conrady, 6000, 6000, {4095.5, 2159.5}, {-0.2, 0.05, 0.001, 0.002, 0.01});
   LensTable table({lens, {8192, 4320}});
   for (int y = 0; y < 4320; y += LensTable::kTile_px) static_cast<void>(table.corner_rays(0, y, 8192));
@@ -134,8 +134,8 @@ TEST_CASE("a table of a picture of 8192 by 4320 pixels takes some megabytes") {
 
 TEST_CASE("tiles are forgotten before they take more than the table may hold") {
   const Lens lens = lens_of(LensModel::brown_conrady, 900, 900, {320, 240}, {-0.1, 0.01, 0, 0});
-  constexpr std::size_t kMost = 450'000;
-  LensTable table({lens, {640, 480}}, 0, kMost);  // exact tiles are the largest: some 100 kB, so four fit
+  constexpr std::size_t kMax = 450'000;
+  LensTable table({lens, {640, 480}}, 0, kMax);  // exact tiles are the largest: some 100 kB, so four fit
   const glm::dvec3 first = table.corner_rays(5, 5, 1)[0];
   const std::size_t of_one = table.bytes();
   CHECK(of_one >= 64 * 64 * sizeof(glm::dvec3));

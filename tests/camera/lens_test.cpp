@@ -66,7 +66,7 @@ TEST_CASE("the axis meets the principal point") {
   }
 }
 
-TEST_CASE("right in the camera frame is right in the picture and down is down") {
+TEST_CASE("right in the camera frame is right in the image and down is down") {
   const Lens lens = lens_of(LensModel::brown_conrady, 500, 400, {320, 240}, {});
   CHECK(lens.pixel({10, 1, 2}) == glm::dvec2{370, 320});
 }

@@ -92,7 +92,7 @@ TEST_CASE("a pixel without a ray is met by no direction in the field") {
       if (!example.lens.ray(pixel)) unmet.push_back(pixel);
     if (unmet.empty()) continue;
     INFO(example.name);
-    // The field's rim in the picture, finely; a pixel that some direction meets lies inside it.
+    // The field's rim in the image, finely; a pixel that some direction meets lies inside it.
     std::vector<cv::Point2f> rim;
     for (int i = 0; i < 7200; ++i) {
       const auto edge =
@@ -134,7 +134,7 @@ TEST_CASE("rays agree with those of OpenCV where its iteration converges") {
   }
 }
 
-TEST_CASE("a pixel beyond any picture has a ray or none but never a wrong one") {
+TEST_CASE("a pixel beyond any image has a ray or none but never a wrong one") {
   for (const ExampleLens& example : example_lenses()) {
     INFO(example.name);
     for (const double far : {1e4, 1e6, 1e9, 1e15, 1e100, 1e300})

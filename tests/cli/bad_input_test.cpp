@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "video/clips.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/tiny_recipe.h"
 
 using namespace sigs;
@@ -41,18 +41,18 @@ int sum_of(const Json& redraws) {
 
 }  // namespace
 
-TEST_CASE("random videos are as many as asked for, and what was drawn again is told everywhere") {
+TEST_CASE("random videos are as many as asked for, and what was sampled anew is told everywhere") {
   const TinyRecipe recipe;
   put_text(recipe.file("recipe.json"), kRandom);
   const Run dry = recipe.run("out", "--dry-run");
   CHECK_MESSAGE(dry.status == 0, dry.err);
   CHECK_MESSAGE(has(dry.out, "6 videos, 36 frames, about "), dry.out);
-  CHECK_MESSAGE(has(dry.out, "drawn again: "), dry.out);
+  CHECK_MESSAGE(has(dry.out, "sampled again: "), dry.out);
   CHECK_MESSAGE(has(dry.out, " redraws "), dry.out);
-  CHECK_FALSE(has(dry.out.substr(0, dry.out.find("drawn again: ")), " never "));
+  CHECK_FALSE(has(dry.out.substr(0, dry.out.find("sampled again: ")), " never "));
   const Run run = recipe.run("out");
   CHECK_MESSAGE(run.status == 0, run.err);
-  CHECK_MESSAGE(has(run.err, "drawn again: "), run.err);
+  CHECK_MESSAGE(has(run.err, "sampled again: "), run.err);
   CHECK_FALSE(has(run.err, "never in the picture in "));
   const Json index = Json::parse(read_text(recipe.out("out") + "/index.json").value());
   CHECK(index.at("videos").size() == 6);
@@ -88,7 +88,7 @@ TEST_CASE("random videos are the same to the byte with any jobs, shards, resumpt
   CHECK(contents_of(recipe.out("names")) == whole);
 }
 
-TEST_CASE("random videos of which no draw can be used end with 65 and what failed") {
+TEST_CASE("random videos of which no sample can be used end with 65 and what failed") {
   const TinyRecipe recipe;
   put_text(recipe.file("recipe.json"), kRandom);
   recipe.change("\"videos\": 6,", "\"videos\": 6, \"redraws\": 9,");
@@ -96,7 +96,7 @@ TEST_CASE("random videos of which no draw can be used end with 65 and what faile
   recipe.change("[-250, 100]", "[-250, -140]");
   const Run run = recipe.run("out");
   CHECK(run.status == 65);
-  CHECK_MESSAGE(has(run.err, "v0001: none of 10 draws can be used: "), run.err);
+  CHECK_MESSAGE(has(run.err, "v0001: none of 10 samples can be used: "), run.err);
   CHECK_MESSAGE(has(run.err, "never in the picture 10 times"), run.err);
   CHECK_FALSE(fs::exists(recipe.out("out")));
 }

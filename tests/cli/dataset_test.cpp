@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/tiny_recipe.h"
 
 using namespace sigs;
@@ -111,11 +111,11 @@ TEST_CASE("--set wins over what a background says, whose own value wins over the
   CHECK(has(read_text(recipe.out("set") + "/red LR/red LR.json").value(), "\"speed_mps\": 9"));
 }
 
-TEST_CASE("an intruder that is never in the picture is told of, before a run and in the dry one") {
+TEST_CASE("an intruder that is never in the image is told of, before a run and in the dry one") {
   const TinyRecipe recipe;
   CHECK_FALSE(has(recipe.run("out", "--dry-run").err, "never"));
   recipe.change("\"distance_m\": 20", "\"distance_m\": 20, \"from_x_percent\": 150, \"to_x_percent\": 140");
-  const std::string told = "warning: the intruder is never in the picture in 2 videos: red RL, large RL\n";
+  const std::string told = "warning: the intruder is never in the image in 2 videos: red RL, large RL\n";
   const Run dry = recipe.run("out", "--dry-run");
   CHECK(count_of(dry.out, " never ") == 2);
   CHECK_MESSAGE(has(dry.err, told), dry.err);
@@ -237,7 +237,7 @@ TEST_CASE("a command line that makes no sense ends with 64") {
   CHECK(run_sigs("dataset " + recipe.out("none.json")).status == 66);
 }
 
-TEST_CASE("one file of COCO results, numbered as a split's coco labels, is scored against all its films") {
+TEST_CASE("one file of COCO results, numbered as a split's coco labels, is scored against all its clips") {
   const TinyRecipe recipe;
   REQUIRE(recipe.run("out").status == 0);
   // The labels themselves as results: every box is right, so every frame with a label is matched and nothing is false.
@@ -248,7 +248,7 @@ TEST_CASE("one file of COCO results, numbered as a split's coco labels, is score
   put_text(recipe.file("found.json"), results.dump());
   const std::string report = recipe.out("report");
   const std::string detect = "evaluate detect " + recipe.out("out") + " --results " + recipe.out("found.json");
-  const Run run = run_sigs(detect + " --split test --longest-range 1e6 --out " + report);
+  const Run run = run_sigs(detect + " --split test --max-range 1e6 --out " + report);
   REQUIRE_MESSAGE(run.status == 0, run.err);
   const auto scores = nlohmann::json::parse(read_text(fs::path(report) / "evaluation.json").value())["detectors"][0];
   CHECK(scores["name"] == "found");

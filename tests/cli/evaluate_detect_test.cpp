@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 
@@ -17,15 +17,15 @@ namespace fs = std::filesystem;
 
 // Encounters of 0.4 s count, however far; one frame is seen in time.
 const std::string kPolicy =
-    " --least-encounter 0 --nearest-range 1000 --detect-range 1 --window 0.2 --window-share 0.5";
+    " --min-encounter 0 --max-closest-range 1000 --detect-range 1 --window 0.2 --window-share 0.5";
 const std::string kNothing = "frame,x,y,width,height\n";
 
-// Two exported films, laid out as a dataset, and results.
-struct Place {
+// Two exported clips, laid out as a dataset, and results.
+struct Fixture {
   TinyProject tiny;
   std::string dataset = tiny.file("set").string();
 
-  Place() {
+  Fixture() {
     for (const std::string name : {"one", "two"})
       REQUIRE(
           run_sigs("export " + tiny.project() + " --set name=" + name + " --masks none --out " + dataset + "/" + name)
@@ -39,7 +39,7 @@ struct Place {
     put_text(tiny.file(name), text);
     return tiny.file(name).string();
   }
-  // Every true box of a film, with a false one beside it in the first frame where asked for.
+  // Every true box of a clip, with a false one beside it in the first frame where asked for.
   [[nodiscard]] std::string right(const std::string& name, bool with_false = false) const {
     std::string csv = kNothing;
     const std::string xml = read_text(labels(name)).value();
@@ -71,13 +71,13 @@ struct Place {
 }  // namespace
 
 TEST_CASE("a detector that is right detects every encounter, one that says nothing none") {
-  const Place place;
-  const std::string good = place.put("good.csv", place.right("one"));
-  const std::string blind = place.put("blind.csv", kNothing);
-  const Run run = place.detect(place.labels("one") + " --results " + good + " " + blind + place.out());
+  const Fixture fixture;
+  const std::string good = fixture.put("good.csv", fixture.right("one"));
+  const std::string blind = fixture.put("blind.csv", kNothing);
+  const Run run = fixture.detect(fixture.labels("one") + " --results " + good + " " + blind + fixture.out());
   REQUIRE_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(run.out.find("\ngood      1.000 (1/1)*") != std::string::npos, run.out);
-  const nlohmann::json report = place.report();
+  const nlohmann::json report = fixture.report();
   REQUIRE(report["detectors"].size() == 2);
   CHECK(report["detectors"][0]["frame_detection_rate"] == 1.0);
   CHECK(report["detectors"][0]["false_alarm_boxes"] == 0);
@@ -87,17 +87,17 @@ TEST_CASE("a detector that is right detects every encounter, one that says nothi
   CHECK(report["detectors"][1]["encounter_detection_rate"]["all"]["detected"] == 0);
 }
 
-TEST_CASE("files go with labels in order, folders by name, and a dataset's index tells the films") {
-  const Place place;
-  const std::string one = place.put("runs/mine/one.csv", place.right("one", true));
-  const std::string two = place.put("runs/mine/two.csv", place.right("two"));
-  const std::string folder = place.tiny.file("runs/mine").string();
-  const std::string both = place.labels("one") + " " + place.labels("two");
+TEST_CASE("files go with labels in order, folders by name, and a dataset's index tells the clips") {
+  const Fixture fixture;
+  const std::string one = fixture.put("runs/mine/one.csv", fixture.right("one", true));
+  const std::string two = fixture.put("runs/mine/two.csv", fixture.right("two"));
+  const std::string folder = fixture.tiny.file("runs/mine").string();
+  const std::string both = fixture.labels("one") + " " + fixture.labels("two");
   for (const std::string& arguments : {both + " --results " + one + " " + two, both + " --results " + folder + "/",
-                                       place.dataset + " --results " + folder}) {
-    const Run run = place.detect(arguments + place.out());
+                                       fixture.dataset + " --results " + folder}) {
+    const Run run = fixture.detect(arguments + fixture.out());
     REQUIRE_MESSAGE(run.status == 0, arguments << run.err);
-    const nlohmann::json report = place.report();
+    const nlohmann::json report = fixture.report();
     CHECK(report["films"] == nlohmann::json({"one", "two"}));
     REQUIRE(report["detectors"].size() == 1);
     CHECK(report["detectors"][0]["name"] == "mine");
@@ -105,81 +105,80 @@ TEST_CASE("files go with labels in order, folders by name, and a dataset's index
     CHECK(report["detectors"][0]["false_alarm_boxes"] == 1);
     CHECK(report["detectors"][0]["encounters"].size() == 2);
   }
-  REQUIRE(place.detect(place.dataset + " --split test --results " + folder + place.out()).status == 0);
-  CHECK(place.report()["films"] == nlohmann::json({"two"}));
-  CHECK(place.report()["detectors"][0]["false_alarm_boxes"] == 0);
+  REQUIRE(fixture.detect(fixture.dataset + " --split test --results " + folder + fixture.out()).status == 0);
+  CHECK(fixture.report()["films"] == nlohmann::json({"two"}));
+  CHECK(fixture.report()["detectors"][0]["false_alarm_boxes"] == 0);
   fs::remove(one);
-  const Run missing = place.detect(place.dataset + " --results " + folder);
+  const Run missing = fixture.detect(fixture.dataset + " --results " + folder);
   CHECK(missing.status == 66);
-  CHECK_MESSAGE(missing.err.find("runs/mine/one.csv: no results for this film") != std::string::npos, missing.err);
-  fs::rename(two, place.tiny.file("runs/mine/two.json"));
-  const Run other = place.detect(place.dataset + " --results " + folder);
-  CHECK_MESSAGE(other.err.find("runs/mine/one.json: no results for this film") != std::string::npos, other.err);
-  fs::remove(place.tiny.file("runs/mine/two.json"));
-  const Run empty = place.detect(place.dataset + " --results " + folder);
+  CHECK_MESSAGE(missing.err.find("runs/mine/one.csv: no results for this clip") != std::string::npos, missing.err);
+  fs::rename(two, fixture.tiny.file("runs/mine/two.json"));
+  const Run other = fixture.detect(fixture.dataset + " --results " + folder);
+  CHECK_MESSAGE(other.err.find("runs/mine/one.json: no results for this clip") != std::string::npos, other.err);
+  fs::remove(fixture.tiny.file("runs/mine/two.json"));
+  const Run empty = fixture.detect(fixture.dataset + " --results " + folder);
   CHECK_MESSAGE(empty.err.find("runs/mine/one.csv, .json or .txt: no results") != std::string::npos, empty.err);
 }
 
 TEST_CASE("inputs that do not go together are refused in one line") {
-  const Place place;
-  const std::string file = place.put("a.csv", kNothing);
-  const std::string folder = place.tiny.file("folder").string();
+  const Fixture fixture;
+  const std::string file = fixture.put("a.csv", kNothing);
+  const std::string folder = fixture.tiny.file("folder").string();
   fs::create_directories(folder);
   const auto refused = [&](const std::string& arguments, int status, const std::string& message) {
-    const Run run = place.detect(arguments);
+    const Run run = fixture.detect(arguments);
     CHECK_MESSAGE(run.status == status, arguments << run.err);
     CHECK_MESSAGE(run.err.find(message) != std::string::npos, run.err);
     CHECK(run.out.empty());
   };
-  const std::string one = place.labels("one");
-  refused(one + " " + place.labels("two") + " --results " + file, 64, "there are 2 films and 1 file of results");
+  const std::string one = fixture.labels("one");
+  refused(one + " " + fixture.labels("two") + " --results " + file, 64, "there are 2 clips and 1 file of results");
   refused(one + " --results " + file + " " + folder, 64, "are folders and files");
   refused(one + " --results gone.csv", 66, "gone.csv: no such file or folder");
   refused("gone.xml --results " + file, 66, "gone.xml: no such file or folder");
   refused(folder + " --results " + file, 66, "index.json: no such file; a dataset has it when it is whole");
-  refused(place.tiny.project() + " --results " + file, 64, "p.json: is not labels (.xml); of a project sigs export");
+  refused(fixture.tiny.project() + " --results " + file, 64, "p.json: is not labels (.xml); of a project sigs export");
   refused(one + " " + one + " --results " + file + " " + file, 64, "one.xml: is named twice");
-  fs::create_symlink(one, place.tiny.file("link.xml"));
-  refused(one + " " + place.tiny.file("link.xml").string() + " --results " + file + " " + file, 64,
+  fs::create_symlink(one, fixture.tiny.file("link.xml"));
+  refused(one + " " + fixture.tiny.file("link.xml").string() + " --results " + file + " " + file, 64,
           "link.xml: is named");
   refused(one + " --split test --results " + file, 64, "--split: goes with a dataset's folder");
-  refused(place.dataset + " --split none --results " + folder, 65, "has no video of split none");
-  for (const std::string option : {"--window", "--least-score", "--match-overlap"})
+  refused(fixture.dataset + " --split none --results " + folder, 65, "has no video of split none");
+  for (const std::string option : {"--window", "--min-score", "--match-overlap"})
     for (const std::string value : {"nan", "2e9", "fast"})
       refused(one + " " + option + " " + value + " --results " + file, 64, option);
   refused(one + " --false-overlap 0.5 --results " + file, 64, "--false-overlap: is more than --match-overlap");
-  place.put("set/index.json", "{\"videos\": 3}");
-  refused(place.dataset + " --results " + folder, 65, "index.json: is no index of a dataset");
+  fixture.put("set/index.json", "{\"videos\": 3}");
+  refused(fixture.dataset + " --results " + folder, 65, "index.json: is no index of a dataset");
 }
 
-TEST_CASE("results whose pictures are another film's are scored with a warning") {
-  const Place place;
+TEST_CASE("results whose images are another clip's are scored with a warning") {
+  const Fixture fixture;
   const auto text = [&](const std::string& folder) {
-    const std::string picture = folder + "frame_000003.png";
-    const std::string file = place.put("a.json", "[{\"img_name\": \"" + picture + "\", \"detections\": []}]");
-    const Run run = place.detect(place.labels("one") + " --results " + file);
+    const std::string image = folder + "frame_000003.png";
+    const std::string file = fixture.put("a.json", "[{\"img_name\": \"" + image + "\", \"detections\": []}]");
+    const Run run = fixture.detect(fixture.labels("one") + " --results " + file);
     CHECK(run.status == 0);
     return run.err;
   };
   CHECK(text("").empty());
   CHECK(text("set/one/").empty());
-  CHECK(text("two/").find("a.json: its img_name is of two, the film is one") != std::string::npos);
+  CHECK(text("two/").find("a.json: its img_name is of two, the clip is one") != std::string::npos);
 }
 
 TEST_CASE("an encounter that is too short is not counted, and a warning says why") {
-  const Place place;
-  const std::string file = place.put("a.csv", kNothing);
-  const Run run = run_sigs("evaluate detect " + place.labels("one") + " --results " + file);
+  const Fixture fixture;
+  const std::string file = fixture.put("a.csv", kNothing);
+  const Run run = run_sigs("evaluate detect " + fixture.labels("one") + " --results " + file);
   CHECK(run.status == 0);
-  CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted: shorter than 3 s (--least-encounter)") == 0,
-                run.err);
+  CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted: shorter than 3 s (--min-encounter)") == 0, run.err);
 }
 
 TEST_CASE("an encounter that never comes near is not counted, and a warning says why") {
-  const Place place;
-  const std::string file = place.put("a.csv", kNothing);
-  const Run run =
-      run_sigs("evaluate detect " + place.labels("one") + " --least-encounter 0 --nearest-range 5 --results " + file);
+  const Fixture fixture;
+  const std::string file = fixture.put("a.csv", kNothing);
+  const Run run = run_sigs("evaluate detect " + fixture.labels("one") +
+                           " --min-encounter 0 --max-closest-range 5 --results " + file);
   CHECK(run.status == 0);
   CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted") != std::string::npos, run.err);
 }

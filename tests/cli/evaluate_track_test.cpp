@@ -7,11 +7,11 @@
 #include <set>
 #include <string>
 
-#include "annotation/sigs_xml.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
-#include "film.h"
+#include "export/frame_stream.h"
+#include "labels/sigs_xml.h"
 #include "project/json.h"
 #include "video/frame_source.h"
 
@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Place {
+struct Fixture {
   TinyProject tiny;
   std::string report = tiny.file("report").string();
   std::string labels = tiny.file("out/tiny.xml").string();
 
   // Exported too, so that labels and their video are there.
-  Place() { REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --masks none").status == 0); }
+  Fixture() { REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --masks none").status == 0); }
   [[nodiscard]] Run track(const std::string& input, const std::string& options) const {
     return run_sigs("evaluate track " + input + " " + options);
   }
@@ -47,8 +47,8 @@ struct Place {
 };
 
 // Without the measured speed, which differs from run to run.
-nlohmann::json scores_in(const Place& place, const std::string& folder) {
-  nlohmann::json json = nlohmann::json::parse(place.text(folder + "/evaluation.json"));
+nlohmann::json scores_in(const Fixture& fixture, const std::string& folder) {
+  nlohmann::json json = nlohmann::json::parse(fixture.text(folder + "/evaluation.json"));
   for (nlohmann::json& tracker : json["trackers"]) {
     tracker.erase("measured_frames_per_s");
     tracker.erase("name");
@@ -59,38 +59,38 @@ nlohmann::json scores_in(const Place& place, const std::string& folder) {
 }  // namespace
 
 TEST_CASE("trackers say the same of a project and of what was exported of it, and of results read again") {
-  const Place place;
-  const std::string other = place.tiny.file("other").string();
-  const std::string again = place.tiny.file("again").string();
+  const Fixture fixture;
+  const std::string other = fixture.tiny.file("other").string();
+  const std::string again = fixture.tiny.file("again").string();
   const Run project =
-      place.track(place.tiny.project(), "--tracker medianflow,mosse --tracker kcf --out " + place.report);
+      fixture.track(fixture.tiny.project(), "--tracker medianflow,mosse --tracker kcf --out " + fixture.report);
   REQUIRE_MESSAGE(project.status == 0, project.err);
   CHECK(project.out.starts_with("tiny: intruder 0 (cube), box of what can be seen, frames 0 to 9\ntracker "));
-  REQUIRE(place.track(place.labels, "--tracker medianflow,mosse,kcf --out " + other).status == 0);
+  REQUIRE(fixture.track(fixture.labels, "--tracker medianflow,mosse,kcf --out " + other).status == 0);
   std::string results;
   for (const std::string name : {"medianflow", "mosse", "kcf"}) {
     const std::string file = "/results/" + name + ".csv";
-    CHECK(place.text("report" + file) == place.text("other" + file));
+    CHECK(fixture.text("report" + file) == fixture.text("other" + file));
     results += " --results " + other + file;
   }
-  REQUIRE(place.track(place.labels, results + " --out " + again).status == 0);
-  CHECK(scores_in(place, "report") == scores_in(place, "other"));
-  CHECK(scores_in(place, "report") == scores_in(place, "again"));
-  CHECK(scores_in(place, "report").size() == 3);
+  REQUIRE(fixture.track(fixture.labels, results + " --out " + again).status == 0);
+  CHECK(scores_in(fixture, "report") == scores_in(fixture, "other"));
+  CHECK(scores_in(fixture, "report") == scores_in(fixture, "again"));
+  CHECK(scores_in(fixture, "report").size() == 3);
 }
 
-TEST_CASE("a film shows what an export writes, and its truth") {
-  const Place place;
-  const Project project = read_project(place.tiny.project()).value().project;
-  Film film = Film::open(project, FrameRange{2, 8}).value();
-  CHECK(film.footage().first_frame == 2);
-  CHECK(film.footage().last_frame == 8);
-  FrameSource video = FrameSource::open(place.tiny.file("out/tiny.mkv")).value();
-  const std::string xml = place.text("out/tiny.xml");
+TEST_CASE("a clip shows what an export writes, and its truth") {
+  const Fixture fixture;
+  const Project project = read_project(fixture.tiny.project()).value().project;
+  FrameStream clip = FrameStream::open(project, FrameRange{2, 8}).value();
+  CHECK(clip.footage().first_frame == 2);
+  CHECK(clip.footage().last_frame == 8);
+  FrameSource video = FrameSource::open(fixture.tiny.file("out/tiny.mkv")).value();
+  const std::string xml = fixture.text("out/tiny.xml");
   int next = 2;
-  const Result<int> damaged = film.show(3, [&](const FilmFrame& frame) -> Result<void> {
+  const Result<int> damaged = clip.show(3, [&](const StreamFrame& frame) -> Result<void> {
     CHECK(frame.truth.index == next);
-    CHECK(cv::norm(frame.picture, bgr_of(video.read(next).value()), cv::NORM_INF) == 0);
+    CHECK(cv::norm(frame.image, bgr_of(video.read(next).value()), cv::NORM_INF) == 0);
     CHECK(xml.find(xml_of(frame.truth)) != std::string::npos);
     ++next;
     return {};
@@ -98,7 +98,7 @@ TEST_CASE("a film shows what an export writes, and its truth") {
   CHECK(damaged.value() == 0);
   CHECK(next == 9);
   int seen = 0;
-  const Result<int> stopped = film.show(2, [&](const FilmFrame&) -> Result<void> {
+  const Result<int> stopped = clip.show(2, [&](const StreamFrame&) -> Result<void> {
     ++seen;
     return fail("here", "enough");
   });
@@ -108,8 +108,8 @@ TEST_CASE("a film shows what an export writes, and its truth") {
 }
 
 TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
-  const Place place;
-  std::string csv = place.text("out/tiny.xml");
+  const Fixture fixture;
+  std::string csv = fixture.text("out/tiny.xml");
   std::string results = "frame,x,y,width,height\n";
   for (int frame = 0; frame < 10; ++frame) {
     const auto number = [&csv](const char* name) {
@@ -125,110 +125,111 @@ TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
     for (const int value : {x + 3, y + 4, width, height}) results.append(",").append(std::to_string(value));
     results += "\n";
   }
-  const std::string file = place.put("off.csv", results);
-  for (const std::string& input : {place.labels, place.tiny.project()}) {
-    const Run run = place.track(input, "--results " + file);
+  const std::string file = fixture.put("off.csv", results);
+  for (const std::string& input : {fixture.labels, fixture.tiny.project()}) {
+    const Run run = fixture.track(input, "--results " + file);
     CHECK_MESSAGE(run.status == 0, run.err);
     CHECK_MESSAGE(run.out.find("\noff         5.00    5.00  5.00     3.00     4.00") != std::string::npos, run.out);
   }
-  const Run twice = place.track(place.labels, "--results " + file + " --results " + file);
+  const Run twice = fixture.track(fixture.labels, "--results " + file + " --results " + file);
   CHECK(twice.out.find("\noff (2) ") != std::string::npos);
-  const Run listed = place.track(place.labels, "--results " + file + " " + file + " " + file);
+  const Run listed = fixture.track(fixture.labels, "--results " + file + " " + file + " " + file);
   CHECK_MESSAGE(listed.out.find("\noff (3) ") != std::string::npos, listed.err);
 }
 
 TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but its like") {
-  const Place place;
-  const std::string options = "--tracker mosse --out " + place.report;
-  REQUIRE(place.track(place.labels, options).status == 0);
-  const Run refused = place.track(place.labels, options);
+  const Fixture fixture;
+  const std::string options = "--tracker mosse --out " + fixture.report;
+  REQUIRE(fixture.track(fixture.labels, options).status == 0);
+  const Run refused = fixture.track(fixture.labels, options);
   CHECK(refused.status == 73);
-  CHECK(refused.err == "error: " + place.report + ": exists already; --force overwrites it\n");
-  CHECK(place.track(place.labels, options + "/ --force").status == 0);
-  put_text(place.report + "/thesis.txt", "mine");
-  const Run strange = place.track(place.labels, options + " --force");
+  CHECK(refused.err == "error: " + fixture.report + ": exists already; --force overwrites it\n");
+  CHECK(fixture.track(fixture.labels, options + "/ --force").status == 0);
+  put_text(fixture.report + "/thesis.txt", "mine");
+  const Run strange = fixture.track(fixture.labels, options + " --force");
   CHECK(strange.status == 73);
   CHECK(strange.err ==
-        "error: " + place.report + ": holds thesis.txt, which no evaluation wrote; choose another folder\n");
-  CHECK(read_text(place.report + "/thesis.txt").value() == "mine");
-  fs::remove(place.report + "/thesis.txt");
-  const Run own =
-      place.track(place.labels, "--results " + place.report + "/results/mosse.csv --force --out " + place.report);
+        "error: " + fixture.report + ": holds thesis.txt, which no evaluation wrote; choose another folder\n");
+  CHECK(read_text(fixture.report + "/thesis.txt").value() == "mine");
+  fs::remove(fixture.report + "/thesis.txt");
+  const Run own = fixture.track(fixture.labels,
+                                "--results " + fixture.report + "/results/mosse.csv --force --out " + fixture.report);
   CHECK(own.status == 73);
   CHECK_MESSAGE(own.err.find("which is read by this command") != std::string::npos, own.err);
-  fs::create_directories(place.tiny.file("empty"));
-  CHECK(place.track(place.labels, "--tracker mosse --out " + place.tiny.file("empty").string()).status == 0);
-  CHECK(place.track(place.labels, "--tracker mosse --out " + place.tiny.file("deep/er").string()).status == 0);
-  CHECK(fs::exists(place.tiny.file("deep/er/report.html")));
-  CHECK(place.track(place.labels, "--tracker mosse --out " + place.labels).status == 73);
+  fs::create_directories(fixture.tiny.file("empty"));
+  CHECK(fixture.track(fixture.labels, "--tracker mosse --out " + fixture.tiny.file("empty").string()).status == 0);
+  CHECK(fixture.track(fixture.labels, "--tracker mosse --out " + fixture.tiny.file("deep/er").string()).status == 0);
+  CHECK(fs::exists(fixture.tiny.file("deep/er/report.html")));
+  CHECK(fixture.track(fixture.labels, "--tracker mosse --out " + fixture.labels).status == 73);
 }
 
 TEST_CASE("what makes no sense is refused in one line, and nothing is left behind") {
-  const Place place;
-  const std::string project = place.tiny.project();
-  place.check_refused(project, "", 64, "name what is to be measured: --tracker or --results");
-  place.check_refused(project, "--tracker goturn", 64, "--tracker goturn: no such tracker; there are csrt, kcf");
-  place.check_refused(project, "--tracker kcf,kcf", 64, "--tracker kcf: is named twice");
-  place.check_refused(project, "--tracker kcf --intruder 1", 64, "--intruder 1: there is none of that number");
-  place.check_refused(project, "--tracker kcf --frames 5-90", 64, "the project has frames 0 to 9");
-  place.check_refused(project, "--tracker kcf --video x.mkv", 64, "--video: goes with labels");
-  place.check_refused(place.labels, "--tracker kcf --frames 0-3", 64, "--frames: goes with a project");
-  place.check_refused(place.labels, "--tracker kcf --set camera.speed_mps=3", 64, "--set: goes with a project");
-  place.check_refused("clip.mkv", "--tracker kcf", 64, "is neither a project (.json) nor labels (.xml)");
-  place.check_refused("gone.xml", "--tracker kcf", 66, "gone.xml: no such file");
-  place.check_refused(project, "--results gone.csv", 66, "gone.csv: no such file");
-  place.check_refused(project, "--tracker kcf --least-side 40", 65, "is in no frame seen with sides of at least 40 px");
-  place.check_refused(project, "--tracker kcf --least-visible 2", 64, "least-visible");
-  place.check_refused(project, "--tracker kcf --least-visible nan", 64, "least-visible");
-  place.check_refused(project, "--tracker kcf --least-side nan", 64, "least-side");
+  const Fixture fixture;
+  const std::string project = fixture.tiny.project();
+  fixture.check_refused(project, "", 64, "name what is to be measured: --tracker or --results");
+  fixture.check_refused(project, "--tracker goturn", 64, "--tracker goturn: no such tracker; there are csrt, kcf");
+  fixture.check_refused(project, "--tracker kcf,kcf", 64, "--tracker kcf: is named twice");
+  fixture.check_refused(project, "--tracker kcf --intruder 1", 64, "--intruder 1: there is none of that number");
+  fixture.check_refused(project, "--tracker kcf --frames 5-90", 64, "the project has frames 0 to 9");
+  fixture.check_refused(project, "--tracker kcf --video x.mkv", 64, "--video: goes with labels");
+  fixture.check_refused(fixture.labels, "--tracker kcf --frames 0-3", 64, "--frames: goes with a project");
+  fixture.check_refused(fixture.labels, "--tracker kcf --set camera.speed_mps=3", 64, "--set: goes with a project");
+  fixture.check_refused("clip.mkv", "--tracker kcf", 64, "is neither a project (.json) nor labels (.xml)");
+  fixture.check_refused("gone.xml", "--tracker kcf", 66, "gone.xml: no such file");
+  fixture.check_refused(project, "--results gone.csv", 66, "gone.csv: no such file");
+  fixture.check_refused(project, "--tracker kcf --min-side 40", 65, "is in no frame seen with sides of at least 40 px");
+  fixture.check_refused(project, "--tracker kcf --min-visible 2", 64, "min-visible");
+  fixture.check_refused(project, "--tracker kcf --min-visible nan", 64, "min-visible");
+  fixture.check_refused(project, "--tracker kcf --min-side nan", 64, "min-side");
 }
 
-TEST_CASE("results that are wrong are refused before a project's film is made") {
-  const Place place;
-  const std::string nan = place.put("nan.csv", "frame,x,y,width,height\n0,1,2,3,4\n1,nan,2,3,4\n");
-  const std::string late = place.put("late.csv", "frame,x,y,width,height\n0,1,2,3,4\n10,1,2,3,4\n");
-  const std::string many = place.put("many.txt",
-                                     "1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n"
-                                     "1,2,3,4\n1,2,3,4\n1,2,3,4\n");
-  for (const std::string& input : {place.labels, place.tiny.project()}) {
-    place.check_refused(input, "--tracker kcf --results " + nan, 65, "nan.csv: line 3: ");
-    place.check_refused(input, "--tracker kcf --results " + late, 65, "late.csv: line 3: ");
-    place.check_refused(input, "--tracker kcf --format otb --results " + many, 65, "many.txt: ");
+TEST_CASE("results that are wrong are refused before a project's clip is made") {
+  const Fixture fixture;
+  const std::string nan = fixture.put("nan.csv", "frame,x,y,width,height\n0,1,2,3,4\n1,nan,2,3,4\n");
+  const std::string late = fixture.put("late.csv", "frame,x,y,width,height\n0,1,2,3,4\n10,1,2,3,4\n");
+  const std::string many = fixture.put("many.txt",
+                                       "1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n1,2,3,4\n"
+                                       "1,2,3,4\n1,2,3,4\n1,2,3,4\n");
+  for (const std::string& input : {fixture.labels, fixture.tiny.project()}) {
+    fixture.check_refused(input, "--tracker kcf --results " + nan, 65, "nan.csv: line 3: ");
+    fixture.check_refused(input, "--tracker kcf --results " + late, 65, "late.csv: line 3: ");
+    fixture.check_refused(input, "--tracker kcf --format otb --results " + many, 65, "many.txt: ");
   }
-  const Run early = place.track(place.tiny.project(), "--tracker kcf --progress plain --results " + nan);
+  const Run early = fixture.track(fixture.tiny.project(), "--tracker kcf --progress plain --results " + nan);
   CHECK(early.err.find("frame 1 of") == std::string::npos);
 }
 
-TEST_CASE("pictures that are not those of the labels are refused with both numbers") {
-  const Place place;
+TEST_CASE("images that are not those of the labels are refused with both numbers") {
+  const Fixture fixture;
   TinyProject longer(12);
   TinyProject larger(10, {80, 48});
-  place.check_refused(place.labels, "--tracker kcf --video " + longer.file("clip.mkv").string(), 65,
-                      "clip.mkv: has 12 frames, the labels have 10");
-  place.check_refused(place.labels, "--tracker kcf --video " + larger.file("clip.mkv").string(), 65,
-                      "clip.mkv: is 80x48, the labels are of 64x48");
-  put_text(place.tiny.file("out/tiny.avi"), "");
-  place.check_refused(place.labels, "--tracker kcf", 66,
-                      "has both tiny.mkv and tiny.avi beside it; choose with --video");
-  fs::remove(place.tiny.file("out/tiny.avi"));
-  fs::remove(place.tiny.file("out/tiny.mkv"));
-  place.check_refused(place.labels, "--tracker kcf", 66, "name its pictures with --video");
+  fixture.check_refused(fixture.labels, "--tracker kcf --video " + longer.file("clip.mkv").string(), 65,
+                        "clip.mkv: has 12 frames, the labels have 10");
+  fixture.check_refused(fixture.labels, "--tracker kcf --video " + larger.file("clip.mkv").string(), 65,
+                        "clip.mkv: is 80x48, the labels are of 64x48");
+  put_text(fixture.tiny.file("out/tiny.avi"), "");
+  fixture.check_refused(fixture.labels, "--tracker kcf", 66,
+                        "has both tiny.mkv and tiny.avi beside it; choose with --video");
+  fs::remove(fixture.tiny.file("out/tiny.avi"));
+  fs::remove(fixture.tiny.file("out/tiny.mkv"));
+  fixture.check_refused(fixture.labels, "--tracker kcf", 66, "name its images with --video");
 }
 
-TEST_CASE("numbered pictures beside the labels are followed too") {
-  const Place place;
-  const std::string composed = place.tiny.file("composed").string();
-  REQUIRE(place.track(place.tiny.project(), "--tracker medianflow --frames 3-9 --out " + composed).status == 0);
-  const std::string pngs = place.tiny.file("pngs").string();
-  REQUIRE(run_sigs("export " + place.tiny.project() + " --codec png --masks none --frames 3-9 --out " + pngs).status ==
-          0);
-  const std::string from_png = place.tiny.file("from_png").string();
-  const Run run = place.track(pngs + "/tiny.xml", "--tracker medianflow --out " + from_png);
+TEST_CASE("numbered images beside the labels are followed too") {
+  const Fixture fixture;
+  const std::string composed = fixture.tiny.file("composed").string();
+  REQUIRE(fixture.track(fixture.tiny.project(), "--tracker medianflow --frames 3-9 --out " + composed).status == 0);
+  const std::string pngs = fixture.tiny.file("pngs").string();
+  REQUIRE(
+      run_sigs("export " + fixture.tiny.project() + " --codec png --masks none --frames 3-9 --out " + pngs).status ==
+      0);
+  const std::string from_png = fixture.tiny.file("from_png").string();
+  const Run run = fixture.track(pngs + "/tiny.xml", "--tracker medianflow --out " + from_png);
   REQUIRE_MESSAGE(run.status == 0, run.err);
   CHECK(run.out.find("frames 3 to 9\n") != std::string::npos);
-  CHECK(place.text("from_png/results/medianflow.csv") == place.text("composed/results/medianflow.csv"));
+  CHECK(fixture.text("from_png/results/medianflow.csv") == fixture.text("composed/results/medianflow.csv"));
   fs::remove(pngs + "/tiny/frame_000005.png");
-  place.check_refused(pngs + "/tiny.xml", "--tracker kcf --force", 65, "has 6 frames, the labels have 7");
+  fixture.check_refused(pngs + "/tiny.xml", "--tracker kcf --force", 65, "has 6 frames, the labels have 7");
 }
 
 TEST_CASE("of several intruders one must be chosen") {

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 
@@ -48,7 +48,7 @@ TEST_CASE("an export writes every format that is asked for and names what it wro
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1")));
 }
 
-TEST_CASE("labels that name pictures which a video's export does not write are warned of") {
+TEST_CASE("labels that name images which a video's export does not write are warned of") {
   const TinyProject tiny;
   const auto warning = [&](const std::string& options) {
     const Run run = run_sigs("export " + tiny.project() + " --out '" + tiny.out() +
@@ -63,14 +63,14 @@ TEST_CASE("labels that name pictures which a video's export does not write are w
   CHECK(warning("--codec png --labels coco,voc").empty());
 }
 
-TEST_CASE("numbered pictures lie in the folders of labels as second names of the same files") {
+TEST_CASE("numbered images lie in the folders of labels as second names of the same files") {
   const TinyProject tiny;
   sigs_export(tiny, "--codec png --masks none --frames 4-6 --labels mot,kitti,vot,voc,yolo");
-  const fs::path picture = tiny.file("out/tiny/frame_000004.png");
+  const fs::path image = tiny.file("out/tiny/frame_000004.png");
   for (const char* name :
        {"tiny.mot/tiny/img1/000001.png", "tiny.kitti/image_02/tiny/000000.png", "tiny.vot/tiny/color/00000001.png",
         "tiny.voc/JPEGImages/frame_000004.png", "tiny.yolo/images/tiny/frame_000004.png"})
-    CHECK_MESSAGE(fs::equivalent(picture, tiny.file("out") / name), name);
+    CHECK_MESSAGE(fs::equivalent(image, tiny.file("out") / name), name);
   CHECK(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000003.png")));
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000004.png")));
 }
@@ -99,11 +99,11 @@ TEST_CASE("thresholds thin out labels but neither xml nor csv") {
   const int rows = lines_of(tiny.file("out/tiny.csv"));
   const int xml = lines_of(tiny.file("out/tiny.xml"));
   CHECK(all > 0);
-  sigs_export(tiny, "--masks none --labels xml,csv,mot --force --least-pixels 100000");
+  sigs_export(tiny, "--masks none --labels xml,csv,mot --force --min-pixels 100000");
   CHECK(lines_of(mot) == 0);
   CHECK(lines_of(tiny.file("out/tiny.csv")) == rows);
   CHECK(lines_of(tiny.file("out/tiny.xml")) == xml);
-  sigs_export(tiny, "--masks none --labels mot --force --least-visible 0");
+  sigs_export(tiny, "--masks none --labels mot --force --min-visible 0");
   CHECK(lines_of(mot) == all);
 }
 
@@ -114,12 +114,12 @@ TEST_CASE("labels and thresholds that there are not are answered with 64 and the
         std::tuple{"--labels mot,mot", 64, "error: --labels mot,mot: "},
         std::tuple{"--labels mot,", 64, "knows no format \"\""},
         std::tuple{"--labels none,xml", 64, "error: --labels none,xml: knows no format \"none\""},
-        std::tuple{"--least-pixels 0", 64, "error: --least-pixels 0: "},
-        std::tuple{"--least-pixels -1", 64, "error: --least-pixels -1: "},
-        std::tuple{"--least-pixels nan", 64, "error: --least-pixels nan: expected a whole number"},
-        std::tuple{"--least-visible 1.5", 64, "error: --least-visible 1.5: "},
+        std::tuple{"--min-pixels 0", 64, "error: --min-pixels 0: "},
+        std::tuple{"--min-pixels -1", 64, "error: --min-pixels -1: "},
+        std::tuple{"--min-pixels nan", 64, "error: --min-pixels nan: expected a whole number"},
+        std::tuple{"--min-visible 1.5", 64, "error: --min-visible 1.5: "},
         std::tuple{"--codec vp9", 64, "error: --codec vp9: "}, std::tuple{"--crf 99", 64, "error: --crf 99: "},
-        std::tuple{"--least-pixels some", 64, "some"}, std::tuple{"--least-visible half", 64, "half"},
+        std::tuple{"--min-pixels some", 64, "some"}, std::tuple{"--min-visible half", 64, "half"},
         std::tuple{"--set 'export.labels=[\"pascal\"]'", 78, "export.labels: knows no format \"pascal\""}}) {
     const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + options);
     CHECK_MESSAGE(run.status == status, options << ": " << run.err);

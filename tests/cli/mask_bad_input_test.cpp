@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
-#include "occlusion/made_clip.h"
+#include "occlusion/synthetic_clip.h"
 #include "video/clips.h"
 
 namespace sigs::test {
@@ -98,8 +98,7 @@ TEST_CASE("a clip whose size changes gives no mask") {
   write_bytes(path, both);
   const Run run = run_sigs("mask " + path.string() + " --method paper --out " + in.out() + "/m.png");
   CHECK(run.status == 65);
-  CHECK_MESSAGE(run.err.find("frame 10: the picture's size changes from 64x48 to 96x72; ") != std::string::npos,
-                run.err);
+  CHECK_MESSAGE(run.err.find("frame 10: the image's size changes from 64x48 to 96x72; ") != std::string::npos, run.err);
   CHECK(in.files_out() == 0);
 }
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // As footage comes: H.264 in MP4.
-void film(const flights::Flight& flight, int frames, double rate_hz, const fs::path& path) {
+void clip(const flights::Flight& flight, int frames, double rate_hz, const fs::path& path) {
   const VideoFormat format{
       .codec = VideoCodec::h264, .container = Container::mp4, .crf = 20, .size_px = flight.size_px};
   Result<VideoWriter> writer = VideoWriter::open(path, format);
@@ -34,15 +34,15 @@ void film(const flights::Flight& flight, int frames, double rate_hz, const fs::p
   if (!writer->finish()) throw std::runtime_error("clip");
 }
 
-struct Filmed {
+struct RenderedFlight {
   TemporaryFolder folder;
   flights::Flight flight;
   std::string video = (folder / "flight.mp4").string();
   std::string mask = (folder / "mask.png").string();
 
-  explicit Filmed(const std::string& name, int frames = 120, double rate_hz = 25)
+  explicit RenderedFlight(const std::string& name, int frames = 120, double rate_hz = 25)
       : flight(flights::by_name(name, {.size_px = {320, 240}, .frames = frames})) {
-    film(flight, frames, rate_hz, video);
+    clip(flight, frames, rate_hz, video);
   }
   [[nodiscard]] Run run(const std::string& more = "") const {
     return run_sigs("mask " + video + " --out " + mask + " " + more);
@@ -79,58 +79,58 @@ void check_alone_in(const std::string& folder, const std::string& out) {
 }  // namespace
 
 TEST_CASE("the nose of a flight is found in its footage") {
-  const Filmed filmed("nose");
-  const Run run = filmed.run();
+  const RenderedFlight flight_clip("nose");
+  const Run run = flight_clip.run();
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK(run.err.starts_with("own body: "));
-  CHECK(intersection_over_union(filmed.found(), filmed.flight.own_body) >= 0.9);
+  CHECK(intersection_over_union(flight_clip.found(), flight_clip.flight.own_body) >= 0.9);
 }
 
 TEST_CASE("a flight without an own body in view gets a black mask and a word about it") {
-  const Filmed filmed("none");
-  const Run run = filmed.run();
+  const RenderedFlight flight_clip("none");
+  const Run run = flight_clip.run();
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK(run.err.starts_with("own body: none found, 120 frames used; the mask is black\nwarning: "));
   CHECK_MESSAGE(run.err.find(": only 4.8 s of footage were looked through") != std::string::npos, run.err);
-  CHECK(filmed.found().size() == filmed.flight.size_px);
-  CHECK(cv::countNonZero(filmed.found()) == 0);
+  CHECK(flight_clip.found().size() == flight_clip.flight.size_px);
+  CHECK(cv::countNonZero(flight_clip.found()) == 0);
 }
 
 TEST_CASE("a camera that stands still gets no mask and is told why") {
-  const Filmed filmed("still");
-  const Run run = filmed.run();
+  const RenderedFlight flight_clip("still");
+  const Run run = flight_clip.run();
   CHECK(run.status == 65);
   CHECK_MESSAGE(run.err.find("move") != std::string::npos, run.err);
   CHECK_MESSAGE(run.err.ends_with("; take a longer part of the flight, with turns\n"), run.err);
-  CHECK_FALSE(fs::exists(filmed.mask));
+  CHECK_FALSE(fs::exists(flight_clip.mask));
 }
 
 TEST_CASE("two frames of a flight that tell nothing are said to be too few") {
-  const Filmed filmed("none");
-  const Run run = filmed.run("--frames 2");
+  const RenderedFlight flight_clip("none");
+  const Run run = flight_clip.run("--frames 2");
   CHECK(run.status == 65);
-  CHECK_MESSAGE(run.err.starts_with("error: " + filmed.video + ": 2 frames are too few to tell: "), run.err);
+  CHECK_MESSAGE(run.err.starts_with("error: " + flight_clip.video + ": 2 frames are too few to tell: "), run.err);
   CHECK_MESSAGE(run.err.ends_with("; take a longer part of the flight, with turns\n"), run.err);
 }
 
 TEST_CASE("a detection that settles early says when and gives nearly the same mask") {
-  const Filmed filmed("nose", 400, 10);
-  REQUIRE(filmed.run().status == 0);
-  const cv::Mat whole = filmed.found();
-  const Run run = filmed.run("--force --set own_body.settled_percent=5");
+  const RenderedFlight flight_clip("nose", 400, 10);
+  REQUIRE(flight_clip.run().status == 0);
+  const cv::Mat whole = flight_clip.found();
+  const Run run = flight_clip.run("--force --set own_body.settled_percent=5");
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(run.err.find("\nsettled after ") != std::string::npos, run.err);
   // The last look alone may have changed 5 %.
-  CHECK(intersection_over_union(filmed.found(), whole) >= 0.9);
+  CHECK(intersection_over_union(flight_clip.found(), whole) >= 0.9);
 }
 
 TEST_CASE("the command line's page names the steps of both methods in their order") {
-  const Filmed filmed("nose", 30);
+  const RenderedFlight flight_clip("nose", 30);
   const auto rows = table_rows(page("command-line.md"), "| method | steps |");
   REQUIRE(rows.size() == 2);
-  const std::string folder = (filmed.folder / "steps").string();
+  const std::string folder = (flight_clip.folder / "steps").string();
   for (const std::vector<std::string>& row : {rows[0], rows[1], rows[0]}) {
-    const Run run = filmed.run("--force --method " + row[0] + " --stages " + folder);
+    const Run run = flight_clip.run("--force --method " + row[0] + " --stages " + folder);
     CHECK_MESSAGE(run.status == 0, run.err);
     CHECK_MESSAGE(steps_named(row[1]) == steps_written(run.out, folder), row[0]);
     check_alone_in(folder, run.out);

@@ -5,21 +5,21 @@
 #include <set>
 #include <string>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
-#include "occlusion/made_clip.h"
+#include "occlusion/synthetic_clip.h"
 
 namespace sigs::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Place {
+struct Fixture {
   TemporaryFolder folder;
   std::string video = (folder / "clip.mkv").string();
 
-  explicit Place(int frames = 10) { write_flight(video, frames); }
+  explicit Fixture(int frames = 10) { write_flight(video, frames); }
   [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
   [[nodiscard]] Run run(const std::string& options) const {
     return run_sigs("mask " + video + " --method paper " + options);
@@ -43,79 +43,82 @@ struct Place {
 }  // namespace
 
 TEST_CASE("a detection that fails takes away the folders that it made and no others") {
-  const Place place(1);
-  fs::create_directories(place.at("mine/empty"));
-  const std::set<std::string> before = place.names();
-  const Run run = place.run("--out " + place.at("new/deep/m.png") + " --confidence " + place.at("mine/sure/c.png") +
-                            " --stages " + place.at("mine/empty/steps/") + " --every 1");
+  const Fixture fixture(1);
+  fs::create_directories(fixture.at("mine/empty"));
+  const std::set<std::string> before = fixture.names();
+  const Run run =
+      fixture.run("--out " + fixture.at("new/deep/m.png") + " --confidence " + fixture.at("mine/sure/c.png") +
+                  " --stages " + fixture.at("mine/empty/steps/") + " --every 1");
   CHECK(run.status == 65);
-  CHECK(place.names() == before);
-  CHECK(place.run("--out " + place.at("mine/empty/m.png")).status == 65);
-  CHECK(place.names() == before);
+  CHECK(fixture.names() == before);
+  CHECK(fixture.run("--out " + fixture.at("mine/empty/m.png")).status == 65);
+  CHECK(fixture.names() == before);
 }
 
 TEST_CASE("what is found to stand in the way leaves no folder either") {
-  const Place place;
-  put_text(place.at("there.png"), "mine");
-  const std::set<std::string> before = place.names();
-  const Run run = place.run("--out " + place.at("new/deep/m.png") + " --confidence " + place.at("there.png"));
+  const Fixture fixture;
+  put_text(fixture.at("there.png"), "mine");
+  const std::set<std::string> before = fixture.names();
+  const Run run = fixture.run("--out " + fixture.at("new/deep/m.png") + " --confidence " + fixture.at("there.png"));
   CHECK(run.status == 73);
-  CHECK(place.names() == before);
+  CHECK(fixture.names() == before);
 }
 
 TEST_CASE("a relative path into folders that are not there makes them") {
-  const Place place;
-  const std::string command = "cd " + place.folder.path().string() + " && " + (build_dir() / "sigs").string() +
+  const Fixture fixture;
+  const std::string command = "cd " + fixture.folder.path().string() + " && " + (build_dir() / "sigs").string() +
                               " mask clip.mkv --method paper --out a/b/m.png --stages a/../c/steps >/dev/null 2>&1";
   CHECK(std::system(command.c_str()) == 0);
-  CHECK(fs::exists(place.at("a/b/m.png")));
-  CHECK(fs::exists(place.at("c/steps/00_frame.png")));
+  CHECK(fs::exists(fixture.at("a/b/m.png")));
+  CHECK(fs::exists(fixture.at("c/steps/00_frame.png")));
 }
 
 TEST_CASE("outputs that want the same place are refused before anything is made") {
-  const Place place;
-  const std::string out = "--out " + place.at("out/m.png");
-  place.check_refused(out + " --confidence " + place.at("out/../out/m.png"),
-                      "--confidence " + place.at("out/../out/m.png") + ": is where the mask goes");
-  place.check_refused(out + " --confidence " + place.at("out/m.png/c.png"),
-                      "--confidence " + place.at("out/m.png/c.png") + ": is where the mask goes");
+  const Fixture fixture;
+  const std::string out = "--out " + fixture.at("out/m.png");
+  fixture.check_refused(out + " --confidence " + fixture.at("out/../out/m.png"),
+                        "--confidence " + fixture.at("out/../out/m.png") + ": is where the mask goes");
+  fixture.check_refused(out + " --confidence " + fixture.at("out/m.png/c.png"),
+                        "--confidence " + fixture.at("out/m.png/c.png") + ": is where the mask goes");
   const std::string folder = ": is the folder that --stages makes; choose another name";
-  place.check_refused(out + " --stages " + place.at("out/m.png/"), "--out " + place.at("out/m.png") + folder);
-  place.check_refused(out + " --stages " + place.at("out/m.png/steps"), "--out " + place.at("out/m.png") + folder);
-  place.check_refused(out + " --confidence " + place.at("c.png") + " --stages " + place.at("c.png"),
-                      "--confidence " + place.at("c.png") + folder);
+  fixture.check_refused(out + " --stages " + fixture.at("out/m.png/"), "--out " + fixture.at("out/m.png") + folder);
+  fixture.check_refused(out + " --stages " + fixture.at("out/m.png/steps"),
+                        "--out " + fixture.at("out/m.png") + folder);
+  fixture.check_refused(out + " --confidence " + fixture.at("c.png") + " --stages " + fixture.at("c.png"),
+                        "--confidence " + fixture.at("c.png") + folder);
   const std::string name = ": is a name that --stages writes; choose another";
   for (const char* const taken : {"steps/00_frame.png", "steps/../steps/02_canny.png", "steps/09_own_body.png/m.png"}) {
-    const std::string path = place.at(taken);
-    place.check_refused("--out " + path + " --stages " + place.at("steps/"), "--out " + path + name);
-    place.check_refused(out + " --confidence " + path + " --stages " + place.at("./steps"),
-                        "--confidence " + path + name);
+    const std::string path = fixture.at(taken);
+    fixture.check_refused("--out " + path + " --stages " + fixture.at("steps/"), "--out " + path + name);
+    fixture.check_refused(out + " --confidence " + path + " --stages " + fixture.at("./steps"),
+                          "--confidence " + path + name);
   }
 }
 
 TEST_CASE("outputs beside each other in one folder go well") {
-  const Place place;
+  const Fixture fixture;
   for (const char* const name : {"m.png", "02_mine.png", "2_canny.png", "02_canny.2.png", "deeper/02_canny.png"}) {
-    const Run run = place.run("--force --stages " + place.at("out") + " --out " + place.at("out/" + std::string(name)));
+    const Run run =
+        fixture.run("--force --stages " + fixture.at("out") + " --out " + fixture.at("out/" + std::string(name)));
     CHECK_MESSAGE(run.status == 0, run.err);
   }
-  CHECK(place.names().contains("out/deeper/02_canny.png"));
+  CHECK(fixture.names().contains("out/deeper/02_canny.png"));
 }
 
 TEST_CASE("stages of another run stand in the way and with force go, of either method and nothing else") {
-  const Place place;
-  const std::string command = "--out " + place.at("m.png") + " --stages " + place.at("out");
-  fs::create_directories(place.at("out"));
-  put_text(place.at("out/07_labels.png"), "of the other method");
-  const Run refused = place.run(command);
+  const Fixture fixture;
+  const std::string command = "--out " + fixture.at("m.png") + " --stages " + fixture.at("out");
+  fs::create_directories(fixture.at("out"));
+  put_text(fixture.at("out/07_labels.png"), "of the other method");
+  const Run refused = fixture.run(command);
   CHECK(refused.status == 73);
   CHECK_MESSAGE(refused.err.find("07_labels.png: exists already; --force") != std::string::npos, refused.err);
   for (const char* const mine : {"out/07_mine.png", "out/labels.png", "out/07_labels.jpg", "out/m.png"})
-    put_text(place.at(mine), "mine");
+    put_text(fixture.at(mine), "mine");
   for (const char* const old : {"out/11_overlay.png", "out/12_closed.png", "out/01_frame.png"})
-    put_text(place.at(old), "of a run with other steps");
-  REQUIRE(place.run(command + " --force").status == 0);
-  const std::set<std::string> names = place.names();
+    put_text(fixture.at(old), "of a run with other steps");
+  REQUIRE(fixture.run(command + " --force").status == 0);
+  const std::set<std::string> names = fixture.names();
   for (const char* const old : {"out/07_labels.png", "out/11_overlay.png", "out/12_closed.png", "out/01_frame.png"})
     CHECK_FALSE(names.contains(old));
   for (const char* const kept : {"out/07_mine.png", "out/labels.png", "out/07_labels.jpg", "out/m.png", "m.png",
@@ -124,12 +127,12 @@ TEST_CASE("stages of another run stand in the way and with force go, of either m
 }
 
 TEST_CASE("stages of another run stay where a detection fails") {
-  const Place place(1);
-  fs::create_directories(place.at("out"));
-  put_text(place.at("out/07_labels.png"), "of another run");
-  const std::set<std::string> before = place.names();
-  CHECK(place.run("--force --out " + place.at("m.png") + " --stages " + place.at("out")).status == 65);
-  CHECK(place.names() == before);
+  const Fixture fixture(1);
+  fs::create_directories(fixture.at("out"));
+  put_text(fixture.at("out/07_labels.png"), "of another run");
+  const std::set<std::string> before = fixture.names();
+  CHECK(fixture.run("--force --out " + fixture.at("m.png") + " --stages " + fixture.at("out")).status == 65);
+  CHECK(fixture.names() == before);
 }
 
 TEST_CASE("the help for masks has examples of its own and the defaults of the project") {

@@ -14,11 +14,11 @@
 #include <thread>
 #include <vector>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "occlusion/detect.h"
-#include "occlusion/made_clip.h"
+#include "occlusion/synthetic_clip.h"
 #include "video/frame_source.h"
 
 namespace sigs::test {
@@ -46,7 +46,7 @@ OwnBody expected(const std::string& video, int first_frame, int frames, int ever
   return detect_own_body(footage, first_frame, settings, {}).value();
 }
 
-cv::Mat picture(const std::string& path) {
+cv::Mat image(const std::string& path) {
   return cv::imread(path, cv::IMREAD_UNCHANGED);
 }
 
@@ -77,11 +77,11 @@ TEST_CASE("a mask is what the detection found, its path on stdout and its share 
   const OwnBody found = expected(clip.video, 0, 40);
   REQUIRE(found.share > 0.1);
   char line[80];
-  std::snprintf(line, sizeof line, "own body: %.1f %% of the picture, 40 frames used\n", 100 * found.share);
+  std::snprintf(line, sizeof line, "own body: %.1f %% of the image, 40 frames used\n", 100 * found.share);
   CHECK(run.err == line + few_seconds(clip.video, "1.6"));
-  CHECK(equal(picture(clip.mask()), found.mask));
-  CHECK(equal(picture(clip.out + "/sure.png"), found.confidence));
-  CHECK(picture(clip.out + "/sure.png").type() == CV_16UC1);
+  CHECK(equal(image(clip.mask()), found.mask));
+  CHECK(equal(image(clip.out + "/sure.png"), found.confidence));
+  CHECK(image(clip.out + "/sure.png").type() == CV_16UC1);
 }
 
 TEST_CASE("without a name the mask is called after the video and lies in the current folder") {
@@ -90,7 +90,7 @@ TEST_CASE("without a name the mask is called after the video and lies in the cur
   const std::string command =
       "cd " + clip.out + " && " + (build_dir() / "sigs").string() + " mask ../flight.mkv" + kPaper + ">/dev/null 2>&1";
   CHECK(std::system(command.c_str()) == 0);
-  CHECK(equal(picture(clip.out + "/flight.own-body.png"), expected(clip.video, 0, 40).mask));
+  CHECK(equal(image(clip.out + "/flight.own-body.png"), expected(clip.video, 0, 40).mask));
 }
 
 TEST_CASE("the same command gives the same bytes twice and replaces a mask with force alone") {
@@ -111,7 +111,7 @@ TEST_CASE("options choose the frames and settings the rest") {
                            "footage.first_frame=10");
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK(run.err.find(", 6 frames used") != std::string::npos);
-  CHECK(equal(picture(clip.mask()), expected(clip.video, 10, 21, 4, 6).mask));
+  CHECK(equal(image(clip.mask()), expected(clip.video, 10, 21, 4, 6).mask));
 }
 
 TEST_CASE("stages are numbered from the frame to the tinted mask") {
@@ -126,9 +126,9 @@ TEST_CASE("stages are numbered from the frame to the tinted mask") {
   CHECK(lines(run.out) == names);
   FrameSource footage = FrameSource::open(clip.video).value();
   const cv::Mat frame = bgr_of(footage.read(20).value());
-  CHECK(equal(picture(stages + "/00_frame.png"), frame));
-  const cv::Mat overlay = picture(stages + "/10_overlay.png");
-  const cv::Mat mask = picture(clip.mask());
+  CHECK(equal(image(stages + "/00_frame.png"), frame));
+  const cv::Mat overlay = image(stages + "/10_overlay.png");
+  const cv::Mat mask = image(clip.mask());
   REQUIRE(overlay.size() == frame.size());
   // Untouched outside; inside halfway to magenta.
   for (int y = 0; y < frame.rows; ++y)
@@ -148,9 +148,9 @@ TEST_CASE("of a project its footage, range and settings are used and nothing els
   const Run run = run_sigs("mask " + project + " --out " + clip.mask());
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK(run.err.find(", 13 frames used") != std::string::npos);
-  CHECK(equal(picture(clip.mask()), expected(clip.video, 4, 26, 2, 5).mask));
+  CHECK(equal(image(clip.mask()), expected(clip.video, 4, 26, 2, 5).mask));
   REQUIRE(run_sigs("mask " + project + " --force --frames 10 --every 3 --out " + clip.mask()).status == 0);
-  CHECK(equal(picture(clip.mask()), expected(clip.video, 4, 10, 3, 5).mask));
+  CHECK(equal(image(clip.mask()), expected(clip.video, 4, 10, 3, 5).mask));
 }
 
 TEST_CASE("a mask hides the intruder in the project whose footage it was made from") {
@@ -161,11 +161,11 @@ TEST_CASE("a mask hides the intruder in the project whose footage it was made fr
   const std::string command = "export " + tiny.project() + " --masks png --force --out " + tiny.out();
   const std::string intruder_png = tiny.out() + "/tiny.masks/frame_000005.png";
   REQUIRE(run_sigs(command).status == 0);
-  const cv::Mat hidden = picture(body) == 255;
-  REQUIRE(cv::countNonZero(picture(intruder_png) & hidden) > 0);
+  const cv::Mat hidden = image(body) == 255;
+  REQUIRE(cv::countNonZero(image(intruder_png) & hidden) > 0);
   const Run run = run_sigs(command + " --set footage.own_body_mask=body.png");
   CHECK_MESSAGE(run.status == 0, run.err);
-  CHECK(cv::countNonZero(picture(intruder_png) & hidden) == 0);
+  CHECK(cv::countNonZero(image(intruder_png) & hidden) == 0);
 }
 
 TEST_CASE("a mask from less than ten seconds of footage comes with a warning") {
@@ -184,7 +184,7 @@ TEST_CASE("a mask from less than ten seconds of footage comes with a warning") {
   CHECK(errors[1] + "\n" == few_seconds(video, "9.9"));
 }
 
-TEST_CASE("a mask of more than half the picture comes with a warning") {
+TEST_CASE("a mask of more than half the image comes with a warning") {
   const TemporaryFolder folder;
   const std::string video = (folder / "c.mkv").string();
   for (const int height : {20, 60}) {
@@ -195,7 +195,7 @@ TEST_CASE("a mask of more than half the picture comes with a warning") {
     });
     const Run run = run_sigs("mask " + video + kPaper + "--force --out " + (folder / "m.png").string());
     CHECK_MESSAGE(run.status == 0, run.err);
-    const std::string warning = "\nwarning: " + video + ": more than half of the picture is masked; look whether";
+    const std::string warning = "\nwarning: " + video + ": more than half of the image is masked; look whether";
     CHECK_MESSAGE((run.err.find(warning) != std::string::npos) == (height == 60), run.err);
   }
 }

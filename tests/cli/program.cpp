@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -14,9 +14,9 @@ Run run_sigs(const std::string& arguments) {
   return run_sigs_after("", arguments);
 }
 
-Run run_sigs_on(const std::string& oddity, const std::string& arguments) {
-  const std::string library = (build_dir() / "sigs_odd_file_system.so").string();
-  return run_sigs_after(oddity + " LD_PRELOAD=" + library, arguments);
+Run run_sigs_with_fault(const std::string& fault, const std::string& arguments) {
+  const std::string library = (build_dir() / "sigs_fault_injection.so").string();
+  return run_sigs_after(fault + " LD_PRELOAD=" + library, arguments);
 }
 
 Run run_sigs_after(const std::string& before, const std::string& arguments) {

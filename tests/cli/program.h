@@ -17,7 +17,7 @@ struct Run {
 // The same with what a shell is to do before: "ulimit -n 30;", "cd FOLDER &&", variables.
 [[nodiscard]] Run run_sigs_after(const std::string& before, const std::string& arguments);
 
-// The same on a file system, or in a moment, of another kind: variables of tests/support/odd_file_system.cpp.
-[[nodiscard]] Run run_sigs_on(const std::string& oddity, const std::string& arguments);
+// The same on a file system, or in a moment, of another kind: variables of tests/support/fault_injection.cpp.
+[[nodiscard]] Run run_sigs_with_fault(const std::string& fault, const std::string& arguments);
 
 }  // namespace sigs::test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "video/frame_source.h"

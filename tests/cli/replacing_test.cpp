@@ -10,7 +10,7 @@
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "cli/tiny_recipe.h"
-#include "occlusion/made_clip.h"
+#include "occlusion/synthetic_clip.h"
 
 namespace sigs::test {
 namespace {
@@ -30,7 +30,7 @@ bool has_staging(const fs::path& folder) {
   return false;
 }
 
-// Ten frames exported as pictures, masks and labels; replacing them asks for five, so that old and new can be told.
+// Ten frames exported as images, masks and labels; replacing them asks for five, so that old and new can be told.
 struct Exported {
   TinyProject tiny;
   std::string command = "export " + tiny.project() + " --codec png --masks png --labels xml,kitti --out " + tiny.out();
@@ -47,7 +47,7 @@ struct Exported {
     for (const char* const name : {"tiny", "tiny.masks", "tiny.kitti/training/image_02/0000"}) {
       if (!fs::exists(fs::path(tiny.out()) / name) && std::string(name).find('/') != std::string::npos) continue;
       const int count = pictures_in(fs::path(tiny.out()) / name);
-      CHECK_MESSAGE((count == 10 || count == 5), when << ": " << name << " has " << count << " pictures");
+      CHECK_MESSAGE((count == 10 || count == 5), when << ": " << name << " has " << count << " images");
     }
     for (const char* const name : {"tiny.xml", "tiny.kitti"})
       CHECK_MESSAGE(fs::exists(fs::path(tiny.out()) / name), when << ": " << name);
@@ -60,7 +60,7 @@ TEST_CASE("killed before any of its renamings, an export has left whole results 
   const Exported exported;
   int kills = 0;
   for (int number = 1; number < 40; ++number) {
-    const Run run = run_sigs_on("SIGS_TEST_KILL_AT=" + std::to_string(number), exported.replacing());
+    const Run run = run_sigs_with_fault("SIGS_TEST_KILL_AT=" + std::to_string(number), exported.replacing());
     if (run.status == 0) break;
     REQUIRE_MESSAGE(run.status == kKilled, run.err);
     ++kills;
@@ -76,7 +76,8 @@ TEST_CASE("where folders cannot be exchanged, the next run puts back what a kill
   const Exported exported;
   int kills = 0;
   for (int number = 1; number < 40; ++number) {
-    const Run run = run_sigs_on(kNoFlags + ("SIGS_TEST_KILL_AT=" + std::to_string(number)), exported.replacing());
+    const Run run =
+        run_sigs_with_fault(kNoFlags + ("SIGS_TEST_KILL_AT=" + std::to_string(number)), exported.replacing());
     if (run.status == 0) break;
     REQUIRE_MESSAGE(run.status == kKilled, run.err);
     ++kills;
@@ -92,7 +93,8 @@ TEST_CASE("one renaming that fails leaves every older result where it was") {
   const Exported exported;
   for (const char* const before : {"", kNoFlags}) {
     for (const char* const name : {"tiny", "tiny.masks", "tiny.xml", "tiny.kitti"}) {
-      const Run run = run_sigs_on(before + (std::string("SIGS_TEST_FAIL_RENAME=") + name), exported.replacing());
+      const Run run =
+          run_sigs_with_fault(before + (std::string("SIGS_TEST_FAIL_RENAME=") + name), exported.replacing());
       CHECK_MESSAGE(run.status == 74, name << ": " << run.err);
       CHECK_MESSAGE(run.err.find(std::string("/") + name) != std::string::npos, run.err);
       CHECK_MESSAGE(contents_of(exported.tiny.out()) == exported.older, name);
@@ -103,8 +105,8 @@ TEST_CASE("one renaming that fails leaves every older result where it was") {
 TEST_CASE("one renaming that fails leaves no new result either") {
   const TinyProject tiny;
   for (const char* const name : {"tiny.mkv", "tiny.masks.mkv", "tiny.xml"}) {
-    const Run run =
-        run_sigs_on(std::string("SIGS_TEST_FAIL_RENAME=") + name, "export " + tiny.project() + " --out " + tiny.out());
+    const Run run = run_sigs_with_fault(std::string("SIGS_TEST_FAIL_RENAME=") + name,
+                                        "export " + tiny.project() + " --out " + tiny.out());
     CHECK_MESSAGE(run.status == 74, run.err);
     CHECK_MESSAGE(tiny.files_out() == 0, name);
   }
@@ -113,9 +115,9 @@ TEST_CASE("one renaming that fails leaves no new result either") {
 TEST_CASE("signals wait while outputs get their names") {
   const Exported exported;
   for (int number = 1; number <= 12; ++number) {
-    const Run run = run_sigs_on("SIGS_TEST_TERM_AT=" + std::to_string(number), exported.replacing());
-    const bool was_told = run.err.find("interrupted") != std::string::npos;
-    CHECK_MESSAGE((run.status == 0 || was_told), number << ": killed half way, status " << run.status);
+    const Run run = run_sigs_with_fault("SIGS_TEST_TERM_AT=" + std::to_string(number), exported.replacing());
+    const bool was_reported = run.err.find("interrupted") != std::string::npos;
+    CHECK_MESSAGE((run.status == 0 || was_reported), number << ": killed half way, status " << run.status);
     exported.check_whole("signalled at " + std::to_string(number));
     CHECK(pictures_in(fs::path(exported.tiny.out()) / "tiny") ==
           pictures_in(fs::path(exported.tiny.out()) / "tiny.masks"));
@@ -124,28 +126,28 @@ TEST_CASE("signals wait while outputs get their names") {
 }
 
 TEST_CASE("file systems without flags of rename or without locks are written to all the same") {
-  for (const std::string& oddity :
+  for (const std::string& fault :
        {std::string(kNoFlags), "SIGS_TEST_FLOCK=" + std::to_string(ENOLCK), "SIGS_TEST_FLOCK=" + std::to_string(ENOSYS),
         "SIGS_TEST_FLOCK=" + std::to_string(EOPNOTSUPP), "SIGS_TEST_FLOCK=" + std::to_string(EINVAL)}) {
     const TinyProject tiny;
     const std::string command = "export " + tiny.project() + " --codec png --labels xml,kitti --out " + tiny.out();
-    const Run first = run_sigs_on(oddity, command);
-    CHECK_MESSAGE(first.status == 0, oddity << ": " << first.err);
+    const Run first = run_sigs_with_fault(fault, command);
+    CHECK_MESSAGE(first.status == 0, fault << ": " << first.err);
     const std::map<std::string, std::string> written = contents_of(tiny.out());
     CHECK(written.size() > 10);
-    const Run kept = run_sigs_on(oddity, command);
+    const Run kept = run_sigs_with_fault(fault, command);
     CHECK_MESSAGE(kept.status == 73, kept.err);
     CHECK(contents_of(tiny.out()) == written);
-    const Run again = run_sigs_on(oddity, command + " --force");
+    const Run again = run_sigs_with_fault(fault, command + " --force");
     CHECK_MESSAGE(again.status == 0, again.err);
     CHECK(contents_of(tiny.out()) == written);
     write_flight(tiny.file("flight.mkv"), 10);
-    const Run mask = run_sigs_on(
-        oddity, "mask " + tiny.file("flight.mkv").string() + " --method paper --out " + tiny.file("m.png").string());
+    const Run mask = run_sigs_with_fault(
+        fault, "mask " + tiny.file("flight.mkv").string() + " --method paper --out " + tiny.file("m.png").string());
     CHECK_MESSAGE(mask.status == 0, mask.err);
     CHECK_FALSE(has_staging(tiny.file("")));
     const TinyRecipe recipe;
-    const Run dataset = run_sigs_on(oddity, recipe.arguments("out"));
+    const Run dataset = run_sigs_with_fault(fault, recipe.arguments("out"));
     CHECK_MESSAGE(dataset.status == 0, dataset.err);
   }
 }
@@ -156,8 +158,8 @@ TEST_CASE("a video of a dataset that cannot get its name leaves the older one in
   const auto video = [&] { return contents_of(fs::path(recipe.out("out")) / "red LR"); };
   const std::map<std::string, std::string> older = video();
   for (const char* const before : {"", kNoFlags}) {
-    const Run run = run_sigs_on(before + std::string("SIGS_TEST_FAIL_RENAME='red LR'"),
-                                recipe.arguments("out", "--resume --set camera.speed_mps=33"));
+    const Run run = run_sigs_with_fault(before + std::string("SIGS_TEST_FAIL_RENAME='red LR'"),
+                                        recipe.arguments("out", "--resume --set camera.speed_mps=33"));
     CHECK_MESSAGE(run.status == 74, run.err);
     CHECK(video() == older);
   }

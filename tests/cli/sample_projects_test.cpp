@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "support/test_data.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/tiny_project.h"
 #include "support/test_data.h"
 

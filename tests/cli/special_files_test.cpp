@@ -79,7 +79,7 @@ TEST_CASE("a device, a pipe or a folder is refused by info and mask") {
   check_refused(TinyProject(), ".mkv", "mask ");
 }
 
-TEST_CASE("a device, a pipe or a folder is refused as labels, results and pictures of an evaluation") {
+TEST_CASE("a device, a pipe or a folder is refused as labels, results and images of an evaluation") {
   TinyProject made;
   REQUIRE(run_shell("$SIGS export " + made.project() + " --out " + made.out()).status == 0);
   const std::string labels = made.out() + "/tiny.xml";

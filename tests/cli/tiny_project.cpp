@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "video/video_writer.h"
 
 namespace sigs::test {

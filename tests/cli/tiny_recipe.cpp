@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 
 namespace sigs::test {
 

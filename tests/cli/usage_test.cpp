@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 
@@ -29,7 +29,7 @@ TEST_CASE("a command that is none is answered with those that are") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);
   CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, dataset, evaluate, check and info\n");
-  const Run inner = run_sigs("evaluate trck film.xml");
+  const Run inner = run_sigs("evaluate trck clip.xml");
   CHECK(inner.status == 64);
   CHECK(inner.err == "error: evaluate trck: no such command; there are track and detect\n");
   CHECK(run_sigs("evaluate --help").status == 0);
@@ -48,7 +48,7 @@ TEST_CASE("standard output is no place to write to, and no folder called - is ma
   }
 }
 
-TEST_CASE("one picture of a sequence is a film of one frame, and that is said") {
+TEST_CASE("one image of a sequence is a clip of one frame, and that is said") {
   const TinyProject tiny;
   const std::string make =
       "ffmpeg -v error -i '" + tiny.file("clip.mkv").string() + "' '" + tiny.file("shot_%04d.png").string() + "'";
@@ -56,7 +56,7 @@ TEST_CASE("one picture of a sequence is a film of one frame, and that is said") 
   const Run run = run_sigs("info '" + tiny.file("shot_0003.png").string() + "'");
   CHECK(run.status == 0);
   const std::string said = run.out + run.err;
-  CHECK_MESSAGE(has(said, "one picture"), said);
+  CHECK_MESSAGE(has(said, "one image"), said);
   CHECK_MESSAGE(has(said, "shot_%04d.png"), said);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("options of the command line win over the project") {
   CHECK(run.out == tiny.out() + "/other.mp4\n");
 }
 
-TEST_CASE("pictures are numbered as the footage's frames are") {
+TEST_CASE("images are numbered as the footage's frames are") {
   const TinyProject tiny;
   CHECK(
       run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --codec png --masks png --frames 7-8").status ==
@@ -121,7 +121,7 @@ TEST_CASE("pictures are numbered as the footage's frames are") {
     CHECK_MESSAGE(std::filesystem::exists(std::filesystem::path(tiny.out()) / name), name);
 }
 
-TEST_CASE("a folder of pictures is replaced with force but not where somebody else's file lies in it") {
+TEST_CASE("a folder of images is replaced with force but not where somebody else's file lies in it") {
   const TinyProject tiny;
   const std::string command = "export " + tiny.project() + " --out " + tiny.out() + " --codec png --masks none --force";
   REQUIRE(run_sigs(command).status == 0);

@@ -9,7 +9,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "compositor/made_layers.h"
+#include "compositor/synthetic_layers.h"
 
 namespace sigs::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "compositor/made_frames.h"
-#include "compositor/made_layers.h"
+#include "compositor/synthetic_frames.h"
+#include "compositor/synthetic_layers.h"
 
 namespace sigs::test {
 namespace {
@@ -115,7 +115,7 @@ TEST_CASE("half opacity mixes light in closed form and code values where asked t
   }
 }
 
-TEST_CASE("a vanishing opacity leaves the picture as it was") {
+TEST_CASE("a vanishing opacity leaves the image as it was") {
   for (const Sort& sort : all_sorts())
     for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
       for (const double opacity : {1e-4, 1e-7, 1e-20, 1e-38, 1e-44}) {
@@ -170,7 +170,7 @@ TEST_CASE("a chroma sample moves by the weight of the pixels that are covered") 
   }
 }
 
-TEST_CASE("at the edges of an odd picture a chroma sample takes the weight of the pixels beyond") {
+TEST_CASE("at the edges of an odd image a chroma sample takes the weight of the pixels beyond") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     const cv::Size size(7, 5);

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "compositor/made_layers.h"
+#include "compositor/synthetic_layers.h"
 
 namespace sigs::test {
 namespace {
@@ -39,7 +39,7 @@ double blurred_edge(double x, double at, double sigma_px) {
 
 // How far the blurred edge is from that, at most and wherever it lies in its pixel. The edge is one row high: columns
 // are summed up.
-double most_off(double sigma_px) {
+double max_off(double sigma_px) {
   double worst = 0;
   for (double at = -0.5; at <= 0.5; at += 0.05) {
     const Layer out = blurred(edge(at), sigma_px);
@@ -82,11 +82,11 @@ TEST_CASE("blur of an empty layer is empty") {
 }
 
 TEST_CASE("blur reaches three sigmas") {
-  CHECK(blur_reach_px(0) == 0);
-  CHECK(blur_reach_px(1e-6) == 1);
-  CHECK(blur_reach_px(1) == 3);
-  CHECK(blur_reach_px(1.1) == 4);
-  CHECK(blur_reach_px(50) == 150);
+  CHECK(blur_margin_px(0) == 0);
+  CHECK(blur_margin_px(1e-6) == 1);
+  CHECK(blur_margin_px(1) == 3);
+  CHECK(blur_margin_px(1.1) == 4);
+  CHECK(blur_margin_px(50) == 150);
 }
 
 TEST_CASE("blur keeps the energy and leaves the truth sharp") {
@@ -99,7 +99,7 @@ TEST_CASE("blur keeps the energy and leaves the truth sharp") {
     REQUIRE(out.color.size() == out.rect.size());
     REQUIRE(out.coverage.size() == out.rect.size());
     for (int c = 0; c < 4; ++c) CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
-    CHECK(is_sound(out));
+    CHECK(is_valid(out));
     CHECK(same_bytes(out.coverage(cv::Rect(reach, reach, 50, 40)), layer.coverage));
     CHECK(cv::countNonZero(out.coverage) == cv::countNonZero(layer.coverage));
   }
@@ -142,11 +142,11 @@ TEST_CASE("a point spreads by sigma squared far below a pixel too") {
 
 TEST_CASE("an edge comes out as its light blurred before pixels average it") {
   // What a pixel's mean does not say is lost; the bounds are those of the header.
-  for (const double sigma_px : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7}) CHECK(most_off(sigma_px) < 0.08);
-  for (const double sigma_px : {1.0, 1.3, 1.7}) CHECK(most_off(sigma_px) < 0.02);
-  for (const double sigma_px : {2.0, 3.0}) CHECK(most_off(sigma_px) < 0.0055);
+  for (const double sigma_px : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7}) CHECK(max_off(sigma_px) < 0.08);
+  for (const double sigma_px : {1.0, 1.3, 1.7}) CHECK(max_off(sigma_px) < 0.02);
+  for (const double sigma_px : {2.0, 3.0}) CHECK(max_off(sigma_px) < 0.0055);
   // Without any blur the 0.3 px of the default settings would be missed by this much.
-  CHECK(most_off(0.3) < 0.65 * (blurred_edge(0, 0.5, 0.3)));
+  CHECK(max_off(0.3) < 0.65 * (blurred_edge(0, 0.5, 0.3)));
 }
 
 TEST_CASE("a blur of next to nothing is none") {

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "compositor/blend.h"
-#include "compositor/made_frames.h"
-#include "compositor/made_layers.h"
 #include "compositor/replace.h"
+#include "compositor/synthetic_frames.h"
+#include "compositor/synthetic_layers.h"
 
-// Chroma lies where the footage says: each way to lay something on a picture, against the same in doubles over the
-// whole picture at full resolution.
+// Chroma lies where the footage says: each way to lay something on an image, against the same in doubles over the
+// whole image at full resolution.
 namespace sigs::test {
 namespace {
 
@@ -25,7 +25,7 @@ std::vector<Sort> sorts_with_shared_chroma() {
 }
 
 // Random luma, and chroma that rises by a whole number of codes from sample to sample: bilinear interpolation at its
-// site gives the plane everywhere, and averaging that gives the samples back. At the picture's edges only even chroma
+// site gives the plane everywhere, and averaging that gives the samples back. At the image's edges only even chroma
 // does so.
 Frame graded(const Sort& sort, cv::Size size_px, int rise_across, int rise_down) {
   Frame frame = grainy(sort, size_px);
@@ -107,7 +107,7 @@ cv::Mat blended(const Sort& sort, const Layer& layer, const cv::Mat& codes, Blen
   return out;
 }
 
-// The sample of a plane that the picture at full resolution averages to.
+// The sample of a plane that the image at full resolution averages to.
 double averaged(const cv::Mat& codes, const Sort& sort, int plane, int x, int y) {
   if (plane == 0) return codes.at<cv::Vec3d>(y, x)[0];
   double sum = 0;
@@ -148,7 +148,7 @@ struct Place {
   cv::Size size_px;
   cv::Rect rect;
 };
-// Within, at each edge, at odd and even beginnings; the whole of odd and tiny pictures.
+// Within, at each edge, at odd and even beginnings; the whole of odd and tiny images.
 const Place kPlaces[] = {{{38, 24}, {11, 7, 9, 8}},  {{38, 24}, {12, 6, 8, 9}},  {{37, 23}, {0, 0, 6, 5}},
                          {{37, 23}, {30, 17, 7, 6}}, {{38, 24}, {31, 18, 7, 6}}, {{7, 5}, {0, 0, 7, 5}},
                          {{8, 6}, {0, 0, 8, 6}},     {{1, 1}, {0, 0, 1, 1}},     {{2, 3}, {0, 0, 2, 3}},
@@ -156,7 +156,7 @@ const Place kPlaces[] = {{{38, 24}, {11, 7, 9, 8}},  {{38, 24}, {12, 6, 8, 9}}, 
 
 }  // namespace
 
-TEST_CASE("planes are those of the blended full-resolution picture averaged at the chroma's site") {
+TEST_CASE("planes are those of the blended full-resolution image averaged at the chroma's site") {
   for (const Sort& sort : sorts_with_shared_chroma())
     for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
       for (const Place& place : kPlaces) {
@@ -248,7 +248,7 @@ TEST_CASE("the colour of a soft spot lies where its brightness does") {
     }
 }
 
-TEST_CASE("a picture put in place of pixels has its chroma at the footage's site") {
+TEST_CASE("an image put in place of pixels has its chroma at the footage's site") {
   for (const Sort& sort : sorts_with_shared_chroma())
     for (const Place& place : kPlaces) {
       CAPTURE(sort.name);

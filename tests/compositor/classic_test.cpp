@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/made_layers.h"
+#include "compositor/synthetic_layers.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -67,7 +67,7 @@ class Paper {
   [[nodiscard]] const cv::Mat& map() const { return map_; }
 
  private:
-  // Where every pixel of the distorted picture lies in the undistorted one.
+  // Where every pixel of the distorted image lies in the undistorted one.
   void make_inverse_map() {
     std::vector<cv::Point2d> pixels;
     for (int v = 0; v < size_.height; ++v)
@@ -103,17 +103,17 @@ cv::Mat textured(cv::Size size) {
   return noise;
 }
 
-// Intruders before pure green: hard edges, a hole, one that touches the picture's border, one pixel alone.
+// Intruders before pure green: hard edges, a hole, one that touches the image's border, one pixel alone.
 cv::Mat green_screen(cv::Size size) {
-  cv::Mat picture(size, CV_8UC3, kGreen);
+  cv::Mat image(size, CV_8UC3, kGreen);
   const int w = size.width;
   const int h = size.height;
-  cv::ellipse(picture, {w * 2 / 5, h * 9 / 20}, {w / 7, h / 17}, 20, 0, 360, {210, 190, 200}, cv::FILLED);
-  cv::rectangle(picture, {w * 2 / 5, h * 2 / 5, 9, 7}, kGreen, cv::FILLED);
-  cv::rectangle(picture, {w - 20, h / 4, 20, 30}, {20, 30, 220}, cv::FILLED);
-  cv::circle(picture, {w / 5, h * 4 / 5}, 11, {5, 5, 5}, cv::FILLED);
-  picture.at<cv::Vec3b>(h / 5, w / 5) = {255, 255, 255};
-  return picture;
+  cv::ellipse(image, {w * 2 / 5, h * 9 / 20}, {w / 7, h / 17}, 20, 0, 360, {210, 190, 200}, cv::FILLED);
+  cv::rectangle(image, {w * 2 / 5, h * 2 / 5, 9, 7}, kGreen, cv::FILLED);
+  cv::rectangle(image, {w - 20, h / 4, 20, 30}, {20, 30, 220}, cv::FILLED);
+  cv::circle(image, {w / 5, h * 4 / 5}, 11, {5, 5, 5}, cv::FILLED);
+  image.at<cv::Vec3b>(h / 5, w / 5) = {255, 255, 255};
+  return image;
 }
 
 struct Difference {
@@ -156,7 +156,7 @@ Difference check_stages(const NamedCamera& named, const cv::Mat& input1, const c
 
 TEST_CASE("the classic stages are those of the paper's section 3.2 done with OpenCV alone") {
   const cv::Size size(400, 300);
-  for (const NamedCamera& named : bending_cameras(size))
+  for (const NamedCamera& named : distorting_cameras(size))
     for (const double sigma_px : {0.0, 0.6, 2.0}) {
       CAPTURE(named.name);
       CAPTURE(sigma_px);
@@ -166,11 +166,11 @@ TEST_CASE("the classic stages are those of the paper's section 3.2 done with Ope
     }
 }
 
-TEST_CASE("the classic stages are those of the paper on a real picture too") {
+TEST_CASE("the classic stages are those of the paper on a real image too") {
   if (!has_real_data()) return;
   const cv::Mat whole = cv::imread((real_data() / "stills/skylink/skylink_0.jpeg").string());
   REQUIRE(!whole.empty());
-  for (const NamedCamera& named : bending_cameras(whole.size())) {
+  for (const NamedCamera& named : distorting_cameras(whole.size())) {
     CAPTURE(named.name);
     const Difference worst = check_stages(named, whole, green_screen(whole.size()), 1.2);
     MESSAGE(named.name << ": " << worst.samples << " of " << 6 * whole.total() * 3
@@ -180,7 +180,7 @@ TEST_CASE("the classic stages are those of the paper on a real picture too") {
 
 TEST_CASE("the way back through the lens is the one that OpenCV finds") {
   const cv::Size size(400, 300);
-  for (const NamedCamera& named : bending_cameras(size)) {
+  for (const NamedCamera& named : distorting_cameras(size)) {
     CAPTURE(named.name);
     const Paper paper(named.camera);
     const DistortMaps maps = distort_maps(named.camera);
@@ -190,28 +190,28 @@ TEST_CASE("the way back through the lens is the one that OpenCV finds") {
   }
 }
 
-TEST_CASE("a part of a bent and softened picture is cut from the whole one") {
+TEST_CASE("a part of a warped and blurred image is cut from the whole one") {
   const cv::Size size(400, 300);
-  const cv::Mat picture = green_screen(size);
-  for (const NamedCamera& named : bending_cameras(size)) {
+  const cv::Mat image = green_screen(size);
+  for (const NamedCamera& named : distorting_cameras(size)) {
     const DistortMaps maps = distort_maps(named.camera);
-    const cv::Mat bent = distorted(picture, maps, kGreen);
+    const cv::Mat warped = distorted(image, maps, kGreen);
     for (const double sigma_px : {0.0, 0.3, 0.6, 2.0, 7.7, 16.0, 16.1, 90.0})
       for (const cv::Rect& part : {cv::Rect(150, 120, 60, 31), cv::Rect(0, 0, 9, 5), cv::Rect(390, 200, 10, 100),
                                    cv::Rect(0, 0, 400, 300), cv::Rect(200, 150, 1, 1)}) {
         CAPTURE(named.name);
         CAPTURE(sigma_px);
-        const cv::Rect from = softened_from(part, sigma_px, size);
+        const cv::Rect from = gaussian_blur_source(part, sigma_px, size);
         REQUIRE((from & part) == part);
-        const cv::Mat soft = softened(distorted(picture, maps, kGreen, from), sigma_px);
-        CHECK(same_bytes(soft(part - from.tl()), softened(bent, sigma_px)(part)));
+        const cv::Mat soft = gaussian_blurred(distorted(image, maps, kGreen, from), sigma_px);
+        CHECK(same_bytes(soft(part - from.tl()), gaussian_blurred(warped, sigma_px)(part)));
       }
   }
 }
 
 TEST_CASE("stages written over those of another frame are those written to fresh memory") {
   const cv::Size size(200, 150);
-  const NamedCamera named = bending_cameras(size).front();
+  const NamedCamera named = distorting_cameras(size).front();
   const DistortMaps maps = distort_maps(named.camera);
   ClassicStages used;
   int n = 0;
@@ -236,7 +236,7 @@ TEST_CASE("stages written over those of another frame are those written to fresh
 TEST_CASE("green comes out of the key as input 1 bit for bit") {
   const cv::Size size(400, 300);
   const cv::Mat input1 = textured(size);
-  for (const NamedCamera& named : bending_cameras(size)) {
+  for (const NamedCamera& named : distorting_cameras(size)) {
     CAPTURE(named.name);
     const cv::Mat nothing(size, CV_8UC3, kGreen);
     const ClassicStages stages = classic_stages(input1, nothing, distort_maps(named.camera), 2.5);
@@ -267,19 +267,19 @@ TEST_CASE("an intruder before green has its own colour and no green in its edge"
   layer.coverage.at<float>(0, 1) = 0.499F;
   layer.color.at<cv::Vec4f>(0, 2) = {0, 1, 0, 1};  // pure green itself: steps aside
   layer.color.at<cv::Vec4f>(0, 3) = {2, 1, 0, 1};  // brighter than white: clipped
-  const cv::Mat picture = on_green_screen(layer, {}, {10, 5});
+  const cv::Mat image = on_green_screen(layer, {}, {10, 5});
   const auto code = [](double linear) {
     const double display = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
     return static_cast<uchar>(std::lround(255 * display));
   };
-  CHECK(picture.at<cv::Vec3b>(2, 3) == cv::Vec3b(code(0.125), code(0.25), code(0.5)));
-  CHECK(picture.at<cv::Vec3b>(2, 4) == cv::Vec3b(0, 255, 0));
-  CHECK(picture.at<cv::Vec3b>(2, 5) == cv::Vec3b(0, 254, 0));
-  CHECK(picture.at<cv::Vec3b>(2, 6) == cv::Vec3b(0, 255, 255));
-  CHECK(picture.at<cv::Vec3b>(0, 0) == cv::Vec3b(0, 255, 0));
+  CHECK(image.at<cv::Vec3b>(2, 3) == cv::Vec3b(code(0.125), code(0.25), code(0.5)));
+  CHECK(image.at<cv::Vec3b>(2, 4) == cv::Vec3b(0, 255, 0));
+  CHECK(image.at<cv::Vec3b>(2, 5) == cv::Vec3b(0, 254, 0));
+  CHECK(image.at<cv::Vec3b>(2, 6) == cv::Vec3b(0, 255, 255));
+  CHECK(image.at<cv::Vec3b>(0, 0) == cv::Vec3b(0, 255, 0));
 }
 
-TEST_CASE("an intruder before green may lie across the picture's edge or be empty") {
+TEST_CASE("an intruder before green may lie across the image's edge or be empty") {
   const cv::Mat cut = on_green_screen(even_layer({-3, -2, 5, 4}, {1, 0, 0, 1}), {}, {10, 5});
   CHECK(cut.at<cv::Vec3b>(0, 0) == cv::Vec3b(0, 0, 255));
   CHECK(cut.at<cv::Vec3b>(1, 1) == cv::Vec3b(0, 0, 255));

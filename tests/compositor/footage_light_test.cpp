@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "compositor/blend.h"
-#include "compositor/made_frames.h"
-#include "compositor/made_layers.h"
+#include "compositor/synthetic_frames.h"
+#include "compositor/synthetic_layers.h"
 
 // Light is mixed by the footage's own transfer function and in its own primaries: the standards' formulas written out
 // again, in doubles, with 1 for 203 cd/m2.

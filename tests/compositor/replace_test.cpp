@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-#include "compositor/made_frames.h"
-#include "compositor/made_layers.h"
+#include "compositor/synthetic_frames.h"
+#include "compositor/synthetic_layers.h"
 
 namespace sigs::test {
 
-TEST_CASE("a picture replaces whole blocks by its own code values") {
+TEST_CASE("an image replaces whole blocks by its own code values") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     Frame frame = grainy(sort, {11, 9});
@@ -26,7 +26,7 @@ TEST_CASE("a picture replaces whole blocks by its own code values") {
   }
 }
 
-TEST_CASE("a picture leaves what has no weight and mixes code values between") {
+TEST_CASE("an image leaves what has no weight and mixes code values between") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     Frame frame = grainy(sort, {12, 8});

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compositor/made_frames.h"
+#include "compositor/synthetic_frames.h"
 
 namespace sigs::test {
 namespace {
@@ -46,13 +46,13 @@ TEST_CASE("code values become light that is right to a ten-thousandth of a code 
 
 TEST_CASE("the tables never step back by more than their error") {
   float highest = 0;
-  float most_back = 0;
+  float max_back = 0;
   for (float linear = 1e-5F; linear < 5; linear *= 1.00001F) {
     const float display = transfer_table(TransferFunction::srgb).display_of_linear(linear);
-    most_back = std::max(most_back, highest - display);
+    max_back = std::max(max_back, highest - display);
     highest = std::max(highest, display);
   }
-  CHECK(most_back < 4e-7F);  // 1e-4 code values
+  CHECK(max_back < 4e-7F);  // 1e-4 code values
 }
 
 TEST_CASE("the tables hold for zero, for the ends of their pieces and beyond all of them") {

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "dataset/flight_quantities.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
@@ -78,16 +78,16 @@ TEST_CASE("the recipe of random encounters on the dataset's page makes all its v
   const Plan plan = plan_of_example(1);
   CHECK(plan.videos.size() == 30);
   std::map<std::string, int> of_tag;
-  int redraws = 0;
+  int resamples = 0;
   for (const PlannedVideo& video : plan.videos) {
     for (const char* const tag : {"background", "aircraft"}) ++of_tag[video.tags.at(tag)];
-    for (const auto& [condition, count] : video.redraws) redraws += count;
+    for (const auto& [condition, count] : video.resamples) resamples += count;
     CHECK(video.project.light.ambient >= 0.2);
     CHECK(video.project.light.ambient < 0.5);
-    CHECK(video.project.light.position_m.x == video.drawn.at("light_x_m"));
+    CHECK(video.project.light.position_m.x == video.sampled.at("light_x_m"));
   }
   for (const char* const name : {"morning", "noon", "jet", "small"}) CHECK(of_tag[name] > 0);
-  CHECK(redraws > 0);
+  CHECK(resamples > 0);
 }
 
 }  // namespace sigs::test

@@ -131,11 +131,11 @@ TEST_CASE("at its closest an intruder may start exactly") {
 
 TEST_CASE("the nearest distance is at the closest approach within the video, else at the nearer end") {
   const auto nearest = [](double time_s) {
-    return nearest_m(
+    return min_range_m(
         relative_motion({.miss_distance_m = 30, .closing_speed_mps = 8, .time_of_closest_approach_s = time_s}), 10);
   };
   CHECK(nearest(5) == doctest::Approx(30).epsilon(1e-14));
   CHECK(nearest(15) == doctest::Approx(50).epsilon(1e-14));  // 5 s before it
   CHECK(nearest(-5) == doctest::Approx(50).epsilon(1e-14));
-  CHECK(nearest_m({.start_m = {3, 4, 0}}, 10) == 5);  // no motion
+  CHECK(min_range_m({.start_m = {3, 4, 0}}, 10) == 5);  // no motion
 }

@@ -53,7 +53,7 @@ TEST_CASE("whatever an export depends on changes the fingerprint") {
   CHECK(fingerprint(tiny, "test 2") != fingerprint(tiny));
 }
 
-TEST_CASE("pictures of a model's materials count, however their names are written") {
+TEST_CASE("images of a model's materials count, however their names are written") {
   for (const char* const line : {"map_Kd skin of it.png", "map_Kd -s 2 2 1 SKIN OF IT.PNG",
                                  "map_Kd C:\\art\\skin of it.png", "map_d skin.png", "bump -bm 1 skin.png"}) {
     CAPTURE(line);

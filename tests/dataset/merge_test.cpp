@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "dataset/merge_formats.h"
 #include "dataset/tiny_plan.h"
 #include "support/test_data.h"
@@ -23,7 +23,7 @@ std::string text_of(const fs::path& file) {
   return read_text(file).value();
 }
 
-// v0, v1, v3 in train, v2 in test; every picture a file, so that labels can point at it.
+// v0, v1, v3 in train, v2 in test; every image a file, so that labels can point at it.
 class Labelled {
  public:
   explicit Labelled(const std::vector<std::string>& labels, CodecChoice codec = CodecChoice::ffv1) : tiny(4, 3) {
@@ -32,7 +32,7 @@ class Labelled {
       video.project.output.codec = codec;
       video.project.output.categories = {"airplane", "drone"};
     }
-    CHECK(made(tiny.plan, {.folder = tiny.out(), .source = made_by(), .jobs = 2}).exported == 4);
+    CHECK(made(tiny.plan, {.folder = tiny.out(), .source = synthetic_source(), .jobs = 2}).exported == 4);
   }
   [[nodiscard]] fs::path labels() const { return tiny.out() / "labels"; }
 
@@ -41,7 +41,7 @@ class Labelled {
 
 }  // namespace
 
-TEST_CASE("COCO labels of a split have every picture and annotation of its videos, with ids of their own") {
+TEST_CASE("COCO labels of a split have every image and annotation of its videos, with ids of their own") {
   const Labelled made({"coco"}, CodecChoice::png);
   const Json train = json_of(made.labels() / "coco/train.json");
   CHECK(json_of(made.labels() / "coco/test.json")["videos"].size() == 1);
@@ -55,7 +55,7 @@ TEST_CASE("COCO labels of a split have every picture and annotation of its video
   CHECK(*ids["images"].begin() == 1);
   CHECK(*ids["images"].rbegin() == 9);
 
-  // What each annotation says of its picture is what its own video's file says.
+  // What each annotation says of its image is what its own video's file says.
   std::map<std::int64_t, Json> images;
   for (const Json& image : train["images"]) images[image["id"]] = image;
   std::map<std::int64_t, std::string> videos;
@@ -115,7 +115,7 @@ TEST_CASE("MOT labels of a split are one benchmark, as TrackEval looks for it") 
   for (const std::string file : {"gt/gt.txt", "seqinfo.ini", "img1/000001.png", "img1/000003.png"})
     CHECK(text_of(made.labels() / "mot/tiny-train/v3" / file) == text_of(made.tiny.out() / "v3/v3.mot/v3" / file));
   CHECK(fs::equivalent(made.labels() / "mot/tiny-train/v3/img1/000001.png",
-                       made.tiny.out() / "v3/v3/frame_000000.png"));  // pictures cost no space
+                       made.tiny.out() / "v3/v3/frame_000000.png"));  // images cost no space
 }
 
 TEST_CASE("KITTI and VOT labels of a split are one folder each") {
@@ -133,7 +133,7 @@ TEST_CASE("KITTI and VOT labels of a split are one folder each") {
   CHECK(sequences == 3);
 }
 
-TEST_CASE("YOLO's data.yaml names folders of pictures that are there, each beside its labels") {
+TEST_CASE("YOLO's data.yaml names folders of images that are there, each beside its labels") {
   const Labelled made({"yolo"}, CodecChoice::png);
   std::istringstream lines(text_of(made.labels() / "yolo/data.yaml"));
   std::map<std::string, int> folders;
@@ -163,7 +163,7 @@ TEST_CASE("formats that do not span videos, and none at all, give no labels fold
 TEST_CASE("merged labels are the same whoever merges them, and go with the formats") {
   Labelled made({"coco", "mot", "csv"});
   const auto before = contents_of(made.tiny.out());
-  DatasetRequest merge{.folder = made.tiny.out(), .source = made_by(), .merge_only = true};
+  DatasetRequest merge{.folder = made.tiny.out(), .source = synthetic_source(), .merge_only = true};
   CHECK(sigs::test::made(made.tiny.plan, merge).kept == 4);
   CHECK(contents_of(made.tiny.out()) == before);
   for (PlannedVideo& video : made.tiny.plan.videos) video.project.output.labels = {"csv"};
@@ -189,7 +189,7 @@ TEST_CASE("videos whose labels do not go together are refused before anything is
       tiny.plan.videos[i].name = tiny.plan.videos[i].project.name = names[i];
       tiny.plan.videos[i].project.output.labels = {format};
     }
-    CHECK(make_dataset(tiny.plan, {.folder = tiny.out(), .source = made_by()}, {}).has_value() ==
+    CHECK(make_dataset(tiny.plan, {.folder = tiny.out(), .source = synthetic_source()}, {}).has_value() ==
           (std::string(format) == "xml"));
   }
 }

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// A recipe of drawn encounters, high up so that none is underground.
+// A recipe of sampled encounters, high up so that none is underground.
 Json encounters(int count) {
   Json json = RecipeFolder::recipe();
   json["backgrounds"][0]["camera"]["position_m"] = {0, 0, -9000};
@@ -78,12 +78,12 @@ TEST_CASE("a plan depends on the recipe alone") {
   const Plan two = RecipeFolder().plan(encounters(10));
   REQUIRE(one.videos.size() == two.videos.size());
   for (std::size_t i = 0; i < one.videos.size(); ++i) {
-    CHECK(one.videos[i].drawn == two.videos[i].drawn);
+    CHECK(one.videos[i].sampled == two.videos[i].sampled);
     CHECK(one.videos[i].project.intruders == two.videos[i].project.intruders);
   }
 }
 
-TEST_CASE("a video is the same however many others there are, and whatever is drawn beside it") {
+TEST_CASE("a video is the same however many others there are, and whatever is sampled beside it") {
   const Plan few = RecipeFolder().plan(encounters(3));
   Json more = encounters(30);
   more["videos"].insert(more["videos"].begin(), Json{{"flights", {"approaching"}}});
@@ -93,7 +93,7 @@ TEST_CASE("a video is the same however many others there are, and whatever is dr
     const PlannedVideo& again = named(many, video.name);
     for (const char* const same :
          {"miss_distance_m", "closing_speed_mps", "bearing_deg", "elevation_deg", "first_frame"})
-      CHECK(again.drawn.at(same) == video.drawn.at(same));
+      CHECK(again.sampled.at(same) == video.sampled.at(same));
     CHECK(again.project.footage == video.project.footage);
   }
 }
@@ -104,7 +104,7 @@ TEST_CASE("videos differ from each other and from those of another seed") {
   for (const std::uint64_t seed : {0u, 1u}) {
     json["seed"] = seed;
     for (const PlannedVideo& video : RecipeFolder().plan(json).videos)
-      distances.insert(video.drawn.at("miss_distance_m"));
+      distances.insert(video.sampled.at("miss_distance_m"));
   }
   CHECK(distances.size() == 100);
 }
@@ -126,10 +126,10 @@ TEST_CASE("frames of a video are those that were asked for, of the background's 
   CHECK(frames({{"frames", 130}}) == std::pair(20, 149));
 }
 
-TEST_CASE("a drawn first frame is whole and told") {
+TEST_CASE("a sampled first frame is whole and told") {
   for (const PlannedVideo& video : RecipeFolder().plan(encounters(20)).videos) {
     const int first = video.project.footage.first_frame;
-    CHECK(video.drawn.at("first_frame") == first);
+    CHECK(video.sampled.at("first_frame") == first);
     CHECK((first >= 0 && first < 100));
     CHECK(*video.project.footage.last_frame - first == 24);
     CHECK(*video.project.intruders[0].trajectory.waypoints[0].frame == first);
@@ -217,7 +217,7 @@ TEST_CASE("backgrounds kept together share a split, and a tag that a video lacks
   CHECK(RecipeFolder().error(json) == "splits.keep_together: video day0001 has no tag \"sky\"");
 }
 
-TEST_CASE("a group's own split holds beside drawn ones") {
+TEST_CASE("a group's own split holds beside sampled ones") {
   Json json = encounters(10);
   json["splits"] = {{"train", 1}, {"test", 0}};
   json["videos"].push_back({{"name", "extra"}, {"split", "test"}, {"flights", {"left_right"}}});

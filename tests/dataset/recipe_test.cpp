@@ -148,7 +148,7 @@ TEST_CASE("quantities that make no sense are errors with their key") {
   CHECK(quantity_error(half_normal).starts_with(key + "expected {\"normal\": {\"mean\": m, \"deviation\": d"));
   CHECK(quantity_error(misspelt).starts_with(key + "expected {\"normal\": "));
   CHECK(quantity_error(far_off) ==
-        key + "the bounds lie more than 8 deviations from the mean; nothing is left to draw");
+        key + "the bounds lie more than 8 deviations from the mean; nothing is left to sample");
   for (const Json& wrong : {Json("far"), Json(nullptr), Json(1e13), Json{{"gauss", 3}}, Json{{"uniform", {1}}},
                             Json{{"choice", {1, "x"}}}, Json(true), Json::array({1, 2})})
     CHECK_MESSAGE(quantity_error(wrong).starts_with(key + "expected "), wrong.dump());

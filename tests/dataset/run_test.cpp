@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "dataset/checksum.h"
 #include "dataset/tiny_plan.h"
 #include "project/json.h"
@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::json;
 
 DatasetRequest into(const fs::path& folder) {
-  return {.folder = folder, .source = made_by(), .jobs = 1};
+  return {.folder = folder, .source = synthetic_source(), .jobs = 1};
 }
 
 DatasetRequest resumed(const fs::path& folder) {
@@ -145,7 +145,7 @@ TEST_CASE("resuming makes what is missing, damaged or planned otherwise, and kee
   put_text(tiny.inputs().file("cube.mtl"), "newmtl paint\nKd 0.1 0.9 0.2\n");
   CHECK(made(tiny.plan, resumed(tiny.out())).exported == 4);
   DatasetRequest later = resumed(tiny.out());
-  later.source = made_by("test 2");
+  later.source = synthetic_source("test 2");
   CHECK(made(tiny.plan, later).exported == 4);
 }
 

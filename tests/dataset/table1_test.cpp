@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "camera/camera.h"
 #include "dataset/plan.h"
 #include "support/test_data.h"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "dataset/flight_contexts.h"
 #include "dataset/flight_plan.h"
-#include "dataset/picture_flight.h"
-#include "dataset/stages.h"
+#include "dataset/image_flight.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -17,29 +17,29 @@ const std::vector<CameraSettings> kCameras{
     {.position_m = {50, 20, -2500}, .speed_mps = 0},
     {.position_m = {0, 0, -3000}, .roll_deg = -8, .pitch_deg = 4, .yaw_deg = 25, .speed_mps = 60}};
 
-// The picture's place of the intruder in percent, as a real lens has it; far off where it has no image.
-glm::dvec2 place_percent(const FlightStage& stage, const glm::dvec3& from_camera_m) {
-  const std::optional<glm::dvec2> pixel = stage.lens.lens.pixel(in_camera(stage, from_camera_m));
+// The image's place of the intruder in percent, as a real lens has it; far off where it has no image.
+glm::dvec2 place_percent(const FlightContext& context, const glm::dvec3& from_camera_m) {
+  const std::optional<glm::dvec2> pixel = context.lens.lens.pixel(in_camera(context, from_camera_m));
   if (!pixel) return glm::dvec2(1e9);
-  return (*pixel + 0.5) / glm::dvec2(stage.lens.size_px.width, stage.lens.size_px.height) * 100.0;
+  return (*pixel + 0.5) / glm::dvec2(context.lens.size_px.width, context.lens.size_px.height) * 100.0;
 }
 
-struct Seen {
+struct ViewedFrame {
   glm::dvec3 from_camera_m{0, 0, 0};
   glm::dvec2 place_percent{0, 0};
 };
 
-std::vector<Seen> seen(const FlightStage& stage, const PlannedFlight& flight) {
-  const Trajectory trajectory = trajectory_of(stage, flight);
-  std::vector<Seen> frames;
-  for (int frame = stage.frames.first; frame <= stage.frames.last; ++frame) {
-    const glm::dvec3 p_m = relative_position_m(stage, trajectory, time_of_frame_s(stage.footage, frame));
-    frames.push_back({p_m, place_percent(stage, p_m)});
+std::vector<ViewedFrame> viewed_frames(const FlightContext& context, const PlannedFlight& flight) {
+  const Trajectory trajectory = trajectory_of(context, flight);
+  std::vector<ViewedFrame> frames;
+  for (int frame = context.frames.first; frame <= context.frames.last; ++frame) {
+    const glm::dvec3 p_m = relative_position_m(context, trajectory, time_of_frame_s(context.footage, frame));
+    frames.push_back({p_m, place_percent(context, p_m)});
   }
   return frames;
 }
 
-bool in_picture(const glm::dvec2& percent) {
+bool in_image(const glm::dvec2& percent) {
   return percent.x > 0 && percent.x < 100 && percent.y > 0 && percent.y < 100;
 }
 
@@ -51,42 +51,43 @@ void for_all_stages(const Test& test) {
     for (const CameraSettings& camera : kCameras) {
       CAPTURE(lens.name);
       CAPTURE(camera.yaw_deg);
-      test(FlightStage{.camera = camera, .lens = lens.camera, .footage = footage, .frames = {5, 74}});
+      test(FlightContext{.camera = camera, .lens = lens.camera, .footage = footage, .frames = {5, 74}});
     }
 }
 
-PlannedFlight planned(FlightKind kind, const std::map<std::string, double>& given, const FlightStage& stage) {
-  auto flight = planned_flight(kind, values_with(kind, given), stage);
+PlannedFlight planned(FlightKind kind, const std::map<std::string, double>& given, const FlightContext& context) {
+  auto flight = planned_flight(kind, values_with(kind, given), context);
   if (!flight) FAIL(flight.error());
   return *flight;
 }
 
-// Points are rounded to 2^-10 m: in percent of the picture, with a margin.
-double rounding_percent(const FlightStage& stage, const glm::dvec3& from_camera_m) {
-  const double px_per_rad = stage.lens.lens.pixels_per_radian(in_camera(stage, from_camera_m));
+// Points are rounded to 2^-10 m: in percent of the image, with a margin.
+double rounding_percent(const FlightContext& context, const glm::dvec3& from_camera_m) {
+  const double px_per_rad = context.lens.lens.pixels_per_radian(in_camera(context, from_camera_m));
   return 100.0 / 960 * px_per_rad * 0.001 / glm::length(from_camera_m) + 1e-6;
 }
 
 }  // namespace
 
-TEST_CASE("a crossing begins and ends where it should in the picture, through any lens from any camera") {
-  for_all_stages([](const FlightStage& stage) {
+TEST_CASE("a crossing begins and ends where it should in the image, through any lens from any camera") {
+  for_all_stages([](const FlightContext& context) {
     for (const FlightKind kind : {FlightKind::left_right, FlightKind::right_left}) {
       const double from = kind == FlightKind::left_right ? 25 : 75;
-      const std::vector<Seen> frames = seen(
-          stage, planned(kind, {{"from_x_percent", from}, {"to_x_percent", 100 - from}, {"to_y_percent", 44}}, stage));
+      const std::vector<ViewedFrame> frames = viewed_frames(
+          context,
+          planned(kind, {{"from_x_percent", from}, {"to_x_percent", 100 - from}, {"to_y_percent", 44}}, context));
       CHECK(glm::distance(frames.front().place_percent, {from, 40}) <
-            rounding_percent(stage, frames.front().from_camera_m));
+            rounding_percent(context, frames.front().from_camera_m));
       CHECK(glm::distance(frames.back().place_percent, {100 - from, 44}) <
-            rounding_percent(stage, frames.back().from_camera_m));
+            rounding_percent(context, frames.back().from_camera_m));
     }
   });
 }
 
 TEST_CASE("left to right goes right in every frame, right to left goes left") {
-  for_all_stages([](const FlightStage& stage) {
-    const std::vector<Seen> right = seen(stage, planned(FlightKind::left_right, {}, stage));
-    const std::vector<Seen> left = seen(stage, planned(FlightKind::right_left, {}, stage));
+  for_all_stages([](const FlightContext& context) {
+    const std::vector<ViewedFrame> right = viewed_frames(context, planned(FlightKind::left_right, {}, context));
+    const std::vector<ViewedFrame> left = viewed_frames(context, planned(FlightKind::right_left, {}, context));
     for (std::size_t i = 1; i < right.size(); ++i) {
       CHECK(right[i].place_percent.x > right[i - 1].place_percent.x);
       CHECK(left[i].place_percent.x < left[i - 1].place_percent.x);
@@ -95,19 +96,20 @@ TEST_CASE("left to right goes right in every frame, right to left goes left") {
 }
 
 TEST_CASE("a crossing's least distance is the one asked for") {
-  for_all_stages([](const FlightStage& stage) {
-    const PlannedFlight flight = planned(FlightKind::left_right, {{"distance_m", 321}}, stage);
-    CHECK(flight.facts.at("nearest_m") == doctest::Approx(321).epsilon(1e-5));  // rounded points
+  for_all_stages([](const FlightContext& context) {
+    const PlannedFlight flight = planned(FlightKind::left_right, {{"distance_m", 321}}, context);
+    CHECK(flight.derived.at("nearest_m") == doctest::Approx(321).epsilon(1e-5));  // rounded points
     double nearest = 1e9;
-    for (const Seen& frame : seen(stage, flight)) nearest = std::min(nearest, glm::length(frame.from_camera_m));
+    for (const ViewedFrame& frame : viewed_frames(context, flight))
+      nearest = std::min(nearest, glm::length(frame.from_camera_m));
     CHECK(nearest == doctest::Approx(321).epsilon(2e-3));  // between two frames
   });
 }
 
 TEST_CASE("an approaching intruder comes near in every frame, one that moves away goes") {
-  for_all_stages([](const FlightStage& stage) {
-    const std::vector<Seen> near = seen(stage, planned(FlightKind::approaching, {}, stage));
-    const std::vector<Seen> away = seen(stage, planned(FlightKind::moving_away, {}, stage));
+  for_all_stages([](const FlightContext& context) {
+    const std::vector<ViewedFrame> near = viewed_frames(context, planned(FlightKind::approaching, {}, context));
+    const std::vector<ViewedFrame> away = viewed_frames(context, planned(FlightKind::moving_away, {}, context));
     CHECK(glm::length(near.front().from_camera_m) == doctest::Approx(400).epsilon(1e-5));
     CHECK(glm::length(near.back().from_camera_m) == doctest::Approx(60).epsilon(1e-4));
     CHECK(glm::length(away.front().from_camera_m) == doctest::Approx(60).epsilon(1e-4));
@@ -119,20 +121,22 @@ TEST_CASE("an approaching intruder comes near in every frame, one that moves awa
   });
 }
 
-TEST_CASE("on a constant bearing an approaching intruder keeps its place in the picture") {
-  for_all_stages([](const FlightStage& stage) {
-    for (const Seen& frame : seen(stage, planned(FlightKind::approaching, {{"from_distance_m", 900}}, stage)))
+TEST_CASE("on a constant bearing an approaching intruder keeps its place in the image") {
+  for_all_stages([](const FlightContext& context) {
+    for (const ViewedFrame& frame :
+         viewed_frames(context, planned(FlightKind::approaching, {{"from_distance_m", 900}}, context)))
       CHECK(glm::distance(frame.place_percent, {50, 40}) <
-            rounding_percent(stage, glm::normalize(frame.from_camera_m) * 60.0));
+            rounding_percent(context, glm::normalize(frame.from_camera_m) * 60.0));
   });
 }
 
-TEST_CASE("with the standard quantities an intruder is in the picture in every frame") {
-  for_all_stages([](const FlightStage& stage) {
+TEST_CASE("with the standard quantities an intruder is in the image in every frame") {
+  for_all_stages([](const FlightContext& context) {
     for (const FlightKind kind : all_flight_kinds()) {
       if (kind == FlightKind::encounter) continue;
       CAPTURE(name_of(kind));
-      for (const Seen& frame : seen(stage, planned(kind, {}, stage))) CHECK(in_picture(frame.place_percent));
+      for (const ViewedFrame& frame : viewed_frames(context, planned(kind, {}, context)))
+        CHECK(in_image(frame.place_percent));
     }
   });
 }
@@ -157,25 +161,25 @@ TEST_CASE("places beyond what a lens sees are taken as near to them as the lens 
 }
 
 TEST_CASE("an intruder with a speed of its own flies at it along the same line") {
-  for_all_stages([](const FlightStage& stage) {
+  for_all_stages([](const FlightContext& context) {
     for (const FlightKind kind : {FlightKind::left_right, FlightKind::approaching, FlightKind::moving_away}) {
       CAPTURE(name_of(kind));
       const std::map<std::string, double> values{{"speed_mps", 95}, {"from_y_percent", 44}};
-      const PlannedFlight timed = planned(kind, {{"from_y_percent", 44}}, stage);
-      const PlannedFlight flown = planned(kind, values, stage);
-      const Trajectory path = trajectory_of(stage, flown);
-      const double first_s = time_of_frame_s(stage.footage, stage.frames.first);
-      const double last_s = time_of_frame_s(stage.footage, stage.frames.last);
+      const PlannedFlight timed = planned(kind, {{"from_y_percent", 44}}, context);
+      const PlannedFlight flown = planned(kind, values, context);
+      const Trajectory path = trajectory_of(context, flown);
+      const double first_s = time_of_frame_s(context.footage, context.frames.first);
+      const double last_s = time_of_frame_s(context.footage, context.frames.last);
       CHECK(glm::length(path.velocity_mps((first_s + last_s) / 2)) == doctest::Approx(95).epsilon(1e-9));
-      CHECK(flown.facts.at("speed_mps") == doctest::Approx(95).epsilon(1e-12));
+      CHECK(flown.derived.at("speed_mps") == doctest::Approx(95).epsilon(1e-12));
       const double held_s = kind == FlightKind::left_right    ? (first_s + last_s) / 2
                             : kind == FlightKind::approaching ? last_s
                                                               : first_s;
-      const glm::dvec3 held_m = relative_position_m(stage, trajectory_of(stage, timed), held_s);
-      CHECK(glm::distance(relative_position_m(stage, path, held_s), held_m) < 1e-6);
-      const glm::dvec3 way = relative_position_m(stage, path, last_s) - relative_position_m(stage, path, first_s);
-      const glm::dvec3 timed_way = relative_position_m(stage, trajectory_of(stage, timed), last_s) -
-                                   relative_position_m(stage, trajectory_of(stage, timed), first_s);
+      const glm::dvec3 held_m = relative_position_m(context, trajectory_of(context, timed), held_s);
+      CHECK(glm::distance(relative_position_m(context, path, held_s), held_m) < 1e-6);
+      const glm::dvec3 way = relative_position_m(context, path, last_s) - relative_position_m(context, path, first_s);
+      const glm::dvec3 timed_way = relative_position_m(context, trajectory_of(context, timed), last_s) -
+                                   relative_position_m(context, trajectory_of(context, timed), first_s);
       CHECK(glm::dot(glm::normalize(way), glm::normalize(timed_way)) == doctest::Approx(1).epsilon(1e-9));
     }
   });
@@ -184,9 +188,9 @@ TEST_CASE("an intruder with a speed of its own flies at it along the same line")
 TEST_CASE("an intruder too slow to keep before a fast camera is impossible") {
   const Camera lens = example_lenses().front().camera;
   const FootageShape footage = footage_of(80);
-  const FlightStage stage{.camera = {.speed_mps = 60}, .lens = lens, .footage = footage, .frames = {0, 79}};
+  const FlightContext context{.camera = {.speed_mps = 60}, .lens = lens, .footage = footage, .frames = {0, 79}};
   const auto flight =
-      planned_flight(FlightKind::moving_away, values_with(FlightKind::moving_away, {{"speed_mps", 59}}), stage);
+      planned_flight(FlightKind::moving_away, values_with(FlightKind::moving_away, {{"speed_mps", 59}}), context);
   REQUIRE(!flight);
   CHECK(flight.error() ==
         "speed_mps: at 59 m/s the intruder cannot fly that way before a camera that flies 60 m/s itself");
@@ -195,9 +199,9 @@ TEST_CASE("an intruder too slow to keep before a fast camera is impossible") {
 TEST_CASE("a template that leads under the ground is impossible") {
   const Camera lens = example_lenses().front().camera;
   const FootageShape footage = footage_of(80);
-  const FlightStage stage{.camera = {.speed_mps = 22}, .lens = lens, .footage = footage, .frames = {0, 79}};
+  const FlightContext context{.camera = {.speed_mps = 22}, .lens = lens, .footage = footage, .frames = {0, 79}};
   const auto flight =
-      planned_flight(FlightKind::approaching, values_with(FlightKind::approaching, {{"from_y_percent", 95}}), stage);
+      planned_flight(FlightKind::approaching, values_with(FlightKind::approaching, {{"from_y_percent", 95}}), context);
   REQUIRE(!flight);
   CHECK(flight.error().starts_with("from_y_percent, to_y_percent: the intruder is underground in frame 0, "));
 }

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "project/fields.h"
 #include "project/json.h"
 
@@ -26,11 +26,11 @@ TinyPlan::TinyPlan(int videos, int frames) : tiny_(frames) {
                            .project = project,
                            .split = i % 3 == 2 ? "test" : "train",
                            .tags = {{"background", "clip"}, {"aircraft", "cube"}, {"flight", "left_right"}},
-                           .drawn = {{"distance_m", 20.0 + i}}});
+                           .sampled = {{"distance_m", 20.0 + i}}});
   }
 }
 
-DatasetSource made_by(const std::string& program) {
+DatasetSource synthetic_source(const std::string& program) {
   return {.program = program, .seed = 0, .recipe = R"({"name": "tiny"})"};
 }
 

@@ -26,7 +26,7 @@ class TinyPlan {
   TinyProject tiny_;
 };
 
-[[nodiscard]] DatasetSource made_by(const std::string& program = "test 1");
+[[nodiscard]] DatasetSource synthetic_source(const std::string& program = "test 1");
 
 // Runs it; throws what went wrong as std::runtime_error.
 [[nodiscard]] DatasetReport made(const Plan& plan, const DatasetRequest& request);

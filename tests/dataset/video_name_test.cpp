@@ -52,5 +52,5 @@ TEST_CASE("a video is not called like what lies beside the videos") {
 }
 
 TEST_CASE("folding takes case away from ASCII letters alone") {
-  CHECK(folded("AbZ-19 Ñ") == "abz-19 Ñ");
+  CHECK(case_folded("AbZ-19 Ñ") == "abz-19 Ñ");
 }

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "annotation/sigs_xml.h"
 #include "base/angles.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "docs/markdown.h"
 #include "docs/process.h"
+#include "labels/sigs_xml.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -39,20 +39,20 @@ void check_invalid(const std::string& xml, const std::string& why) {
   CHECK_MESSAGE(finished.status == 3, why << " gives " << finished.status << "\n" << finished.output);
 }
 
-IntruderTruth seen(int id) {
+IntruderTruth visible_intruder(int id) {
   return {.id = id,
           .name = "airliner <\"A&B\">",
           .position_m = {899.25, -1e8, -20},
           .attitude = {rad_of_deg(180), rad_of_deg(-90), rad_of_deg(-179.9999999)},
-          .in_picture = true,
+          .in_image = true,
           .visible_fraction = 0.5,
-          .box = cv::Rect(0, 7, 41, 13),
+          .visible_box = cv::Rect(0, 7, 41, 13),
           .visible_pixels = 287,
-          .silhouette = Box{-1e6, 0.00004, 2e6, 0},
+          .amodal_box = Box{-1e6, 0.00004, 2e6, 0},
           .horizon = HorizonSide::on};
 }
 
-IntruderTruth unseen(int id) {
+IntruderTruth invisible_intruder(int id) {
   return {.id = id, .position_m = {-5, 0, 0}};
 }
 
@@ -62,8 +62,9 @@ std::string written() {
   Result<SigsXmlWriter> writer = SigsXmlWriter::open(folder / "truth.xml", footage);
   REQUIRE(writer.has_value());
   REQUIRE(writer->write({.index = 4, .time_s = 0.16, .camera_position_m = {3.2, 0, -150}}).has_value());
-  REQUIRE(writer->write({.index = 5, .time_s = 0.2, .intruders = {seen(0)}}).has_value());
-  REQUIRE(writer->write({.index = 6, .time_s = 0.24, .intruders = {unseen(0), seen(1)}}).has_value());
+  REQUIRE(writer->write({.index = 5, .time_s = 0.2, .intruders = {visible_intruder(0)}}).has_value());
+  REQUIRE(writer->write({.index = 6, .time_s = 0.24, .intruders = {invisible_intruder(0), visible_intruder(1)}})
+              .has_value());
   REQUIRE(writer->finish().has_value());
   return *read_text(folder / "truth.xml");
 }

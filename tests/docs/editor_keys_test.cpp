@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "docs/markdown.h"
 #include "support/test_data.h"
 

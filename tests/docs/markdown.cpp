@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -7,14 +7,14 @@
 
 #include <cmath>
 
+#include "evaluation/clips.h"
 #include "evaluation/detection_match.h"
 #include "evaluation/encounters.h"
-#include "evaluation/films.h"
 
 namespace sigs::test {
 namespace {
 
-constexpr double kRate_hz = 10;  // the published frame counts are of films at this rate
+constexpr double kRate_hz = 10;  // the published frame counts are of clips at this rate
 const Box kBox{599.5, 399.5, 20, 10};
 const Box kElsewhere{99.5, 99.5, 20, 10};
 
@@ -23,8 +23,8 @@ double approaching_m(int frame) {
   return std::max(600.0 - 5 * frame, 1.0);
 }
 
-FilmTruth approach(int frames = 120) {
-  return film_of(frames, kRate_hz, [](int i) { return visible_at(kBox, approaching_m(i)); });
+ClipTruth approach(int frames = 120) {
+  return clip_of(frames, kRate_hz, [](int i) { return visible_at(kBox, approaching_m(i)); });
 }
 
 // The intruder matched in frames first to last.
@@ -34,18 +34,18 @@ Results matched(int first, int last, int track = 0) {
   return results;
 }
 
-DetectionScore score_of(const FilmTruth& film, const Results& results, const DetectionPolicy& policy = {}) {
-  return score_detections("some", {{"film", film, results}}, policy);
+DetectionScore score_of(const ClipTruth& clip, const Results& results, const DetectionPolicy& policy = {}) {
+  return score_detections("some", {{"clip", clip, results}}, policy);
 }
 
-bool is_detected(const FilmTruth& film, const Results& results) {
-  const DetectionScore score = score_of(film, results);
+bool is_detected(const ClipTruth& clip, const Results& results) {
+  const DetectionScore score = score_of(clip, results);
   REQUIRE(score.encounters.size() == 1);
   return score.encounters[0].is_detected;
 }
 
 int encounters(const std::function<TargetFrame(int)>& target, int frames = 120, double rate_hz = kRate_hz) {
-  return score_of(film_of(frames, rate_hz, target), {}).all.encounters;
+  return score_of(clip_of(frames, rate_hz, target), {}).all.encounters;
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ TEST_CASE("an encounter followed in good time is detected") {
   const DetectionScore score = score_of(approach(), matched(30, 60));  // the 31 frames before 300 m is passed
   REQUIRE(score.encounters.size() == 1);
   const EncounterScore& encounter = score.encounters[0];
-  CHECK(encounter.film == "film");
+  CHECK(encounter.clip == "clip");
   CHECK(encounter.first_frame == 0);
   CHECK(encounter.last_frame == 119);
   CHECK(encounter.is_detected);
@@ -119,23 +119,23 @@ TEST_CASE("matches of different tracks do not add up to one that is followed") {
 }
 
 TEST_CASE("an encounter that begins near is detected in its first three seconds, or not at all") {
-  const FilmTruth film = film_of(60, kRate_hz, [](int i) { return visible_at(kBox, 200 - i); });
-  CHECK(is_detected(film, matched(0, 29)));
-  CHECK(is_detected(film, matched(15, 40)));
-  CHECK_FALSE(is_detected(film, matched(16, 59)));
+  const ClipTruth clip = clip_of(60, kRate_hz, [](int i) { return visible_at(kBox, 200 - i); });
+  CHECK(is_detected(clip, matched(0, 29)));
+  CHECK(is_detected(clip, matched(15, 40)));
+  CHECK_FALSE(is_detected(clip, matched(16, 59)));
 }
 
 TEST_CASE("an intruder that flies away must be seen before it first is near: in the first window") {
-  const FilmTruth film = film_of(80, kRate_hz, [](int i) { return visible_at(kBox, 200.0 + 5 * i); });
-  CHECK(is_detected(film, matched(10, 40)));
-  CHECK_FALSE(is_detected(film, matched(30, 79)));  // beyond 300 m again by then, but it has been near
+  const ClipTruth clip = clip_of(80, kRate_hz, [](int i) { return visible_at(kBox, 200.0 + 5 * i); });
+  CHECK(is_detected(clip, matched(10, 40)));
+  CHECK_FALSE(is_detected(clip, matched(30, 79)));  // beyond 300 m again by then, but it has been near
 }
 
 TEST_CASE("just 300 m is not nearer than 300 m") {
-  const FilmTruth film = film_of(60, kRate_hz, [](int i) { return visible_at(kBox, i < 59 ? 300 : 299); });
-  CHECK(is_detected(film, matched(29, 58)));
-  CHECK(is_detected(film, matched(44, 58)));
-  CHECK_FALSE(is_detected(film, matched(45, 59)));
+  const ClipTruth clip = clip_of(60, kRate_hz, [](int i) { return visible_at(kBox, i < 59 ? 300 : 299); });
+  CHECK(is_detected(clip, matched(29, 58)));
+  CHECK(is_detected(clip, matched(44, 58)));
+  CHECK_FALSE(is_detected(clip, matched(45, 59)));
 }
 
 TEST_CASE("a gap of three frames lies within an encounter, one of four ends it") {
@@ -154,12 +154,12 @@ TEST_CASE("a gap of three frames lies within an encounter, one of four ends it")
 }
 
 TEST_CASE("frames of a gap are not asked for") {
-  const FilmTruth film = film_of(
+  const ClipTruth clip = clip_of(
       33, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{.distance_m = 250} : visible_at(kBox, 250); });
   // The first window, 0 to 29, has 27 frames to be matched in: 14 are enough, 13 are not.
-  CHECK(is_detected(film, matched(16, 29)));
-  CHECK_FALSE(is_detected(film, matched(17, 29)));
-  CHECK(score_of(film, {}).encounters[0].frames_visible == 30);
+  CHECK(is_detected(clip, matched(16, 29)));
+  CHECK_FALSE(is_detected(clip, matched(17, 29)));
+  CHECK(score_of(clip, {}).encounters[0].frames_visible == 30);
 }
 
 TEST_CASE("an encounter lasts three seconds or is none") {
@@ -176,30 +176,30 @@ TEST_CASE("an encounter lasts three seconds or is none") {
 
 TEST_CASE("times of six digits do not cost an encounter a frame, nor a window") {
   const auto with_last_time = [](double last_s) {
-    FilmTruth film =
-        film_of(30, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{} : visible_at(kBox, 250); });
-    film.times_s.back() = last_s;
-    return score_of(film, {}).all.encounters;
+    ClipTruth clip =
+        clip_of(30, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{} : visible_at(kBox, 250); });
+    clip.times_s.back() = last_s;
+    return score_of(clip, {}).all.encounters;
   };
   CHECK(with_last_time(2.9) == 1);
   CHECK(with_last_time(2.899999) == 1);  // 10.000003 Hz: 3 s would be 30.00001 frames
   CHECK(with_last_time(2.900001) == 1);  // 9.999997 Hz: 0.3 s would be 2.999999 frames
   // 30.3 frames are 30: half of them are 15.
-  const FilmTruth film = film_of(60, 10.1, [](int) { return visible_at(kBox, 250); });
-  CHECK(is_detected(film, matched(15, 29)));
+  const ClipTruth clip = clip_of(60, 10.1, [](int) { return visible_at(kBox, 250); });
+  CHECK(is_detected(clip, matched(15, 29)));
 }
 
 TEST_CASE("what never comes near is not asked for, and is counted apart") {
-  const FilmTruth film = film_of(60, kRate_hz, [](int) { return visible_at(kBox, 331); });
-  const DetectionScore score = score_of(film, matched(0, 59));
+  const ClipTruth clip = clip_of(60, kRate_hz, [](int) { return visible_at(kBox, 331); });
+  const DetectionScore score = score_of(clip, matched(0, 59));
   CHECK(score.all.encounters == 0);
   CHECK(std::isnan(score.all.rate()));
   CHECK(score.encounters_too_far == 1);
   CHECK(score.frame_detection_rate == 1);  // but its frames are
   CHECK(score.false_alarm_boxes == 0);
-  CHECK(score_of(film, {}, {.nearest_range_m = 331}).all.encounters == 1);
+  CHECK(score_of(clip, {}, {.max_closest_range_m = 331}).all.encounters == 1);
   // Beyond the longest range nothing is asked for, and nothing is false that is there.
-  const DetectionScore far = score_of(film_of(60, kRate_hz, [](int) { return visible_at(kBox, 701); }), matched(0, 59));
+  const DetectionScore far = score_of(clip_of(60, kRate_hz, [](int) { return visible_at(kBox, 701); }), matched(0, 59));
   CHECK(far.encounters_too_far == 0);
   CHECK(std::isnan(far.frame_detection_rate));
   CHECK(far.false_alarm_boxes == 0);
@@ -207,7 +207,7 @@ TEST_CASE("what never comes near is not asked for, and is counted apart") {
 
 TEST_CASE("an encounter's side of the horizon is that of all its frames, or on it") {
   const auto side = [](HorizonSide first, HorizonSide last) {
-    return score_of(film_of(60, kRate_hz,
+    return score_of(clip_of(60, kRate_hz,
                             [=](int i) {
                               TargetFrame frame = visible_at(kBox, 250);
                               frame.horizon = i < 59 ? first : last;
@@ -234,7 +234,7 @@ TEST_CASE("false alarms are counted by track for the hour and by box for the fra
   report(results, 51, kElsewhere, 1);  // a good track that once is elsewhere
   report(results, 60, kElsewhere, kNoTrack);
   report(results, 61, kElsewhere, kNoTrack);
-  report(results, 500, kElsewhere, 9);  // no frames of the film
+  report(results, 500, kElsewhere, 9);  // no frames of the clip
   report(results, 120, kElsewhere, 9);
   report(results, -1, kElsewhere, 9);
   const DetectionScore score = score_of(approach(), results);
@@ -251,7 +251,7 @@ TEST_CASE("between a match and a false alarm lies what is neither") {
   const auto at_overlap = [](double overlap) {
     Results results;
     report(results, 0, moved(kBox, 20 * (1 - overlap) / (1 + overlap), 0));
-    return score_of(film_of(1, kRate_hz, [](int) { return visible_at(kBox); }), results);
+    return score_of(clip_of(1, kRate_hz, [](int) { return visible_at(kBox); }), results);
   };
   CHECK(at_overlap(0.2).frame_detection_rate == 1);
   CHECK(at_overlap(0.199).frame_detection_rate == 0);
@@ -261,12 +261,12 @@ TEST_CASE("between a match and a false alarm lies what is neither") {
 }
 
 TEST_CASE("a report where a hidden intruder is raises no false alarm, and detects nothing") {
-  const FilmTruth film = film_of(40, kRate_hz, [](int) {
+  const ClipTruth clip = clip_of(40, kRate_hz, [](int) {
     TargetFrame frame = visible_at(kBox, 250);
     frame.visible.reset();
     return frame;
   });
-  const DetectionScore score = score_of(film, matched(0, 39));
+  const DetectionScore score = score_of(clip, matched(0, 39));
   CHECK(score.false_alarm_boxes == 0);
   CHECK(score.all.encounters == 0);
   CHECK(std::isnan(score.frame_detection_rate));
@@ -276,24 +276,24 @@ TEST_CASE("reports of a low score are as if they were not") {
   Results results = matched(0, 119);
   for (int frame = 0; frame < 60; ++frame) results.frames[frame][0].score = 0.3;
   report(results, 70, kElsewhere, 2, 0.3);
-  const DetectionScore strict = score_of(approach(), results, {.least_score = 0.5});
+  const DetectionScore strict = score_of(approach(), results, {.min_score = 0.5});
   CHECK(strict.frame_detection_rate == 0.5);
   CHECK(strict.false_alarm_boxes == 0);
   CHECK_FALSE(strict.encounters[0].is_detected);
-  CHECK(score_of(approach(), results, {.least_score = 0.3}).false_alarm_boxes == 1);
+  CHECK(score_of(approach(), results, {.min_score = 0.3}).false_alarm_boxes == 1);
 }
 
 TEST_CASE("one report may match two intruders that are close together") {
-  FilmTruth film = approach();
-  add_target(film, [](int i) { return visible_at(moved(kBox, 3, 0), approaching_m(i)); });
-  const DetectionScore score = score_of(film, matched(0, 59));
+  ClipTruth clip = approach();
+  add_target(clip, [](int i) { return visible_at(moved(kBox, 3, 0), approaching_m(i)); });
+  const DetectionScore score = score_of(clip, matched(0, 59));
   CHECK(score.all.encounters == 2);
   CHECK(score.all.detected == 2);
   CHECK(score.encounters[1].target == 1);
   CHECK(score.frame_detection_rate == 0.5);
 }
 
-TEST_CASE("several films add up, and their tracks are not each other's") {
+TEST_CASE("several clips add up, and their tracks are not each other's") {
   Results noisy = matched(30, 60);
   report(noisy, 0, kElsewhere, 7);
   Results silent;
@@ -306,15 +306,15 @@ TEST_CASE("several films add up, and their tracks are not each other's") {
   // The third ends at 305 m: near enough to count.
   CHECK(score.all.encounters == 3);
   CHECK(score.all.detected == 1);
-  CHECK(score.encounters[1].film == "two");
+  CHECK(score.encounters[1].clip == "two");
   CHECK(score.mean_first_range_m == 450);  // of the one that was seen at all
   CHECK(score.frame_detection_rate == doctest::Approx(31.0 / 300).epsilon(1e-12));
 }
 
 TEST_CASE("nothing has no rates") {
-  for (const std::vector<DetectedFilm>& films :
-       {std::vector<DetectedFilm>{}, std::vector<DetectedFilm>{{"empty", film_of(0, 10, {}), {}}}}) {
-    const DetectionScore score = score_detections("some", films, {});
+  for (const std::vector<DetectedClip>& clips :
+       {std::vector<DetectedClip>{}, std::vector<DetectedClip>{{"empty", clip_of(0, 10, {}), {}}}}) {
+    const DetectionScore score = score_detections("some", clips, {});
     CHECK(score.hours == 0);
     CHECK(score.frames == 0);
     CHECK(std::isnan(score.false_alarms_per_hour));
@@ -325,36 +325,36 @@ TEST_CASE("nothing has no rates") {
   }
 }
 
-TEST_CASE("the rate of a film is that of its times, or the nominal one") {
-  FilmTruth film = approach(11);
-  CHECK(rate_hz_of(film) == doctest::Approx(10).epsilon(1e-12));
-  for (double& time_s : film.times_s) time_s *= 2;
-  CHECK(rate_hz_of(film) == doctest::Approx(5).epsilon(1e-12));
+TEST_CASE("the rate of a clip is that of its times, or the nominal one") {
+  ClipTruth clip = approach(11);
+  CHECK(rate_hz_of(clip) == doctest::Approx(10).epsilon(1e-12));
+  for (double& time_s : clip.times_s) time_s *= 2;
+  CHECK(rate_hz_of(clip) == doctest::Approx(5).epsilon(1e-12));
   CHECK(rate_hz_of(approach(1)) == 10);
-  for (double& time_s : film.times_s) time_s = 0;
-  CHECK(rate_hz_of(film) == 10);
+  for (double& time_s : clip.times_s) time_s = 0;
+  CHECK(rate_hz_of(clip) == 10);
 }
 
 TEST_CASE("an encounter that is too short is counted by itself, and said in words with its option") {
-  const FilmTruth film = approach();
+  const ClipTruth clip = approach();
   DetectionPolicy policy;
-  policy.least_encounter_s = 1000;
-  const DetectionScore score = score_detections("blind", {{.name = "one", .truth = film}}, policy);
+  policy.min_encounter_s = 1000;
+  const DetectionScore score = score_detections("blind", {{.name = "one", .truth = clip}}, policy);
   CHECK(score.all.encounters == 0);
   CHECK(score.encounters_too_short == 1);
   CHECK(score.encounters_too_far == 0);
-  const std::vector<std::string> reasons = uncounted_in({.films = {"one"}, .policy = policy, .scores = {score}});
+  const std::vector<std::string> reasons = uncounted_in({.clips = {"one"}, .policy = policy, .scores = {score}});
   REQUIRE(reasons.size() == 1);
-  CHECK(reasons.front() == "1 encounter is not counted: shorter than 1000 s (--least-encounter)");
+  CHECK(reasons.front() == "1 encounter is not counted: shorter than 1000 s (--min-encounter)");
 }
 
-TEST_CASE("a film whose length in seconds is beyond a double counts by its nominal rate") {
-  FilmTruth film = approach();
-  film.footage.frame_rate_num = 10;
-  film.footage.frame_rate_den = 1;
-  film.times_s.front() = -1.7e308;
-  film.times_s.back() = 1.7e308;
-  CHECK(rate_hz_of(film) == 10);
+TEST_CASE("a clip whose length in seconds is beyond a double counts by its nominal rate") {
+  ClipTruth clip = approach();
+  clip.footage.frame_rate_num = 10;
+  clip.footage.frame_rate_den = 1;
+  clip.times_s.front() = -1.7e308;
+  clip.times_s.back() = 1.7e308;
+  CHECK(rate_hz_of(clip) == 10);
 }
 
 }  // namespace sigs::test

@@ -8,10 +8,10 @@ namespace sigs::test {
 namespace {
 
 cv::Mat texture(cv::Size size, int low, int high, double sigma_px, std::uint64_t seed) {
-  cv::Mat picture(size, CV_8UC3);
-  cv::RNG(seed).fill(picture, cv::RNG::UNIFORM, low, high);
-  cv::GaussianBlur(picture, picture, {}, sigma_px);
-  return picture;
+  cv::Mat image(size, CV_8UC3);
+  cv::RNG(seed).fill(image, cv::RNG::UNIFORM, low, high);
+  cv::GaussianBlur(image, image, {}, sigma_px);
+  return image;
 }
 
 }  // namespace
@@ -25,14 +25,14 @@ Box square_box(int frame) {
   return {pixels.x - 0.5, pixels.y - 0.5, double(pixels.width), double(pixels.height)};
 }
 
-cv::Mat bare_picture() {
+cv::Mat background_image() {
   return texture({200, 150}, 90, 140, 2, 7);
 }
 
-cv::Mat square_picture(int frame) {
-  cv::Mat picture = bare_picture();
-  texture(square_pixels(0).size(), 0, 255, 1.5, 3).copyTo(picture(square_pixels(frame)));
-  return picture;
+cv::Mat square_image(int frame) {
+  cv::Mat image = background_image();
+  texture(square_pixels(0).size(), 0, 255, 1.5, 3).copyTo(image(square_pixels(frame)));
+  return image;
 }
 
 }  // namespace sigs::test

@@ -24,8 +24,8 @@ std::vector<std::string> all_names() {
 // What the trackers say of the moving square, fed in turn.
 std::vector<Results> tracked(const std::vector<std::string>& names) {
   TrackerGroup group = TrackerGroup::make(names).value();
-  group.start(0, square_picture(0), square_box(0));
-  for (int frame = 1; frame < kFrames; ++frame) group.follow(frame, square_picture(frame));
+  group.start(0, square_image(0), square_box(0));
+  for (int frame = 1; frame < kFrames; ++frame) group.follow(frame, square_image(frame));
   CHECK(group.remarks().empty());
   return group.results();
 }
@@ -87,37 +87,37 @@ TEST_CASE("a tracker says the same again, alone, in other company and on one thr
 
 TEST_CASE("a tracker's report in its first frame is the box that it was started with, in whole pixels") {
   OpenCvTracker kcf = tracker("kcf");
-  REQUIRE(kcf.start(7, square_picture(0), {59.6, 49.4, 40, 30}).has_value());
+  REQUIRE(kcf.start(7, square_image(0), {59.6, 49.4, 40, 30}).has_value());
   const Results& results = kcf.results();
   REQUIRE(results.frames.size() == 1);
   CHECK(results.frames.at(7).front().box == Box{59.5, 49.5, 40, 30});
   CHECK_FALSE(results.frames_per_s.has_value());
 }
 
-TEST_CASE("a box that reaches over the picture's edge is cut there, a box outside it starts nothing") {
+TEST_CASE("a box that reaches over the image's edge is cut there, a box outside it starts nothing") {
   OpenCvTracker cut = tracker("medianflow");
-  REQUIRE(cut.start(0, square_picture(0), {-10.5, -0.5, 50, 400}).has_value());
+  REQUIRE(cut.start(0, square_image(0), {-10.5, -0.5, 50, 400}).has_value());
   CHECK(cut.results().frames.at(0).front().box == Box{-0.5, -0.5, 40, 150});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const Box& wrong : {Box{1e7, 10, 20, 20}, Box{-1e7, 10, 20, 20}, Box{-20.5, 10, 20, 20}, Box{10, 149.5, 20, 20},
                            Box{10, 10, 0, 20}, Box{10, 10, 20, -1}, Box{nan, 10, 20, 20}, Box{10, 10, infinity, 20}}) {
     OpenCvTracker outside = tracker("kcf");
-    const Result<void> started = outside.start(3, square_picture(0), wrong);
+    const Result<void> started = outside.start(3, square_image(0), wrong);
     REQUIRE_FALSE(started.has_value());
-    CHECK(started.error().text() == "kcf: frame 3: cannot be started with a box outside the picture");
+    CHECK(started.error().text() == "kcf: frame 3: cannot be started with a box outside the image");
     CHECK(outside.results().frames.empty());
   }
 }
 
 TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or says that it cannot") {
-  const cv::Mat picture = square_picture(0);
+  const cv::Mat image = square_image(0);
   for (const std::string& name : all_names())
     for (const cv::Size size :
          {cv::Size(1, 1), cv::Size(4, 2), cv::Size(3, 30), cv::Size(7, 7), cv::Size(8, 4), cv::Size(4, 8)}) {
       OpenCvTracker small = OpenCvTracker::make(name).value();
-      const Result<void> started = small.start(0, picture, {69.5, 59.5, double(size.width), double(size.height)});
-      if (started) static_cast<void>(small.follow(1, square_picture(1)));
+      const Result<void> started = small.start(0, image, {69.5, 59.5, double(size.width), double(size.height)});
+      if (started) static_cast<void>(small.follow(1, square_image(1)));
       const bool is_refused = (name == "mil" || name == "boosting" || name == "tld") && size.width * size.height < 32;
       if (is_refused) CHECK_MESSAGE(!started.has_value(), name << " " << size);
     }
@@ -125,10 +125,10 @@ TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or says that it
 
 TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
   TrackerGroup group = TrackerGroup::make({"medianflow", "mosse"}).value();
-  group.start(0, square_picture(0), square_box(0));
-  group.follow(1, square_picture(1));
+  group.start(0, square_image(0), square_box(0));
+  group.follow(1, square_image(1));
   group.follow(2, cv::Mat(7, 5, CV_8UC3, cv::Scalar::all(0)));  // MOSSE takes a piece out of whatever it is shown
-  group.follow(3, square_picture(3));
+  group.follow(3, square_image(3));
   REQUIRE(group.remarks().size() == 1);
   const std::string remark = group.remarks().front();
   CHECK_MESSAGE(remark.starts_with("medianflow: frame 2: OpenCV cannot follow in it: "), remark);
@@ -141,10 +141,10 @@ TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
 
 TEST_CASE("a tracker that says that it has lost its target reports nothing") {
   OpenCvTracker mosse = tracker("mosse");
-  REQUIRE(mosse.start(0, square_picture(0), square_box(0)).has_value());
-  REQUIRE(mosse.follow(1, square_picture(1)).has_value());
+  REQUIRE(mosse.start(0, square_image(0), square_box(0)).has_value());
+  REQUIRE(mosse.follow(1, square_image(1)).has_value());
   REQUIRE(mosse.results().frames.contains(1));
-  REQUIRE(mosse.follow(2, bare_picture()).has_value());
+  REQUIRE(mosse.follow(2, background_image()).has_value());
   CHECK_FALSE(mosse.results().frames.contains(2));
 }
 

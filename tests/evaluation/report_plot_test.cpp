@@ -8,10 +8,10 @@
 #include <string>
 
 #include "evaluation/gnuplot.h"
-#include "evaluation/made_report.h"
 #include "evaluation/report_files.h"
 #include "evaluation/report_numbers.h"
 #include "evaluation/results_text.h"
+#include "evaluation/synthetic_report.h"
 
 namespace sigs::test {
 namespace {
@@ -25,7 +25,7 @@ const Plot& plot_called(const std::vector<Plot>& plots, const std::string& name)
 }  // namespace
 
 TEST_CASE("a line stops where nothing is reported or scored, and a lone frame is a point") {
-  const std::vector<Plot> plots = plots_of(made_track_report());
+  const std::vector<Plot> plots = plots_of(synthetic_track_report());
   const Plot& errors = plot_called(plots, "center_error");
   const PlotSeries& off = errors.series.at(0);
   REQUIRE(off.runs.size() == 2);  // hidden in frames 20 to 24
@@ -42,13 +42,13 @@ TEST_CASE("a line stops where nothing is reported or scored, and a lone frame is
   REQUIRE(errors.shaded.size() == 1);
   CHECK(errors.shaded[0].first == 19.5);
   CHECK(errors.shaded[0].last == 24.5);
-  const std::string program = gnuplot_program(errors, PictureKind::svg);
+  const std::string program = gnuplot_program(errors, PlotFormat::svg);
   CHECK(program.find("$lone1 << END\n15 0\nEND\n") != std::string::npos);
   CHECK(program.find("19 5\n\n25 5\n") != std::string::npos);
 }
 
 TEST_CASE("signed errors keep their sign, and curves run from 0 to the last threshold") {
-  const std::vector<Plot> plots = plots_of(made_track_report());
+  const std::vector<Plot> plots = plots_of(synthetic_track_report());
   CHECK(plot_called(plots, "x_error").series[0].runs[0][7].y == doctest::Approx(3).epsilon(1e-12));
   CHECK(plot_called(plots, "y_error").series[0].runs[0][7].y == doctest::Approx(4).epsilon(1e-12));
   const auto& precision = plot_called(plots, "precision").series[0].runs[0];
@@ -59,27 +59,29 @@ TEST_CASE("signed errors keep their sign, and curves run from 0 to the last thre
 }
 
 TEST_CASE("large errors are drawn on an axis that keeps small ones apart, and it says so") {
-  TrackReport report = made_track_report();
+  TrackReport report = synthetic_track_report();
   report.scores[0].frames[3].center_error_px = 700;
   const std::vector<Plot> plots = plots_of(report);
   const Plot& errors = plot_called(plots, "center_error");
-  CHECK(errors.y_scale == PlotScale::wide);
+  CHECK(errors.y_scale == PlotScale::symlog);
   CHECK(errors.y_label.find("logarithmic") != std::string::npos);
   CHECK(errors.y_range.last > 700);
-  const std::string program = gnuplot_program(errors, PictureKind::svg);
+  const std::string program = gnuplot_program(errors, PlotFormat::svg);
   CHECK(program.find("set ytics (0,2,5,10,20,50,100,200,500)") != std::string::npos);
   CHECK(plot_called(plots, "x_error").y_scale == PlotScale::linear);
 }
 
 TEST_CASE("no text of a plot is run by gnuplot or ends its string") {
-  Plot plot{
-      .name = "p", .x_range = {0, 1}, .y_range = {0, 1}, .series = {{.title = kOddName, .runs = {{{0, 0}, {1, 1}}}}}};
+  Plot plot{.name = "p",
+            .x_range = {0, 1},
+            .y_range = {0, 1},
+            .series = {{.title = kSpecialName, .runs = {{{0, 0}, {1, 1}}}}}};
   plot.title = "'; '' system('exit 3'); '`exit 3`\n@a";
-  const Result<std::string> svg = gnuplot_output(gnuplot_program(plot, PictureKind::svg));
+  const Result<std::string> svg = gnuplot_output(gnuplot_program(plot, PlotFormat::svg));
   if (!svg && svg.error().kind == ErrorKind::unavailable) return;
   REQUIRE_MESSAGE(svg.has_value(), svg.error().text());
   CHECK(svg->find("system(\xE2\x80\x99"
-                  "exit 3\xE2\x80\x99)") != std::string::npos);  // as text in the picture
+                  "exit 3\xE2\x80\x99)") != std::string::npos);  // as text in the image
   CHECK(svg->find("`exit 3`") != std::string::npos);
   CHECK(svg->find("`date`") != std::string::npos);
 }

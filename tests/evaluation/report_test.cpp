@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "base/partial_file.h"
-#include "evaluation/made_report.h"
+#include "base/temporary_file.h"
+#include "evaluation/synthetic_report.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -120,7 +120,7 @@ std::vector<std::string> words(const std::string& line) {
 }  // namespace
 
 TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in CSV and in JSON") {
-  const TrackReport report = made_track_report();
+  const TrackReport report = synthetic_track_report();
   std::istringstream table(table_text(report));
   std::string line;
   for (int i = 0; i < 3; ++i) std::getline(table, line);
@@ -169,7 +169,7 @@ TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in C
 }
 
 TEST_CASE("who reports nothing has no errors: a dash, an empty field, null") {
-  const TrackReport report = made_track_report();
+  const TrackReport report = synthetic_track_report();
   CHECK(table_text(report).find("\nsilent") != std::string::npos);
   const Written written(report);
   const Row silent = rows_of(written.text("summary.csv")).at(2);
@@ -184,18 +184,18 @@ TEST_CASE("who reports nothing has no errors: a dash, an empty field, null") {
 }
 
 TEST_CASE("a name comes back from CSV, JSON and the page as it is") {
-  const Written written(made_track_report());
-  CHECK(rows_of(written.text("summary.csv")).at(1).at("tracker") == kOddName);
+  const Written written(synthetic_track_report());
+  CHECK(rows_of(written.text("summary.csv")).at(1).at("tracker") == kSpecialName);
   const nlohmann::json json = nlohmann::json::parse(written.text("evaluation.json"));
-  CHECK(json["trackers"][1]["name"] == kOddName);
-  CHECK(json["film"] == "film <1>");
+  CHECK(json["trackers"][1]["name"] == kSpecialName);
+  CHECK(json["film"] == "clip <1>");
   const pugi::xml_document page = parsed(written.text("report.html"));
-  CHECK(page.select_node("//tbody/tr[2]/td[1]").node().text().get() == std::string(kOddName));
-  CHECK(page.select_node("//h1").node().text().get() == std::string("Trackers on film <1>"));
+  CHECK(page.select_node("//tbody/tr[2]/td[1]").node().text().get() == std::string(kSpecialName));
+  CHECK(page.select_node("//h1").node().text().get() == std::string("Trackers on clip <1>"));
 }
 
 TEST_CASE("the page needs nothing from elsewhere, says its policies and remarks, and no name is taken twice") {
-  const Written written(made_track_report());
+  const Written written(synthetic_track_report());
   const pugi::xml_document page = parsed(written.text("report.html"));
   check_self_contained(page.document_element());
   std::map<std::string, int> ids;
@@ -203,14 +203,14 @@ TEST_CASE("the page needs nothing from elsewhere, says its policies and remarks,
   for (const auto& [id, count] : ids) CHECK_MESSAGE(count == 1, id);
   std::set<std::string> items;
   for (const pugi::xpath_node& item : page.select_nodes("//li")) items.insert(item.node().text().get());
-  for (const std::string& policy : policies_of(made_track_report())) CHECK_MESSAGE(items.contains(policy), policy);
-  CHECK(items.contains(made_track_report().remarks.front()));
+  for (const std::string& policy : policies_of(synthetic_track_report())) CHECK_MESSAGE(items.contains(policy), policy);
+  CHECK(items.contains(synthetic_track_report().remarks.front()));
   if (has_gnuplot()) CHECK(page.select_nodes("//figure/svg").size() == 6);
 }
 
-TEST_CASE("plots are whole pictures, with every tracker in the key") {
+TEST_CASE("plots are whole images, with every tracker in the key") {
   if (!has_gnuplot()) return;
-  const Written written(made_track_report());
+  const Written written(synthetic_track_report());
   CHECK(written.report.warnings.empty());
   CHECK(written.report.files.size() == 16);
   for (const char* const name :
@@ -219,7 +219,7 @@ TEST_CASE("plots are whole pictures, with every tracker in the key") {
     std::string texts;
     for (const pugi::xpath_node& text : svg.select_nodes("//text"))
       texts += std::string(text.node().text().get()) + "\n";
-    std::string odd = kOddName;
+    std::string odd = kSpecialName;
     odd.replace(odd.find('\''), 1, "\xE2\x80\x99");  // as a plot has it
     for (const std::string& tracker : {std::string("off"), odd, std::string("silent")})
       CHECK_MESSAGE(texts.find(tracker) != std::string::npos, name << texts);
@@ -228,14 +228,14 @@ TEST_CASE("plots are whole pictures, with every tracker in the key") {
 }
 
 TEST_CASE("the same report gives the same bytes") {
-  CHECK(Written(made_track_report()).all() == Written(made_track_report()).all());
-  CHECK(Written(made_detection_report()).all() == Written(made_detection_report()).all());
+  CHECK(Written(synthetic_track_report()).all() == Written(synthetic_track_report()).all());
+  CHECK(Written(synthetic_detection_report()).all() == Written(synthetic_detection_report()).all());
 }
 
 TEST_CASE("without gnuplot one warning is given and everything else is written") {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
-  const Written written(made_track_report());
+  const Written written(synthetic_track_report());
   setenv("PATH", path.c_str(), 1);
   REQUIRE(written.report.warnings.size() == 1);
   CHECK(written.report.warnings.front().text() == "plots: gnuplot: is not installed, no plots are drawn");
@@ -246,13 +246,13 @@ TEST_CASE("without gnuplot one warning is given and everything else is written")
 
 TEST_CASE("a report cannot be written where there is no folder") {
   const TemporaryFolder folder;
-  const Result<WrittenReport> written = write_report(folder / "nowhere", made_track_report());
+  const Result<WrittenReport> written = write_report(folder / "nowhere", synthetic_track_report());
   REQUIRE_FALSE(written.has_value());
   CHECK(written.error().kind == ErrorKind::cannot_create);
 }
 
 TEST_CASE("the best of a column is marked where there is one, and errors have none") {
-  TrackReport report = made_track_report();
+  TrackReport report = synthetic_track_report();
   std::istringstream table(table_text(report));
   std::string line;
   std::getline(table, line);
@@ -267,7 +267,7 @@ TEST_CASE("the best of a column is marked where there is one, and errors have no
 }
 
 TEST_CASE("no mean error stands where fewer than half of the frames have a report, and a note says why") {
-  TrackReport report = made_track_report();
+  TrackReport report = synthetic_track_report();
   report.scores[1].reported = 3;  // of 25
   const std::string text = table_text(report);
   CHECK(text.find("0.00?") == std::string::npos);  // a tracker that gives up at once is not the best one
@@ -279,7 +279,7 @@ TEST_CASE("no mean error stands where fewer than half of the frames have a repor
 }
 
 TEST_CASE("a table's columns end below each other, whatever the letters of the names") {
-  const TrackReport report = made_track_report();
+  const TrackReport report = synthetic_track_report();
   std::istringstream table(table_text(report));
   std::set<std::size_t> places;
   std::string line;
@@ -293,14 +293,14 @@ TEST_CASE("a table's columns end below each other, whatever the letters of the n
 }
 
 TEST_CASE("a report of detectors says the same in the table, in CSV and in JSON") {
-  const DetectionReport report = made_detection_report();
+  const DetectionReport report = synthetic_detection_report();
   const std::string table = table_text(report);
   CHECK(table.find("1.000 (1/1)*") != std::string::npos);
   CHECK(table.find("0.000 (0/1)") != std::string::npos);
   CHECK(table.find("- (0/0)") != std::string::npos);
   const Written written(report);
   const std::vector<Row> summary = rows_of(written.text("summary.csv"));
-  CHECK(summary.at(0).at("detector") == kOddName);
+  CHECK(summary.at(0).at("detector") == kSpecialName);
   CHECK(summary.at(0).at("false_alarms_per_hour") == "1800");
   CHECK(summary.at(1).at("mean_first_range_m").empty());
   const std::vector<Row> encounters = rows_of(written.text("encounters.csv"));
@@ -319,8 +319,8 @@ TEST_CASE("a report of detectors says the same in the table, in CSV and in JSON"
 }
 
 TEST_CASE("what a report writes is known by name, and nothing else is") {
-  const Written track(made_track_report());
-  const Written detect(made_detection_report());
+  const Written track(synthetic_track_report());
+  const Written detect(synthetic_detection_report());
   for (const auto* const names : {&track.report.files, &detect.report.files})
     for (const fs::path& file : *names) CHECK_MESSAGE(is_report_file(file.filename().string()), file.string());
   for (const char* const strange : {"thesis.csv", "center_error.pdf", "center_error", ".svg", "report.html.bak", ""})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "evaluation/results.h"
 #include "support/test_data.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 // Frames 100 to 102.
 FootageTruth three_frames() {
-  return {.video = "film.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
+  return {.video = "clip.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
 }
 
 struct BadFile {
@@ -18,14 +18,14 @@ struct BadFile {
   std::string text;
   const char* place;  // behind the file's name
   const char* what;
-  bool may_hold_many = false;
+  bool multiple_per_frame = false;
 };
 
 void check_refused(const BadFile& file) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / file.name;
   REQUIRE(write_text(path, file.text, false));
-  const Result<Results> results = read_results(path, three_frames(), {.may_hold_many = file.may_hold_many});
+  const Result<Results> results = read_results(path, three_frames(), {.multiple_per_frame = file.multiple_per_frame});
   CAPTURE(file.text.substr(0, 200));
   REQUIRE_FALSE(results);
   const std::string text = results.error().text();
@@ -37,31 +37,31 @@ void check_refused(const BadFile& file) {
   CHECK(text.size() < path.string().size() + 250);
 }
 
-std::string aot(const std::string& detection, const std::string& picture = "frame_000100.png") {
-  return "[\n {\"img_name\": \"" + picture + "\",\n  \"detections\": [\n   " + detection + "\n  ]}\n]\n";
+std::string aot(const std::string& detection, const std::string& image = "frame_000100.png") {
+  return "[\n {\"img_name\": \"" + image + "\",\n  \"detections\": [\n   " + detection + "\n  ]}\n]\n";
 }
 
 }  // namespace
 
-TEST_CASE("a file whose lines do not fit the film's frames is refused with the line") {
+TEST_CASE("a file whose lines do not fit the clip's frames is refused with the line") {
   check_refused(
       {"a.txt", "1,1,2,2\n1,1,2,2\n", "line 2: ", "2 lines, one a frame; it must have 3 (frames 100 to 102)"});
   check_refused({"a.txt", "1,1,2,2\n1,1,2,2\n1,1,2,2\n1,1,2,2\n1,1,2,2\n",
-                 "line 4: ", "past the film's end: the file has 5 lines"});
+                 "line 4: ", "past the clip's end: the file has 5 lines"});
   check_refused({"a.txt", "1\n0\n", "line 2: ", "2 lines, one a frame; it must have 3"});
   check_refused({"a.txt", "1,1,2,2\n\n1,1,2,2\n", "line 2: ", "is empty amid lines"});
   // What is wrong with a line comes before that there are too many.
   check_refused({"a.txt", "1,1,2,2\n1,x,2,2\n", "line 2: ", "'x' is no number"});
 }
 
-TEST_CASE("frames that the film does not have are refused with the line") {
+TEST_CASE("frames that the clip does not have are refused with the line") {
   check_refused({"a.txt", "1,1,1,1,2,2\n4,1,1,1,2,2\n",
-                 "line 2: ", "frame 4 is past the film's end: it has 3 frames, counted from 1"});
+                 "line 2: ", "frame 4 is past the clip's end: it has 3 frames, counted from 1"});
   check_refused({"a.txt", "0,1,1,1,2,2\n", "line 1: ", "frame '0' is no whole number from 1"});
   check_refused({"a.txt", "1.5,1,1,1,2,2\n", "line 1: ", "frame '1.5' is no whole number"});
   check_refused({"a.txt", "99999999999,1,1,1,2,2\n", "line 1: ", "frame '99999999999' is no whole number"});
   check_refused({"a.csv", "frame,x,y,width,height\n103,1,1,2,2\n",
-                 "line 2: ", "frame 103 of the footage is not of this film, which is frames 100 to 102"});
+                 "line 2: ", "frame 103 of the footage is not of this clip, which is frames 100 to 102"});
   check_refused({"a.csv", "frame,x,y,width,height\n99,1,1,2,2\n", "line 2: ", "frame 99"});
   check_refused(
       {"a.json", aot("{\"x\": 1, \"y\": 1, \"w\": 2, \"h\": 2}", "frame_000103.png"), "line 4: ", "frame 103"});
@@ -184,9 +184,9 @@ TEST_CASE("what coco results may not be is refused with the line, and the entry 
   check_refused({"a.json", second(R"({"image_id": 2, "bbox": [1, 1, 2, 2], "score": "high"})"), "line 2: ", "score"});
   check_refused({"a.json", second(R"({"image_id": 0, "bbox": [1, 1, 2, 2]})"), "line 2: ", "from 1"});
   check_refused({"a.json", second(R"({"image_id": 1.5, "bbox": [1, 1, 2, 2]})"), "line 2: ", "from 1"});
-  check_refused({"a.json", second(R"({"image_id": 4, "bbox": [1, 1, 2, 2]})"), "line 2: ", "not of this film"});
+  check_refused({"a.json", second(R"({"image_id": 4, "bbox": [1, 1, 2, 2]})"), "line 2: ", "not of this clip"});
   check_refused(
-      {"a.json", second(R"({"image_id": 2147483647, "bbox": [1, 1, 2, 2]})"), "line 2: ", "not of this film"});
+      {"a.json", second(R"({"image_id": 2147483647, "bbox": [1, 1, 2, 2]})"), "line 2: ", "not of this clip"});
   check_refused({"a.json", second(R"({"image_id": "sky", "bbox": [1, 1, 2, 2]})"), "line 2: ", "frame_000123"});
   check_refused({"a.json", second("7"), "line 2: ", "is a number"});
   check_refused({"a.json", second("[]"), "line 2: ", "is a list"});

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "annotation/comma_locale.h"
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
+#include "support/comma_locale.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -14,19 +14,19 @@ namespace {
 
 // Frames 100 to 102.
 FootageTruth three_frames() {
-  return {.video = "film.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
+  return {.video = "clip.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
 }
 
 Result<Results> read(const std::string& text, const std::string& name = "tracker.txt",
-                     const ResultsOptions& options = {}, const FootageTruth& film = three_frames()) {
+                     const ResultsOptions& options = {}, const FootageTruth& clip = three_frames()) {
   const TemporaryFolder folder;
   REQUIRE(write_text(folder / name, text, false));
-  return read_results(folder / name, film, options);
+  return read_results(folder / name, clip, options);
 }
 
 Results good(const std::string& text, const std::string& name = "tracker.txt", const ResultsOptions& options = {},
-             const FootageTruth& film = three_frames()) {
-  Result<Results> results = read(text, name, options, film);
+             const FootageTruth& clip = three_frames()) {
+  Result<Results> results = read(text, name, options, clip);
   REQUIRE_MESSAGE(results, results.error().text());
   return *results;
 }
@@ -76,7 +76,7 @@ TEST_CASE("each layout's way to say columns 10 to 19 and rows 20 to 24 gives the
            {"image_id": 3, "bbox": [10, 20, 10, 5]}])"},
       {"ultralytics.json",
        R"([{"image_id": "frame_000100", "category_id": 1, "bbox": [10, 20, 10, 5], "score": 0.5},
-           {"image_id": "film/frame_000101.png", "bbox": [10, 20, 10, 5], "score": 0.5},
+           {"image_id": "clip/frame_000101.png", "bbox": [10, 20, 10, 5], "score": 0.5},
            {"image_id": "102", "bbox": [10, 20, 10, 5], "score": 0.5}])"},
   };
   for (const auto& file : files) {
@@ -93,7 +93,7 @@ TEST_CASE("scores, tracks and lines are those of the file") {
   const Results mot = good(
       "1,7,11,21,10,5,0.5,-1\n# a "
       "note\n1,9,31,21,10,5,0.75,-1\n2,-1,1,1,1,1,-1,-1\n2,-2,1,1,1,1,-1,-1\n2,-2,1,1,1,1,-1,-1\n",
-      "mot.txt", {.format = ResultsFormat::mot, .may_hold_many = true});
+      "mot.txt", {.format = ResultsFormat::mot, .multiple_per_frame = true});
   REQUIRE(mot.frames.at(100).size() == 2);
   CHECK(mot.frames.at(100)[0].track == 7);
   CHECK(mot.frames.at(100)[0].score == 0.5);
@@ -112,7 +112,7 @@ TEST_CASE("scores, tracks and lines are those of the file") {
   const Results aot = good(
       "[\n{\"img_name\": \"100\", \"detections\": [\n{\"x\": 1, \"y\": 1, \"w\": 1, \"h\": 1, \"s\": 0.5},\n"
       "{\"x\": 1, \"y\": 1, \"w\": 1, \"h\": 1, \"object_id\": 8}]}]",
-      "a.json", {.may_hold_many = true});
+      "a.json", {.multiple_per_frame = true});
   REQUIRE(aot.frames.at(100).size() == 2);
   CHECK(aot.frames.at(100)[0].score == 0.5);
   CHECK(aot.frames.at(100)[0].track == kNoTrack);
@@ -132,45 +132,46 @@ TEST_CASE("of equal scores the first is the best") {
 }
 
 TEST_CASE("VOT's special lines report nothing, and 1 says that the truth was given") {
-  const FootageTruth film{.first_frame = 0, .last_frame = 6};
-  const Results results = good("1\n10,20,10,5\n2\n0\n1\nnan,nan,nan,nan\nnan\n", "run.txt", {}, film);
+  const FootageTruth clip{.first_frame = 0, .last_frame = 6};
+  const Results results = good("1\n10,20,10,5\n2\n0\n1\nnan,nan,nan,nan\nnan\n", "run.txt", {}, clip);
   CHECK(results.frames.size() == 1);
   CHECK(box_at(results, 1) == kBox);
-  CHECK(results.given == std::set<int>{0, 4});
+  CHECK(results.initializations == std::set<int>{0, 4});
   // Absent in the first frame already: still seen to be VOT's.
   CHECK(good("nan,nan,nan,nan\nnan,nan,nan,nan\n10,20,10,5\n").frames.size() == 1);
 }
 
 TEST_CASE("a file with a line a frame may begin where the tracker was started") {
-  const FootageTruth film{.first_frame = 10, .last_frame = 19};
+  const FootageTruth clip{.first_frame = 10, .last_frame = 19};
   std::string six;
   for (int i = 0; i < 6; ++i) six += std::to_string(i + 1) + ",1,9,9\n";
-  const Results late = good(six, "late.txt", {.start_frame = 14}, film);
+  const Results late = good(six, "late.txt", {.start_frame = 14}, clip);
   CHECK(late.frames.size() == 6);
   CHECK(box_at(late, 14).x == -0.5);
   CHECK(box_at(late, 19).x == 4.5);
   // All ten lines are about all ten frames, wherever the start is.
-  const Results whole = good(six + "7,1,9,9\n8,1,9,9\n9,1,9,9\n10,1,9,9\n", "whole.txt", {.start_frame = 14}, film);
+  const Results whole = good(six + "7,1,9,9\n8,1,9,9\n9,1,9,9\n10,1,9,9\n", "whole.txt", {.start_frame = 14}, clip);
   CHECK(box_at(whole, 10).x == -0.5);
   CHECK(whole.frames.size() == 10);
-  const Result<Results> neither = read(six + "7,1,9,9\n", "odd.txt", {.start_frame = 14}, film);
+  const Result<Results> neither = read(six + "7,1,9,9\n", "odd.txt", {.start_frame = 14}, clip);
   REQUIRE_FALSE(neither);
   CHECK(neither.error().what ==
         "ends here with 7 lines, one a frame; it must have 10 (frames 10 to 19), or 6 (from frame 14 on)");
 }
 
-TEST_CASE("one coco file tells of several films by the number of their first picture") {
+TEST_CASE("one coco file tells of several clips by the number of their first image") {
   const std::string text = R"([{"image_id": 3, "bbox": [1, 1, 1, 1]}, {"image_id": 4, "bbox": [10, 20, 10, 5]},
       {"image_id": 4, "bbox": [40, 20, 10, 5], "score": 0.5}, {"image_id": 6, "bbox": [10, 20, 10, 5]},
       {"image_id": 7, "bbox": [1, 1, 1, 1]}])";
-  const ResultsOptions second{.may_hold_many = true, .first_image_id = 4, .last_image_id = 9};
+  const ResultsOptions second{.multiple_per_frame = true, .first_image_id = 4, .last_image_id = 9};
   const Results results = good(text, "a.json", second);
   CHECK(results.frames.size() == 2);
   CHECK(results.frames.at(100).size() == 2);
   CHECK(box_at(results, 100) == kBox);
   CHECK(box_at(results, 102) == kBox);
 
-  const Result<Results> beyond = read(text, "a.json", {.may_hold_many = true, .first_image_id = 4, .last_image_id = 6});
+  const Result<Results> beyond =
+      read(text, "a.json", {.multiple_per_frame = true, .first_image_id = 4, .last_image_id = 6});
   REQUIRE_FALSE(beyond);
   CHECK(beyond.error().text().find("image_id 7 is past the last one, 6") != std::string::npos);
   const Result<Results> other = read("[{\"img_name\": \"100\"}]", "a.json", second);
@@ -211,7 +212,7 @@ TEST_CASE("three hundred thousand lines are all there") {
     for (int id = 0; id < 3; ++id)
       text += std::to_string(frame) + "," + std::to_string(id) + ",11,21,10,5,0.5,-1,-1,-1\n";
   const Results results =
-      good(text, "many.txt", {.may_hold_many = true}, {.first_frame = 0, .last_frame = kFrames - 1});
+      good(text, "many.txt", {.multiple_per_frame = true}, {.first_frame = 0, .last_frame = kFrames - 1});
   REQUIRE(results.frames.size() == kFrames);
   CHECK(results.frames.at(kFrames - 1)[2].line == 3 * kFrames);
 }

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "base/partial_file.h"
-#include "evaluation/films.h"
+#include "base/temporary_file.h"
+#include "evaluation/clips.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -16,8 +16,8 @@ TEST_CASE("results that are written are read back as they were") {
   report(written, 9, {1e6, 2e-3, 1e-9, 400}, kNoTrack);
   const TemporaryFolder folder;
   REQUIRE(write_text(folder / "mine.csv", csv_text(written), false).has_value());
-  const FootageTruth film{.size_px = {640, 480}, .last_frame = 9};
-  const Result<Results> read = read_results(folder / "mine.csv", film, {.may_hold_many = true});
+  const FootageTruth clip{.size_px = {640, 480}, .last_frame = 9};
+  const Result<Results> read = read_results(folder / "mine.csv", clip, {.multiple_per_frame = true});
   REQUIRE_MESSAGE(read.has_value(), read.error().text());
   CHECK(read->name == "mine");
   REQUIRE(read->frames.size() == 2);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "evaluation/films.h"
+#include "evaluation/clips.h"
 
 namespace sigs::test {
 namespace {
@@ -15,20 +15,20 @@ constexpr double kExact = 1e-9;  // what sums of a hundred doubles leave, by far
 
 const Box kBox{299.5, 199.5, 40, 10};
 
-FilmTruth still_film(int frames = 100) {
-  return film_of(frames, 25, [](int) { return visible_at(kBox); });
+ClipTruth still_clip(int frames = 100) {
+  return clip_of(frames, 25, [](int) { return visible_at(kBox); });
 }
 
 // The tracker says the truth, moved by (dx, dy) in frame i.
 template <class Offset>
-TrackScore score_moved(const FilmTruth& film, Offset&& offset, const TrackPolicy& policy = {}) {
+TrackScore score_moved(const ClipTruth& clip, Offset&& offset, const TrackPolicy& policy = {}) {
   Results results{.name = "some"};
-  for (int i = 0; i < film.frames(); ++i) {
+  for (int i = 0; i < clip.frames(); ++i) {
     const auto [dx, dy] = offset(i);
-    if (const auto& box = film.targets[0].frames[static_cast<std::size_t>(i)].visible)
-      report(results, film.footage.first_frame + i, moved(*box, dx, dy));
+    if (const auto& box = clip.targets[0].frames[static_cast<std::size_t>(i)].visible)
+      report(results, clip.footage.first_frame + i, moved(*box, dx, dy));
   }
-  return score_track(film, film.targets[0], results, policy);
+  return score_track(clip, clip.targets[0], results, policy);
 }
 
 bool near(double a, double b) {
@@ -39,10 +39,10 @@ bool near(double a, double b) {
 
 TEST_CASE("a tracker off by (3, 4) has a centre error of 5 everywhere") {
   // Along a curve and over changing sizes: neither may matter.
-  const FilmTruth film = film_of(300, 25, [](int i) {
+  const ClipTruth clip = clip_of(300, 25, [](int i) {
     return visible_at({1000.3 + 300 * std::sin(i / 30.0), 400.7 + i, 20 + i / 7.0, 9 + i / 11.0});
   });
-  const TrackScore score = score_moved(film, [](int) { return std::pair(3.0, 4.0); });
+  const TrackScore score = score_moved(clip, [](int) { return std::pair(3.0, 4.0); });
   CHECK(score.scored == 300);
   CHECK(score.reported == 300);
   for (const FrameScore& frame : score.frames) {
@@ -61,14 +61,14 @@ TEST_CASE("a tracker off by (3, 4) has a centre error of 5 everywhere") {
 }
 
 TEST_CASE("signs: right of the truth and below it are positive") {
-  const TrackScore score = score_moved(still_film(), [](int) { return std::pair(-7.25, 2.5); });
+  const TrackScore score = score_moved(still_clip(), [](int) { return std::pair(-7.25, 2.5); });
   CHECK(near(score.mean_dx_px, -7.25));
   CHECK(near(score.mean_dy_px, 2.5));
 }
 
 TEST_CASE("a perfect tracker has it all") {
-  const FilmTruth film = film_of(50, 25, [](int i) { return visible_at({0.1 * i, 0.3 * i, 7.7, 3.3}); });
-  const TrackScore score = score_moved(film, [](int) { return std::pair(0.0, 0.0); });
+  const ClipTruth clip = clip_of(50, 25, [](int i) { return visible_at({0.1 * i, 0.3 * i, 7.7, 3.3}); });
+  const TrackScore score = score_moved(clip, [](int) { return std::pair(0.0, 0.0); });
   for (const double share : score.precision) CHECK(share == 1);
   for (const double share : score.success) CHECK(share == 1);
   for (const double share : score.normalized_precision) CHECK(share == 1);
@@ -83,7 +83,7 @@ TEST_CASE("boxes of one size, shifted by a share s of their width, overlap by (1
   for (const double share : {0.0, 0.1, 0.25, 0.5, 0.9, 0.999, 1.0, 1.5}) {
     CAPTURE(share);
     const double expected = share >= 1 ? 0 : (1 - share) / (1 + share);
-    const TrackScore score = score_moved(still_film(), [&](int) { return std::pair(share * kBox.width, 0.0); });
+    const TrackScore score = score_moved(still_clip(), [&](int) { return std::pair(share * kBox.width, 0.0); });
     CHECK(near(score.mean_overlap, expected));
     CHECK(score.lost == (share >= 1 ? 100 : 0));
     // Thresholds k / 20 that are less than the overlap, over 21.
@@ -95,15 +95,15 @@ TEST_CASE("boxes of one size, shifted by a share s of their width, overlap by (1
 
 TEST_CASE("an overlap of just one half is not more than one half") {
   // A third of the width: (1 - 1/3) / (1 + 1/3) = 1/2.
-  const FilmTruth film = film_of(1, 25, [](int) { return visible_at({0.1, 0.7, 30, 30}); });
-  const TrackScore score = score_moved(film, [](int) { return std::pair(10.0, 0.0); });
+  const ClipTruth clip = clip_of(1, 25, [](int) { return visible_at({0.1, 0.7, 30, 30}); });
+  const TrackScore score = score_moved(clip, [](int) { return std::pair(10.0, 0.0); });
   CHECK(score.success[9] == 1);
   CHECK(score.success[10] == 0);
 }
 
 TEST_CASE("an error that grows evenly gives a precision curve that does too") {
   // Frame i of 0 to 99 is off by i/2 px: at threshold t there are 2 t + 1 frames.
-  const TrackScore score = score_moved(still_film(), [](int i) { return std::pair(i / 2.0, 0.0); });
+  const TrackScore score = score_moved(still_clip(), [](int i) { return std::pair(i / 2.0, 0.0); });
   for (int t = 0; t < kPrecisionSteps; ++t)
     CHECK(near(score.precision[static_cast<std::size_t>(t)], std::min(2 * t + 1, 100) / 100.0));
   CHECK(near(score.precision_at_20, 0.41));
@@ -116,7 +116,7 @@ TEST_CASE("an error that grows evenly gives a precision curve that does too") {
 }
 
 TEST_CASE("normalised errors are shares of the true width and height") {
-  const TrackScore score = score_moved(still_film(), [](int) { return std::pair(12.0, 4.0); });
+  const TrackScore score = score_moved(still_clip(), [](int) { return std::pair(12.0, 4.0); });
   // (12/40, 4/10) = (0.3, 0.4)
   for (const FrameScore& frame : score.frames) CHECK(near(*frame.normalized_error, 0.5));
   CHECK(score.normalized_precision[49] == 0);
@@ -125,7 +125,7 @@ TEST_CASE("normalised errors are shares of the true width and height") {
 }
 
 TEST_CASE("five frames worked out by hand") {
-  const FilmTruth film = film_of(
+  const ClipTruth clip = clip_of(
       5, 10,
       [](int) {
         return visible_at({0, 0, 10, 10});
@@ -136,7 +136,7 @@ TEST_CASE("five frames worked out by hand") {
   report(results, 101, {6, 8, 10, 10});    // error 10, both 4*2 = 8, overlap 8/192
   report(results, 102, {0, 0, 10, 20});    // error 5 (down), overlap 1/2
   report(results, 104, {30, 40, 10, 10});  // error 50, apart; and nothing in 103
-  const TrackScore score = score_track(film, film.targets[0], results, {});
+  const TrackScore score = score_track(clip, clip.targets[0], results, {});
   CHECK(score.scored == 5);
   CHECK(score.reported == 4);
   CHECK(score.lost == 2);
@@ -168,22 +168,22 @@ TEST_CASE("five frames worked out by hand") {
 }
 
 TEST_CASE("the share of lost frames is what the success curve lacks at zero") {
-  const TrackScore score = score_moved(still_film(), [](int i) { return std::pair(i * 1.0, 0.0); });
+  const TrackScore score = score_moved(still_clip(), [](int i) { return std::pair(i * 1.0, 0.0); });
   CHECK(score.lost == 60);
   CHECK(near(score.success[0], 1 - score.lost / 100.0));
 }
 
 TEST_CASE("frames without the intruder are not scored, and what is reported in them is counted") {
-  const FilmTruth film = film_of(10, 25, [](int i) {
+  const ClipTruth clip = clip_of(10, 25, [](int i) {
     TargetFrame frame = visible_at(kBox);
     if (i % 2 == 1) frame.visible.reset();  // hidden wholly: the silhouette stays
-    if (i == 9) frame.silhouette.reset();
+    if (i == 9) frame.amodal_box.reset();
     return frame;
   });
   Results results;
   for (const int frame : {0, 1, 2, 3, 9}) report(results, frame, kBox);
-  for (const TruthBox box : {TruthBox::visible, TruthBox::silhouette}) {
-    const TrackScore score = score_track(film, film.targets[0], results, {.truth = box});
+  for (const TruthBox box : {TruthBox::visible, TruthBox::amodal}) {
+    const TrackScore score = score_track(clip, clip.targets[0], results, {.truth = box});
     CHECK(score.scored == 5);
     CHECK(score.reported == 2);
     CHECK(score.lost == 3);
@@ -192,43 +192,43 @@ TEST_CASE("frames without the intruder are not scored, and what is reported in t
     CHECK(score.frames[1].is_reported);
     CHECK_FALSE(score.frames[1].is_lost);
     // There is something to draw where there is a box to draw it from.
-    CHECK(score.frames[1].center_error_px.has_value() == (box == TruthBox::silhouette));
+    CHECK(score.frames[1].center_error_px.has_value() == (box == TruthBox::amodal));
     CHECK(score.mean_center_error_px == 0);
   }
   // Before the start nobody looks.
-  CHECK(score_track(film, film.targets[0], results, {.from_frame = 2}).reported_absent == 2);
+  CHECK(score_track(clip, clip.targets[0], results, {.from_frame = 2}).reported_absent == 2);
 }
 
 TEST_CASE("the policy says which frames count and against which box") {
-  const FilmTruth film = film_of(
+  const ClipTruth clip = clip_of(
       10, 25,
       [](int i) {
         TargetFrame frame = visible_at(kBox);
-        frame.silhouette = moved(kBox, -10, 0);
+        frame.amodal_box = moved(kBox, -10, 0);
         frame.visible_fraction = i / 10.0;
         return frame;
       },
       50);
   Results results;
   for (int frame = 50; frame < 60; ++frame) report(results, frame, kBox);
-  results.given = {59};
-  const TrackScore all = score_track(film, film.targets[0], results, {});
+  results.initializations = {59};
+  const TrackScore all = score_track(clip, clip.targets[0], results, {});
   CHECK(all.scored == 9);  // frame 59 was given
   CHECK_FALSE(all.frames[9].is_scored);
   CHECK(all.mean_dx_px == 0);
-  const TrackScore late = score_track(film, film.targets[0], results, {.from_frame = 54});
+  const TrackScore late = score_track(clip, clip.targets[0], results, {.from_frame = 54});
   CHECK(late.scored == 5);
   CHECK_FALSE(late.frames[3].is_scored);
   CHECK(late.frames[4].is_scored);
-  const TrackScore seen = score_track(film, film.targets[0], results, {.least_visible_fraction = 0.7});
+  const TrackScore seen = score_track(clip, clip.targets[0], results, {.min_visible_fraction = 0.7});
   CHECK(seen.scored == 2);
   CHECK(seen.frames[7].is_scored);
-  CHECK(near(score_track(film, film.targets[0], results, {.truth = TruthBox::silhouette}).mean_dx_px, 10));
+  CHECK(near(score_track(clip, clip.targets[0], results, {.truth = TruthBox::amodal}).mean_dx_px, 10));
 }
 
 TEST_CASE("where nothing is scored or reported, a mean is NaN and no number") {
-  const FilmTruth film = still_film(3);
-  const TrackScore silent = score_track(film, film.targets[0], {}, {});
+  const ClipTruth clip = still_clip(3);
+  const TrackScore silent = score_track(clip, clip.targets[0], {}, {});
   CHECK(silent.scored == 3);
   CHECK(silent.lost == 3);
   CHECK(std::isnan(silent.mean_center_error_px));
@@ -240,7 +240,7 @@ TEST_CASE("where nothing is scored or reported, a mean is NaN and no number") {
   CHECK(silent.precision_at_20 == 0);
   CHECK_FALSE(silent.frames_per_s);
 
-  const FilmTruth absent = film_of(3, 25, [](int) { return TargetFrame{}; });
+  const ClipTruth absent = clip_of(3, 25, [](int) { return TargetFrame{}; });
   const TrackScore none = score_track(absent, absent.targets[0], {}, {});
   CHECK(none.scored == 0);
   CHECK(std::isnan(none.precision_at_20));
@@ -248,27 +248,27 @@ TEST_CASE("where nothing is scored or reported, a mean is NaN and no number") {
   CHECK(std::isnan(none.mean_overlap));
   CHECK(std::isnan(none.normalized_precision_auc));
 
-  const FilmTruth empty = film_of(0, 25, [](int) { return TargetFrame{}; });
+  const ClipTruth empty = clip_of(0, 25, [](int) { return TargetFrame{}; });
   CHECK(score_track(empty, empty.targets[0], {}, {}).frames.empty());
 }
 
 TEST_CASE("one frame has its mean, median and 95 % in one") {
-  const TrackScore score = score_moved(still_film(1), [](int) { return std::pair(0.0, -8.0); });
+  const TrackScore score = score_moved(still_clip(1), [](int) { return std::pair(0.0, -8.0); });
   CHECK(score.mean_center_error_px == 8);
   CHECK(score.median_center_error_px == 8);
   CHECK(score.p95_center_error_px == 8);
 }
 
 TEST_CASE("a truth without width has errors without end, and none where it is met") {
-  const FilmTruth film = film_of(2, 25, [](int) {
+  const ClipTruth clip = clip_of(2, 25, [](int) {
     TargetFrame frame = visible_at(kBox);
-    frame.silhouette = Box{10, 10, 0, 5};
+    frame.amodal_box = Box{10, 10, 0, 5};
     return frame;
   });
   Results results;
   report(results, 0, {9, 10, 2, 5});
   report(results, 1, {10, 10, 2, 5});
-  const TrackScore score = score_track(film, film.targets[0], results, {.truth = TruthBox::silhouette});
+  const TrackScore score = score_track(clip, clip.targets[0], results, {.truth = TruthBox::amodal});
   CHECK(*score.frames[0].normalized_error == 0);
   CHECK(std::isinf(*score.frames[1].normalized_error));
   CHECK(score.normalized_precision[50] == 0.5);
@@ -276,24 +276,24 @@ TEST_CASE("a truth without width has errors without end, and none where it is me
 }
 
 TEST_CASE("a tracker starts in the first frame that shows enough of the intruder") {
-  const FilmTruth film = film_of(
+  const ClipTruth clip = clip_of(
       10, 25,
       [](int i) {
         if (i < 2) return TargetFrame{};
         TargetFrame frame = visible_at({100, 100, 2.0 * i, 1.0 * i});  // 4x2, 6x3, ...
-        frame.silhouette = Box{100, 100, 50, 50};
+        frame.amodal_box = Box{100, 100, 50, 50};
         frame.visible_fraction = i / 10.0;
         return frame;
       },
       200);
-  const TargetTruth& target = film.targets[0];
-  CHECK(first_frame_to_track(film, target, {}, 0) == 202);
-  CHECK(first_frame_to_track(film, target, {}, 3) == 203);
-  CHECK(first_frame_to_track(film, target, {}, 9) == 209);
-  CHECK_FALSE(first_frame_to_track(film, target, {}, 9.5));
-  CHECK(first_frame_to_track(film, target, {.from_frame = 206}, 3) == 206);
-  CHECK(first_frame_to_track(film, target, {.least_visible_fraction = 0.5}, 3) == 205);
-  CHECK(first_frame_to_track(film, target, {.truth = TruthBox::silhouette}, 40) == 202);
+  const TargetTruth& target = clip.targets[0];
+  CHECK(first_frame_to_track(clip, target, {}, 0) == 202);
+  CHECK(first_frame_to_track(clip, target, {}, 3) == 203);
+  CHECK(first_frame_to_track(clip, target, {}, 9) == 209);
+  CHECK_FALSE(first_frame_to_track(clip, target, {}, 9.5));
+  CHECK(first_frame_to_track(clip, target, {.from_frame = 206}, 3) == 206);
+  CHECK(first_frame_to_track(clip, target, {.min_visible_fraction = 0.5}, 3) == 205);
+  CHECK(first_frame_to_track(clip, target, {.truth = TruthBox::amodal}, 40) == 202);
 }
 
 }  // namespace sigs::test

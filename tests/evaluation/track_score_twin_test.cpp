@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "evaluation/films.h"
+#include "evaluation/clips.h"
 #include "evaluation/overlap.h"
 #include "evaluation/track_score.h"
 
@@ -71,12 +71,12 @@ TEST_CASE("the overlap of two boxes is that of the pixels they cover") {
 TEST_CASE("scores agree with ones worked out otherwise") {
   const std::vector<Pair> pairs = random_pairs(500, 7);
   const auto is_silent = [](std::size_t i) { return i % 17 == 5; };
-  const FilmTruth film = film_of(static_cast<int>(pairs.size()), 25,
+  const ClipTruth clip = clip_of(static_cast<int>(pairs.size()), 25,
                                  [&](int i) { return visible_at(pairs[static_cast<std::size_t>(i)].truth); });
   Results results;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!is_silent(i)) report(results, static_cast<int>(i), pairs[i].reported);
-  const TrackScore score = score_track(film, film.targets[0], results, {});
+  const TrackScore score = score_track(clip, clip.targets[0], results, {});
 
   std::vector<double> errors;
   std::vector<double> normalized;

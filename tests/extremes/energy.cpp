@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "extremes/sound.h"
+#include "extremes/validity.h"
 
 namespace sigs::test {
 namespace {
@@ -28,7 +28,7 @@ std::vector<LensCase> lens_cases() {
           {"rational", square, {0.5, 0.1, 0.001, -0.001, 0.02, 0.9, 0.2, 0.05}},
           {"stretched", {330, 0, 150, 0, 110, 110, 0, 0, 1}, {-0.05, 0, 0, 0}},
           {"fisheye of 170 degrees", {107.5, 0, 159.5, 0, 107.5, 119.5, 0, 0, 1}, {0, 0, 0, 0}, true},
-          {"bent fisheye", {130, 0, 150, 0, 120, 125, 0, 0, 1}, {0.05, -0.01, 0.002, -0.0003}, true}};
+          {"warped fisheye", {130, 0, 150, 0, 120, 125, 0, 0, 1}, {0.05, -0.01, 0.002, -0.0003}, true}};
 }
 
 // Rays of pixels by OpenCV alone, x right, y down, z forward; not of one length.
@@ -79,7 +79,7 @@ std::vector<cv::Point2d> corners_of(const cv::Rect& rect) {
   return corners;
 }
 
-Energy energy_of(const DrawnView& drawn) {
+Energy energy_of(const RenderedView& drawn) {
   std::vector<cv::Vec3d> rays;
   for (const cv::Point2d& corner : corners_of(drawn.layer.rect))
     rays.emplace_back((corner.x - drawn.view.center_px.x) / drawn.view.focal_px,
@@ -87,7 +87,7 @@ Energy energy_of(const DrawnView& drawn) {
   return energy_of(drawn.layer, rays);
 }
 
-// Before the camera, with all of the aircraft within the picture.
+// Before the camera, with all of the aircraft within the image.
 std::vector<glm::dvec3> targets() {
   return {{55, 0, 0}, {60, 15, -9}, {70, -20, 12}};
 }
@@ -99,18 +99,18 @@ TEST_CASE("the warp keeps the light of the drawn view within a thousandth throug
     for (const glm::dvec3& from_eye_m : targets()) {
       CAPTURE(lens.name);
       CAPTURE(from_eye_m.y);
-      Lot lot;
-      set_lens(lot, lens.matrix, lens.coefficients, lens.is_fisheye);
-      add_aircraft(lot, kEye_m + from_eye_m);
-      const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-      const SeenIntruder& seen = sound.seen[0];
-      REQUIRE(seen.views.size() == 1);
-      REQUIRE(sound.composed.truth.intruders[0].visible_fraction > 0.99);  // wholly in the picture
-      const Energy drawn = energy_of(seen.views[0]);
-      const Energy bent = energy_of(seen.sharp, rays_of(lens, corners_of(seen.sharp.rect)));
-      for (std::size_t c = 0; c < drawn.size(); ++c) {
+      Scenario scenario;
+      set_lens(scenario, lens.matrix, lens.coefficients, lens.is_fisheye);
+      add_aircraft(scenario, kEye_m + from_eye_m);
+      const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+      const IntruderLayers& layers = valid.layers[0];
+      REQUIRE(layers.views.size() == 1);
+      REQUIRE(valid.composed.truth.intruders[0].visible_fraction > 0.99);  // wholly in the image
+      const Energy rendered = energy_of(layers.views[0]);
+      const Energy warped = energy_of(layers.warped, rays_of(lens, corners_of(layers.warped.rect)));
+      for (std::size_t c = 0; c < rendered.size(); ++c) {
         CAPTURE(c);
-        CHECK(bent[c] == doctest::Approx(drawn[c]).epsilon(0.001));
+        CHECK(warped[c] == doctest::Approx(rendered[c]).epsilon(0.001));
       }
     }
 }
@@ -120,16 +120,16 @@ TEST_CASE("the blur keeps the light of the warped layer within a thousandth thro
     for (const double sigma_px : {1e-6, 0.3, 1.0, 4.0, 15.0, 20.0}) {
       CAPTURE(lens.name);
       CAPTURE(sigma_px);
-      Lot lot;
-      set_lens(lot, lens.matrix, lens.coefficients, lens.is_fisheye);
-      add_aircraft(lot, kEye_m + glm::dvec3(120, 0, 0));
-      lot.project.compositing.blur_px_per_m = sigma_px / 120;
-      const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-      const SeenIntruder& seen = sound.seen[0];
-      const cv::Scalar before = cv::sum(seen.sharp.color);
-      const cv::Scalar after = cv::sum(seen.blurred.color);
+      Scenario scenario;
+      set_lens(scenario, lens.matrix, lens.coefficients, lens.is_fisheye);
+      add_aircraft(scenario, kEye_m + glm::dvec3(120, 0, 0));
+      scenario.project.compositing.blur_px_per_m = sigma_px / 120;
+      const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+      const IntruderLayers& layers = valid.layers[0];
+      const cv::Scalar before = cv::sum(layers.warped.color);
+      const cv::Scalar after = cv::sum(layers.blurred.color);
       for (int c = 0; c < 4; ++c) CHECK(after[c] == doctest::Approx(before[c]).epsilon(0.001));
-      CHECK(cv::sum(seen.blurred.coverage)[0] == doctest::Approx(cv::sum(seen.sharp.coverage)[0]).epsilon(1e-6));
+      CHECK(cv::sum(layers.blurred.coverage)[0] == doctest::Approx(cv::sum(layers.warped.coverage)[0]).epsilon(1e-6));
     }
 }
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-#include "extremes/sound.h"
+#include "extremes/validity.h"
 #include "mesh/mesh.h"
 #include "scene/measuring_points.h"
 
@@ -48,19 +48,19 @@ void give_model(Scene& scene, Mesh mesh) {
 }  // namespace
 
 TEST_CASE("a million triangles are drawn as the sphere that they make") {
-  Lot lot;
-  add_cube(lot, 1, kEye_m + glm::dvec3(100, 0, 0));
-  Scene scene = lot.opened();
+  Scenario scenario;
+  add_cube(scenario, 1, kEye_m + glm::dvec3(100, 0, 0));
+  Scene scene = scenario.opened();
   give_model(scene, sphere(10, 500, 1000));
   REQUIRE(scene.models.front()->mesh.indices.size() == 3'000'000);
-  const SoundFrame sound = sound_frame(scene, 1, even_frame(lot.size_px(), 100));
+  const ValidFrame valid = valid_frame(scene, 1, even_frame(scenario.size_px(), 100));
   // Seen from 100 m the disc's edge is where the line of sight touches: tan(asin(10 / 100)).
-  const double radius_px = Lot::kFocal_px * 10 / std::sqrt(100.0 * 100 - 10.0 * 10);
-  const IntruderTruth& truth = sound.composed.truth.intruders[0];
-  REQUIRE(truth.silhouette);
-  CHECK(truth.silhouette->width == doctest::Approx(2 * radius_px).epsilon(1e-3));
-  CHECK(truth.silhouette->height == doctest::Approx(2 * radius_px).epsilon(1e-3));
-  CHECK(cv::sum(sound.seen[0].sharp.coverage)[0] ==
+  const double radius_px = Scenario::kFocal_px * 10 / std::sqrt(100.0 * 100 - 10.0 * 10);
+  const IntruderTruth& truth = valid.composed.truth.intruders[0];
+  REQUIRE(truth.amodal_box);
+  CHECK(truth.amodal_box->width == doctest::Approx(2 * radius_px).epsilon(1e-3));
+  CHECK(truth.amodal_box->height == doctest::Approx(2 * radius_px).epsilon(1e-3));
+  CHECK(cv::sum(valid.layers[0].warped.coverage)[0] ==
         doctest::Approx(std::numbers::pi * radius_px * radius_px).epsilon(0.005));
   CHECK(truth.visible_fraction == doctest::Approx(1).epsilon(1e-3));
 }
@@ -69,41 +69,41 @@ TEST_CASE("a single triangle is drawn with the area that it has, from both sides
   for (const bool faces_us : {true, false})
     for (const double supersampling : {1.0, 2.0}) {
       CAPTURE(faces_us);
-      Lot lot;
-      std::ofstream(lot.path("triangle.obj")) << "v 0 0 0\nv 0 12 0\nv 0 0 -8\n"
-                                              << (faces_us ? "f 1 2 3\n" : "f 1 3 2\n");
-      lot.add("triangle.obj", kEye_m + glm::dvec3(60, -5, 3));
-      lot.project.compositing.supersampling = static_cast<int>(supersampling);
-      const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
+      Scenario scenario;
+      std::ofstream(scenario.path("triangle.obj")) << "v 0 0 0\nv 0 12 0\nv 0 0 -8\n"
+                                                   << (faces_us ? "f 1 2 3\n" : "f 1 3 2\n");
+      scenario.add("triangle.obj", kEye_m + glm::dvec3(60, -5, 3));
+      scenario.project.compositing.supersampling = static_cast<int>(supersampling);
+      const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
       // 60 by 40 px, and half of that.
-      CHECK(cv::sum(sound.seen[0].sharp.coverage)[0] == doctest::Approx(1200).epsilon(0.01));
-      const Box& box = *sound.composed.truth.intruders[0].silhouette;
+      CHECK(cv::sum(valid.layers[0].warped.coverage)[0] == doctest::Approx(1200).epsilon(0.01));
+      const Box& box = *valid.composed.truth.intruders[0].amodal_box;
       CHECK(box.width == doctest::Approx(60).epsilon(1e-6));
       CHECK(box.height == doctest::Approx(40).epsilon(1e-6));
     }
 }
 
 TEST_CASE("a single triangle seen edge on covers nothing and breaks nothing") {
-  Lot lot;
-  std::ofstream(lot.path("triangle.obj")) << "v 0 0 0\nv 12 0 0\nv 0 12 0\nf 1 2 3\n";
-  lot.add("triangle.obj", kEye_m + glm::dvec3(60, 0, 0));  // flat in the plane of sight
-  const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-  CHECK(sound.composed.truth.intruders[0].silhouette->height == doctest::Approx(0));
-  CHECK(opacity_px(sound.seen[0].soft) < 60);  // a line of 60 px at most
+  Scenario scenario;
+  std::ofstream(scenario.path("triangle.obj")) << "v 0 0 0\nv 12 0 0\nv 0 12 0\nf 1 2 3\n";
+  scenario.add("triangle.obj", kEye_m + glm::dvec3(60, 0, 0));  // flat in the plane of sight
+  const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+  CHECK(valid.composed.truth.intruders[0].amodal_box->height == doctest::Approx(0));
+  CHECK(opacity_px(valid.layers[0].occluded) < 60);  // a line of 60 px at most
 }
 
-TEST_CASE("models of a micrometre and of a thousand kilometres are sound from near and far") {
+TEST_CASE("models of a micrometre and of a thousand kilometres are valid from near and far") {
   for (const double scale : {1e-6, 1e6 / 12})
     for (const double distance_lengths : {0.6, 3.0, 1000.0}) {
       CAPTURE(scale);
       CAPTURE(distance_lengths);
-      Lot lot({96, 72});
-      lot.project.compositing.supersampling = 1;
-      add_aircraft(lot, kEye_m + glm::dvec3(12 * scale * distance_lengths, 0, 0));
-      if (length(lot.project.intruders[0].trajectory.waypoints[0].position_m) > 9e7) continue;
-      lot.project.intruders[0].model.scale = scale;
-      const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-      CHECK(sound.composed.truth.intruders[0].in_picture);
+      Scenario scenario({96, 72});
+      scenario.project.compositing.supersampling = 1;
+      add_aircraft(scenario, kEye_m + glm::dvec3(12 * scale * distance_lengths, 0, 0));
+      if (length(scenario.project.intruders[0].trajectory.waypoints[0].position_m) > 9e7) continue;
+      scenario.project.intruders[0].model.scale = scale;
+      const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+      CHECK(valid.composed.truth.intruders[0].in_image);
     }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "extremes/sound.h"
+#include "extremes/validity.h"
 #include "spline/flights.h"
 
 namespace sigs::test {
@@ -22,18 +22,19 @@ std::vector<TimedWaypoint> nearly_coincident(double apart_m, const glm::dvec3& d
 
 // Greatest turn within a millisecond, from a second before to a second after.
 double fastest_turn_rad(const Trajectory& trajectory, double last_s) {
-  double most_rad = 0;
+  double max_rad = 0;
   glm::dquat before = trajectory.world_from_body(-1).rotation;
   for (double time_s = -0.999; time_s < last_s + 1; time_s += 1e-3) {
     const glm::dquat at = trajectory.world_from_body(time_s).rotation;
-    most_rad = std::max(most_rad, rotation_between_rad(before, at));
+    max_rad = std::max(max_rad, rotation_between_rad(before, at));
     before = at;
   }
-  return most_rad;
+  return max_rad;
 }
 
 // Lays the flight before the camera, so that its middle is 3 km ahead, and takes three frames over it.
-void check_sound_flight(const Flight& flight, const TrajectorySettings& settings, const Lot& lot, Scene& scene) {
+void check_sound_flight(const Flight& flight, const TrajectorySettings& settings, const Scenario& scenario,
+                        Scene& scene) {
   std::vector<TimedWaypoint> waypoints = flight.waypoints;
   const glm::dvec3 to_middle = kEye_m + glm::dvec3(3000, 0, 0) - waypoints[waypoints.size() / 2].position_m;
   for (TimedWaypoint& waypoint : waypoints) waypoint.position_m += to_middle;
@@ -42,7 +43,7 @@ void check_sound_flight(const Flight& flight, const TrajectorySettings& settings
   scene.footage.times_s = {0.1 * last_s, 0.5 * last_s, last_s};
   for (int frame = 0; frame < 3; ++frame) {
     CAPTURE(frame);
-    (void)sound_frame(scene, frame, even_frame(lot.size_px(), 100));
+    (void)valid_frame(scene, frame, even_frame(scenario.size_px(), 100));
   }
 }
 
@@ -75,15 +76,15 @@ TEST_CASE("waypoints that nearly coincide and follow each other in a nanosecond 
   }
 }
 
-TEST_CASE("cusps and reversals and loops and climbs and stops give sound frames and annotations") {
-  Lot lot({64, 48});
-  set_lens(lot, {60, 0, 31.5, 0, 60, 23.5, 0, 0, 1}, {-0.2, 0.05, 0, 0});
-  add_aircraft(lot, {300, 0, -150});
-  Scene scene = lot.opened();
+TEST_CASE("cusps and reversals and loops and climbs and stops give valid frames and annotations") {
+  Scenario scenario({64, 48});
+  set_lens(scenario, {60, 0, 31.5, 0, 60, 23.5, 0, 0, 1}, {-0.2, 0.05, 0, 0});
+  add_aircraft(scenario, {300, 0, -150});
+  Scene scene = scenario.opened();
   for (const Flight& flight : all_flights())
     for (const TrajectorySettings& settings : all_settings()) {
       INFO(flight.name << ", " << name_of(settings));
-      check_sound_flight(flight, settings, lot, scene);
+      check_sound_flight(flight, settings, scenario, scene);
     }
 }
 
@@ -109,12 +110,12 @@ TEST_CASE("through a vertical loop the annotated angles make one turn that never
 }
 
 TEST_CASE("what stands still is drawn alike in every frame and level") {
-  Lot lot({64, 48});
-  add_aircraft(lot, {60, 3, -152});
-  Scene scene = lot.opened();
+  Scenario scenario({64, 48});
+  add_aircraft(scenario, {60, 3, -152});
+  Scene scene = scenario.opened();
   const glm::dvec3 place_m(60, 3, -152);
-  const Frame background = even_frame(lot.size_px(), 100);
-  const SoundFrame hovering = sound_frame(scene, 0, background);
+  const Frame background = even_frame(scenario.size_px(), 100);
+  const ValidFrame hovering = valid_frame(scene, 0, background);
   for (const std::vector<TimedWaypoint>& waypoints :
        {std::vector<TimedWaypoint>{{0, place_m}, {0.08, place_m}},
         std::vector<TimedWaypoint>{{0, place_m}, {0.01, place_m}, {0.02, place_m}, {50, place_m}}})
@@ -122,7 +123,7 @@ TEST_CASE("what stands still is drawn alike in every frame and level") {
       INFO(name_of(settings));
       scene.intruders[0].trajectory = made(waypoints, settings);
       for (int frame = 0; frame < 3; ++frame)
-        CHECK(same_planes(sound_frame(scene, frame, background).composed.picture, hovering.composed.picture));
+        CHECK(same_planes(valid_frame(scene, frame, background).composed.image, hovering.composed.image));
     }
 }
 

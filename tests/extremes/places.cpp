@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "extremes/sound.h"
+#include "extremes/validity.h"
 
 namespace sigs::test {
 namespace {
@@ -26,7 +26,7 @@ std::vector<Place> places() {
           {"its tail half a metre ahead", {6.5, 0, 0}, true},
           {"its nose half a metre behind the camera", {-6.5, 0, 0}, false},
           {"beside the camera, straddling the image plane", {0, 9, 0}, false},
-          {"below, straddling the image plane, ahead into the picture", {3, 0, 3}, true},
+          {"below, straddling the image plane, ahead into the image", {3, 0, 3}, true},
           {"on the image plane itself", {0, 60, 0}, false},
           {"around the camera", {0, 0, 0}, true},
           {"its skin a hundredth of a millimetre from the camera", {0, 0, -0.75 - 1e-5}, true},
@@ -63,7 +63,7 @@ double cube_area_px(double side_m, const glm::dvec3& from_eye_m, double focal_px
 
 }  // namespace
 
-TEST_CASE("wherever the intruder is everything that comes out is sound") {
+TEST_CASE("wherever the intruder is everything that comes out is valid") {
   const struct {
     MethodChoice method;
     bool is_fisheye;
@@ -71,56 +71,55 @@ TEST_CASE("wherever the intruder is everything that comes out is sound") {
   } ways[] = {
       {MethodChoice::direct, false, 0}, {MethodChoice::direct, true, 0.01}, {MethodChoice::classic, false, 0.01}};
   for (const auto& [method, is_fisheye, blur_px_per_m] : ways) {
-    Lot lot({96, 72});
+    Scenario scenario({96, 72});
     const double focal_px = is_fisheye ? 30 : 90;
-    set_lens(lot, {focal_px, 0, 47.5, 0, focal_px, 35.5, 0, 0, 1}, {0, 0, 0, 0}, is_fisheye);
-    lot.project.compositing = {.method = method, .blur_px_per_m = blur_px_per_m, .supersampling = 1};
-    add_aircraft(lot, kEye_m);
+    set_lens(scenario, {focal_px, 0, 47.5, 0, focal_px, 35.5, 0, 0, 1}, {0, 0, 0, 0}, is_fisheye);
+    scenario.project.compositing = {.method = method, .blur_px_per_m = blur_px_per_m, .supersampling = 1};
+    add_aircraft(scenario, kEye_m);
     for (const Place& place : places()) {
       INFO(place.name << ", fisheye " << is_fisheye << ", method " << static_cast<int>(method));
-      lot.project.intruders[0].trajectory.waypoints = {{.frame = 0, .position_m = kEye_m + place.from_eye_m}};
-      const SoundFrame sound = sound_frame(lot.opened(), 1, grainy_frame(lot.size_px(), 1));
-      const IntruderTruth& truth = sound.composed.truth.intruders[0];
+      scenario.project.intruders[0].trajectory.waypoints = {{.frame = 0, .position_m = kEye_m + place.from_eye_m}};
+      const ValidFrame valid = valid_frame(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
+      const IntruderTruth& truth = valid.composed.truth.intruders[0];
       CHECK(length(truth.position_m - place.from_eye_m) <= 1e-8 * (1 + length(place.from_eye_m)));
-      if (!is_fisheye) CHECK(truth.in_picture == place.can_be_seen);
+      if (!is_fisheye) CHECK(truth.in_image == place.can_be_seen);
     }
   }
 }
 
-TEST_CASE("a picture on a surface that is seen edge on from a hundredth of a millimetre stays a picture") {
-  Lot lot({96, 72});
-  set_lens(lot, {90, 0, 47.5, 0, 90, 35.5, 0, 0, 1}, {0, 0, 0, 0});
-  lot.project.compositing.supersampling = 1;
-  cv::imwrite(lot.path("picture.png").string(), cv::Mat(8, 8, CV_8UC3, cv::Scalar(40, 120, 220)));
-  add_aircraft(lot, kEye_m);
-  std::ofstream paint(lot.path("aircraft.mtl"));
-  for (std::size_t i = 0; i < aircraft().size(); ++i)
-    paint << "newmtl paint" << i << "\nKd 1 1 1\nmap_Kd picture.png\n";
+TEST_CASE("an image on a surface that is seen edge on from a hundredth of a millimetre stays an image") {
+  Scenario scenario({96, 72});
+  set_lens(scenario, {90, 0, 47.5, 0, 90, 35.5, 0, 0, 1}, {0, 0, 0, 0});
+  scenario.project.compositing.supersampling = 1;
+  cv::imwrite(scenario.path("image.png").string(), cv::Mat(8, 8, CV_8UC3, cv::Scalar(40, 120, 220)));
+  add_aircraft(scenario, kEye_m);
+  std::ofstream paint(scenario.path("aircraft.mtl"));
+  for (std::size_t i = 0; i < aircraft().size(); ++i) paint << "newmtl paint" << i << "\nKd 1 1 1\nmap_Kd image.png\n";
   paint.close();
   for (const double above_m : {1e-5, -1e-5, 1e-7, 1e-3, 0.0}) {
     CAPTURE(above_m);
     // The fuselage's belly above the camera by so much.
-    lot.project.intruders[0].trajectory.waypoints[0].position_m = kEye_m + glm::dvec3(0, 0, -0.75 - above_m);
-    (void)sound_frame(lot.opened(), 1, grainy_frame(lot.size_px(), 1));
+    scenario.project.intruders[0].trajectory.waypoints[0].position_m = kEye_m + glm::dvec3(0, 0, -0.75 - above_m);
+    (void)valid_frame(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
   }
 }
 
-TEST_CASE("all of it ten thousand kilometres from the world's origin is sound and the same") {
+TEST_CASE("all of it ten thousand kilometres from the world's origin is valid and the same") {
   for (const Place& place : places()) {
     if (length(place.from_eye_m) > 1e6 || (!place.can_be_seen && length(place.from_eye_m) < 20)) continue;
     INFO(place.name);
     std::vector<ComposedFrame> frames;
     for (const glm::dvec3& origin_m : {glm::dvec3(0), glm::dvec3(1e7, -1e7, 1e7)}) {
-      Lot lot({96, 72});
-      set_lens(lot, {90, 0, 47.5, 0, 90, 35.5, 0, 0, 1}, {0, 0, 0, 0});
-      lot.project.compositing.supersampling = 1;
-      lot.project.camera.position_m = origin_m;
-      lot.project.light.position_m = origin_m + glm::dvec3(-2000, 1000, -3000);
+      Scenario scenario({96, 72});
+      set_lens(scenario, {90, 0, 47.5, 0, 90, 35.5, 0, 0, 1}, {0, 0, 0, 0});
+      scenario.project.compositing.supersampling = 1;
+      scenario.project.camera.position_m = origin_m;
+      scenario.project.light.position_m = origin_m + glm::dvec3(-2000, 1000, -3000);
       // Thousandths of a millimetre are lost at 1e7 m: eighths of a metre are not.
-      add_aircraft(lot, origin_m + glm::round(place.from_eye_m * 8.0) / 8.0);
-      frames.push_back(sound_frame(lot.opened(), 0, grainy_frame(lot.size_px(), 0)).composed);
+      add_aircraft(scenario, origin_m + glm::round(place.from_eye_m * 8.0) / 8.0);
+      frames.push_back(valid_frame(scenario.opened(), 0, grainy_frame(scenario.size_px(), 0)).composed);
     }
-    CHECK(same_planes(frames[0].picture, frames[1].picture));
+    CHECK(same_planes(frames[0].image, frames[1].image));
     CHECK(frames[0].truth.intruders[0].position_m == frames[1].truth.intruders[0].position_m);
   }
 }
@@ -134,20 +133,20 @@ TEST_CASE("a target of a hundredth of a pixel covers its true area within a hund
       CAPTURE(supersampling);
       CAPTURE(offset_px.x);
       const glm::dvec3 from_eye_m =
-          distance_m * glm::dvec3(1, offset_px.x / Lot::kFocal_px, offset_px.y / Lot::kFocal_px);
+          distance_m * glm::dvec3(1, offset_px.x / Scenario::kFocal_px, offset_px.y / Scenario::kFocal_px);
       for (const bool is_plate : {true, false}) {
-        Lot lot;
-        lot.project.compositing.supersampling = static_cast<int>(supersampling);
+        Scenario scenario;
+        scenario.project.compositing.supersampling = static_cast<int>(supersampling);
         if (is_plate)
-          add_plate(lot, 3, kEye_m + from_eye_m);
+          add_plate(scenario, 3, kEye_m + from_eye_m);
         else
-          add_cube(lot, 3, kEye_m + from_eye_m);
-        const double true_px = is_plate ? 1e-4 : cube_area_px(3, from_eye_m, Lot::kFocal_px, 0.01);
-        const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-        REQUIRE(sound.seen.size() == 1);
-        REQUIRE(!sound.seen[0].sharp.empty());
-        CHECK(cv::sum(sound.seen[0].sharp.coverage)[0] == doctest::Approx(true_px).epsilon(0.01));
-        CHECK(opacity_px(sound.seen[0].soft) == doctest::Approx(true_px).epsilon(0.01));
+          add_cube(scenario, 3, kEye_m + from_eye_m);
+        const double true_px = is_plate ? 1e-4 : cube_area_px(3, from_eye_m, Scenario::kFocal_px, 0.01);
+        const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+        REQUIRE(valid.layers.size() == 1);
+        REQUIRE(!valid.layers[0].warped.empty());
+        CHECK(cv::sum(valid.layers[0].warped.coverage)[0] == doctest::Approx(true_px).epsilon(0.01));
+        CHECK(opacity_px(valid.layers[0].occluded) == doctest::Approx(true_px).epsilon(0.01));
       }
     }
 }
@@ -158,13 +157,13 @@ TEST_CASE("a target of a hundredth of a pixel keeps its area through a lens that
   const double k1 = -0.25;
   for (const double slope : {0.0, 0.2, 0.45}) {
     CAPTURE(slope);
-    Lot lot;
-    set_lens(lot, {300, 0, 159.5, 0, 300, 119.5, 0, 0, 1}, {k1, 0, 0, 0});
-    add_plate(lot, 3, kEye_m + 90'000.0 * glm::dvec3(1, slope, 0));
+    Scenario scenario;
+    set_lens(scenario, {300, 0, 159.5, 0, 300, 119.5, 0, 0, 1}, {k1, 0, 0, 0});
+    add_plate(scenario, 3, kEye_m + 90'000.0 * glm::dvec3(1, slope, 0));
     const double determinant = (1 + 3 * k1 * slope * slope) * (1 + k1 * slope * slope);
-    const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-    REQUIRE(!sound.seen[0].sharp.empty());
-    CHECK(cv::sum(sound.seen[0].sharp.coverage)[0] == doctest::Approx(1e-4 * determinant).epsilon(0.01));
+    const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+    REQUIRE(!valid.layers[0].warped.empty());
+    CHECK(cv::sum(valid.layers[0].warped.coverage)[0] == doctest::Approx(1e-4 * determinant).epsilon(0.01));
   }
 }
 
@@ -173,15 +172,15 @@ TEST_CASE("from a hundredth of a pixel to a hundred pixels the area is true at e
     for (const double side_px : {0.01, 0.3, 1.0, 7.3, 100.0}) {
       CAPTURE(supersampling);
       CAPTURE(side_px);
-      Lot lot({160, 120});
-      set_lens(lot, {300, 0, 79.8, 0, 300, 59.6, 0, 0, 1}, {0, 0, 0, 0});
-      lot.project.compositing.supersampling = supersampling;
-      add_plate(lot, side_px, kEye_m + glm::dvec3(300, 0, 0));
-      const SoundFrame sound = sound_frame(lot.opened(), 1, even_frame(lot.size_px(), 100));
-      REQUIRE(!sound.seen[0].sharp.empty());
-      const double area_px = cv::sum(sound.seen[0].sharp.coverage)[0];
+      Scenario scenario({160, 120});
+      set_lens(scenario, {300, 0, 79.8, 0, 300, 59.6, 0, 0, 1}, {0, 0, 0, 0});
+      scenario.project.compositing.supersampling = supersampling;
+      add_plate(scenario, side_px, kEye_m + glm::dvec3(300, 0, 0));
+      const ValidFrame valid = valid_frame(scenario.opened(), 1, even_frame(scenario.size_px(), 100));
+      REQUIRE(!valid.layers[0].warped.empty());
+      const double area_px = cv::sum(valid.layers[0].warped.coverage)[0];
       CHECK(area_px == doctest::Approx(side_px * side_px).epsilon(0.01));
-      CHECK(sound.composed.truth.intruders[0].in_picture);
+      CHECK(valid.composed.truth.intruders[0].in_image);
     }
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "extremes/sound.h"
+#include "extremes/validity.h"
+#include "spline/conditioning.h"
 #include "spline/flights.h"
 #include "spline/interpolating_spline.h"
-#include "spline/stiffness.h"
 
 namespace sigs::test {
 namespace {
@@ -33,19 +33,19 @@ std::vector<TimedWaypoint> frame_and_1e5_frames() {
 
 }  // namespace
 
-TEST_CASE("one frame and a hundred thousand frames in one trajectory give sound frames at both ends and between") {
-  Lot lot({160, 120});
-  add_aircraft(lot, {60, 0, -150});
-  Scene scene = with_long_footage(lot.opened());
+TEST_CASE("one frame and a hundred thousand frames in one trajectory give valid frames at both ends and between") {
+  Scenario scenario({160, 120});
+  add_aircraft(scenario, {60, 0, -150});
+  Scene scene = with_long_footage(scenario.opened());
   for (const TrajectorySettings& settings : all_settings()) {
     INFO(name_of(settings));
     scene.intruders[0].trajectory = made(frame_and_1e5_frames(), settings);
     for (const int frame : {0, 1, 30'000, kLong + 1, kLong + 99}) {
       CAPTURE(frame);
-      const SoundFrame sound = sound_frame(scene, frame, even_frame(lot.size_px(), 100));
+      const ValidFrame valid = valid_frame(scene, frame, even_frame(scenario.size_px(), 100));
       const bool at_waypoint = frame <= 1 || frame == kLong + 1 || frame == kLong + 2;
       if (settings.spline == SplineKind::interpolating && settings.timing == Timing::frames && at_waypoint)
-        CHECK(sound.composed.truth.intruders[0].in_picture);
+        CHECK(valid.composed.truth.intruders[0].in_image);
     }
   }
 }
@@ -90,16 +90,16 @@ TEST_CASE("from one waypoint to ten thousand each is passed at its time and the 
 }
 
 TEST_CASE("frame times that all fall together stand still and times an hour apart go on") {
-  Lot lot;
-  add_aircraft(lot, {60, 0, -150});
-  Scene scene = lot.opened();
+  Scenario scenario;
+  add_aircraft(scenario, {60, 0, -150});
+  Scene scene = scenario.opened();
   scene.footage.times_s = {0, 0, 3600};  // a clip whose clock stood, then jumped
   scene.intruders[0].trajectory = made({{0, {60, -5, -150}}, {3600, {60, 5, -150}}});
-  const Frame background = even_frame(lot.size_px(), 100);
-  const SoundFrame first = sound_frame(scene, 0, background);
-  const SoundFrame second = sound_frame(scene, 1, background);
-  CHECK(same_planes(first.composed.picture, second.composed.picture));
-  CHECK(sound_frame(scene, 2, background).composed.truth.intruders[0].position_m.y == doctest::Approx(5));
+  const Frame background = even_frame(scenario.size_px(), 100);
+  const ValidFrame first = valid_frame(scene, 0, background);
+  const ValidFrame second = valid_frame(scene, 1, background);
+  CHECK(same_planes(first.composed.image, second.composed.image));
+  CHECK(valid_frame(scene, 2, background).composed.truth.intruders[0].position_m.y == doctest::Approx(5));
 }
 
 }  // namespace sigs::test

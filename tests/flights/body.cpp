@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "flights/body_paint.h"
-#include "flights/chance.h"
+#include "flights/random.h"
 
 namespace sigs::flights {
 
@@ -62,9 +62,10 @@ Body body_of(const std::vector<Part>& parts, cv::Size size_px, std::uint32_t see
 
 Shake shake_at(int frame, cv::Size size_px, std::uint32_t seed) {
   const double scale = std::min(1.0, size_px.width / 640.0);
-  const double way = 2 * std::numbers::pi * chance(frame, 1, seed), reach_px = 0.5 + 1.5 * chance(frame, 2, seed);
+  const double way = 2 * std::numbers::pi * random_share(frame, 1, seed),
+               reach_px = 0.5 + 1.5 * random_share(frame, 2, seed);
   const auto slow = [&](double rate_hz, int part) {
-    return std::sin(2 * std::numbers::pi * (rate_hz * frame / 25.0 + chance(part, 3, seed)));
+    return std::sin(2 * std::numbers::pi * (rate_hz * frame / 25.0 + random_share(part, 3, seed)));
   };
   return {.shift_px = scale * reach_px * cv::Point2d(std::cos(way), std::sin(way)),
           .light = 1 + 0.05 * slow(0.11, 1) + 0.02 * slow(0.5, 2),
@@ -72,35 +73,35 @@ Shake shake_at(int frame, cv::Size size_px, std::uint32_t seed) {
           .gloss_codes = 28 + 14 * slow(0.21, 5)};
 }
 
-void lay_over(cv::Mat& picture, const Body& body, const Shake& shake) {
+void lay_over(cv::Mat& image, const Body& body, const Shake& shake) {
   if (body.where.empty()) return;
   const int reach_px = cvCeil(std::max(std::abs(shake.shift_px.x), std::abs(shake.shift_px.y))) + 1;
   const cv::Rect shown =
       cv::Rect(body.where.x - reach_px - Body::kMargin_px, body.where.y - reach_px - Body::kMargin_px,
                body.where.width + 2 * reach_px, body.where.height + 2 * reach_px) &
-      cv::Rect({}, picture.size());
+      cv::Rect({}, image.size());
   const cv::Matx23d move(1, 0, shown.x + Body::kMargin_px - shake.shift_px.x,  //
                          0, 1, shown.y + Body::kMargin_px - shake.shift_px.y);
   cv::Mat moved;
   cv::warpAffine(body.paint, moved, move, shown.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  const double sigma_px = 0.12 * picture.cols;
+  const double sigma_px = 0.12 * image.cols;
   const std::vector<float> across = bell(shown.x, shown.width, shake.gloss_px.x, sigma_px);
   const std::vector<float> down = bell(shown.y, shown.height, shake.gloss_px.y, sigma_px);
   for (int y = 0; y < shown.height; ++y)
-    blend_row(picture.ptr<cv::Vec3b>(shown.y + y) + shown.x, moved.ptr<cv::Vec4b>(y), shown.width,
+    blend_row(image.ptr<cv::Vec3b>(shown.y + y) + shown.x, moved.ptr<cv::Vec4b>(y), shown.width,
               static_cast<float>(shake.light), across.data(),
               static_cast<float>(shake.gloss_codes) * down[static_cast<std::size_t>(y)]);
 }
 
-void lay_over(cv::Mat& picture, const Propeller& propeller, int frame) {
+void lay_over(cv::Mat& image, const Propeller& propeller, int frame) {
   if (propeller.radius <= 0) return;
   constexpr int kShift = 4;
   constexpr double kTurnAFrame_rad = 2.4, kCover = 0.42;
-  const double radius_px = propeller.radius * picture.cols;
-  const cv::Point2d middle_px(propeller.middle.x * picture.cols, propeller.middle.y * picture.rows);
+  const double radius_px = propeller.radius * image.cols;
+  const cv::Point2d middle_px(propeller.middle.x * image.cols, propeller.middle.y * image.rows);
   const cv::Rect disc = cv::Rect(cvFloor(middle_px.x - radius_px) - 4, cvFloor(middle_px.y - radius_px) - 4,
                                  cvCeil(2 * radius_px) + 9, cvCeil(2 * radius_px) + 9) &
-                        cv::Rect({}, picture.size());
+                        cv::Rect({}, image.size());
   cv::Mat cover = cv::Mat::zeros(disc.size(), CV_8UC1);
   const cv::Point2d middle_of_disc = middle_px - cv::Point2d(disc.tl());
   for (int blade = 0; blade < propeller.blades; ++blade) {
@@ -112,7 +113,7 @@ void lay_over(cv::Mat& picture, const Propeller& propeller, int frame) {
   for (int y = 0; y < disc.height; ++y)
     for (int x = 0; x < disc.width; ++x)
       for (int k = 0; k < 3; ++k) {
-        uchar& code = picture.at<cv::Vec3b>(disc.y + y, disc.x + x)[k];
+        uchar& code = image.at<cv::Vec3b>(disc.y + y, disc.x + x)[k];
         code = cv::saturate_cast<uchar>(code + (46 - code) * (cover.at<uchar>(y, x) / 255.0));
       }
 }

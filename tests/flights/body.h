@@ -7,8 +7,8 @@
 
 namespace sigs::flights {
 
-// A part of the carrying aircraft as the camera sees it, flat. Places are shares of the picture's width (x) and height
-// (y), (0, 0) its upper left corner; a part may reach beyond the picture.
+// A part of the carrying aircraft as the camera sees it, flat. Places are shares of the image's width (x) and height
+// (y), (0, 0) its upper left corner; a part may reach beyond the image.
 struct Part {
   using Outline = std::vector<cv::Point2d>;
   std::vector<Outline> outlines;  // even-odd: the second may be a hole in the first
@@ -29,10 +29,10 @@ struct Propeller {
 
 // The parts painted once, with their anti-aliased edge.
 struct Body {
-  static constexpr int kMargin_px = 12;  // painted beyond the picture, so that shaking by less brings no gap in
-  cv::Size size_px;                      // of the picture
-  cv::Mat paint;                         // CV_8UC4 premultiplied, larger than the picture by the margin on each side
-  cv::Mat truth;                         // CV_8UC1 of the picture's size: 255 where at least half is covered, at rest
+  static constexpr int kMargin_px = 12;  // painted beyond the image, so that shaking by less brings no gap in
+  cv::Size size_px;                      // of the image
+  cv::Mat paint;                         // CV_8UC4 premultiplied, larger than the image by the margin on each side
+  cv::Mat truth;                         // CV_8UC1 of the image's size: 255 where at least half is covered, at rest
   cv::Rect where;                        // of `paint` that is not empty
 };
 [[nodiscard]] Body body_of(const std::vector<Part>& parts, cv::Size size_px, std::uint32_t seed);
@@ -44,10 +44,10 @@ struct Shake {
   cv::Point2d gloss_px;    // middle of the highlight
   double gloss_codes = 0;  // its strength there
 };
-// 0.5..2 px (less in pictures below 640 wide) in any direction, from frame to frame; light and gloss change slowly.
+// 0.5..2 px (less in images below 640 wide) in any direction, from frame to frame; light and gloss change slowly.
 [[nodiscard]] Shake shake_at(int frame, cv::Size size_px, std::uint32_t seed);
 
-void lay_over(cv::Mat& picture, const Body& body, const Shake& shake);
-void lay_over(cv::Mat& picture, const Propeller& propeller, int frame);
+void lay_over(cv::Mat& image, const Body& body, const Shake& shake);
+void lay_over(cv::Mat& image, const Propeller& propeller, int frame);
 
 }  // namespace sigs::flights

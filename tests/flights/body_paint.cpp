@@ -4,8 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "flights/chance.h"
 #include "flights/mosaic.h"
+#include "flights/random.h"
 
 namespace sigs::flights {
 
@@ -14,7 +14,7 @@ namespace {
 constexpr int kFine = 4;  // drawn so many times larger, then averaged
 constexpr int kShift = 4;
 
-// From shares of the picture to pixels of the fine canvas.
+// From shares of the image to pixels of the fine canvas.
 struct Canvas {
   cv::Size size_px;
   int margin_px = 0;
@@ -74,7 +74,7 @@ cv::Mat panel_lines(const cv::Mat& cover, int count, double scale, std::uint32_t
   const auto fixed = [](cv::Point2d p) { return cv::Point(cvRound(p.x * 16), cvRound(p.y * 16)); };
   for (int k = 0; k < count && !where.empty(); ++k) {
     const bool upright = k % 2 == 0;
-    const double a = chance(k, 1, seed), b = a + 0.12 * (chance(k, 2, seed) - 0.5);
+    const double a = random_share(k, 1, seed), b = a + 0.12 * (random_share(k, 2, seed) - 0.5);
     const cv::Point2d begin =
         upright ? cv::Point2d(where.x + a * where.width, where.y) : cv::Point2d(where.x, where.y + a * where.height);
     const cv::Point2d end = upright ? cv::Point2d(where.x + b * where.width, where.br().y)

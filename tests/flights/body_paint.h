@@ -10,7 +10,7 @@ struct Painted {
   cv::Mat premultiplied;  // CV_8UC4, slightly soft
 };
 
-// The parts one over the other, on a canvas larger than the picture by the margin on each side.
+// The parts one over the other, on a canvas larger than the image by the margin on each side.
 [[nodiscard]] Painted painted_parts(const std::vector<Part>& parts, cv::Size size_px, int margin_px,
                                     std::uint32_t seed);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "flights/chance.h"
+#include "flights/random.h"
 
 namespace sigs::flights {
 
@@ -20,7 +20,7 @@ double rad(double deg) {
 
 // A sine of its own phase. part tells one motion of a flight from another.
 double swing(double t_s, double rate_hz, int part, std::uint32_t seed) {
-  return std::sin(2 * std::numbers::pi * (rate_hz * t_s + chance(part, 7, seed)));
+  return std::sin(2 * std::numbers::pi * (rate_hz * t_s + random_share(part, 7, seed)));
 }
 
 cv::Matx33d world_from_camera(double yaw_rad, double pitch_rad, double roll_rad) {
@@ -55,7 +55,7 @@ View view_at(const Path& path, cv::Size size_px, int frame) {
   const double pitch_rad =
       rad(mean_pitch_deg(path, frame) + sway_deg(1.6, 0.16, 3) + sway_deg(0.6, 0.55, 4) + sway_deg(0.15, 2.1, 5));
   const double roll_rad = rad(sway_deg(4, 0.11, 6) + sway_deg(1.7, 0.37, 7) + sway_deg(0.3, 1.7, 8));
-  const double start_m = 1000 * chance(9, 9, path.seed);
+  const double start_m = 1000 * random_share(9, 9, path.seed);
   return {.size_px = size_px,
           .focal_px = 0.5 * size_px.width / std::tan(rad(kHalfFieldOfView_deg)),
           .position_m = {start_m + kSpeed_mps * t_s, path.weave_m * std::sin(turn * t_s),

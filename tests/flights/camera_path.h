@@ -7,7 +7,7 @@
 namespace sigs::flights {
 
 // Where the camera is and how it looks. World axes X north, Y east, Z down; camera axes X forward, Y right, Z down.
-// A pixel (x, y) sees along the camera ray (1, (x - cx) / f, (y - cy) / f), (cx, cy) being the middle of the picture.
+// A pixel (x, y) sees along the camera ray (1, (x - cx) / f, (y - cy) / f), (cx, cy) being the middle of the image.
 struct View {
   cv::Size size_px;
   double focal_px = 1;

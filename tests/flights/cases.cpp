@@ -115,7 +115,7 @@ std::vector<Case> unseen_cases() {
       {.name = "skids", .parts = skids(), .path = path(52)},
       {.name = "pod above", .parts = {pod()}, .path = path(53)},
       {.name = "float left", .parts = {side_float()}, .path = path(54)},
-      {.name = "nothing, other country", .path = path(55)},
+      {.name = "nothing, other terrain", .path = path(55)},
       {.name = "bonnet, lamps mirrored",
        .parts = {bonnet()},
        .path = path(56),

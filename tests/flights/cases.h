@@ -6,8 +6,8 @@
 
 #include "flights/body.h"
 #include "flights/camera_path.h"
-#include "flights/country.h"
 #include "flights/reflection.h"
+#include "flights/terrain.h"
 
 namespace sigs::flights {
 
@@ -21,7 +21,7 @@ struct Case {
   Propeller propeller;
   Roads roads = Roads::winding;
   double cloudiness = 1;
-  double bar_share = 0;  // of the picture's height that a black bar takes at the top, and another at the bottom
+  double bar_share = 0;  // of the image's height that a black bar takes at the top, and another at the bottom
   bool exposure_drifts = false;
   bool small_mover = false;
   double shake = 1;  // factor on how far the body trembles

@@ -19,21 +19,21 @@ namespace {
 class Countries {
  public:
   explicit Countries(int detail) : detail_(detail) {}
-  std::shared_ptr<const Country> with(Roads roads) {
-    std::shared_ptr<const Country>& place = made_[roads];
-    if (!place) place = std::make_shared<const Country>(country(detail_, roads, 11));
+  std::shared_ptr<const Terrain> with(Roads roads) {
+    std::shared_ptr<const Terrain>& place = made_[roads];
+    if (!place) place = std::make_shared<const Terrain>(terrain(detail_, roads, 11));
     return place;
   }
 
  private:
   int detail_;
-  std::map<Roads, std::shared_ptr<const Country>> made_;
+  std::map<Roads, std::shared_ptr<const Terrain>> made_;
 };
 
 // A bird crosses now and then.
-void draw_mover(cv::Mat& picture, int frame) {
-  const cv::Point middle(frame * 3 % picture.cols, picture.rows / 4 + frame % 16);
-  cv::ellipse(picture, middle, {std::max(4, picture.cols / 60), std::max(2, picture.cols / 160)}, 0, 0, 360,
+void draw_mover(cv::Mat& image, int frame) {
+  const cv::Point middle(frame * 3 % image.cols, image.rows / 4 + frame % 16);
+  cv::ellipse(image, middle, {std::max(4, image.cols / 60), std::max(2, image.cols / 160)}, 0, 0, 360,
               cv::Scalar(40, 40, 44), cv::FILLED, cv::LINE_AA);
 }
 
@@ -44,30 +44,30 @@ Shake shake_of(const Case& scene, cv::Size size_px, int frame) {
   return shake;
 }
 
-cv::Mat drawn(const Case& scene, const Country& country, const Body& body, const Grain& grain,
+cv::Mat drawn(const Case& scene, const Terrain& terrain, const Body& body, const Grain& grain,
               const cv::Mat& reflection, cv::Size size_px, int frame) {
-  cv::Mat picture = scenery(country, view_at(scene.path, size_px, frame), scene.cloudiness);
-  if (scene.small_mover) draw_mover(picture, frame);
-  lay_over(picture, scene.propeller, frame);
-  lay_over(picture, body, shake_of(scene, size_px, frame));
-  add_to(picture, reflection, scene.reflection, frame);
-  if (scene.exposure_drifts) picture *= drifting_gain(frame);
-  grain.add_to(picture, frame);
-  for (const cv::Rect& bar : bars(scene, size_px)) picture(bar).setTo(cv::Scalar::all(0));
-  return picture;
+  cv::Mat image = scenery(terrain, view_at(scene.path, size_px, frame), scene.cloudiness);
+  if (scene.small_mover) draw_mover(image, frame);
+  lay_over(image, scene.propeller, frame);
+  lay_over(image, body, shake_of(scene, size_px, frame));
+  add_to(image, reflection, scene.reflection, frame);
+  if (scene.exposure_drifts) image *= drifting_gain(frame);
+  grain.add_to(image, frame);
+  for (const cv::Rect& bar : bars(scene, size_px)) image(bar).setTo(cv::Scalar::all(0));
+  return image;
 }
 
-Flight flight(const Case& scene, const Making& making, std::shared_ptr<const Country> country) {
-  const auto body = std::make_shared<const Body>(body_of(scene.parts, making.size_px, scene.path.seed));
+Flight flight(const Case& scene, const FlightSettings& settings, std::shared_ptr<const Terrain> terrain) {
+  const auto body = std::make_shared<const Body>(body_of(scene.parts, settings.size_px, scene.path.seed));
   const auto grain = std::make_shared<const Grain>(scene.grain_codes);
-  const cv::Mat reflection = painted(scene.reflection, making.size_px);
+  const cv::Mat reflection = painted(scene.reflection, settings.size_px);
   cv::Mat truth = body->truth.clone();
-  for (const cv::Rect& bar : bars(scene, making.size_px)) truth(bar).setTo(255);
+  for (const cv::Rect& bar : bars(scene, settings.size_px)) truth(bar).setTo(255);
   return {.name = scene.name,
-          .size_px = making.size_px,
+          .size_px = settings.size_px,
           .own_body = truth,
-          .bgr = [=, size_px = making.size_px](
-                     int n) { return drawn(scene, *country, *body, *grain, reflection, size_px, n); },
+          .bgr = [=, size_px = settings.size_px](
+                     int n) { return drawn(scene, *terrain, *body, *grain, reflection, size_px, n); },
           .can_be_told = !scene.path.still};
 }
 
@@ -76,29 +76,29 @@ int detail_for(cv::Size size_px) {
   return size_px.width <= 400 ? 1024 : size_px.width <= 800 ? 2048 : 4096;
 }
 
-std::vector<Flight> flights_of(const std::vector<Case>& scenes, const Making& making) {
-  Countries countries(detail_for(making.size_px));
+std::vector<Flight> flights_of(const std::vector<Case>& scenes, const FlightSettings& settings) {
+  Countries countries(detail_for(settings.size_px));
   std::vector<Flight> flights;
-  for (const Case& scene : scenes) flights.push_back(flight(scene, making, countries.with(scene.roads)));
+  for (const Case& scene : scenes) flights.push_back(flight(scene, settings, countries.with(scene.roads)));
   return flights;
 }
 
 }  // namespace
 
-std::vector<Flight> all(const Making& making) {
-  return flights_of(cases(making.frames), making);
+std::vector<Flight> all(const FlightSettings& settings) {
+  return flights_of(cases(settings.frames), settings);
 }
 
-std::vector<Flight> hard(const Making& making) {
-  return flights_of(hard_cases(), making);
+std::vector<Flight> hard(const FlightSettings& settings) {
+  return flights_of(hard_cases(), settings);
 }
 
-std::vector<Flight> reflecting(const Making& making) {
-  return flights_of(reflecting_cases(), making);
+std::vector<Flight> reflecting(const FlightSettings& settings) {
+  return flights_of(reflecting_cases(), settings);
 }
 
-std::vector<Flight> unseen(const Making& making) {
-  return flights_of(unseen_cases(), making);
+std::vector<Flight> unseen(const FlightSettings& settings) {
+  return flights_of(unseen_cases(), settings);
 }
 
 std::vector<std::string> names() {
@@ -107,11 +107,11 @@ std::vector<std::string> names() {
   return names;
 }
 
-Flight by_name(std::string_view name, const Making& making) {
-  const std::vector<Case> scenes = cases(making.frames);
+Flight by_name(std::string_view name, const FlightSettings& settings) {
+  const std::vector<Case> scenes = cases(settings.frames);
   const auto found = std::ranges::find(scenes, name, &Case::name);
   ENSURE(found != scenes.end());
-  return flight(*found, making, Countries(detail_for(making.size_px)).with(found->roads));
+  return flight(*found, settings, Countries(detail_for(settings.size_px)).with(found->roads));
 }
 
 }  // namespace sigs::flights

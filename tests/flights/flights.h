@@ -18,24 +18,24 @@ struct Flight {
   bool can_be_told = true;          // false: nothing moves, so that no one can tell
 };
 
-struct Making {
+struct FlightSettings {
   cv::Size size_px{640, 480};
   int frames = 300;  // how many are meant to be looked at; "plain sky first" looks at the sky for half of them
 };
 
-// Every case that finding the body has to do well. The country below is made once for all of them.
-[[nodiscard]] std::vector<Flight> all(const Making& making = {});
+// Every case that finding the body has to do well. The terrain below is made once for all of them.
+[[nodiscard]] std::vector<Flight> all(const FlightSettings& settings = {});
 
 // Flights beyond what finding the body is asked to do; by_name does not know them.
-[[nodiscard]] std::vector<Flight> hard(const Making& making = {});
+[[nodiscard]] std::vector<Flight> hard(const FlightSettings& settings = {});
 
-// Reflections that stay in the picture (cases.h): what the confidence is set by, and what nothing is set by.
-[[nodiscard]] std::vector<Flight> reflecting(const Making& making = {});
-[[nodiscard]] std::vector<Flight> unseen(const Making& making = {});
+// Reflections that stay in the image (cases.h): what the confidence is set by, and what nothing is set by.
+[[nodiscard]] std::vector<Flight> reflecting(const FlightSettings& settings = {});
+[[nodiscard]] std::vector<Flight> unseen(const FlightSettings& settings = {});
 
 [[nodiscard]] std::vector<std::string> names();  // of all()
 
 // One case; stops where there is none of that name.
-[[nodiscard]] Flight by_name(std::string_view name, const Making& making = {});
+[[nodiscard]] Flight by_name(std::string_view name, const FlightSettings& settings = {});
 
 }  // namespace sigs::flights

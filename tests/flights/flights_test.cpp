@@ -16,7 +16,7 @@
 namespace sigs::flights {
 namespace {
 
-const Making kSmall{.size_px = {320, 240}, .frames = 60};
+const FlightSettings kSmall{.size_px = {320, 240}, .frames = 60};
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
@@ -61,7 +61,7 @@ cv::Matx33d pixel_of_ground(const View& view) {
 
 }  // namespace
 
-TEST_CASE("every case has its own name, a truth of its size, and pictures of it") {
+TEST_CASE("every case has its own name, a truth of its size, and images of it") {
   const std::vector<Flight> flights = all(kSmall);
   std::set<std::string> seen;
   REQUIRE(flights.size() == names().size());
@@ -92,7 +92,7 @@ TEST_CASE("the harder flights are other ones, and tremble as their names say") {
   REQUIRE(strongest != cases.end());
   CHECK(strongest->shake * 0.5 == doctest::Approx(2));
   CHECK(strongest->shake * 2 == doctest::Approx(8));
-  CHECK(strongest->shake * 2 < Body::kMargin_px);  // no gap at the picture's border
+  CHECK(strongest->shake * 2 < Body::kMargin_px);  // no gap at the image's border
 }
 
 TEST_CASE("a frame is the same whatever was asked for before, by whom, and alone or among others") {
@@ -127,15 +127,15 @@ TEST_CASE("a body at rest on average lies where the truth says") {
 }
 
 TEST_CASE("the world shows outside of the truth and not within") {
-  // Two flights over different country with one body: what differs between them is world.
+  // Two flights over different terrain with one body: what differs between them is world.
   const cv::Size size_px(320, 240);
   const Body body = body_of({nose(), wing_tip_left()}, size_px, 5);
-  const Country ours = country(1024, Roads::winding, 3), theirs = country(1024, Roads::winding, 4);
+  const Terrain ours = terrain(1024, Roads::winding, 3), theirs = terrain(1024, Roads::winding, 4);
   cv::Mat differs = cv::Mat::zeros(size_px, CV_8UC1);
   for (int n = 0; n < 60; ++n) {
     const View view = view_at({.pitch_deg = -45, .first_pitch_deg = -45, .seed = 2}, size_px, 5 * n);
     cv::Mat a = scenery(ours, view, 1), b = scenery(theirs, view, 1);
-    for (cv::Mat* picture : {&a, &b}) lay_over(*picture, body, Shake{});
+    for (cv::Mat* image : {&a, &b}) lay_over(*image, body, Shake{});
     cv::Mat apart;
     cv::extractChannel(cv::abs(a - b), apart, 1);
     differs |= apart > 12;
@@ -145,7 +145,7 @@ TEST_CASE("the world shows outside of the truth and not within") {
 
 TEST_CASE("the ground moves as a plane does before a pinhole camera") {
   const cv::Size size_px(640, 480);
-  const Country land = country(2048, Roads::winding, 3);
+  const Terrain land = terrain(2048, Roads::winding, 3);
   for (const int n : {0, 40, 200}) {
     const View from = view_at({.seed = 3}, size_px, n), to = view_at({.seed = 3}, size_px, n + 20);
     const cv::Matx33d move = pixel_of_ground(to) * pixel_of_ground(from).inv();
@@ -155,8 +155,8 @@ TEST_CASE("the ground moves as a plane does before a pinhole camera") {
     const cv::Rect near(20, 300, 600, 170);  // well below the horizon, where the haze is thin
     cv::Mat ours = moved(near).clone(), theirs = grey(scenery(land, to, 0))(near).clone(), still;
     still = grey(scenery(land, from, 0))(near).clone();
-    for (cv::Mat* picture : {&ours, &theirs, &still}) picture->setTo(100, valid(near) < 255);
-    // The nearer look shows a little more detail; a picture that does not move is far off.
+    for (cv::Mat* image : {&ours, &theirs, &still}) image->setTo(100, valid(near) < 255);
+    // The nearer look shows a little more detail; an image that does not move is far off.
     const double moved_rms = cv::norm(ours, theirs) / std::sqrt(near.area());
     const double still_rms = cv::norm(still, theirs) / std::sqrt(near.area());
     CAPTURE(n);
@@ -167,7 +167,7 @@ TEST_CASE("the ground moves as a plane does before a pinhole camera") {
 
 TEST_CASE("the horizon lies where the attitude puts it") {
   const cv::Size size_px(640, 480);
-  const Country land = country(1024, Roads::winding, 3);
+  const Terrain land = terrain(1024, Roads::winding, 3);
   for (const int n : {0, 30, 77, 150}) {
     const View view = view_at({.seed = 7}, size_px, n);
     const cv::Mat seen = scenery(land, view, 0);
@@ -198,14 +198,14 @@ TEST_CASE("grain is as strong as it says, and each frame has its own") {
   const Grain grain(kGrain_codes);
   cv::Mat before;
   for (int n = 0; n < 3; ++n) {
-    cv::Mat picture(240, 320, CV_8UC3, cv::Scalar::all(120));
-    grain.add_to(picture, n);
+    cv::Mat image(240, 320, CV_8UC3, cv::Scalar::all(120));
+    grain.add_to(image, n);
     cv::Scalar mean, sigma;
-    cv::meanStdDev(picture.reshape(1), mean, sigma);
+    cv::meanStdDev(image.reshape(1), mean, sigma);
     CHECK(std::abs(mean[0] - 120) < 0.05);    // sigma / sqrt(230400) = 0.004
     CHECK(std::abs(sigma[0] - 2.02) < 0.05);  // rounding to codes adds 1/12 to the square
-    if (n > 0) CHECK(cv::norm(picture, before, cv::NORM_L1) / 230400.0 == doctest::Approx(2.28).epsilon(0.05));
-    before = picture;
+    if (n > 0) CHECK(cv::norm(image, before, cv::NORM_L1) / 230400.0 == doctest::Approx(2.28).epsilon(0.05));
+    before = image;
   }
 }
 

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
-#include "flights/chance.h"
+#include "flights/random.h"
 
 namespace sigs::flights {
 
@@ -14,7 +14,7 @@ cv::Mat one_octave(int size, int cells, std::uint32_t seed) {
   constexpr int kBorder = 4;  // what the cubic looks at beyond the edge comes from the other side
   cv::Mat grid(cells, cells, CV_32FC1);
   for (int i = 0; i < cells; ++i)
-    for (int j = 0; j < cells; ++j) grid.at<float>(i, j) = static_cast<float>(2 * chance(i, j, seed) - 1);
+    for (int j = 0; j < cells; ++j) grid.at<float>(i, j) = static_cast<float>(2 * random_share(i, j, seed) - 1);
   cv::Mat wide, fine;
   cv::copyMakeBorder(grid, wide, kBorder, kBorder, kBorder, kBorder, cv::BORDER_WRAP);
   const int step = size / cells;
@@ -27,11 +27,11 @@ cv::Mat one_octave(int size, int cells, std::uint32_t seed) {
 Mosaic::Mosaic(const cv::Mat& finest, double cell_m) : cell_m_(cell_m) {
   ENSURE(finest.type() == CV_8UC4 && finest.rows == finest.cols && (finest.rows & (finest.rows - 1)) == 0);
   const double side_m = cell_m * finest.rows;
-  for (cv::Mat picture = finest.clone(); picture.rows >= 2;) {
-    copies_.push_back({picture, picture.ptr<cv::Vec4b>(), picture.rows - 1, static_cast<float>(picture.rows / side_m)});
+  for (cv::Mat image = finest.clone(); image.rows >= 2;) {
+    copies_.push_back({image, image.ptr<cv::Vec4b>(), image.rows - 1, static_cast<float>(image.rows / side_m)});
     cv::Mat half;
-    cv::resize(picture, half, {}, 0.5, 0.5, cv::INTER_AREA);
-    picture = half;
+    cv::resize(image, half, {}, 0.5, 0.5, cv::INTER_AREA);
+    image = half;
   }
 }
 

@@ -16,7 +16,7 @@ using Codes = cv::v_float32x4;
   return a + (b - a) * cv::v_setall_f32(share);
 }
 
-// A square picture of the plane that repeats in both directions, with coarser copies of itself. Row is world X (north),
+// A square image of the plane that repeats in both directions, with coarser copies of itself. Row is world X (north),
 // column is world Y (east).
 class Mosaic {
  public:
@@ -47,8 +47,8 @@ class Mosaic {
 
  private:
   struct Copy {
-    cv::Mat picture;
-    const cv::Vec4b* cells = nullptr;  // of picture, row after row
+    cv::Mat image;
+    const cv::Vec4b* cells = nullptr;  // of image, row after row
     int wrap = 0;                      // cells along a side, less one
     float per_m = 1;
   };

@@ -7,19 +7,19 @@
 namespace sigs::flights {
 
 // What a windscreen or a dome mirrors into the view: light that is added to all that is behind it, so that the world
-// shows through. It stays where it is in the picture, or creeps as the sun wanders. Not own body in the truth.
+// shows through. It stays where it is in the image, or creeps as the sun wanders. Not own body in the truth.
 struct Reflection {
   double codes = 0;                  // of its brightest parts; 0: none
   cv::Rect2d where{0, 0.4, 1, 0.6};  // shares of width and height; it fades out there
-  double creep_px = 0;               // to the right, per 100 frames of a picture 640 wide
-  double blur_px = 1.5;              // sigma, of a picture 640 wide
+  double creep_px = 0;               // to the right, per 100 frames of an image 640 wide
+  double blur_px = 1.5;              // sigma, of an image 640 wide
   int things = 12;                   // sheets, dials and slots that are mirrored
   std::uint32_t seed = 1;
 };
 
-// Painted once; CV_8UC3 of the picture's size, to be added.
+// Painted once; CV_8UC3 of the image's size, to be added.
 [[nodiscard]] cv::Mat painted(const Reflection& reflection, cv::Size size_px);
 
-void add_to(cv::Mat& picture, const cv::Mat& painted, const Reflection& reflection, int frame);
+void add_to(cv::Mat& image, const cv::Mat& painted, const Reflection& reflection, int frame);
 
 }  // namespace sigs::flights

@@ -10,10 +10,10 @@ namespace sigs::flights {
 class Grain {
  public:
   explicit Grain(double sigma_codes);
-  void add_to(cv::Mat& picture, int frame) const;
+  void add_to(cv::Mat& image, int frame) const;
 
  private:
-  cv::Mat pool_;  // CV_8SC1, one row; each row of a picture begins anywhere in it
+  cv::Mat pool_;  // CV_8SC1, one row; each row of an image begins anywhere in it
 };
 
 // What an exposure that hunts makes of the light: slow swings between 0.7 and 1.3, and jumps.

@@ -24,6 +24,6 @@ namespace sigs::flights {
 [[nodiscard]] Propeller propeller();
 
 [[nodiscard]] Part plain(Part part, const cv::Scalar& color);  // without stripes
-[[nodiscard]] Part lifted(Part part, double share);            // of the picture's height
+[[nodiscard]] Part lifted(Part part, double share);            // of the image's height
 
 }  // namespace sigs::flights

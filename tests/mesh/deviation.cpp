@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "mesh/nearness.h"
+#include "mesh/surface_deviation.h"
 
 namespace sigs {
 namespace {
@@ -66,23 +66,23 @@ class Grid {
 }  // namespace
 
 double deviation_m(std::span<const Vertex> vertices, std::span<const std::uint32_t> whole,
-                   std::span<const std::uint32_t> simple, bool is_pictured, double at_most_m) {
+                   std::span<const std::uint32_t> simple, bool is_textured, double limit_m) {
   if (whole.empty()) return 0;
   if (simple.empty()) return kNowhere;
   std::vector<char> is_open(vertices.size(), 0);  // to be looked at yet
   for (const std::uint32_t index : whole) is_open[index] = 1;
   for (const std::uint32_t index : simple) is_open[index] = 0;
-  const Grid grid(vertices, simple, at_most_m);
+  const Grid grid(vertices, simple, limit_m);
   double worst_m = 0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (is_open[v] == 0) continue;
-    double least_m = kNowhere;
+    double min_m = kNowhere;
     for (const std::uint32_t first : grid.near(vertices[v].position_m)) {
       const Corners t{&vertices[simple[first]], &vertices[simple[first + 1]], &vertices[simple[first + 2]]};
-      least_m = std::min(least_m, offset_m(vertices[v], t, is_pictured, at_most_m));
+      min_m = std::min(min_m, offset_m(vertices[v], t, is_textured, limit_m));
     }
-    worst_m = std::max(worst_m, least_m);
-    if (worst_m > at_most_m) return kNowhere;
+    worst_m = std::max(worst_m, min_m);
+    if (worst_m > limit_m) return kNowhere;
   }
   return worst_m;
 }

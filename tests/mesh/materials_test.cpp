@@ -3,7 +3,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "mesh/mesh.h"
 #include "mesh/written.h"
 #include "support/test_data.h"
@@ -27,10 +27,10 @@ class Painted {
 };
 
 cv::Mat two_rows(int type, const cv::Scalar& top, const cv::Scalar& bottom) {
-  cv::Mat picture(2, 1, type);
-  picture.row(0) = top;
-  picture.row(1) = bottom;
-  return picture;
+  cv::Mat texture(2, 1, type);
+  texture.row(0) = top;
+  texture.row(1) = bottom;
+  return texture;
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ TEST_CASE("a material that no MTL holds is grey and named") {
 TEST_CASE("a missing or unreadable texture makes grey and is named") {
   for (const bool is_there : {false, true}) {
     Painted painted("Kd 1 0 0\nmap_Kd lost.png\n");
-    if (is_there) test::written(painted.folder / "lost.png", "this is no picture");
+    if (is_there) test::written(painted.folder / "lost.png", "this is no texture");
     const Mesh mesh = painted.mesh();
     CHECK(mesh.materials.at(0).diffuse == glm::vec3{0.5F});
     CHECK(mesh.materials.at(0).texture.empty());
@@ -115,10 +115,10 @@ TEST_CASE("a missing or unreadable texture makes grey and is named") {
   }
 }
 
-TEST_CASE("pictures of every kind become eight bit RGBA with their top row first") {
+TEST_CASE("textures of every kind become eight bit RGBA with their top row first") {
   struct Kind {
     const char* name;
-    cv::Mat picture;
+    cv::Mat texture;
     cv::Vec4b top;
   };
   const cv::Vec4b red{255, 0, 0, 255};
@@ -128,12 +128,12 @@ TEST_CASE("pictures of every kind become eight bit RGBA with their top row first
       {"rgba.png", two_rows(CV_8UC4, {0, 0, 255, 77}, {255, 0, 0, 255}), {255, 0, 0, 77}},
       {"gray16.png", two_rows(CV_16UC1, 200 * 257, 0), {200, 200, 200, 255}},
       {"rgb16.png", two_rows(CV_16UC3, {0, 0, 65535}, {0, 0, 0}), red},
-      {"picture.bmp", two_rows(CV_8UC3, {0, 0, 255}, {255, 0, 0}), red},
+      {"texture.bmp", two_rows(CV_8UC3, {0, 0, 255}, {255, 0, 0}), red},
   };
   for (const Kind& kind : kinds) {
     CAPTURE(kind.name);
     Painted painted("Kd 1 1 1\nmap_Kd " + std::string(kind.name) + "\n");
-    REQUIRE(cv::imwrite((painted.folder / kind.name).string(), kind.picture));
+    REQUIRE(cv::imwrite((painted.folder / kind.name).string(), kind.texture));
     const cv::Mat texture = painted.material().texture;
     REQUIRE(texture.type() == CV_8UC4);
     REQUIRE(texture.size() == cv::Size(1, 2));
@@ -182,7 +182,7 @@ TEST_CASE("textures are found in folders and with blanks and as Windows wrote th
   }
 }
 
-TEST_CASE("materials that name the same picture share its pixels") {
+TEST_CASE("materials that name the same texture share its pixels") {
   const test::TemporaryFolder folder;
   cv::imwrite((folder / "a.png").string(), two_rows(CV_8UC1, 1, 2));
   test::written(folder / "model.mtl", "newmtl one\nmap_Kd a.png\nnewmtl two\nmap_Kd a.png\n");
@@ -193,7 +193,7 @@ TEST_CASE("materials that name the same picture share its pixels") {
   CHECK(mesh.materials[0].texture.data == mesh.materials[1].texture.data);
 }
 
-TEST_CASE("an opacity map thins the picture out") {
+TEST_CASE("an opacity map thins the texture out") {
   Painted painted("Kd 1 1 1\nmap_Kd paint.png\nmap_d holes.png\n");
   cv::imwrite((painted.folder / "paint.png").string(), two_rows(CV_8UC3, {0, 0, 255}, {0, 0, 255}));
   cv::imwrite((painted.folder / "holes.png").string(), two_rows(CV_8UC1, 255, 0));

@@ -106,17 +106,17 @@ TEST_CASE("a bulging sheet lies as far off as a look straight down at every vert
   }
 }
 
-TEST_CASE("a picture that is stretched unevenly counts as being off") {
+TEST_CASE("a texture that is stretched unevenly counts as being off") {
   const Surface flat = sheet(16, 0, 0.05);
   const std::vector<std::uint32_t> fewer = simple(flat, 1e-3);
   CHECK(deviation_m(flat.vertices, flat.indices, fewer, false, 1) < 1e-6);
   CHECK(deviation_m(flat.vertices, flat.indices, fewer, true, 1) > 1e-3);
   for (const double aim_m : {1e-2, 1e-3, 1e-4}) {
     CAPTURE(aim_m);
-    const std::vector<std::uint32_t> pictured = simple(flat, aim_m, Keep::picture);
-    CHECK(deviation_m(flat.vertices, flat.indices, pictured, true, 1) <= aim_m);
-    CHECK(pictured.size() > fewer.size());
-    if (aim_m > 1e-3) CHECK(pictured.size() < flat.indices.size() / 2);
+    const std::vector<std::uint32_t> textured = simple(flat, aim_m, Keep::texture);
+    CHECK(deviation_m(flat.vertices, flat.indices, textured, true, 1) <= aim_m);
+    CHECK(textured.size() > fewer.size());
+    if (aim_m > 1e-3) CHECK(textured.size() < flat.indices.size() / 2);
   }
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("a flat sheet whose shading bends keeps what the shading needs") {
   };
   for (const Vertex& vertex : flat.vertices) {
     const glm::dvec3 p(vertex.position_m);
-    double least_sine = kInfinity;
+    double min_sine = kInfinity;
     for (std::size_t i = 0; i + 2 < fewer.size(); i += 3) {
       glm::dvec3 corners[3];
       for (std::size_t k = 0; k < 3; ++k) corners[k] = flat.vertices[fewer[i + k]].position_m;
@@ -146,14 +146,14 @@ TEST_CASE("a flat sheet whose shading bends keeps what the shading needs") {
         normal += share * glm::dvec3(flat.vertices[fewer[i + k]].normal);
       }
       if (is_inside)
-        least_sine = std::min(least_sine, glm::length(glm::cross(glm::normalize(normal), glm::dvec3(vertex.normal))));
+        min_sine = std::min(min_sine, glm::length(glm::cross(glm::normalize(normal), glm::dvec3(vertex.normal))));
     }
-    REQUIRE(least_sine <= 0.1001);
+    REQUIRE(min_sine <= 0.1001);
   }
 }
 
 TEST_CASE("two sheets that meet at a seam still meet there and keep their own vertices") {
-  // The same square twice, the second turned over the seam x = 1: equal places, vertices of its own, another picture.
+  // The same square twice, the second turned over the seam x = 1: equal places, vertices of its own, another texture.
   Surface both = sheet(16, 0);
   const std::size_t count = both.vertices.size();
   const std::size_t index_count = both.indices.size();
@@ -166,7 +166,7 @@ TEST_CASE("two sheets that meet at a seam still meet there and keep their own ve
   for (std::size_t i = 0; i < index_count; ++i)
     both.indices.push_back(both.indices[i] + static_cast<std::uint32_t>(count));
   const Simplified fewer =
-      simplified(both.vertices, both.indices, std::vector<Keep>(both.indices.size() / 3, Keep::picture), 1e-3);
+      simplified(both.vertices, both.indices, std::vector<Keep>(both.indices.size() / 3, Keep::texture), 1e-3);
   CHECK(fewer.indices.size() < both.indices.size() / 4);
   CHECK(deviation_m(both.vertices, both.indices, fewer.indices, true, 1) < 1e-5);
   std::set<float> seams[2];

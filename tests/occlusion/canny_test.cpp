@@ -5,15 +5,15 @@
 #include <array>
 #include <cmath>
 
-#include "occlusion/made_masks.h"
 #include "occlusion/paper_steps.h"
+#include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
 
 namespace {
 
-int sample(const cv::Mat& picture, int x, int y) {  // the rim goes on beyond itself
-  return picture.at<uchar>(std::clamp(y, 0, picture.rows - 1), std::clamp(x, 0, picture.cols - 1));
+int sample(const cv::Mat& image, int x, int y) {  // the rim goes on beyond itself
+  return image.at<uchar>(std::clamp(y, 0, image.rows - 1), std::clamp(x, 0, image.cols - 1));
 }
 
 struct Gradient {
@@ -98,19 +98,19 @@ TEST_CASE("the edges are Canny's, by loops over every pixel") {
   for (const cv::Size size : small_sizes())
     for (const CannyThresholds& thresholds : kThresholds)
       for (std::uint64_t seed = 0; seed < 4; ++seed) {
-        const cv::Mat picture = hills(size, 1.5, seed);
-        REQUIRE(same_bytes(canny_edges(picture, thresholds), edges_by_loops(picture, thresholds)));
+        const cv::Mat image = hills(size, 1.5, seed);
+        REQUIRE(same_bytes(canny_edges(image, thresholds), edges_by_loops(image, thresholds)));
       }
 }
 
 TEST_CASE("no threshold of 256 parts the gradients better than the one found") {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    cv::Mat picture = hills({48, 36}, 2, seed);
-    if (seed % 2 == 1) picture.setTo(0, picture < 180);  // few strong edges
-    const double found = canny_thresholds(picture, {}).high;
+    cv::Mat image = hills({48, 36}, 2, seed);
+    if (seed % 2 == 1) image.setTo(0, image < 180);  // few strong edges
+    const double found = canny_thresholds(image, {}).high;
     std::vector<double> lengths;
-    for (int y = 0; y < picture.rows; ++y)
-      for (int x = 0; x < picture.cols; ++x) lengths.push_back(std::sqrt(gradient_at(picture, x, y).squared()));
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x) lengths.push_back(std::sqrt(gradient_at(image, x, y).squared()));
     const double largest = *std::max_element(lengths.begin(), lengths.end());
     for (double& length : lengths) length = std::nearbyint(length / largest * 255);  // the 256 steps
     const double spread = spread_within(lengths, found / largest * 255);
@@ -119,37 +119,37 @@ TEST_CASE("no threshold of 256 parts the gradients better than the one found") {
   }
 }
 
-TEST_CASE("thresholds adapt to the picture's contrast: half the contrast, half the threshold") {
-  const cv::Mat picture = hills({60, 40}, 2, 3) & 0xFE;
-  const cv::Mat faint = picture / 2;
-  const CannyThresholds strong = canny_thresholds(picture, {});
+TEST_CASE("thresholds adapt to the image's contrast: half the contrast, half the threshold") {
+  const cv::Mat image = hills({60, 40}, 2, 3) & 0xFE;
+  const cv::Mat faint = image / 2;
+  const CannyThresholds strong = canny_thresholds(image, {});
   const CannyThresholds weak = canny_thresholds(faint, {});
   CHECK(weak.high == doctest::Approx(strong.high / 2).epsilon(1e-6));
   CHECK(weak.low == doctest::Approx(strong.low / 2).epsilon(1e-6));
   CHECK(strong.low == doctest::Approx(0.4 * strong.high).epsilon(1e-9));
-  CHECK(same_bytes(canny_edges(picture, strong), canny_edges(faint, weak)));
+  CHECK(same_bytes(canny_edges(image, strong), canny_edges(faint, weak)));
 }
 
 TEST_CASE("thresholds that are set are taken, one that is not follows the other") {
-  const cv::Mat picture = hills({60, 40}, 2, 3);
-  const double found = canny_thresholds(picture, {}).high;
-  const CannyThresholds both = canny_thresholds(picture, {.canny_low = 12, .canny_high = 34});
+  const cv::Mat image = hills({60, 40}, 2, 3);
+  const double found = canny_thresholds(image, {}).high;
+  const CannyThresholds both = canny_thresholds(image, {.canny_low = 12, .canny_high = 34});
   CHECK(both.low == 12);
   CHECK(both.high == 34);
-  const CannyThresholds high = canny_thresholds(picture, {.canny_high = 50});
+  const CannyThresholds high = canny_thresholds(image, {.canny_high = 50});
   CHECK(high.low == 20);
   CHECK(high.high == 50);
-  const CannyThresholds low = canny_thresholds(picture, {.canny_low = 1});
+  const CannyThresholds low = canny_thresholds(image, {.canny_low = 1});
   CHECK(low.low == 1);
   CHECK(low.high == found);
-  const CannyThresholds above = canny_thresholds(picture, {.canny_low = 2 * found});
+  const CannyThresholds above = canny_thresholds(image, {.canny_low = 2 * found});
   CHECK(above.high == 2 * found);
-  const CannyThresholds crossed = canny_thresholds(picture, {.canny_low = 80, .canny_high = 40});
+  const CannyThresholds crossed = canny_thresholds(image, {.canny_low = 80, .canny_high = 40});
   CHECK(crossed.low == 40);
   CHECK(crossed.high == 40);
 }
 
-TEST_CASE("a picture without gradients has no edges") {
+TEST_CASE("an image without gradients has no edges") {
   for (const cv::Size size : small_sizes())
     for (const int value : {0, 255}) {
       const cv::Mat even(size, CV_8UC1, cv::Scalar(value));

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "occlusion/made_clip.h"
 #include "occlusion/soft_edge.h"
+#include "occlusion/synthetic_clip.h"
 #include "support/test_data.h"
 #include "video/clips.h"
 
@@ -56,7 +56,7 @@ TEST_CASE("the frames that are used are those asked for and the mask is the meth
   const OwnBody found = detected(folder / "c.mkv", settings, 5).value();
   CHECK(found.frames_used == 7);
   CHECK(found.frames_passed == 19);
-  CHECK_FALSE(found.settled);
+  CHECK_FALSE(found.converged);
   const Verdict expected = by_hand(folder / "c.mkv", settings, {5, 8, 11, 14, 17, 20, 23});
   CHECK(equal(found.mask, soft_edged(expected.own_body, 4)));
   CHECK(found.share == doctest::Approx(cv::countNonZero(expected.own_body) / (96.0 * 72)));
@@ -127,7 +127,7 @@ TEST_CASE("damaged frames are left out with a warning that counts them") {
   CHECK(equal(found.mask, by_hand(folder / "c.mkv", settings_with(1500), sound).own_body));
 }
 
-TEST_CASE("a picture size that changes is an error that names the frame and what to do") {
+TEST_CASE("an image size that changes is an error that names the frame and what to do") {
   const TemporaryFolder folder;
   const std::string codec = "-c:v libx264 -pix_fmt yuv420p -f h264";
   if (!make_clip(codec, folder / "large.h264", "testsrc2=size=128x96:rate=25:duration=1") ||
@@ -138,8 +138,7 @@ TEST_CASE("a picture size that changes is an error that names the frame and what
   both.insert(both.end(), small.begin(), small.end());
   write_bytes(folder / "both.h264", both);
   const Result<OwnBody> found = detected(folder / "both.h264", settings_with(1500));
-  check_fails(found, folder / "both.h264",
-              "the picture's size changes from 128x96 to 64x48; own_body.frames = 25 ends");
+  check_fails(found, folder / "both.h264", "the image's size changes from 128x96 to 64x48; own_body.frames = 25 ends");
   CHECK(found.error().where.ends_with(": frame 25"));
   CHECK(detected(folder / "both.h264", settings_with(25)).has_value());
 }
@@ -178,8 +177,8 @@ TEST_CASE("stages come where they are asked for and change nothing") {
   CHECK(without.stages.empty());
   REQUIRE_FALSE(with.stages.empty());
   for (const DetectionStage& stage : with.stages) {
-    CHECK_MESSAGE(stage.picture.type() == CV_8UC1, stage.name);
-    CHECK_MESSAGE(stage.picture.size() == cv::Size(96, 72), stage.name);
+    CHECK_MESSAGE(stage.image.type() == CV_8UC1, stage.name);
+    CHECK_MESSAGE(stage.image.size() == cv::Size(96, 72), stage.name);
   }
   CHECK(equal(without.mask, with.mask));
   CHECK(equal(without.confidence, with.confidence));

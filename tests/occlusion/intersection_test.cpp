@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "occlusion/made_masks.h"
+#include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
 

@@ -8,13 +8,13 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "occlusion/made_masks.h"
+#include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
 
 namespace {
 
-// Whether a pixel of this value lies within the radius; only the picture's own pixels count.
+// Whether a pixel of this value lies within the radius; only the image's own pixels count.
 bool near(const cv::Mat& mask, int x, int y, double radius_px, bool value) {
   for (int v = 0; v < mask.rows; ++v)
     for (int u = 0; u < mask.cols; ++u)
@@ -155,7 +155,7 @@ TEST_CASE("sides are padded from the bottom up to the highest pixel of the leftm
   CHECK(same_bytes(unpadded(padded(mask)), mask));
 }
 
-TEST_CASE("a mask without pixels gets no sides, only the bottom row, and that is no part of the picture") {
+TEST_CASE("a mask without pixels gets no sides, only the bottom row, and that is no part of the image") {
   for (const cv::Size size : small_sizes()) {
     const cv::Mat none = cv::Mat::zeros(size, CV_8UC1);
     const cv::Mat out = padded(none);
@@ -178,16 +178,16 @@ TEST_CASE("padding closes a contour that runs into the bottom, into a side or in
 TEST_CASE("parts are dropped by their number of pixels") {
   for (const cv::Size size : small_sizes())
     for (const double share : {0.1, 0.4, 1.0})
-      for (const double least_percent : {0.0, 0.5, 3.0, 30.0, 100.0}) {
+      for (const double min_percent : {0.0, 0.5, 3.0, 30.0, 100.0}) {
         const cv::Mat mask = sprinkled(size, share, 21);
         const cv::Mat expected = by_pixels(size, [&](int x, int y) {
-          return mask.at<uchar>(y, x) != 0 && size_of_part(mask, {x, y}) >= least_percent / 100 * size.area();
+          return mask.at<uchar>(y, x) != 0 && size_of_part(mask, {x, y}) >= min_percent / 100 * size.area();
         });
-        REQUIRE(same_bytes(without_small(mask, least_percent), expected));
+        REQUIRE(same_bytes(without_small(mask, min_percent), expected));
       }
 }
 
-TEST_CASE("half a percent of the picture stays, a pixel less goes") {
+TEST_CASE("half a percent of the image stays, a pixel less goes") {
   cv::Mat mask = cv::Mat::zeros(20, 60, CV_8UC1);  // 1200 pixels: half a percent are 6
   mask(cv::Rect(0, 0, 3, 2)).setTo(255);
   mask(cv::Rect(10, 0, 5, 1)).setTo(255);
@@ -196,7 +196,7 @@ TEST_CASE("half a percent of the picture stays, a pixel less goes") {
   CHECK(same_bytes(without_small(mask, 0.5), expected));
 }
 
-TEST_CASE("sizes are the paper's on its picture, in proportion on others, as set where they are set") {
+TEST_CASE("sizes are the paper's on its image, in proportion on others, as set where they are set") {
   CHECK(dilation_px({}, {1280, 960}) == 5);
   CHECK(closing_px({}, {1280, 960}) == 9);
   CHECK(dilation_px({}, {3840, 2880}) == 15);

@@ -12,8 +12,8 @@
 
 #include "flights/flights.h"
 #include "occlusion/intersection.h"
-#include "occlusion/made_masks.h"
 #include "occlusion/paper_steps.h"
+#include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
 
@@ -69,7 +69,7 @@ const std::vector<std::string> kStages = {"difference_sum", "canny",  "dilated",
 
 }  // namespace
 
-TEST_CASE("a shaking body before a calm world is found, wherever it enters the picture below the top") {
+TEST_CASE("a shaking body before a calm world is found, wherever it enters the image below the top") {
   const std::vector<cv::Mat> bodies = {
       nose(),
       with_shape({{0, 110}, {90, 140}, {90, 170}, {0, 180}}),        // a wing from the left
@@ -92,7 +92,7 @@ TEST_CASE("a contour open towards the top is not closed: only its outline is lef
   CHECK(cv::countNonZero(verdict_on(shaking(hanging, 24)).own_body & hanging) < 0.5 * cv::countNonZero(hanging));
 }
 
-TEST_CASE("light that changes all over an even picture has no edges and gives no body") {
+TEST_CASE("light that changes all over an even image has no edges and gives no body") {
   std::vector<cv::Mat> even;
   for (int n = 0; n < 5; ++n) even.emplace_back(kSize_px, CV_8UC1, cv::Scalar(100 + n));
   const Verdict verdict = verdict_on(even);
@@ -125,22 +125,22 @@ TEST_CASE("each stage follows from the one before") {
   for (std::size_t i = 0; i < kStages.size(); ++i) {
     CHECK(verdict.stages[i].name == kStages[i]);
     CHECK_FALSE(verdict.stages[i].title.empty());
-    CHECK(verdict.stages[i].picture.size() == kSize_px);
-    CHECK(verdict.stages[i].picture.type() == CV_8UC1);
+    CHECK(verdict.stages[i].image.size() == kSize_px);
+    CHECK(verdict.stages[i].image.type() == CV_8UC1);
   }
-  const auto picture = [&](int i) -> const cv::Mat& { return verdict.stages[static_cast<std::size_t>(i)].picture; };
-  CHECK(same_bytes(picture(1), canny_edges(picture(0), canny_thresholds(picture(0), {}))));
-  CHECK(same_bytes(picture(2), dilated(picture(1), dilation_px({}, kSize_px))));
-  CHECK(same_bytes(picture(3), contours_filled(picture(2))));
-  CHECK(same_bytes(picture(4), sobel_edges(picture(3))));
-  CHECK(same_bytes(picture(5), closed(picture(4), closing_px({}, kSize_px))));
-  CHECK(same_bytes(picture(7), unpadded(contours_filled(padded(picture(5))))));
-  CHECK(same_bytes(picture(8), without_small(picture(7), 0.5)));
-  CHECK(same_bytes(picture(8), verdict.own_body));
-  // The padding lies outside the picture; its stage shows it on the rim.
-  CHECK(covers(picture(6), picture(5)));
-  CHECK(cv::countNonZero(picture(6).row(kSize_px.height - 1) == 0) == 0);
-  CHECK(same_bytes(picture(6)(cv::Rect(1, 0, 318, 239)), picture(5)(cv::Rect(1, 0, 318, 239))));
+  const auto image = [&](int i) -> const cv::Mat& { return verdict.stages[static_cast<std::size_t>(i)].image; };
+  CHECK(same_bytes(image(1), canny_edges(image(0), canny_thresholds(image(0), {}))));
+  CHECK(same_bytes(image(2), dilated(image(1), dilation_px({}, kSize_px))));
+  CHECK(same_bytes(image(3), contours_filled(image(2))));
+  CHECK(same_bytes(image(4), sobel_edges(image(3))));
+  CHECK(same_bytes(image(5), closed(image(4), closing_px({}, kSize_px))));
+  CHECK(same_bytes(image(7), unpadded(contours_filled(padded(image(5))))));
+  CHECK(same_bytes(image(8), without_small(image(7), 0.5)));
+  CHECK(same_bytes(image(8), verdict.own_body));
+  // The padding lies outside the image; its stage shows it on the rim.
+  CHECK(covers(image(6), image(5)));
+  CHECK(cv::countNonZero(image(6).row(kSize_px.height - 1) == 0) == 0);
+  CHECK(same_bytes(image(6)(cv::Rect(1, 0, 318, 239)), image(5)(cv::Rect(1, 0, 318, 239))));
 }
 
 TEST_CASE("the sum is of the differences of each frame and the one before, each scaled to a largest one of one") {
@@ -155,7 +155,7 @@ TEST_CASE("the sum is of the differences of each frame and the one before, each 
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += differences[i] / largest;
   }
   const auto [least, most] = std::minmax_element(sum.begin(), sum.end());
-  const cv::Mat stage = verdict_on(frames, KeepStages::yes).stages.front().picture;
+  const cv::Mat stage = verdict_on(frames, KeepStages::yes).stages.front().image;
   for (std::size_t i = 0; i < sum.size(); ++i)  // rounding to 8 bits
     REQUIRE(std::abs(stage.data[i] - (sum[i] - *least) / (*most - *least) * 255) <= 0.5 + 1e-3);
 }
@@ -212,7 +212,7 @@ TEST_CASE("a still pair between others leaves the sum as it is") {
   const Verdict without = verdict_on(frames, KeepStages::yes);
   frames.insert(frames.begin() + 4, 3, frames[4]);
   const Verdict with = verdict_on(frames, KeepStages::yes);
-  for (std::size_t i = 0; i < kStages.size(); ++i) CHECK(same_bytes(with.stages[i].picture, without.stages[i].picture));
+  for (std::size_t i = 0; i < kStages.size(); ++i) CHECK(same_bytes(with.stages[i].image, without.stages[i].image));
 }
 
 TEST_CASE("confidence is one half at the mask's border, sure away from it, and never against the mask") {
@@ -238,7 +238,7 @@ TEST_CASE("nothing is left where every part is too small") {
   CHECK(all_are(verdict.confidence, 0));
 }
 
-TEST_CASE("pictures of one pixel, of one row and of one column have a verdict with all its stages") {
+TEST_CASE("images of one pixel, of one row and of one column have a verdict with all its stages") {
   for (const cv::Size size : small_sizes()) {
     std::vector<cv::Mat> frames;
     for (std::uint64_t n = 0; n < 4; ++n) frames.push_back(sprinkled(size, 0.5, n));
@@ -246,7 +246,7 @@ TEST_CASE("pictures of one pixel, of one row and of one column have a verdict wi
     CHECK(verdict.own_body.size() == size);
     CHECK(verdict.confidence.size() == size);
     REQUIRE(verdict.stages.size() == kStages.size());
-    for (const DetectionStage& stage : verdict.stages) CHECK(stage.picture.size() == size);
+    for (const DetectionStage& stage : verdict.stages) CHECK(stage.image.size() == size);
   }
 }
 

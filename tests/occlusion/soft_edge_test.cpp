@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "occlusion/made_masks.h"
+#include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
 
@@ -102,7 +102,7 @@ TEST_CASE("a mask without an edge stays as it is, however soft") {
       }
 }
 
-TEST_CASE("a softness far wider than the picture leaves it half grey") {
+TEST_CASE("a softness far wider than the image leaves it half grey") {
   const cv::Mat soft = soft_edged(body_on_the_right(), 1e7);
   double least = 0;
   double most = 0;

@@ -21,7 +21,7 @@ cv::Mat random_costs(cv::Size size, double most, cv::RNG& random) {
 }
 
 double link_cost(const CutCosts& costs, cv::Point a, cv::Point b) {
-  const double open = 1 - (costs.wall.at<float>(a) + costs.wall.at<float>(b)) / 2;
+  const double open = 1 - (costs.boundary.at<float>(a) + costs.boundary.at<float>(b)) / 2;
   return (a.x != b.x && a.y != b.y ? 0.27 : 0.55) * (open * open + 0.001);
 }
 
@@ -42,7 +42,7 @@ double cost_of(const CutCosts& costs, const cv::Mat& labels) {
 
 double cheapest_of_all(const CutCosts& costs) {
   double cheapest = std::numeric_limits<double>::infinity();
-  cv::Mat labels(costs.wall.size(), CV_8UC1);
+  cv::Mat labels(costs.boundary.size(), CV_8UC1);
   for (unsigned bits = 0; bits < 1U << labels.total(); ++bits) {
     for (unsigned i = 0; i < labels.total(); ++i) labels.data[i] = (bits >> i & 1U) != 0 ? 255 : 0;
     cheapest = std::min(cheapest, cost_of(costs, labels));
@@ -63,7 +63,7 @@ PartEvidence sure_evidence(cv::Size size, const cv::Rect& part) {
 
 }  // namespace
 
-TEST_CASE("no labelling of a small picture is cheaper than the cut") {
+TEST_CASE("no labelling of a small image is cheaper than the cut") {
   cv::RNG random(7);
   for (int i = 0; i < 40; ++i) {
     const cv::Size size(4, 3);
@@ -73,13 +73,13 @@ TEST_CASE("no labelling of a small picture is cheaper than the cut") {
   }
 }
 
-TEST_CASE("a body behind a wall is found whole in a large picture from weak hints, to the pixel") {
+TEST_CASE("a body behind a boundary is found whole in a large image from weak hints, to the pixel") {
   const cv::Rect body(200, 260, 240, 220);
   CutCosts costs{cv::Mat(480, 640, CV_32FC1, cv::Scalar(0.3)), cv::Mat::zeros(480, 640, CV_32FC1),
                  cv::Mat::zeros(480, 640, CV_32FC1)};
   costs.as_body(body) = 0;
   costs.as_world(body) = 0.01;
-  cv::rectangle(costs.wall, body, 1);
+  cv::rectangle(costs.boundary, body, 1);
   cv::Mat truth = cv::Mat::zeros(480, 640, CV_8UC1);
   truth(body) = 255;
   CHECK(cv::countNonZero(cheapest_cut(costs) != truth) < 16);  // corners may be cut off

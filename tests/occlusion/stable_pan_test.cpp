@@ -15,13 +15,13 @@ constexpr int kPan_px = 200;
 
 // The same texture everywhere: random codes, blurred, of the deviation given.
 cv::Mat texture(double deviation, double blur_px) {
-  cv::Mat picture(kSize.height, kSize.width + kPan_px, CV_32FC1);
+  cv::Mat image(kSize.height, kSize.width + kPan_px, CV_32FC1);
   cv::RNG rng(7);
-  rng.fill(picture, cv::RNG::NORMAL, 0, 1);
-  cv::GaussianBlur(picture, picture, {}, blur_px);
+  rng.fill(image, cv::RNG::NORMAL, 0, 1);
+  cv::GaussianBlur(image, image, {}, blur_px);
   cv::Scalar mean, spread;
-  cv::meanStdDev(picture, mean, spread);
-  return (picture - mean[0]) * (deviation / spread[0]) + 120;
+  cv::meanStdDev(image, mean, spread);
+  return (image - mean[0]) * (deviation / spread[0]) + 120;
 }
 
 struct Pan {
@@ -38,17 +38,17 @@ Verdict verdict_on(const Pan& pan) {
   cv::RNG rng(3);
   for (int n = 0; n < pan.frames; ++n) {
     const double shift_px = double(kPan_px) * n / pan.frames;
-    cv::Mat picture;
-    cv::warpAffine(world, picture, cv::Matx23d(1, 0, -shift_px, 0, 1, 0), kSize, cv::INTER_LINEAR);
+    cv::Mat image;
+    cv::warpAffine(world, image, cv::Matx23d(1, 0, -shift_px, 0, 1, 0), kSize, cv::INTER_LINEAR);
     if (!pan.body.empty()) {
-      cv::rectangle(picture, pan.body, 190, cv::FILLED);
+      cv::rectangle(image, pan.body, 190, cv::FILLED);
       for (int x = pan.body.x + 9; x < pan.body.br().x; x += 23)
-        cv::line(picture, {x, pan.body.y}, {x, kSize.height}, 150);
+        cv::line(image, {x, pan.body.y}, {x, kSize.height}, 150);
     }
     cv::Mat grain(kSize, CV_32FC1);
     rng.fill(grain, cv::RNG::NORMAL, 0, 2);
     cv::Mat luma;
-    cv::Mat(picture + grain).convertTo(luma, CV_8U);
+    cv::Mat(image + grain).convertTo(luma, CV_8U);
     method->add(luma);
   }
   return method->verdict(KeepStages::no);

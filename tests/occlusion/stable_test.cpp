@@ -88,14 +88,14 @@ TEST_CASE("a verdict asked for in between changes nothing, nor does the number o
     if (n % 37 == 5) CHECK(method->verdict(KeepStages::no).own_body.size() == kSize);
   }
   cv::setNumThreads(1);
-  const Verdict looked_at = method->verdict(KeepStages::no);
+  const Verdict frames_checked = method->verdict(KeepStages::no);
   cv::setNumThreads(threads);
   const Verdict verdict = verdict_after(flight, kFrames);
-  CHECK(is_same(looked_at.own_body, verdict.own_body));
-  CHECK(is_same(looked_at.confidence, verdict.confidence));
+  CHECK(is_same(frames_checked.own_body, verdict.own_body));
+  CHECK(is_same(frames_checked.confidence, verdict.confidence));
 }
 
-TEST_CASE("confidence agrees with the mask, and the stages are pictures of the footage's size") {
+TEST_CASE("confidence agrees with the mask, and the stages are images of the footage's size") {
   const flights::Flight flight = flight_named("cockpit frame");
   const Verdict verdict = verdict_after(flight, kFrames, KeepStages::yes);
   CHECK(cv::countNonZero((verdict.confidence < 0.5) & verdict.own_body) == 0);
@@ -104,7 +104,7 @@ TEST_CASE("confidence agrees with the mask, and the stages are pictures of the f
   CHECK(cv::mean(verdict.confidence, ~flight.own_body)[0] < 0.25);
   CHECK(verdict.stages.size() >= 7);
   for (const DetectionStage& stage : verdict.stages) {
-    CHECK(stage.picture.size() == kSize);
-    CHECK(stage.picture.type() == CV_8UC1);
+    CHECK(stage.image.size() == kSize);
+    CHECK(stage.image.type() == CV_8UC1);
   }
 }

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "occlusion/made_masks.h"
 #include "occlusion/paper_steps.h"
+#include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
 

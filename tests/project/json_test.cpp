@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "project/fields.h"
 #include "project/json_reading.h"
 #include "support/test_data.h"
@@ -195,8 +195,8 @@ TEST_CASE("brackets within brackets are refused before they take all of the stac
     return R"({"sigs": 1, "about": ")" + std::string(500, '[') + R"(\" [", "more": )" + std::string(depth, '[') +
            std::string(depth, ']') + "}";
   };
-  CHECK(parse_project(nested(kDeepestJson - 1), "p.json").has_value());
-  for (const int depth : {kDeepestJson, 300'000}) {
+  CHECK(parse_project(nested(kMaxJsonNesting - 1), "p.json").has_value());
+  for (const int depth : {kMaxJsonNesting, 300'000}) {
     const Result<ReadProject> read = parse_project(nested(depth), "p.json");
     REQUIRE_FALSE(read);
     CHECK(read.error().kind == ErrorKind::bad_project);

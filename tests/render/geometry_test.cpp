@@ -47,7 +47,7 @@ TEST_CASE("a unit square facing the camera covers exactly the pixels that a pinh
   cv::Mat expected = cv::Mat::zeros(24, 32, CV_32FC1);
   expected(cv::Rect(12, 8, 8, 8)) = 1.0F;
   CHECK(same_bytes(layer.coverage, expected));
-  CHECK(is_sound(layer));
+  CHECK(is_valid(layer));
 }
 
 TEST_CASE("a square beside the axis lies where the pinhole says and not mirrored") {
@@ -57,8 +57,8 @@ TEST_CASE("a square beside the axis lies where the pinhole says and not mirrored
   CHECK(covered(layer) == cv::Rect(20 + 8, 12 + 4, 8, 2));
 }
 
-TEST_CASE("the centre of the picture may lie anywhere") {
-  VirtualView view = view_of({32, 24}, 200);
+TEST_CASE("the centre of the image may lie anywhere") {
+  VirtualCamera view = view_of({32, 24}, 200);
   view.center_px = {3.5, 40.5};
   const Layer layer = drawn(facing_quad({0, -4}, {1, -3}, kWhite), at({25, 0, 0}), ambient_only(), view);
   CHECK(covered(layer) == cv::Rect(4, 41 - 32, 8, 8));
@@ -67,7 +67,7 @@ TEST_CASE("the centre of the picture may lie anywhere") {
 TEST_CASE("coverage at the edges is the share of the pixel as far as four samples tell") {
   for (const double offset_px : {0.0, 0.1, 0.25, 0.4, 0.5, 0.7, 0.9}) {
     CAPTURE(offset_px);
-    VirtualView view = view_of({32, 24}, 200);
+    VirtualCamera view = view_of({32, 24}, 200);
     view.center_px += glm::dvec2{offset_px, -0.3 * offset_px};
     const Layer layer = drawn(facing_quad({-0.5, -0.5}, {0.5, 0.5}, kWhite), at({25, 0, 0}), ambient_only(), view);
     double worst = 0;
@@ -85,10 +85,10 @@ TEST_CASE("coverage at the edges is the share of the pixel as far as four sample
   }
 }
 
-TEST_CASE("the virtual view's turn moves the picture as its rotation says") {
+TEST_CASE("the virtual view's turn moves the image as its rotation says") {
   // A view turned to a point 30 degrees right and up of the axis sees that point in its centre.
   const glm::dvec3 target{80, 50, -30};
-  VirtualView view = view_of({33, 33}, 400);
+  VirtualCamera view = view_of({33, 33}, 400);
   const glm::dvec3 forward = glm::normalize(target);
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3{0, 0, 1}, forward));
   const glm::dmat3 camera_from_view(forward, right, glm::cross(forward, right));
@@ -124,21 +124,21 @@ TEST_CASE("an aircraft that flies away shows its right wing right and its top up
   CHECK(glm::distance(center_of(2), glm::dvec2{50, 10}) < 0.5);
 }
 
-TEST_CASE("at a great distance the picture is that of the same aircraft nearby seen through a shorter lens") {
+TEST_CASE("at a great distance the image is that of the same aircraft nearby seen through a shorter lens") {
   const Mesh mesh = box({2, 3, 1}, kWhite);
   // At ten times the body's size perspective across its depth still shows; beyond that it is below a sample.
   for (const double distance_m : {1e4, 1e5, 1e7}) {
     CAPTURE(distance_m);
     const Layer layer = drawn(mesh, at({distance_m, 0, 0}), ambient_only(), view_of({64, 64}, 8 * distance_m));
     CHECK(covered(layer) == cv::Rect(8, 24, 48, 16));
-    CHECK(is_sound(layer));
+    CHECK(is_valid(layer));
   }
 }
 
 TEST_CASE("a sideways offset of ten thousand kilometres shakes nothing") {
   const Mesh mesh = box({2, 3, 1}, kWhite);
   const glm::dvec3 far_away{1e7, 1e7, 0};
-  VirtualView view = view_of({64, 64}, 8 * glm::length(far_away));
+  VirtualCamera view = view_of({64, 64}, 8 * glm::length(far_away));
   view.view_from_camera.rotation = glm::angleAxis(-M_PI / 4, glm::dvec3{0, 0, 1});
   Pose<frame::Camera, frame::Body> pose{glm::angleAxis(M_PI / 4, glm::dvec3{0, 0, 1}), far_away};
   CHECK(covered(drawn(mesh, pose, ambient_only(), view)) == cv::Rect(8, 24, 48, 16));
@@ -162,14 +162,14 @@ TEST_CASE("behind the camera nothing is drawn") {
     const Layer layer = drawn(box({1, 1, 1}, kWhite), at({x_m, 0, 0}), ambient_only(), view_of({16, 16}, 20));
     CHECK(layer.rect == cv::Rect(0, 0, 16, 16));
     CHECK(cv::countNonZero(layer.coverage) == 0);
-    CHECK(is_sound(layer));
+    CHECK(is_valid(layer));
   }
 }
 
 TEST_CASE("a camera within the body sees its walls all around") {
   const Layer layer = drawn(box({5, 5, 5}, kWhite), at({0, 0, 0}), ambient_only(), view_of({16, 16}, 8));
   CHECK(cv::countNonZero(layer.coverage == 1.0F) == 256);
-  CHECK(is_sound(layer));
+  CHECK(is_valid(layer));
 }
 
 TEST_CASE("a wall ten centimetres before the camera is seen though the body is large") {
@@ -180,7 +180,7 @@ TEST_CASE("a wall ten centimetres before the camera is seen though the body is l
   const Layer layer = drawn(measured(std::move(mesh)), at({0.1, 0, 0}), ambient_only(), view_of({16, 16}, 8));
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) CHECK(layer.color.at<cv::Vec4f>(y, x) == cv::Vec4f(1, 0, 0, 1));
-  CHECK(is_sound(layer));
+  CHECK(is_valid(layer));
 }
 
 TEST_CASE("a floor that runs under and behind the camera ends at the horizon") {
@@ -188,8 +188,8 @@ TEST_CASE("a floor that runs under and behind the camera ends at the horizon") {
   mesh.materials = {kWhite};
   add_quad(mesh, {-1000, -1000, 2}, {0, 2000, 0}, {2000, 0, 0}, 0);
   const Layer layer = drawn(measured(std::move(mesh)), at({0, 0, 0}), ambient_only(), view_of({20, 20}, 20));
-  CHECK(is_sound(layer));
-  // The far edge lies 2 m down at 1000 m: 0.04 px below the middle. The near plane cuts far below the picture's rim.
+  CHECK(is_valid(layer));
+  // The far edge lies 2 m down at 1000 m: 0.04 px below the middle. The near plane cuts far below the image's rim.
   CHECK(covered(layer) == cv::Rect(0, 10, 20, 10));
 }
 

@@ -29,7 +29,7 @@ Mesh panes(const std::vector<Pane>& all) {
 
 Layer seen(const Mesh& mesh) {
   Layer layer = drawn(mesh, at({50, 0, 0}), ambient_only(), view_of({9, 9}, 300));
-  CHECK(is_sound(layer));
+  CHECK(is_valid(layer));
   return layer;
 }
 
@@ -48,7 +48,7 @@ const Material kBlue = paint({0, 0, 1});
 
 constexpr double kRounding = 1e-6;
 
-// A picture of 2 x 2 texels: opaque and transparent above, half and opaque below.
+// An image of 2 x 2 texels: opaque and transparent above, half and opaque below.
 Material cutout() {
   Material material = paint({1, 1, 1});
   material.texture.create(64, 64, CV_8UC4);
@@ -109,9 +109,9 @@ TEST_CASE("a pane's edge covers by whole samples and its opacity follows") {
       CHECK(layer.color.at<cv::Vec4f>(y, x)[3] == doctest::Approx(0.25F * layer.coverage.at<float>(y, x)));
 }
 
-TEST_CASE("a picture lies on the surface upright and unmirrored") {
+TEST_CASE("an image lies on the surface upright and unmirrored") {
   const Layer layer = drawn(facing_quad({-1, -1}, {1, 1}, cutout()), at({10, 0, 0}), ambient_only(),
-                            view_of({64, 64}, 320));  // the square is as large as the picture: 64 px
+                            view_of({64, 64}, 320));  // the square is as large as the image: 64 px
   const auto at_quarter = [&](int x, int y) { return layer.color.at<cv::Vec4f>(y, x); };
   CHECK(at_quarter(16, 16) == cv::Vec4f(1, 0, 0, 1));
   CHECK(at_quarter(48, 16) == cv::Vec4f(0, 0, 0, 0));
@@ -121,7 +121,7 @@ TEST_CASE("a picture lies on the surface upright and unmirrored") {
   CHECK(at_quarter(16, 48)[3] == doctest::Approx(128.0 / 255).epsilon(1e-5));
   CHECK(layer.coverage.at<float>(16, 48) == 0);
   CHECK(layer.coverage.at<float>(48, 16) == 1);
-  CHECK(is_sound(layer));
+  CHECK(is_valid(layer));
 }
 
 TEST_CASE("opaque texels of a cutout hide what is behind and transparent ones do not") {
@@ -133,7 +133,7 @@ TEST_CASE("opaque texels of a cutout hide what is behind and transparent ones do
   const Layer layer = drawn(measured(std::move(mesh)), at({50, 0, 0}), ambient_only(), view_of({64, 64}, 49 * 32));
   CHECK(layer.color.at<cv::Vec4f>(16, 16) == cv::Vec4f(1, 0, 0, 1));
   CHECK(layer.color.at<cv::Vec4f>(16, 48) == cv::Vec4f(0, 0.5F, 0.5F, 1));  // blue through green glass
-  CHECK(is_sound(layer));
+  CHECK(is_valid(layer));
 }
 
 TEST_CASE("the colour of transparent texels does not bleed into their neighbours") {
@@ -160,7 +160,7 @@ TEST_CASE("a texture's mean survives being drawn small") {
     }
   const Layer layer =
       drawn(facing_quad({-1, -1}, {1, 1}, material), at({10, 0, 0}), ambient_only(), view_of({16, 16}, 80));
-  // Levels of the picture are kept in 8 bits of display code: a step near a linear half is 0.9 %.
+  // Levels of the image are kept in 8 bits of display code: a step near a linear half is 0.9 %.
   CHECK(layer.color.at<cv::Vec4f>(8, 8)[0] == doctest::Approx(0.5).epsilon(0.02));
 }
 

@@ -27,7 +27,7 @@ Pose<frame::Camera, frame::Body> turned_pose() {
   return {rotation_of({0.3, -0.2, 2.5}), {12, 0.4, -0.3}};
 }
 
-Layer picture(Renderer& by, const Mesh& mesh) {
+Layer image(Renderer& by, const Mesh& mesh) {
   return by.draw(mesh, turned_pose(), {.p_in_camera = {-20, 40, -30}}, view_of({160, 120}, 300)).value();
 }
 
@@ -44,32 +44,32 @@ TEST_CASE("the renderer tells its platform and driver and version") {
   CHECK(text.find("OpenGL ") != std::string::npos);
 }
 
-TEST_CASE("the same picture twice has the same bytes and from another renderer too") {
+TEST_CASE("the same image twice has the same bytes and from another renderer too") {
   const Mesh mesh = glass_box();
-  const Layer first = picture(renderer(), mesh);
-  CHECK(is_sound(first));
+  const Layer first = image(renderer(), mesh);
+  CHECK(is_valid(first));
   CHECK(cv::countNonZero(first.coverage) > 1000);
-  CHECK(same(first, picture(renderer(), mesh)));
+  CHECK(same(first, image(renderer(), mesh)));
   Renderer other = Renderer::create().value();
-  CHECK(same(first, picture(other, mesh)));
-  CHECK(same(first, picture(renderer(), mesh)));  // the two take turns on this thread
+  CHECK(same(first, image(other, mesh)));
+  CHECK(same(first, image(renderer(), mesh)));  // the two take turns on this thread
 }
 
 TEST_CASE("what was drawn before leaves no trace") {
   const Mesh mesh = glass_box();
-  const Layer first = picture(renderer(), mesh);
+  const Layer first = image(renderer(), mesh);
   static_cast<void>(drawn(box({3, 3, 3}, paint({1, 1, 1}, 0.5F)), at({5, 0, 0}), Light{}, view_of({700, 300}, 400)));
-  CHECK(same(first, picture(renderer(), mesh)));
+  CHECK(same(first, image(renderer(), mesh)));
 }
 
 TEST_CASE("two renderers on two threads draw at once") {
   const Mesh mesh = glass_box();
-  const Layer expected = picture(renderer(), mesh);
+  const Layer expected = image(renderer(), mesh);
   std::array<int, 2> good{0, 0};
   const auto work = [&](int& count) {
     Renderer own = Renderer::create().value();
     for (int i = 0; i < 20; ++i)
-      if (same(expected, picture(own, mesh))) ++count;
+      if (same(expected, image(own, mesh))) ++count;
   };
   std::thread one(work, std::ref(good[0]));
   std::thread two(work, std::ref(good[1]));
@@ -77,17 +77,17 @@ TEST_CASE("two renderers on two threads draw at once") {
   two.join();
   CHECK(good[0] == 20);
   CHECK(good[1] == 20);
-  CHECK(same(expected, picture(renderer(), mesh)));
+  CHECK(same(expected, image(renderer(), mesh)));
 }
 
 TEST_CASE("a renderer can be moved within its thread") {
   const Mesh mesh = glass_box();
-  const Layer expected = picture(renderer(), mesh);
+  const Layer expected = image(renderer(), mesh);
   Renderer first = Renderer::create().value();
   Renderer second = std::move(first);
-  CHECK(same(expected, picture(second, mesh)));
+  CHECK(same(expected, image(second, mesh)));
   second = Renderer::create().value();
-  CHECK(same(expected, picture(second, mesh)));
+  CHECK(same(expected, image(second, mesh)));
 }
 
 TEST_CASE("another mesh at the same address is drawn as it is") {
@@ -134,7 +134,7 @@ TEST_CASE("real aircraft are drawn soundly from every side") {
       const Pose<frame::Camera, frame::Body> pose{rotation_of({0.2 * i, 0.3 * i - 0.7, 1.1 * i}), {60, 1, 2}};
       const Light light{.p_in_camera = {-500, 300, -900}};
       const Layer layer = by.draw(mesh, pose, light, view_of({200, 160}, 300)).value();
-      CHECK(is_sound(layer));
+      CHECK(is_valid(layer));
       CHECK(cv::countNonZero(layer.coverage) > 100);
     }
   }

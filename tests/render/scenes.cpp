@@ -67,8 +67,8 @@ Mesh box(const glm::vec3& half_m, const Material& material) {
   return measured(std::move(mesh));
 }
 
-VirtualView view_of(const cv::Size& size_px, double focal_px) {
-  VirtualView view;
+VirtualCamera view_of(const cv::Size& size_px, double focal_px) {
+  VirtualCamera view;
   view.focal_px = focal_px;
   view.center_px = {(size_px.width - 1) / 2.0, (size_px.height - 1) / 2.0};
   view.size_px = size_px;
@@ -84,7 +84,7 @@ Light ambient_only(double ambient) {
 }
 
 Layer drawn(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body, const Light& light,
-            const VirtualView& view) {
+            const VirtualCamera& view) {
   static std::deque<Mesh> kept;  // the renderer knows meshes by their address
   Result<Layer> layer = renderer().draw(kept.emplace_back(mesh), camera_from_body, light, view);
   if (!layer) FAIL(layer.error().text());
@@ -96,7 +96,7 @@ bool same_bytes(const cv::Mat& a, const cv::Mat& b) {
          std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
 }
 
-bool is_sound(const Layer& layer) {
+bool is_valid(const Layer& layer) {
   for (int y = 0; y < layer.color.rows; ++y)
     for (int x = 0; x < layer.color.cols; ++x) {
       const auto color = layer.color.at<cv::Vec4f>(y, x);

@@ -5,7 +5,7 @@
 
 #include "base/layer.h"
 #include "base/pose.h"
-#include "camera/virtual_view.h"
+#include "camera/pinhole_view.h"
 #include "mesh/mesh.h"
 #include "render/renderer.h"
 
@@ -32,7 +32,7 @@ void add_quad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edge_u, cons
 [[nodiscard]] Mesh box(const glm::vec3& half_m, const Material& material);
 
 // A view straight along the camera's axis.
-[[nodiscard]] VirtualView view_of(const cv::Size& size_px, double focal_px);
+[[nodiscard]] VirtualCamera view_of(const cv::Size& size_px, double focal_px);
 
 [[nodiscard]] Pose<frame::Camera, frame::Body> at(const glm::dvec3& p_in_camera);
 
@@ -41,12 +41,12 @@ void add_quad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edge_u, cons
 
 // Draws a copy of the mesh, which lives on, with the shared renderer. The test fails where that does not work.
 [[nodiscard]] Layer drawn(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
-                          const Light& light, const VirtualView& view);
+                          const Light& light, const VirtualCamera& view);
 
 [[nodiscard]] bool same_bytes(const cv::Mat& a, const cv::Mat& b);
 
 // No NaN and no infinity; opacity and coverage within 0..1; no colour where there is no opacity; nothing covered less
 // than it is opaque.
-[[nodiscard]] bool is_sound(const Layer& layer);
+[[nodiscard]] bool is_valid(const Layer& layer);
 
 }  // namespace sigs::test

@@ -136,7 +136,7 @@ TEST_CASE("a missing calibration is stood in for by a pinhole that sees 60 degre
   CHECK(problems_of(draft, "footage.calibration") == 1);
   const Lens& lens = draft.scene.camera.lens;
   CHECK(lens.is_pinhole());
-  // The picture's edges are half a pixel outside the centres of the first and last column.
+  // The image's edges are half a pixel outside the centres of the first and last column.
   const double half_rad = std::acos(-1.0) / 6;
   CHECK(lens.pixel({std::cos(half_rad), std::sin(half_rad), 0})->x == doctest::Approx(1279.5));
   CHECK(lens.pixel({std::cos(half_rad), -std::sin(half_rad), 0})->x == doctest::Approx(-0.5));
@@ -148,7 +148,7 @@ TEST_CASE("a mask that cannot be used is named and hides nothing") {
   SUBCASE("missing") {
     project.footage.own_body_mask = "none.png";
   }
-  SUBCASE("no picture") {
+  SUBCASE("no image") {
     project.footage.own_body_mask = "crossing.json";
   }
   SUBCASE("another size") {
@@ -334,18 +334,18 @@ TEST_CASE("any number in any field gives a scene that can be looked at") {
 
 TEST_CASE("stand-in footage is as long as the project asks for") {
   Project project;
-  FootageShape footage = stand_in_footage(project);
+  FootageShape footage = placeholder_footage(project);
   CHECK(footage.size_px == cv::Size(1280, 960));
   CHECK(footage.times_s.size() == 250);
   CHECK(footage.times_s[25] == doctest::Approx(1));
   project.footage.last_frame = 999;
-  CHECK(stand_in_footage(project).times_s.size() == 1000);
+  CHECK(placeholder_footage(project).times_s.size() == 1000);
   project.intruders.emplace_back().trajectory.waypoints = {{.frame = 10}, {.frame = 1200.5}, {}};
-  CHECK(stand_in_footage(project).times_s.size() == 1202);
+  CHECK(placeholder_footage(project).times_s.size() == 1202);
   project.intruders[0].trajectory.waypoints[2].frame = 1e300;
-  CHECK(stand_in_footage(project).times_s.size() == 100'000);
+  CHECK(placeholder_footage(project).times_s.size() == 100'000);
   project.intruders[0].trajectory.waypoints[2].frame = kNaN;
-  CHECK(stand_in_footage(project).times_s.size() == 1202);
+  CHECK(placeholder_footage(project).times_s.size() == 1202);
 }
 
 TEST_CASE("stand-in footage has the size that the calibration is made for") {
@@ -358,7 +358,7 @@ TEST_CASE("stand-in footage has the size that the calibration is made for") {
   Project project;
   project.file = folder / "p.json";
   project.footage.calibration = "lens.yaml";
-  CHECK(stand_in_footage(project).size_px == cv::Size(854, 480));
+  CHECK(placeholder_footage(project).size_px == cv::Size(854, 480));
   project.footage.calibration = "nowhere.yaml";
-  CHECK(stand_in_footage(project).size_px == cv::Size(1280, 960));
+  CHECK(placeholder_footage(project).size_px == cv::Size(1280, 960));
 }

@@ -46,9 +46,9 @@ TEST_CASE("a mask of another size is an error that says both sizes") {
   CHECK(mask.error().what.find("4x4") != std::string::npos);
 }
 
-TEST_CASE("a missing mask and a file that is no picture are errors") {
+TEST_CASE("a missing mask and a file that is no image are errors") {
   const test::TemporaryFolder folder;
-  std::ofstream(folder / "t.png") << "no picture";
+  std::ofstream(folder / "t.png") << "no image";
   CHECK(read_own_body_mask(folder / "no.png", {1, 1}).error().kind == ErrorKind::cannot_read);
   CHECK(read_own_body_mask(folder / "t.png", {1, 1}).error().kind == ErrorKind::bad_data);
 }

@@ -28,7 +28,7 @@ Scene scene_with(const std::vector<glm::dvec3>& positions_m, const Attitude& cam
   return scene;
 }
 
-CarrierTurn turned(double time_s, const Attitude& attitude) {
+CarrierAttitude turned(double time_s, const Attitude& attitude) {
   return {time_s, rotation_of(attitude)};
 }
 

@@ -50,27 +50,27 @@ double distance_to_curve_m(const PiecewiseCubic& curve, const glm::dvec3& p_m, d
 
 }  // namespace
 
-TEST_CASE("the way along a parabola is its closed form") {
+TEST_CASE("the arc length along a parabola is its closed form") {
   // x = u, z = u^2 / 2: length to u is (u sqrt(1 + u^2) + asinh u) / 2.
   const PiecewiseCubic parabola({0, 2}, {CubicPiece{{{0, 0, 0}, {1, 0, 0}, {0, 0, 0.5}, {0, 0, 0}}}}, {2, 0, 2});
-  const ArcLength way(parabola);
+  const ArcLength arc_length(parabola);
   for (const double u : {0.0, 0.3, 1.0, 1.7, 2.0}) {
     const double expected_m = (u * std::sqrt(1 + u * u) + std::asinh(u)) / 2;
-    CHECK(std::abs(way.way_m_at(u) - expected_m) < 1e-12);
-    CHECK(std::abs(way.parameter_s_at(expected_m) - u) < 1e-12);
+    CHECK(std::abs(arc_length.arc_length_m_at(u) - expected_m) < 1e-12);
+    CHECK(std::abs(arc_length.parameter_s_at(expected_m) - u) < 1e-12);
   }
 }
 
-TEST_CASE("the way along a cusp is its closed form") {
+TEST_CASE("the arc length along a cusp is its closed form") {
   // x = u^2, y = u^3 from -1 to 1: both halves are (13 sqrt 13 - 8) / 27 long. In s = u + 1: (s - 1)^2, (s - 1)^3.
   const PiecewiseCubic cusp({0, 2}, {CubicPiece{{{1, -1, 0}, {-2, 3, 0}, {1, -3, 0}, {0, 1, 0}}}}, {1, 1, 0});
-  const ArcLength way(cusp);
+  const ArcLength arc_length(cusp);
   const double half_m = (13 * std::sqrt(13.0) - 8) / 27;
-  CHECK(std::abs(way.total_m() - 2 * half_m) < 1e-11);  // the kink in the speed costs a digit
-  CHECK(std::abs(way.way_m_at(1) - half_m) < 1e-11);
+  CHECK(std::abs(arc_length.total_m() - 2 * half_m) < 1e-11);  // the kink in the speed costs a digit
+  CHECK(std::abs(arc_length.arc_length_m_at(1) - half_m) < 1e-11);
 }
 
-TEST_CASE("the whole way of wild flights is what a fine polygon measures") {
+TEST_CASE("the whole arc length of wild flights is what a fine polygon measures") {
   for (const unsigned seed : {21U, 22U, 23U}) {
     const PiecewiseCubic curve = interpolating_spline(wild(10, seed));
     const double total_m = ArcLength(curve).total_m();
@@ -82,29 +82,29 @@ TEST_CASE("constant speed is constant and takes the whole time and acceleration 
   for (const Flight& flight : all_flights()) {
     INFO(flight.name);
     const PiecewiseCubic curve = interpolating_spline(flight.waypoints);
-    const ConstantSpeed course(curve);
+    const ConstantSpeed timed_curve(curve);
     const double total_m = ArcLength(curve).total_m();
     const double speed_mps = total_m > 0 ? total_m / (curve.last_s() - curve.first_s()) : 0;
     for (int i = -100; i <= 1100; ++i) {
-      const Motion motion = course.motion_at(curve.first_s() + (curve.last_s() - curve.first_s()) * i / 1000.0);
+      const Motion motion = timed_curve.motion_at(curve.first_s() + (curve.last_s() - curve.first_s()) * i / 1000.0);
       CHECK(std::abs(length(motion.velocity_mps) - speed_mps) <= 1e-12 * speed_mps);
       const double along = dot(motion.acceleration_mps2, motion.velocity_mps);
       CHECK(std::abs(along) <= 1e-9 * (1 + length(motion.acceleration_mps2)) * speed_mps);
     }
-    CHECK(course.motion_at(curve.first_s()).position_m == curve.motion_at(curve.first_s()).position_m);
-    CHECK(course.motion_at(curve.last_s()).position_m == curve.motion_at(curve.last_s()).position_m);
+    CHECK(timed_curve.motion_at(curve.first_s()).position_m == curve.motion_at(curve.first_s()).position_m);
+    CHECK(timed_curve.motion_at(curve.last_s()).position_m == curve.motion_at(curve.last_s()).position_m);
   }
 }
 
 TEST_CASE("constant speed is constant by the ruler too") {
   const PiecewiseCubic curve = interpolating_spline(wild(10, 24));
-  const ConstantSpeed course(curve);
-  const double speed_mps = length(course.motion_at(0).velocity_mps);
+  const ConstantSpeed timed_curve(curve);
+  const double speed_mps = length(timed_curve.motion_at(0).velocity_mps);
   const double step_s = 1e-4;
   for (double time_s = 0.1; time_s < curve.last_s() - 0.1; time_s += 0.01) {
-    const Motion here = course.motion_at(time_s);
-    const Motion before = course.motion_at(time_s - step_s);
-    const Motion after = course.motion_at(time_s + step_s);
+    const Motion here = timed_curve.motion_at(time_s);
+    const Motion before = timed_curve.motion_at(time_s - step_s);
+    const Motion after = timed_curve.motion_at(time_s + step_s);
     const glm::dvec3 v_mps = (after.position_m - before.position_m) / (2 * step_s);
     const glm::dvec3 a_mps2 = (after.velocity_mps - before.velocity_mps) / (2 * step_s);
     const double bend =
@@ -117,12 +117,12 @@ TEST_CASE("constant speed is constant by the ruler too") {
 TEST_CASE("constant speed keeps to the curve of the waypoints' own timing") {
   const auto waypoints = wild(8, 25);
   const PiecewiseCubic curve = interpolating_spline(waypoints);
-  const ArcLength way(curve);
-  const ConstantSpeed course(curve);
-  const double speed_mps = way.total_m() / (curve.last_s() - curve.first_s());
+  const ArcLength arc_length(curve);
+  const ConstantSpeed timed_curve(curve);
+  const double speed_mps = arc_length.total_m() / (curve.last_s() - curve.first_s());
   for (double time_s = 0.05; time_s < curve.last_s(); time_s += 0.1) {
-    const glm::dvec3 p_m = course.motion_at(time_s).position_m;
-    CHECK(distance_to_curve_m(curve, p_m, way.parameter_s_at(speed_mps * time_s)) < 1e-9);
+    const glm::dvec3 p_m = timed_curve.motion_at(time_s).position_m;
+    CHECK(distance_to_curve_m(curve, p_m, arc_length.parameter_s_at(speed_mps * time_s)) < 1e-9);
   }
 }
 
@@ -132,9 +132,9 @@ TEST_CASE("coincident waypoints neither stop nor break constant speed") {
   const PiecewiseCubic line(
       {0, 1, 2, 3, 4},
       {CubicPiece{a_m}, CubicPiece{{a_m, b_m, {0, 0, 0}, {0, 0, 0}}}, CubicPiece{b_m}, CubicPiece{b_m}}, b_m);
-  const ConstantSpeed course(line);
+  const ConstantSpeed timed_curve(line);
   for (double time_s = -1; time_s < 6; time_s += 0.1)
-    CHECK(distance(course.motion_at(time_s).position_m, {25 * time_s, 0, 0}) < 1e-9);
+    CHECK(distance(timed_curve.motion_at(time_s).position_m, {25 * time_s, 0, 0}) < 1e-9);
 }
 
 }  // namespace sigs

@@ -74,7 +74,7 @@ TEST_CASE("attitude is continuous in many wild flights") {
 
 TEST_CASE("two reversals close together are both turned through") {
   // Velocity along X is 0.01 (s - 102) (s - 108): backward for 6 s in a piece of 320 s, between two of its 32 first
-  // probes, and so gently that the force tells nothing.
+  // samples, and so gently that the force tells nothing.
   const CubicPiece piece{{{0, 0, 0}, {110.16, 0, 0}, {-1.05, 0, 0}, {0.01 / 3, 0, 0}}};
   const PiecewiseCubic curve({0, 320}, {piece}, {320 * 110.16 - 320 * 320 * 1.05 + 320 * 320 * 320 * 0.01 / 3, 0, 0});
   const AttitudeTable attitude(curve, Bank::coordinated, 1);
@@ -91,12 +91,13 @@ TEST_CASE("two reversals close together are both turned through") {
 TEST_CASE("a fast loop and a push-over turn no faster than their paths ask for") {
   const auto fastest_radps = [](const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
     const Trajectory trajectory = made(waypoints, settings);
-    double most_rad = 0;
+    double max_rad = 0;
     for (const Step& step : steps_over(trajectory, -1, waypoints.back().time_s + 1, 0.002))
-      most_rad = std::max(most_rad, step.rotation_rad);
-    return most_rad / 0.002;
+      max_rad = std::max(max_rad, step.rotation_rad);
+    return max_rad / 0.002;
   };
-  CHECK(fastest_radps(loop(80, 60), {}) < 1.2);  // 60 m/s over 80 m is 0.75 rad/s; the spline swings in and out of it
+  CHECK(fastest_radps(loop(80, 60), {}) <
+        1.2);  // 60 m/s over 80 m is 0.75 rad/s; the spline overshoots in and out of it
   // Wings level right through the vertical means half a roll there, smoothed over 0.15 s: pi / 2 / 0.15 = 10.5 rad/s.
   CHECK(fastest_radps(loop(80, 60), {.bank = Bank::level}) < 12);
   CHECK(fastest_radps(climb_and_push_over(), {}) < 12);

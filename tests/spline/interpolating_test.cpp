@@ -124,7 +124,7 @@ TEST_CASE("one waypoint hovers and two make a straight line at one speed") {
   }
 }
 
-TEST_CASE("one frame next to a hundred thousand frames does not make the spline swing") {
+TEST_CASE("one frame next to a hundred thousand frames does not make the spline overshoot") {
   const PiecewiseCubic curve = interpolating_spline(uneven());
   for (const double time_s : {0.01, 0.02, 0.03, 4000.06, 4000.1, 8000.14}) {
     const glm::dvec3 p_m = curve.motion_at(time_s).position_m;

@@ -10,10 +10,10 @@ namespace sigs {
 
 namespace {
 
-template <class Wish, class Weight>
-std::vector<RollWish> wishes(double step_s, int count, Wish wish_rad, Weight weight) {
-  std::vector<RollWish> all;
-  for (int i = 0; i < count; ++i) all.push_back({i * step_s, wish_rad(i * step_s), weight(i * step_s)});
+template <class Desired, class Weight>
+std::vector<DesiredRoll> desired_rolls(double step_s, int count, Desired desired_rad, Weight weight) {
+  std::vector<DesiredRoll> all;
+  for (int i = 0; i < count; ++i) all.push_back({i * step_s, desired_rad(i * step_s), weight(i * step_s)});
   return all;
 }
 
@@ -27,11 +27,11 @@ double wrapped_rad(double rad) {
 
 }  // namespace
 
-TEST_CASE("a steady wish is followed exactly and a steadily growing one away from the ends") {
-  for (const double roll_rad : smoothed_roll_rad(wishes(
+TEST_CASE("a steady desired roll is followed exactly and a steadily growing one away from the ends") {
+  for (const double roll_rad : smoothed_roll_rad(desired_rolls(
            0.01, 200, [](double) { return 0.7; }, one)))
     CHECK(std::abs(roll_rad - 0.7) < 1e-12);
-  const auto growing = smoothed_roll_rad(wishes(
+  const auto growing = smoothed_roll_rad(desired_rolls(
       0.01, 1000, [](double s) { return wrapped_rad(2 * s); }, one));
   for (int i = 300; i < 700; ++i)
     CHECK(std::abs(growing[i] - 0.02 * i) < 1e-7);  // exp(-3 s / 0.15 s) of the ends is left
@@ -39,17 +39,17 @@ TEST_CASE("a steady wish is followed exactly and a steadily growing one away fro
 
 TEST_CASE("a sudden change is rounded as the smoothing problem's closed form says") {
   const double step_s = 0.001;
-  const auto roll_rad = smoothed_roll_rad(wishes(
+  const auto roll_rad = smoothed_roll_rad(desired_rolls(
       step_s, 4000, [](double s) { return s < 1.9995 ? 0.0 : 1.0; }, one));
   for (int i = 0; i < 4000; i += 10) {
     const double since_s = i * step_s - 1.9995;
-    const double tail = 0.5 * std::exp(-std::abs(since_s) / 0.15);          // solution of tau^2 r'' = r - wish
+    const double tail = 0.5 * std::exp(-std::abs(since_s) / 0.15);          // solution of tau^2 r'' = r - desired roll
     CHECK(std::abs(roll_rad[i] - (since_s < 0 ? tail : 1 - tail)) < 1e-4);  // step / tau squared, over eight
   }
 }
 
-TEST_CASE("a stretch without weight is crossed in a straight line and worthless wishes count nothing") {
-  const auto roll_rad = smoothed_roll_rad(wishes(
+TEST_CASE("a stretch without weight is crossed in a straight line and worthless desired rolls count nothing") {
+  const auto roll_rad = smoothed_roll_rad(desired_rolls(
       0.01, 1001, [](double s) { return s < 3   ? 0.0
                                         : s > 7 ? 1.0
                                                 : 1000 * s; },
@@ -62,8 +62,8 @@ TEST_CASE("a stretch without weight is crossed in a straight line and worthless 
   CHECK(std::abs(roll_rad[500] - 0.5) < 1e-9);  // by symmetry
 }
 
-TEST_CASE("without any wish worth following there is no roll") {
-  for (const double roll_rad : smoothed_roll_rad(wishes(
+TEST_CASE("without any desired roll worth following there is no roll") {
+  for (const double roll_rad : smoothed_roll_rad(desired_rolls(
            1, 5, [](double s) { return s; }, [](double) { return 0.0; })))
     CHECK(roll_rad == 0);
 }

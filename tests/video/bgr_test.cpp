@@ -58,7 +58,7 @@ TEST_CASE("one colour everywhere stays that colour whatever the layout size and 
       }
 }
 
-TEST_CASE("without subsampling a picture comes back within rounding") {
+TEST_CASE("without subsampling an image comes back within rounding") {
   const cv::Mat bgr = smooth_bgr({50, 40});
   for (const ColorMatrix matrix : {ColorMatrix::bt601, ColorMatrix::bt709, ColorMatrix::bt2020}) {
     const cv::Mat full = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::full, matrix)));
@@ -158,7 +158,7 @@ TEST_CASE("values beyond the gamut are clipped and not wrapped") {
   CHECK(bgr.at<cv::Vec3b>(0, 1)[1] == 0);
 }
 
-TEST_CASE("every byte of a converted picture is that of the plain formula pixel by pixel") {
+TEST_CASE("every byte of a converted image is that of the plain formula pixel by pixel") {
   const auto tap = [](const cv::Mat& plane, const ChromaTap& row, const ChromaTap& column) {
     const auto at = [&](int x) {
       const float first = plane.at<uchar>(row.first, x);
@@ -173,7 +173,7 @@ TEST_CASE("every byte of a converted picture is that of the plain formula pixel 
         for (const cv::Size size :
              {cv::Size(1, 1), cv::Size(15, 4), cv::Size(16, 5), cv::Size(33, 7), cv::Size(98, 6)}) {
           Frame frame = test_frame(layout, size, 3, meaning(range, ColorMatrix::bt601, site));
-          for (int i = 0; i < 3; ++i)  // every code value, far outside of what any picture holds
+          for (int i = 0; i < 3; ++i)  // every code value, far outside of what any image holds
             cv::randu(frame.planes[static_cast<size_t>(i)], 0, 256);
           const CodeToRgb map = code_to_rgb(layout, frame.color);
           const cv::Matx33f m = map.to_rgb * 255.0F;

@@ -27,13 +27,13 @@ VideoFormat format_of(VideoCodec codec, Container container, PixelLayout layout,
   return {.codec = codec, .container = container, .threads = 2, .size_px = size_px, .layout = layout};
 }
 
-// The file, or all pictures of the folder one after the other.
+// The file, or all images of the folder one after the other.
 std::vector<uint8_t> bytes_at(const fs::path& path) {
   if (!fs::is_directory(path)) return bytes_of(path);
-  std::map<fs::path, std::vector<uint8_t>> pictures;
-  for (const auto& entry : fs::directory_iterator(path)) pictures[entry.path()] = bytes_of(entry.path());
+  std::map<fs::path, std::vector<uint8_t>> images;
+  for (const auto& entry : fs::directory_iterator(path)) images[entry.path()] = bytes_of(entry.path());
   std::vector<uint8_t> all;
-  for (const auto& [name, bytes] : pictures) all.insert(all.end(), bytes.begin(), bytes.end());
+  for (const auto& [name, bytes] : images) all.insert(all.end(), bytes.begin(), bytes.end());
   return all;
 }
 
@@ -57,7 +57,7 @@ Frame zeros(const VideoFormat& format, int number) {
 
 }  // namespace
 
-TEST_CASE("blank pictures are written as if each of them had been encoded") {
+TEST_CASE("blank images are written as if each of them had been encoded") {
   constexpr std::array kIsBlank{true, true, false, true, false, false, true, true, true, false};
   for (const auto& [codec, container] : kKinds)
     for (const PixelLayout layout : kLayouts)
@@ -82,7 +82,7 @@ TEST_CASE("blank pictures are written as if each of them had been encoded") {
       }
 }
 
-TEST_CASE("a blank picture whose time does not lie after the one before is refused") {
+TEST_CASE("a blank image whose time does not lie after the one before is refused") {
   const TemporaryFolder folder;
   VideoWriter writer =
       writer_at(folder / "a", format_of(VideoCodec::ffv1, Container::mkv, PixelLayout::gray, {32, 24}));

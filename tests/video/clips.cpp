@@ -19,23 +19,22 @@ extern "C" {
 namespace sigs::test {
 namespace {
 
-Samples picture_samples(const AVFrame& picture) {
-  const auto format = static_cast<AVPixelFormat>(picture.format);
-  const int size = av_image_get_buffer_size(format, picture.width, picture.height, 1);
+Samples image_samples(const AVFrame& image) {
+  const auto format = static_cast<AVPixelFormat>(image.format);
+  const int size = av_image_get_buffer_size(format, image.width, image.height, 1);
   Samples samples(static_cast<size_t>(size));
-  av_image_copy_to_buffer(samples.data(), size, picture.data, picture.linesize, format, picture.width, picture.height,
-                          1);
+  av_image_copy_to_buffer(samples.data(), size, image.data, image.linesize, format, image.width, image.height, 1);
   return samples;
 }
 
-void receive(AVCodecContext* decoder, AVFrame* picture, double tick_s, WholeDecode& decode) {
-  while (avcodec_receive_frame(decoder, picture) == 0) {
-    decode.pictures.push_back(picture_samples(*picture));
-    decode.times_s.push_back(static_cast<double>(picture->best_effort_timestamp) * tick_s);
+void receive(AVCodecContext* decoder, AVFrame* image, double tick_s, WholeDecode& decode) {
+  while (avcodec_receive_frame(decoder, image) == 0) {
+    decode.images.push_back(image_samples(*image));
+    decode.times_s.push_back(static_cast<double>(image->best_effort_timestamp) * tick_s);
   }
 }
 
-// 32-bit mixing of a picture's coordinates, so that the grain is the same wherever the test runs.
+// 32-bit mixing of an image's coordinates, so that the grain is the same wherever the test runs.
 uint32_t grain(uint32_t x, uint32_t y, uint32_t number) {
   uint32_t h = x * 374761393U + y * 668265263U + number * 2246822519U;
   h = (h ^ (h >> 13)) * 1274126177U;
@@ -68,22 +67,22 @@ WholeDecode whole_decode(const std::filesystem::path& path) {
   REQUIRE(avcodec_open2(decoder, codec, nullptr) >= 0);
   const double tick_s = av_q2d(input->streams[index]->time_base);
   AVPacket* packet = av_packet_alloc();
-  AVFrame* picture = av_frame_alloc();
+  AVFrame* image = av_frame_alloc();
   for (int result = 0; (result = av_read_frame(input, packet)) != AVERROR_EOF;) {
     if (result < 0) break;
     if (packet->stream_index == index && packet->size > 0) {
       avcodec_send_packet(decoder, packet);
-      receive(decoder, picture, tick_s, decode);
+      receive(decoder, image, tick_s, decode);
     }
     av_packet_unref(packet);
   }
   avcodec_send_packet(decoder, nullptr);
-  receive(decoder, picture, tick_s, decode);
+  receive(decoder, image, tick_s, decode);
   if (!decode.times_s.empty()) {
     const double begin_s = decode.times_s.front();
     for (double& time_s : decode.times_s) time_s -= begin_s;
   }
-  av_frame_free(&picture);
+  av_frame_free(&image);
   av_packet_free(&packet);
   avcodec_free_context(&decoder);
   avformat_close_input(&input);
@@ -119,8 +118,8 @@ bool run_ffmpeg(const std::string& arguments) {
 }
 
 bool make_clip(const std::string& options, const std::filesystem::path& path, const std::string& filter) {
-  const std::string picture = filter.empty() ? "testsrc2=size=128x96:rate=25:duration=2" : filter;
-  return run_ffmpeg("-f lavfi -i \"" + picture + "\" -threads 1 " + options + " \"" + path.string() + "\"");
+  const std::string image = filter.empty() ? "testsrc2=size=128x96:rate=25:duration=2" : filter;
+  return run_ffmpeg("-f lavfi -i \"" + image + "\" -threads 1 " + options + " \"" + path.string() + "\"");
 }
 
 Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color) {
@@ -172,14 +171,14 @@ void check_frame(FrameSource& source, const WholeDecode& truth, int n) {
   if (!frame) FAIL(frame.error().text());
   CAPTURE(n);
   CHECK(!frame->damaged);
-  const bool same = samples_of(*frame) == truth.pictures[static_cast<size_t>(n)];
+  const bool same = samples_of(*frame) == truth.images[static_cast<size_t>(n)];
   CHECK(same);
 }
 
 }  // namespace
 
 void check_against(FrameSource& source, const WholeDecode& truth) {
-  REQUIRE(source.info().frame_count() == static_cast<int>(truth.pictures.size()));
+  REQUIRE(source.info().frame_count() == static_cast<int>(truth.images.size()));
   const int count = source.info().frame_count();
   for (int n = 0; n < count; ++n) check_frame(source, truth, n);
   for (int n = count - 1; n >= 0; --n) check_frame(source, truth, n);

@@ -12,15 +12,15 @@
 
 namespace sigs::test {
 
-// All samples of a picture, plane after plane without gaps.
+// All samples of an image, plane after plane without gaps.
 using Samples = std::vector<uint8_t>;
 [[nodiscard]] Samples samples_of(const Frame& frame);
 
-// Every picture that FFmpeg's libraries give in one go from the start with one thread: the truth for reading. Only for
+// Every image that FFmpeg's libraries give in one go from the start with one thread: the truth for reading. Only for
 // planar 8-bit formats, whose bytes are the samples.
 struct WholeDecode {
-  std::vector<Samples> pictures;
-  std::vector<double> times_s;  // of each picture as FFmpeg guesses it, from the first
+  std::vector<Samples> images;
+  std::vector<double> times_s;  // of each image as FFmpeg guesses it, from the first
 };
 [[nodiscard]] WholeDecode whole_decode(const std::filesystem::path& path);
 
@@ -31,15 +31,15 @@ struct PacketPlace {
 };
 [[nodiscard]] std::vector<PacketPlace> packets_of(const std::filesystem::path& path);
 
-// Runs the ffmpeg program on a moving test picture. False, and SKIPPED printed, where there is none or it lacks a
+// Runs the ffmpeg program on a moving test image. False, and SKIPPED printed, where there is none or it lacks a
 // codec.
-//   filter   of the test picture, "testsrc2=size=128x96:rate=25:duration=2" if empty
+//   filter   of the test image, "testsrc2=size=128x96:rate=25:duration=2" if empty
 //   options  codec and muxer options; path  the output
 [[nodiscard]] bool make_clip(const std::string& options, const std::filesystem::path& path,
                              const std::string& filter = {});
 [[nodiscard]] bool run_ffmpeg(const std::string& arguments);
 
-// A picture with structure and grain, different for every number; the same on every machine.
+// An image with structure and grain, different for every number; the same on every machine.
 [[nodiscard]] Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color = {});
 
 // Writes count test frames at the format's nominal rate. The writer's errors fail the test.

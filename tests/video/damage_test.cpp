@@ -78,8 +78,8 @@ TEST_CASE("a damaged stretch in the middle leaves the rest of an H264 clip as it
     CHECK(damaged <= 12);
     const int last = source.info().frame_count() - 1;
     for (int i = 0; i < 20; ++i) {  // the damage is more than a group of pictures away from both ends
-      CHECK(samples_of(*source.read(i)) == whole.pictures[static_cast<size_t>(i)]);
-      CHECK(samples_of(*source.read(last - i % 10)) == whole.pictures[static_cast<size_t>(49 - i % 10)]);
+      CHECK(samples_of(*source.read(i)) == whole.images[static_cast<size_t>(i)]);
+      CHECK(samples_of(*source.read(last - i % 10)) == whole.images[static_cast<size_t>(49 - i % 10)]);
     }
   }
 }
@@ -130,8 +130,8 @@ TEST_CASE("a flipped bit in FFV1 is seen by its checksum") {
   const auto path = folder / "a.mkv";
   write_clip(path, {.size_px = {160, 120}}, 20);
   FrameSource whole = opened(path);
-  std::vector<Samples> pictures;
-  for (int n = 0; n < 20; ++n) pictures.push_back(samples_of(*whole.read(n)));
+  std::vector<Samples> images;
+  for (int n = 0; n < 20; ++n) images.push_back(samples_of(*whole.read(n)));
   std::vector<uint8_t> bytes = bytes_of(path);
   bytes[bytes.size() / 2] = static_cast<uint8_t>(bytes[bytes.size() / 2] ^ 0x10);
   write_bytes(path, bytes);
@@ -141,7 +141,7 @@ TEST_CASE("a flipped bit in FFV1 is seen by its checksum") {
   CHECK(damaged_frames(source) == 1);
   for (int n = 0; n < 20; ++n) {
     const Result<Frame> frame = source.read(n);
-    if (!frame->damaged) CHECK(samples_of(*frame) == pictures[static_cast<size_t>(n)]);
+    if (!frame->damaged) CHECK(samples_of(*frame) == images[static_cast<size_t>(n)]);
   }
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("an MP4 cut short behind its index keeps what is there") {
   CHECK(source.info().frame_count() < 45);
   REQUIRE(source.info().frame_count() > 20);
   CHECK(warns(source.info(), "header declares 50 frames"));
-  CHECK(samples_of(*source.read(15)) == whole.pictures[15]);
+  CHECK(samples_of(*source.read(15)) == whole.images[15]);
   CHECK(damaged_frames(source) <= 4);  // the cut frame and those that lean on it
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("what is no video is refused with a reason") {
   CHECK(error_of(folder / "noise.mp4", ErrorKind::cannot_read).find("video") != std::string::npos);
 }
 
-TEST_CASE("sound alone is no video") {
+TEST_CASE("intact alone is no video") {
   const TemporaryFolder folder;
   if (!run_ffmpeg("-f lavfi -i sine=duration=1 \"" + (folder / "a.wav").string() + "\"")) return;
   CHECK(error_of(folder / "a.wav", ErrorKind::cannot_read) == "there is no video in it");

@@ -144,7 +144,7 @@ TEST_CASE("frames dropped out of the middle of a clip are the same every way") {
   }
 }
 
-TEST_CASE("FFV1 whose checksums are all wrong holds no sound frame and is refused") {
+TEST_CASE("FFV1 whose checksums are all wrong holds no intact frame and is refused") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mkv";
   write_clip(path, {.size_px = {160, 120}}, 20);
@@ -157,12 +157,12 @@ TEST_CASE("FFV1 whose checksums are all wrong holds no sound frame and is refuse
   CHECK(source.error().text().find("damaged") != std::string::npos);
 }
 
-TEST_CASE("FFV1 with one sound frame shows it in the place of all others, each flagged") {
+TEST_CASE("FFV1 with one intact frame shows it in the place of all others, each flagged") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mkv";
   write_clip(path, {.size_px = {160, 120}}, 20);
   FrameSource whole = opened(path);
-  const Samples sound = samples_of(*whole.read(12));
+  const Samples intact = samples_of(*whole.read(12));
   Bytes bytes = bytes_of(path);
   const std::vector<PacketPlace> packets = packets_of(path);
   REQUIRE(packets.size() == 20);
@@ -176,7 +176,7 @@ TEST_CASE("FFV1 with one sound frame shows it in the place of all others, each f
     const Result<Frame> frame = source.read(n);
     REQUIRE(frame.has_value());
     CHECK(frame->damaged == (n != 12));
-    const bool same = samples_of(*frame) == sound;
+    const bool same = samples_of(*frame) == intact;
     CHECK(same);
   }
 }

@@ -14,9 +14,9 @@ using namespace sigs::test;
 
 namespace {
 
-// The same picture through ffmpeg's own conversion to a plain planar format, as raw bytes.
+// The same image through ffmpeg's own conversion to a plain planar format, as raw bytes.
 Samples raw_of(const std::filesystem::path& clip, const char* format, const TemporaryFolder& folder) {
-  const auto raw = folder / "picture.raw";
+  const auto raw = folder / "image.raw";
   REQUIRE(run_ffmpeg("-i \"" + clip.string() + "\" -frames:v 1 -f rawvideo -pix_fmt " + format + " \"" + raw.string() +
                      "\""));
   return bytes_of(raw);
@@ -153,7 +153,7 @@ TEST_CASE("formats without a layout of their own take the nearest") {
     REQUIRE(frame.has_value());
     if (kind.layout == PixelLayout::rgb)
       std::rotate(frame->planes.begin(), frame->planes.begin() + 1, frame->planes.end());
-    // The same library with other filters: bilinear against bicubic on a blurred picture; 5-bit steps are exact.
+    // The same library with other filters: bilinear against bicubic on a blurred image; 5-bit steps are exact.
     CHECK(largest_difference(samples_of(*frame), raw_of(path, kind.planar, folder)) <= 8);
   }
 }
@@ -192,7 +192,7 @@ TEST_CASE("what a file says of its colours is read and what it leaves open is as
   }
 }
 
-TEST_CASE("a picture that players turn is turned and said so") {
+TEST_CASE("an image that players turn is oriented and said so") {
   const TemporaryFolder folder;
   if (!make_clip("-c:v libx264", folder / "flat.mp4")) return;
   REQUIRE(run_ffmpeg("-i \"" + (folder / "flat.mp4").string() + "\" -c copy -metadata:s:v rotate=90 \"" +

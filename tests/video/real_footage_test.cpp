@@ -27,7 +27,7 @@ void check_jumps(FrameSource& source, const WholeDecode& truth) {
     CAPTURE(n);
     const Result<Frame> frame = source.read(n);
     REQUIRE(frame.has_value());
-    const bool same = samples_of(*frame) == truth.pictures[static_cast<size_t>(n)];
+    const bool same = samples_of(*frame) == truth.images[static_cast<size_t>(n)];
     CHECK(same);
   }
 }
@@ -38,7 +38,7 @@ TEST_CASE("the GoPro flight gives all its frames in order and at random") {
   if (!has_real_data()) return;
   const auto path = real_data() / "video" / "air_karma_gopro_coast.mp4";
   const WholeDecode truth = whole_decode(path);
-  REQUIRE(truth.pictures.size() == 362);
+  REQUIRE(truth.images.size() == 362);
   FrameSource source = opened(path);
   const VideoInfo& info = source.info();
   REQUIRE(info.frame_count() == 362);
@@ -58,7 +58,7 @@ TEST_CASE("the GoPro flight gives all its frames in order and at random") {
     const Result<Frame> frame = source.read(n);
     REQUIRE(frame.has_value());
     CHECK(!frame->damaged);
-    const bool same = samples_of(*frame) == truth.pictures[static_cast<size_t>(n)];
+    const bool same = samples_of(*frame) == truth.images[static_cast<size_t>(n)];
     CHECK(same);
   }
   check_jumps(source, truth);
@@ -72,7 +72,7 @@ TEST_CASE("a header that promises more frames than there are is found out") {
   CHECK(source.info().declared_frames == 444);
   CHECK(any_warning_says(source.info(), "header declares 444 frames, 68 are there"));
   CHECK(source.info().codec == "cinepak");
-  CHECK(whole_decode(path).pictures.size() == 68);
+  CHECK(whole_decode(path).images.size() == 68);
   for (const int n : {67, 0, 30, 29}) CHECK(source.read(n).has_value());
 }
 
@@ -85,9 +85,9 @@ TEST_CASE("every real clip can be read to its last frame and back") {
   for (const Clip& clip : {Clip{"video/ground_udacity_road_540p.mp4", 221}, Clip{"track/V_AIRPLANE_001.mp4", 0}}) {
     CAPTURE(std::string(clip.file));
     const WholeDecode truth = whole_decode(real_data() / clip.file);
-    if (clip.frames > 0) CHECK(truth.pictures.size() == clip.frames);
+    if (clip.frames > 0) CHECK(truth.images.size() == clip.frames);
     FrameSource source = opened(real_data() / clip.file);
-    REQUIRE(source.info().frame_count() == static_cast<int>(truth.pictures.size()));
+    REQUIRE(source.info().frame_count() == static_cast<int>(truth.images.size()));
     check_jumps(source, truth);
   }
 }

@@ -61,7 +61,7 @@ TEST_CASE("any frame of any kind of clip is the one that a whole decode gives") 
     const auto path = folder / kind.file;
     if (!make_clip(kind.options, path, kind.filter)) continue;
     const WholeDecode truth = whole_decode(path);
-    REQUIRE(truth.pictures.size() >= 40);
+    REQUIRE(truth.images.size() >= 40);
     FrameSource source = opened(path);
     check_against(source, truth);
   }
@@ -73,12 +73,12 @@ TEST_CASE("frames taken in steps of any length are those of a whole decode") {
     const TemporaryFolder folder;
     if (!make_clip(options, folder / "a.avi")) continue;
     const WholeDecode truth = whole_decode(folder / "a.avi");
-    const int count = static_cast<int>(truth.pictures.size());
+    const int count = static_cast<int>(truth.images.size());
     for (int step = 2; step <= 18; ++step) {
       CAPTURE(step);
       FrameSource source = opened(folder / "a.avi");
       for (int n = 0; n < count; n += step)
-        CHECK(samples_of(*source.read(n)) == truth.pictures[static_cast<size_t>(n)]);
+        CHECK(samples_of(*source.read(n)) == truth.images[static_cast<size_t>(n)]);
     }
   }
 }
@@ -91,7 +91,7 @@ TEST_CASE("an AVI without an index gives every frame") {
     const WholeDecode indexed = whole_decode(folder / "a.avi");
     hide_avi_index(folder / "a.avi");
     const WholeDecode truth = whole_decode(folder / "a.avi");
-    CHECK(truth.pictures == indexed.pictures);
+    CHECK(truth.images == indexed.images);
     FrameSource source = opened(folder / "a.avi");
     check_against(source, truth);
   }
@@ -103,7 +103,7 @@ TEST_CASE("an edit list hides the pictures before it") {
   const std::string cut = "-ss 1.08 -i \"" + (folder / "whole.mp4").string() + "\" -c copy \"";
   REQUIRE(run_ffmpeg(cut + (folder / "cut.mp4").string() + "\""));
   const WholeDecode truth = whole_decode(folder / "cut.mp4");
-  REQUIRE(truth.pictures.size() == 23);  // 50 frames less the 27 that begin before 1.08 s
+  REQUIRE(truth.images.size() == 23);  // 50 frames less the 27 that begin before 1.08 s
   FrameSource source = opened(folder / "cut.mp4");
   check_against(source, truth);
 }
@@ -123,7 +123,7 @@ TEST_CASE("a clip cut inside an open group of pictures begins with the first who
   check_against(source, truth);
 }
 
-TEST_CASE("sound and other streams beside the video change nothing") {
+TEST_CASE("intact and other streams beside the video change nothing") {
   const TemporaryFolder folder;
   if (!run_ffmpeg("-f lavfi -i testsrc2=size=128x96:rate=25:duration=2 -f lavfi -i sine=duration=3 "
                   "-map 1:a -map 0:v -map 1:a -c:v libx264 -g 20 -bf 3 -c:a aac \"" +

@@ -63,12 +63,12 @@ TEST_CASE("light and back is the identity, also beyond black and white, and ever
 }
 
 TEST_CASE("the least light is half an 8-bit step above black") {
-  CHECK(least_light(TransferFunction::srgb) == doctest::Approx(0.5 / 255 / 12.92).epsilon(1e-12));
+  CHECK(min_light(TransferFunction::srgb) == doctest::Approx(0.5 / 255 / 12.92).epsilon(1e-12));
   for (const TransferFunction function : kAll)
     for (const double below : {-0.002, -0.001, 0.0, 0.01, 0.1, 0.5, 1.0}) {
       CAPTURE(static_cast<int>(function));
       const double light = linear_of_display(function, below);
-      CHECK(display_of_linear(function, light + least_light(function)) - below < 0.5001 / 255);
+      CHECK(display_of_linear(function, light + min_light(function)) - below < 0.5001 / 255);
     }
 }
 

@@ -53,7 +53,7 @@ TEST_CASE("footage that asks to be rotated is upright, every sample as FFmpeg's 
   }
 }
 
-TEST_CASE("the pixel's aspect is turned with the picture") {
+TEST_CASE("the pixel's aspect is turned with the image") {
   const TemporaryFolder folder;
   if (!make_clip("-vf setsar=4/3 -c:v libx264", folder / "flat.mp4")) return;
   REQUIRE(put_turned(folder / "flat.mp4", 90, folder / "turned.mp4"));

@@ -250,7 +250,7 @@ TEST_CASE("a frame that does not come after the one before is refused") {
   }
 }
 
-TEST_CASE("a PNG sequence holds the pictures by their numbers") {
+TEST_CASE("a PNG sequence holds the images by their numbers") {
   const TemporaryFolder folder;
   VideoFormat format = format_of(VideoCodec::png, Container::mkv, PixelLayout::rgb, {33, 21});
   Result<VideoWriter> writer = VideoWriter::open(folder.path(), format);
@@ -262,7 +262,7 @@ TEST_CASE("a PNG sequence holds the pictures by their numbers") {
   CHECK(cv::norm(read, bgr_of(frame), cv::NORM_INF) == 0);
 }
 
-TEST_CASE("gray pictures become gray PNG files") {
+TEST_CASE("gray images become gray PNG files") {
   const TemporaryFolder folder;
   VideoFormat format = format_of(VideoCodec::png, Container::mkv, PixelLayout::gray, {33, 21});
   format.color.range = ColorRange::full;

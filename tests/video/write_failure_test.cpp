@@ -59,7 +59,7 @@ TEST_CASE("an odd size is refused only by H264 with shared chroma") {
   CHECK(outcome(folder / "c.mkv", format_of(VideoCodec::mjpeg, Container::mkv, {65, 47}), 2).has_value());
 }
 
-TEST_CASE("an empty or tiny picture is refused") {
+TEST_CASE("an empty or tiny image is refused") {
   const TemporaryFolder folder;
   CHECK(refused(folder / "a.mkv", format_of(VideoCodec::ffv1, Container::mkv, {3, 48})).kind == ErrorKind::usage);
   CHECK(refused(folder / "a.mkv", format_of(VideoCodec::ffv1, Container::mkv, {0, 48})).kind == ErrorKind::usage);

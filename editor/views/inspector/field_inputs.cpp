@@ -19,7 +19,7 @@ namespace sigs::editor {
 
 namespace {
 
-double least_step(const Field& field) {
+double min_step(const Field& field) {
   constexpr std::array<std::pair<std::string_view, double>, 5> kSteps{
       {{"m", 0.1}, {"deg", 0.1}, {"m/s", 0.05}, {"px/m", 1e-5}, {"frame", 0.2}}};
   for (const auto& [unit, step] : kSteps)
@@ -31,7 +31,7 @@ double least_step(const Field& field) {
 double drag_step(double value, const Field& field) {
   const double share = std::abs(value) * 0.005;
   const bool has_no_zero = field.minimum > 0 && share > 0;
-  return round_step(has_no_zero ? share : std::max(share, least_step(field)));
+  return round_step(has_no_zero ? share : std::max(share, min_step(field)));
 }
 
 // Whole frames as whole numbers, so that dragging keeps to them.
@@ -111,7 +111,7 @@ std::optional<int> combo(const Names& names, int chosen, const std::string& show
   return taken;
 }
 
-std::optional<Edited> named_text_input(const std::string& value, const RowLook& look, float width) {
+std::optional<Edited> named_text_input(const std::string& value, const RowOptions& look, float width) {
   const auto found = std::find(look.names.begin(), look.names.end(), value);
   const std::optional<int> taken = combo(look.names, static_cast<int>(found - look.names.begin()), value, width);
   if (!taken) return std::nullopt;
@@ -130,7 +130,7 @@ bool color_input(glm::dvec3& value, float width) {
 }
 
 // A box for each name that is usual or chosen.
-std::optional<Edited> list_input(const std::vector<std::string>& values, const RowLook& look) {
+std::optional<Edited> list_input(const std::vector<std::string>& values, const RowOptions& look) {
   std::vector<std::string> names = look.names;
   for (const std::string& value : values)
     if (std::find(names.begin(), names.end(), value) == names.end()) names.push_back(value);
@@ -151,7 +151,7 @@ std::optional<Edited> list_input(const std::vector<std::string>& values, const R
 
 struct Input {
   const Field& field;
-  const RowLook& look;
+  const RowOptions& look;
   float width;
   TypedText& typed;
 
@@ -203,7 +203,7 @@ struct Input {
 
 }  // namespace
 
-std::optional<Edited> field_input(const Field& field, const RowLook& look, float width, TypedText& typed) {
+std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width, TypedText& typed) {
   return std::visit(Input{field, look, width, typed}, field.value);
 }
 

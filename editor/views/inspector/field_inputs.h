@@ -10,7 +10,7 @@
 namespace sigs::editor {
 
 // How a field is shown, where its type does not say all.
-struct RowLook {
+struct RowOptions {
   std::string label;                // "": by its key
   std::string off_because;          // not empty: cannot be edited, and why
   std::vector<std::string> names;   // a text that is one of these
@@ -32,9 +32,10 @@ struct Edited {
 };
 
 // The editor of a field by its type, from the cursor on, `width` wide.
-[[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowLook& look, float width, TypedText& typed);
+[[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width,
+                                                TypedText& typed);
 
-// A number with its unit: dragged, or typed after a click; true in turns in which it has changed. Stays in the range.
+// A number with its unit: dragged, or typed after a click; true in updates in which it has changed. Stays in the range.
 [[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
 
 // X, Y, Z side by side, or below each other where there is no room.

@@ -40,7 +40,7 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-bool takes_whole_row(const Field& field, const RowLook& look) {
+bool takes_whole_row(const Field& field, const RowOptions& look) {
   return std::holds_alternative<glm::dvec3*>(field.value) && !look.is_color;
 }
 
@@ -83,7 +83,7 @@ float FieldRows::begin_row(const std::string& label, bool below) {
   return std::max(scaled(30), (above ? room : room * (1 - kLabelShare)) - side);
 }
 
-void FieldRows::draw_hint(const Field& field, const RowLook& look) const {
+void FieldRows::draw_hint(const Field& field, const RowOptions& look) const {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   std::string text = capitalised(std::string(field.help));
   if (const std::string range = range_text(field); !range.empty()) text += "\nRange: " + range;
@@ -97,18 +97,18 @@ void FieldRows::draw_hint(const Field& field, const RowLook& look) const {
 
 void FieldRows::browse(const Field& field) {
   std::error_code code;
-  const Project& project = studio_.project();
+  const Project& project = context_.project();
   std::filesystem::path start = resolved(project, *std::get<std::string*>(field.value)).parent_path();
   if (start.empty() || !std::filesystem::is_directory(start, code)) start = project.file.parent_path();
-  Edits& edits = studio_.edits;
-  studio_.edits.ask(AskForFile{.title = "Choose: " + lower_first(label_of(field.key)),
-                               .extensions = extensions_for(field.key),
-                               .start = start,
-                               .chosen = [&edits, key = field.key](const std::filesystem::path& path) {
-                                 edits.change("choose " + lower_first(label_of(key)), [key, path](Project& changed) {
-                                   put_value(changed, key, path_in_project(changed, path));
-                                 });
-                               }});
+  Edits& edits = context_.edits;
+  context_.edits.ask(AskForFile{.title = "Choose: " + lower_first(label_of(field.key)),
+                                .extensions = extensions_for(field.key),
+                                .start = start,
+                                .chosen = [&edits, key = field.key](const std::filesystem::path& path) {
+                                  edits.change("choose " + lower_first(label_of(key)), [key, path](Project& changed) {
+                                    put_value(changed, key, path_in_project(changed, path));
+                                  });
+                                }});
 }
 
 // Beside the editor, so that all editors end in one line: choosing a file, and going back to the default.
@@ -120,26 +120,26 @@ void FieldRows::draw_side_buttons(const Field& field, float top_y) {
   ImGui::SetCursorScreenPos({right - icon_button_width(), top_y});
   if (field.is_path) {
     if (icon_button("browse", Icon::folder, "Choose a file")) browse(field);
-    studio_.places.note_item(place_ + field.key + "/browse");
+    context_.ui_probe.note_item(place_ + field.key + "/browse");
   } else {
     const std::string text = "Back to " + value_text(field, sheet_.default_of(field));
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
     if (icon_button("reset", Icon::reset, text.c_str())) change(field, {sheet_.default_of(field), true});
     ImGui::PopStyleColor();
-    studio_.places.note_item(place_ + field.key + "/reset");
+    context_.ui_probe.note_item(place_ + field.key + "/reset");
   }
   ImGui::SetCursorScreenPos(after);
 }
 
 void FieldRows::change(const Field& field, const Edited& edited) {
   const std::string gesture = edited.is_finished ? "" : "inspector " + field.key;
-  studio_.edits.change(
+  context_.edits.change(
       "change " + lower_first(label_of(field.key)),
       [key = field.key, value = edited.value](Project& project) { put_value(project, key, value); }, gesture);
   memory_.gesture_is_open = !edited.is_finished;
 }
 
-void FieldRows::row(std::string_view key, const RowLook& look) {
+void FieldRows::row(std::string_view key, const RowOptions& look) {
   const Field* const field = sheet_.find(key);
   if (field == nullptr) return;
   const bool is_wrong = problems_.find(key) != problems_.end();
@@ -150,10 +150,10 @@ void FieldRows::row(std::string_view key, const RowLook& look) {
   if (below && !field->unit.empty()) label += " (" + std::string(field->unit) + ")";
   const float width = begin_row(label, below);
   const float top_y = below ? label_y - ImGui::GetStyle().FramePadding.y : ImGui::GetCursorScreenPos().y;
-  if (memory_.wanted_turns > 0 && memory_.wanted_key == key) {
+  if (memory_.wanted_updates > 0 && memory_.wanted_key == key) {
     ImGui::SetScrollHereY(0.3F);
     ImGui::SetKeyboardFocusHere();
-    memory_.wanted_turns = 0;
+    memory_.wanted_updates = 0;
   }
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, is_wrong ? scaled(1) : 0);
   if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Border, color::kBad);
@@ -165,18 +165,18 @@ void FieldRows::row(std::string_view key, const RowLook& look) {
   ImGui::EndDisabled();
   if (is_wrong) ImGui::PopStyleColor();
   ImGui::PopStyleVar();
-  studio_.places.note_item(place_ + field->key);
+  context_.ui_probe.note_item(place_ + field->key);
   draw_hint(*field, look);
   if (edited) change(*field, *edited);
-  if (is_left) studio_.edits.end_gesture();
+  if (is_left) context_.edits.end_gesture();
   draw_side_buttons(*field, top_y);
   problem_lines(key);
   ImGui::PopID();
 }
 
-void FieldRows::rows(std::string_view prefix, const std::function<RowLook(const Field&)>& look_of) {
+void FieldRows::rows(std::string_view prefix, const std::function<RowOptions(const Field&)>& look_of) {
   for (const Field& field : sheet_.fields())
-    if (field.key.starts_with(prefix)) row(field.key, look_of ? look_of(field) : RowLook());
+    if (field.key.starts_with(prefix)) row(field.key, look_of ? look_of(field) : RowOptions());
 }
 
 void FieldRows::problem_lines(std::string_view key) {
@@ -200,10 +200,10 @@ void FieldRows::problem_lines(std::string_view key) {
 
 void FieldRows::finish() {
   if (memory_.gesture_is_open && !ImGui::IsAnyItemActive()) {
-    studio_.edits.end_gesture();
+    context_.edits.end_gesture();
     memory_.gesture_is_open = false;
   }
-  if (memory_.wanted_turns > 0) --memory_.wanted_turns;
+  if (memory_.wanted_updates > 0) --memory_.wanted_updates;
 }
 
 }  // namespace sigs::editor

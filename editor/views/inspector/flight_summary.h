@@ -8,19 +8,19 @@
 
 namespace sigs::editor {
 
-// In how many of the film's frames it is visible, by the survey's, which may not be all.
+// In how many of the footage's frames it is visible, by the survey's, which may not be all.
 [[nodiscard]] Visibility visibility_of(const Survey& survey, int frames);
 
-// How an intruder flies, from the newest survey: least and most of what a pilot watches, the closest approach, and what
-// no such aircraft could fly; frames are gone to with a click.
+// How an intruder flies, from the newest survey: minimum and maximum of what a pilot watches, the closest approach, and
+// what no such aircraft could fly; frames are gone to with a click.
 class FlightSummary {
  public:
-  void draw(const Studio& studio, FieldRows& rows, int intruder);
+  void draw(const ViewContext& context, FieldRows& rows, int intruder);
 
  private:
   struct Span {
-    double least = 0;
-    double most = 0;
+    double minimum = 0;
+    double maximum = 0;
   };
   void measure(const std::shared_ptr<const Survey>& survey);
 

@@ -30,32 +30,32 @@ void draw_video(const Footage& footage, const FieldRows& rows) {
     note(video_text(*footage.video));
     for (const Warning& warning : footage.video->warnings) note(warning.text(), true);
   } else if (!rows.problems().contains("footage.video")) {
-    note("Grey frames stand in for the footage.", true);
+    note("Grey frames replace the footage.", true);
   }
 }
 
 std::string lens_text(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
   const std::string model = lens.model == LensModel::brown_conrady ? "Brown-Conrady" : "Kannala-Brandt (fisheye)";
-  const std::string bent =
+  const std::string distortion =
       camera.lens.is_pinhole() ? "no distortion" : std::to_string(lens.coefficients.size()) + " coefficients";
   const double valid_deg = std::min(180.0, deg_of_rad(camera.lens.valid_angle_rad()));
-  return size_text(camera.size_px) + ", " + model + ", " + bent + "\nfocal length " +
+  return size_text(camera.size_px) + ", " + model + ", " + distortion + "\nfocal length " +
          number_text(std::round(lens.fx * 10) / 10) + " x " + number_text(std::round(lens.fy * 10) / 10) +
          " px\nvalid to " + number_text(std::round(valid_deg * 10) / 10, "deg") + " from the axis";
 }
 
 }  // namespace
 
-void draw_inputs(const Studio& studio, FieldRows& rows) {
-  const OpenedScene* const scene = studio.shown.scene.get();
+void draw_inputs(const ViewContext& context, FieldRows& rows) {
+  const OpenedScene* const scene = context.shown.scene.get();
   rows.row("footage.video");
   if (scene != nullptr && scene->footage) draw_video(*scene->footage, rows);
-  RowLook last;
+  RowOptions last;
   last.suggested = scene != nullptr ? double(scene->draft.scene.footage.times_s.size()) - 1 : 0;
   for (const Field& field : rows.sheet().fields()) {
     if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
-    rows.row(field.key, field.key == "footage.last_frame" ? last : RowLook());
+    rows.row(field.key, field.key == "footage.last_frame" ? last : RowOptions());
     if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
       note(lens_text(scene->draft.scene.camera));
   }

@@ -6,6 +6,6 @@
 namespace sigs::editor {
 
 // Footage, calibration and own-body mask, and what was found in them.
-void draw_inputs(const Studio& studio, FieldRows& rows);
+void draw_inputs(const ViewContext& context, FieldRows& rows);
 
 }  // namespace sigs::editor

@@ -17,7 +17,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr int kTurnsOfPatience = 20;  // until a row that is wanted must have been drawn
+constexpr int kUpdatesToWait = 20;  // until a row that is wanted must have been drawn
 
 // The block of what is selected in another view; "": none in particular.
 const char* block_of(Selected kind) {
@@ -35,51 +35,51 @@ const char* block_of(Selected kind) {
   }
 }
 
-void draw_own_body(const Studio& studio, FieldRows& rows) {
-  const bool is_paper = studio.project().own_body.method == OwnBodyMethod::paper;
+void draw_own_body(const ViewContext& context, FieldRows& rows) {
+  const bool is_paper = context.project().own_body.method == OwnBodyMethod::paper;
   rows.rows("own_body.", [&](const Field& field) {
-    RowLook look;
+    RowOptions look;
     if (field.key.starts_with("own_body.paper.") && !is_paper) look.off_because = "Counts for the paper method alone.";
     if (field.key.starts_with("own_body.stable.") && is_paper) look.off_because = "Counts for the stable method alone.";
     return look;
   });
   ImGui::Spacing();
-  if (ImGui::Button("Detect and paint...")) studio.edits.ask(ShowOwnBody{});
-  studio.places.note_item("inspector/own body");
+  if (ImGui::Button("Detect and paint...")) context.edits.ask(ShowOwnBody{});
+  context.ui_probe.note_item("inspector/own body");
   tooltip_for_item("Finds the aircraft that carries the camera in its footage");
 }
 
-void draw_camera(const Studio& studio, FieldRows& rows) {
+void draw_camera(const ViewContext& context, FieldRows& rows) {
   rows.rows("camera.");
-  const CameraSettings& camera = studio.project().camera;
+  const CameraSettings& camera = context.project().camera;
   if (!camera.attitude_file.empty()) return;
   ImGui::Spacing();
   if (!knows_horizon(camera)) note("Horizon: not set. Labels call the intruders' side of it unknown.");
-  if (ImGui::Button("Horizon...")) studio.edits.ask(ShowHorizon{});
-  studio.places.note_item("inspector/horizon");
+  if (ImGui::Button("Horizon...")) context.edits.ask(ShowHorizon{});
+  context.ui_probe.note_item("inspector/horizon");
   tooltip_for_item("Shows the horizon's line over the footage, to be dragged onto the footage's own");
 }
 
-void draw_compositing(const Studio& studio, FieldRows& rows) {
-  const bool is_direct = studio.project().compositing.method == MethodChoice::direct;
+void draw_compositing(const ViewContext& context, FieldRows& rows) {
+  const bool is_direct = context.project().compositing.method == MethodChoice::direct;
   rows.rows("compositing.", [&](const Field& field) {
-    RowLook look;
+    RowOptions look;
     if (field.key == "compositing.blend" && !is_direct) look.off_because = "Counts for the direct method alone.";
     return look;
   });
 }
 
-void draw_export(const Studio& studio, FieldRows& rows) {
-  const bool is_h264 = studio.project().output.codec == CodecChoice::h264;
+void draw_export(const ViewContext& context, FieldRows& rows) {
+  const bool is_h264 = context.project().output.codec == CodecChoice::h264;
   rows.rows("export.", [&](const Field& field) {
-    RowLook look;
+    RowOptions look;
     if (field.key == "export.video.crf" && !is_h264) look.off_because = "Counts for h264 alone.";
     if (field.key == "export.labels") look.names = {"xml"};
     return look;
   });
   ImGui::Spacing();
-  if (ImGui::Button("Export...")) studio.edits.ask(ShowExport{});
-  studio.places.note_item("inspector/export");
+  if (ImGui::Button("Export...")) context.edits.ask(ShowExport{});
+  context.ui_probe.note_item("inspector/export");
   tooltip_for_item("Writes video, masks and labels (Ctrl + E)");
 }
 
@@ -99,61 +99,61 @@ void draw_badge(int count) {
 
 }  // namespace
 
-void InspectorView::refresh(const Studio& studio) {
-  if (!sheet_ || sheet_revision_ != studio.document.revision().number) {
-    sheet_.emplace(studio.project());
-    sheet_revision_ = studio.document.revision().number;
+void InspectorView::refresh(const ViewContext& context) {
+  if (!sheet_ || sheet_revision_ != context.document.revision().number) {
+    sheet_.emplace(context.project());
+    sheet_revision_ = context.document.revision().number;
   }
-  problems_.refresh(studio);
+  problems_.refresh(context);
 }
 
-void InspectorView::follow_selection(const Studio& studio) {
-  const Selection& selection = studio.document.selection();
+void InspectorView::follow_selection(const ViewContext& context) {
+  const Selection& selection = context.document.selection();
   // What was selected right here must not move away under the mouse.
   const bool is_elsewhere =
       !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   if (is_elsewhere && selection.kind != followed_.kind && *block_of(selection.kind) != '\0') {
     block_to_open_ = block_of(selection.kind);
-    turns_to_open_ = 1;
+    updates_to_open_ = 1;
   }
   followed_ = selection;
 }
 
-void InspectorView::go_to_problem(const Studio& studio, const std::string& key) {
+void InspectorView::go_to_problem(const ViewContext& context, const std::string& key) {
   filter_.clear();
   block_to_open_ = editor::block_of(key);
   // A key without a row of its own is shown by its block.
   const bool has_row = sheet_->find(key) != nullptr;
-  turns_to_open_ = has_row ? kTurnsOfPatience : 2;
+  updates_to_open_ = has_row ? kUpdatesToWait : 2;
   memory_.wanted_key = key;
-  memory_.wanted_turns = has_row ? kTurnsOfPatience : 0;
+  memory_.wanted_updates = has_row ? kUpdatesToWait : 0;
   if (!key.starts_with("intruders[")) return;
   const auto number_after = [&](const char* name) {
     return static_cast<int>(std::strtol(key.c_str() + key.find(name) + std::string(name).size(), nullptr, 10));
   };
   const int intruder = number_after("intruders[");
   if (key.find("waypoints[") != std::string::npos)
-    studio.edits.select({Selected::waypoint, intruder, number_after("waypoints[")});
+    context.edits.select({Selected::waypoint, intruder, number_after("waypoints[")});
   else
-    studio.edits.select({Selected::intruder, intruder, 0});
+    context.edits.select({Selected::intruder, intruder, 0});
 }
 
-void InspectorView::draw_top(const Studio& studio, FieldRows& rows) {
+void InspectorView::draw_top(const ViewContext& context, FieldRows& rows) {
   for (const Field& field : sheet_->fields())
     if (editor::block_of(field.key).empty()) rows.row(field.key, {.label = field.key == "name" ? "Project" : ""});
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - (filter_.empty() ? 0 : icon_button_width() + scaled(2)));
   text_input("##filter", filter_, "Filter settings");
-  studio.places.note_item("inspector/filter");
+  context.ui_probe.note_item("inspector/filter");
   if (!filter_.empty()) {
     ImGui::SameLine(0, scaled(2));
     if (icon_button("clear filter", Icon::cross, "Show all settings")) filter_.clear();
   }
-  if (const std::optional<std::string> key = problems_.draw(studio)) go_to_problem(studio, *key);
+  if (const std::optional<std::string> key = problems_.draw(context)) go_to_problem(context, *key);
 }
 
-void InspectorView::block(const Studio& studio, const char* title, bool opens_first,
+void InspectorView::block(const ViewContext& context, const char* title, bool opens_first,
                           const std::function<void()>& content) {
-  const bool is_wanted = turns_to_open_ > 0 && block_to_open_ == title;
+  const bool is_wanted = updates_to_open_ > 0 && block_to_open_ == title;
   if (is_wanted)
     ImGui::SetNextItemOpen(true);
   else
@@ -161,8 +161,8 @@ void InspectorView::block(const Studio& studio, const char* title, bool opens_fi
   ImGui::PushFont(font(Font::bold));
   const bool is_open = ImGui::CollapsingHeader(title);
   ImGui::PopFont();
-  studio.places.note_item(std::string("inspector/") + title);
-  if (is_wanted && memory_.wanted_turns == 0) ImGui::SetScrollHereY(0);
+  context.ui_probe.note_item(std::string("inspector/") + title);
+  if (is_wanted && memory_.wanted_updates == 0) ImGui::SetScrollHereY(0);
   draw_badge(problems_.count_in(title));
   if (!is_open) return;
   ImGui::PushID(title);
@@ -171,22 +171,22 @@ void InspectorView::block(const Studio& studio, const char* title, bool opens_fi
   ImGui::Spacing();
 }
 
-void InspectorView::draw_blocks(const Studio& studio, FieldRows& rows) {
-  if (studio.scored != nullptr) block(studio, "Tracker results", true, [&] { draw_results_panel(studio); });
-  block(studio, "Inputs", true, [&] { draw_inputs(studio, rows); });
-  block(studio, "Own body", false, [&] { draw_own_body(studio, rows); });
-  block(studio, "Camera", true, [&] { draw_camera(studio, rows); });
-  block(studio, "Light", false, [&] { light_.draw(studio, rows); });
-  block(studio, "Intruders", true, [&] { model_.draw(studio, rows); });
-  block(studio, "Trajectory", true, [&] { trajectory_.draw(studio, rows); });
-  block(studio, "Compositing", false, [&] { draw_compositing(studio, rows); });
-  block(studio, "Export", false, [&] { draw_export(studio, rows); });
-  const bool has_arrived = !memory_.wanted_key.empty() && memory_.wanted_turns == 0;
+void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
+  if (context.scored != nullptr) block(context, "Tracker results", true, [&] { draw_results_panel(context); });
+  block(context, "Inputs", true, [&] { draw_inputs(context, rows); });
+  block(context, "Own body", false, [&] { draw_own_body(context, rows); });
+  block(context, "Camera", true, [&] { draw_camera(context, rows); });
+  block(context, "Light", false, [&] { light_.draw(context, rows); });
+  block(context, "Intruders", true, [&] { model_.draw(context, rows); });
+  block(context, "Trajectory", true, [&] { trajectory_.draw(context, rows); });
+  block(context, "Compositing", false, [&] { draw_compositing(context, rows); });
+  block(context, "Export", false, [&] { draw_export(context, rows); });
+  const bool has_arrived = !memory_.wanted_key.empty() && memory_.wanted_updates == 0;
   if (has_arrived) memory_.wanted_key.clear();
-  turns_to_open_ = has_arrived && turns_to_open_ > 2 ? 0 : std::max(0, turns_to_open_ - 1);
+  updates_to_open_ = has_arrived && updates_to_open_ > 2 ? 0 : std::max(0, updates_to_open_ - 1);
 }
 
-void InspectorView::draw_found(const Studio& studio, FieldRows& rows) const {
+void InspectorView::draw_found(const ViewContext& context, FieldRows& rows) const {
   std::string heading;
   bool has_any = false;
   for (const Field& field : sheet_->fields()) {
@@ -194,7 +194,7 @@ void InspectorView::draw_found(const Studio& studio, FieldRows& rows) const {
     if (name.empty() || !matches(field, filter_)) continue;
     const bool is_of_intruder = name == "Intruders" || name == "Trajectory";
     // By the intruder's name: "airliner, scale" without the field's own.
-    const std::string whole = place_of(studio.project(), field.key);
+    const std::string whole = place_of(context.project(), field.key);
     const std::string place = is_of_intruder ? whole.substr(0, whole.rfind(", ")) : name;
     if (place != heading) note(place);
     heading = place;
@@ -204,17 +204,17 @@ void InspectorView::draw_found(const Studio& studio, FieldRows& rows) const {
   if (!has_any) note("No setting is called so.");
 }
 
-void InspectorView::draw(const Studio& studio) {
-  refresh(studio);
-  follow_selection(studio);
-  FieldRows rows(studio, *sheet_, problems_.by_field(), memory_);
+void InspectorView::draw(const ViewContext& context) {
+  refresh(context);
+  follow_selection(context);
+  FieldRows rows(context, *sheet_, problems_.by_field(), memory_);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
-  draw_top(studio, rows);
+  draw_top(context, rows);
   ImGui::BeginChild("settings");
   if (filter_.empty())
-    draw_blocks(studio, rows);
+    draw_blocks(context, rows);
   else
-    draw_found(studio, rows);
+    draw_found(context, rows);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   rows.finish();

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "editor/document/field_edits.h"
+#include "editor/views/context.h"
 #include "editor/views/inspector/light.h"
 #include "editor/views/inspector/model.h"
 #include "editor/views/inspector/problems.h"
 #include "editor/views/inspector/trajectory.h"
-#include "editor/views/studio.h"
 
 namespace sigs::editor {
 
@@ -19,16 +19,16 @@ namespace sigs::editor {
 class InspectorView {
  public:
   // Into what is left of the current ImGui window.
-  void draw(const Studio& studio);
+  void draw(const ViewContext& context);
 
  private:
-  void refresh(const Studio& studio);
-  void follow_selection(const Studio& studio);
-  void go_to_problem(const Studio& studio, const std::string& key);
-  void draw_top(const Studio& studio, FieldRows& rows);
-  void draw_blocks(const Studio& studio, FieldRows& rows);
-  void draw_found(const Studio& studio, FieldRows& rows) const;
-  void block(const Studio& studio, const char* title, bool opens_first, const std::function<void()>& content);
+  void refresh(const ViewContext& context);
+  void follow_selection(const ViewContext& context);
+  void go_to_problem(const ViewContext& context, const std::string& key);
+  void draw_top(const ViewContext& context, FieldRows& rows);
+  void draw_blocks(const ViewContext& context, FieldRows& rows);
+  void draw_found(const ViewContext& context, FieldRows& rows) const;
+  void block(const ViewContext& context, const char* title, bool opens_first, const std::function<void()>& content);
 
   std::optional<FieldSheet> sheet_;
   std::uint64_t sheet_revision_ = 0;
@@ -39,7 +39,7 @@ class InspectorView {
   TrajectoryBlock trajectory_;
   std::string filter_;
   std::string block_to_open_;
-  int turns_to_open_ = 0;  // for how many turns yet
+  int updates_to_open_ = 0;  // for how many updates yet
   Selection followed_;
 };
 

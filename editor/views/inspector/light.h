@@ -11,16 +11,16 @@ namespace sigs::editor {
 // The light's fields, and where it stands as the camera sees it in the playhead's frame.
 class LightBlock {
  public:
-  void draw(const Studio& studio, FieldRows& rows);
+  void draw(const ViewContext& context, FieldRows& rows);
 
  private:
-  struct Seen {
+  struct Viewpoint {
     glm::dvec3 camera_m{0, 0, 0};
     double camera_bearing_rad = 0;
   };
-  [[nodiscard]] static Seen seen_from(const Studio& studio);
-  void draw_direction(const Studio& studio, FieldRows& rows, const Seen& seen);
-  void draw_presets(const Studio& studio, const Seen& seen) const;
+  [[nodiscard]] static Viewpoint viewpoint_of(const ViewContext& context);
+  void draw_direction(const ViewContext& context, FieldRows& rows, const Viewpoint& viewpoint);
+  void draw_presets(const ViewContext& context, const Viewpoint& viewpoint) const;
 
   // While it is dragged: a light overhead has no bearing to read back.
   std::optional<LightDirection> dragged_;

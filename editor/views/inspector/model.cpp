@@ -20,8 +20,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kMostRows = 6;           // of the list, before it scrolls
-constexpr double kWidestPreview = 300;    // where the text is 15 px high
+constexpr double kMaxRows = 6;            // of the list, before it scrolls
+constexpr double kMaxPreviewWidth = 300;  // where the text is 15 px high
 constexpr double kTurnAPixel_rad = 0.01;  // a drag across the preview is about half a turn
 
 std::string key_of(int intruder) {
@@ -38,20 +38,20 @@ std::string decimetres(double metres) {
   return number_text(std::round(metres * 10) / 10);
 }
 
-void draw_buttons(const Studio& studio, std::optional<int> intruder) {
+void draw_buttons(const ViewContext& context, std::optional<int> intruder) {
   ButtonFlow flow;
-  if (flow.button("Add", "Another intruder, 300 m ahead of the camera and crossing")) add_intruder(studio);
-  studio.places.note_item("inspector/add intruder");
+  if (flow.button("Add", "Another intruder, 300 m ahead of the camera and crossing")) add_intruder(context);
+  context.ui_probe.note_item("inspector/add intruder");
   if (flow.button("Duplicate", "A copy of this one, 30 m to its right", intruder.has_value()))
-    duplicate_intruder(studio, *intruder);
-  studio.places.note_item("inspector/duplicate intruder");
+    duplicate_intruder(context, *intruder);
+  context.ui_probe.note_item("inspector/duplicate intruder");
   if (flow.button("Delete", "Takes this intruder out of the project", intruder.has_value()))
-    delete_intruder(studio, *intruder);
-  studio.places.note_item("inspector/delete intruder");
+    delete_intruder(context, *intruder);
+  context.ui_probe.note_item("inspector/delete intruder");
 }
 
-RowLook look_of(const Field& field, const IntruderSettings& intruder) {
-  RowLook look;
+RowOptions look_of(const Field& field, const IntruderSettings& intruder) {
+  RowOptions look;
   if (field.key.ends_with(".forward") || field.key.ends_with(".up")) look.names = {"+x", "-x", "+y", "-y", "+z", "-z"};
   if (field.key.ends_with(".forward")) look.label = "Nose along";
   if (field.key.ends_with(".up")) look.label = "Top along";
@@ -102,19 +102,19 @@ void draw_axis(ImDrawList& list, ImVec2 low, ImVec2 size, const glm::dvec3& axis
 
 }  // namespace
 
-void ModelBlock::draw_list(const Studio& studio, const FieldRows& rows) {
-  const std::vector<IntruderSettings>& intruders = studio.project().intruders;
-  const std::optional<int> chosen = current_intruder(studio);
+void ModelBlock::draw_list(const ViewContext& context, const FieldRows& rows) {
+  const std::vector<IntruderSettings>& intruders = context.project().intruders;
+  const std::optional<int> chosen = current_intruder(context);
   const auto count = static_cast<int>(intruders.size());
   const float line = ImGui::GetTextLineHeightWithSpacing();
-  ImGui::BeginChild("intruders", {0, line * static_cast<float>(std::min<double>(count, kMostRows))});
+  ImGui::BeginChild("intruders", {0, line * static_cast<float>(std::min<double>(count, kMaxRows))});
   ImGuiListClipper clipper;
   clipper.Begin(count, line);
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       ImGui::PushID(i);
-      if (ImGui::Selectable("##intruder", chosen == i)) studio.edits.select({Selected::intruder, i, 0});
-      studio.places.note_item("inspector/" + key_of(i));
+      if (ImGui::Selectable("##intruder", chosen == i)) context.edits.select({Selected::intruder, i, 0});
+      context.ui_probe.note_item("inspector/" + key_of(i));
       const ImVec2 low = ImGui::GetItemRectMin();
       const ImVec2 high = ImGui::GetItemRectMax();
       ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -130,17 +130,17 @@ void ModelBlock::draw_list(const Studio& studio, const FieldRows& rows) {
   ImGui::EndChild();
 }
 
-void ModelBlock::draw_preview(const Studio& studio, int intruder) {
-  const float width = std::min(ImGui::GetContentRegionAvail().x, scaled(kWidestPreview));
+void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
+  const float width = std::min(ImGui::GetContentRegionAvail().x, scaled(kMaxPreviewWidth));
   const ImVec2 size{std::floor(width), std::floor(width * 0.6F)};
   ImGui::InvisibleButton("preview", size);
-  studio.places.note_item("inspector/model preview");
+  context.ui_probe.note_item("inspector/model preview");
   if (!ImGui::IsItemVisible()) return;
   if (ImGui::IsItemActive())
     turn_rad_ = std::remainder(turn_rad_ - kTurnAPixel_rad * static_cast<double>(ImGui::GetIO().MouseDelta.x),
                                2 * std::numbers::pi);
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  studio.wishes.turntable = Wanted::Turntable{
+  context.needs.turntable = PreviewRequest::Turntable{
       .intruder = intruder, .turn_rad = turn_rad_, .size_px = {static_cast<int>(size.x), static_cast<int>(size.y)}};
   tooltip_for_item(
       "Drag to turn. Does the model's nose point along the arrow, its top upwards? If not, change the axes below.");
@@ -149,35 +149,35 @@ void ModelBlock::draw_preview(const Studio& studio, int intruder) {
   const ImVec2 high = ImGui::GetItemRectMax();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, high, color::kCanvas, scaled(4));
-  const ModelPicture* const model = studio.shown.model.get();
-  const std::string& file = studio.project().intruders[static_cast<std::size_t>(intruder)].model.file;
-  const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(studio.project(), file));
+  const ModelImage* const model = context.shown.model.get();
+  const std::string& file = context.project().intruders[static_cast<std::size_t>(intruder)].model.file;
+  const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(context.project(), file));
   if (!is_of_this || model->rgba.empty()) {
-    draw_centred(low, size, file.empty() ? "no model" : is_of_this && !model->problem.empty() ? "no picture" : "...");
+    draw_centred(low, size, file.empty() ? "no model" : is_of_this && !model->problem.empty() ? "no image" : "...");
     return;
   }
-  list.AddImage(studio.textures.of(model->rgba, Filter::smooth), low, high);
-  studio.places.note_item("inspector/model picture");
+  list.AddImage(context.textures.of(model->rgba, Filter::smooth), low, high);
+  context.ui_probe.note_item("inspector/model image");
   draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");
   draw_axis(list, low, size, {0, 0, -1}, turn_rad_, color::kText, "top");
   note(decimetres(model->size_m.x) + " m long, " + decimetres(model->size_m.y) + " m span, " +
        decimetres(model->size_m.z) + " m high");
 }
 
-void ModelBlock::draw(const Studio& studio, FieldRows& rows) {
-  const std::optional<int> intruder = current_intruder(studio);
+void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
+  const std::optional<int> intruder = current_intruder(context);
   if (intruder)
-    draw_list(studio, rows);
+    draw_list(context, rows);
   else
     note("No intruder yet. Add one, or drop a Wavefront OBJ file onto the window.");
-  draw_buttons(studio, intruder);
+  draw_buttons(context, intruder);
   if (!intruder) return;
   ImGui::Spacing();
   const std::string key = key_of(*intruder);
-  const IntruderSettings& settings = studio.project().intruders[static_cast<std::size_t>(*intruder)];
+  const IntruderSettings& settings = context.project().intruders[static_cast<std::size_t>(*intruder)];
   rows.row(key + ".name");
   rows.row(key + ".model.file");
-  draw_preview(studio, *intruder);
+  draw_preview(context, *intruder);
   for (const Field& field : rows.sheet().fields())
     if (field.key.starts_with(key + ".model.") && field.key != key + ".model.file")
       rows.row(field.key, look_of(field, settings));

@@ -8,11 +8,11 @@ namespace sigs::editor {
 // The intruders, and the model of the one that is worked on.
 class ModelBlock {
  public:
-  void draw(const Studio& studio, FieldRows& rows);
+  void draw(const ViewContext& context, FieldRows& rows);
 
  private:
-  void draw_list(const Studio& studio, const FieldRows& rows);
-  void draw_preview(const Studio& studio, int intruder);
+  void draw_list(const ViewContext& context, const FieldRows& rows);
+  void draw_preview(const ViewContext& context, int intruder);
 
   double turn_rad_ = 0;  // of the turntable
 };

@@ -14,13 +14,13 @@
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
-#include "export.h"
+#include "export/export_project.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr int kMostShown = 20;
+constexpr int kMaxShown = 20;
 
 // The number behind "name[" in a key.
 std::optional<std::size_t> index_in(std::string_view key, std::string_view name) {
@@ -29,8 +29,8 @@ std::optional<std::size_t> index_in(std::string_view key, std::string_view name)
   return std::strtoul(std::string(key.substr(at + name.size())).c_str(), nullptr, 10);
 }
 
-std::optional<std::string> draw_list(const Studio& studio, const ProblemsByField& problems, const std::string& name,
-                                     ImU32 shade) {
+std::optional<std::string> draw_list(const ViewContext& context, const ProblemsByField& problems,
+                                     const std::string& name, ImU32 shade) {
   if (problems.empty()) return std::nullopt;
   const std::size_t count = problems.size();
   const std::string title = std::to_string(count) + " " + name + (count == 1 ? "" : "s");
@@ -38,21 +38,21 @@ std::optional<std::string> draw_list(const Studio& studio, const ProblemsByField
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
   const std::string id = name + "s";
   const bool is_open = ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth, "%s", title.c_str());
-  studio.places.note_item("inspector/" + id);
+  context.ui_probe.note_item("inspector/" + id);
   ImGui::PopStyleColor();
   if (!is_open) return std::nullopt;
   int shown = 0;
   for (const auto& [field, problem] : problems) {
-    if (++shown > kMostShown) break;
-    const std::string text = place_of(studio.project(), field) + ": " + problem.what;
+    if (++shown > kMaxShown) break;
+    const std::string text = place_of(context.project(), field) + ": " + problem.what;
     ImGui::PushID(shown);
     const std::string line = elided(text, ImGui::GetContentRegionAvail().x);
     if (ImGui::Selectable(line.empty() ? "..." : line.c_str())) clicked = field;
-    studio.places.note_item("inspector/" + name + "/" + field);
+    context.ui_probe.note_item("inspector/" + name + "/" + field);
     tooltip_for_item(text.c_str());
     ImGui::PopID();
   }
-  if (count > kMostShown) note(std::to_string(count - kMostShown) + " more", true);
+  if (count > kMaxShown) note(std::to_string(count - kMaxShown) + " more", true);
   ImGui::TreePop();
   return clicked;
 }
@@ -68,12 +68,12 @@ std::vector<Problem> doubts_of_files(const OpenedScene& opened) {
   if (opened.footage && opened.footage->video)
     for (const Warning& warning : warnings_of(*opened.footage->video))
       doubts.push_back(in_field("footage.video", warning));
-  std::set<const Model*> told;
+  std::set<const Model*> reported;
   const std::vector<int>& numbers = opened.draft.intruder_of_project;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (numbers[i] < 0) continue;
     const Model* const model = opened.draft.scene.intruders[static_cast<std::size_t>(numbers[i])].model;
-    if (model == nullptr || !told.insert(model).second) continue;
+    if (model == nullptr || !reported.insert(model).second) continue;
     for (const Warning& warning : model->mesh.warnings)
       doubts.push_back(in_field("intruders[" + std::to_string(i) + "].model.file", warning));
   }
@@ -85,7 +85,7 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
   const Scene& scene = opened.draft.scene;
   const int frames = scene.last_frame - scene.first_frame + 1;
   const bool is_whole =
-      survey != nullptr && survey->revision == opened.revision && static_cast<int>(survey->outlooks.size()) == frames;
+      survey != nullptr && survey->revision == opened.revision && static_cast<int>(survey->estimates.size()) == frames;
   return is_whole ? std::optional(visibility_of(*survey, frames)) : std::nullopt;
 }
 
@@ -122,7 +122,7 @@ void ProblemList::find_doubts() {
   }
   const auto add = [&](const Problem& doubt) { doubts_.emplace(doubt.field, doubt); };
   for (const Problem& doubt : doubts_of_files(*scene_)) add(doubt);
-  for (const Problem& doubt : scene_->draft.scene.doubts) add(doubt);
+  for (const Problem& doubt : scene_->draft.scene.issues) add(doubt);
   const std::vector<IntruderSettings>& intruders = scene_->project->intruders;
   never_visible_.resize(intruders.size());
   for (std::size_t i = 0; i < intruders.size(); ++i) {
@@ -133,11 +133,11 @@ void ProblemList::find_doubts() {
   }
 }
 
-void ProblemList::refresh(const Studio& studio) {
-  const bool is_same_scene = studio.shown.scene == scene_;
-  const bool has_same_surveys = studio.shown.surveys == surveys_;
-  scene_ = studio.shown.scene;
-  surveys_ = studio.shown.surveys;
+void ProblemList::refresh(const ViewContext& context) {
+  const bool is_same_scene = context.shown.scene == scene_;
+  const bool has_same_surveys = context.shown.surveys == surveys_;
+  scene_ = context.shown.scene;
+  surveys_ = context.shown.surveys;
   if (!is_same_scene || !has_same_surveys) find_doubts();
   if (is_same_scene) return;
   by_field_.clear();
@@ -154,9 +154,9 @@ int ProblemList::count_in(const std::string& block) const {
   return found == counts_.end() ? 0 : found->second;
 }
 
-std::optional<std::string> ProblemList::draw(const Studio& studio) const {
-  const std::optional<std::string> problem = draw_list(studio, by_field_, "problem", color::kBad);
-  const std::optional<std::string> doubt = draw_list(studio, doubts_, "warning", color::kPartly);
+std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
+  const std::optional<std::string> problem = draw_list(context, by_field_, "problem", color::kBad);
+  const std::optional<std::string> doubt = draw_list(context, doubts_, "warning", color::kPartly);
   return problem ? problem : doubt;
 }
 

@@ -20,12 +20,12 @@ namespace sigs::editor {
 // surveys: what `sigs check` says of it.
 class ProblemList {
  public:
-  void refresh(const Studio& studio);
+  void refresh(const ViewContext& context);
   [[nodiscard]] const ProblemsByField& by_field() const { return by_field_; }
   [[nodiscard]] int count_in(const std::string& block) const;
 
   // "2 problems" and "3 warnings", to be opened as lists; the key of the one that was clicked.
-  [[nodiscard]] std::optional<std::string> draw(const Studio& studio) const;
+  [[nodiscard]] std::optional<std::string> draw(const ViewContext& context) const;
 
  private:
   void find_doubts();

@@ -10,7 +10,7 @@ namespace sigs::editor {
 // How the intruder that is worked on flies: settings, waypoints, and what comes of them.
 class TrajectoryBlock {
  public:
-  void draw(const Studio& studio, FieldRows& rows);
+  void draw(const ViewContext& context, FieldRows& rows);
 
  private:
   WaypointTable waypoints_;

@@ -19,15 +19,15 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr int kMostRows = 9;  // before the table scrolls
+constexpr int kMaxRows = 9;  // before the table scrolls
 constexpr std::array<ImU32, 3> kAxisColors{color::kAxisX, color::kAxisY, color::kAxisZ};
 
-const std::vector<WaypointSettings>& waypoints_of(const Studio& studio, int intruder) {
-  return studio.project().intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
+const std::vector<WaypointSettings>& waypoints_of(const ViewContext& context, int intruder) {
+  return context.project().intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
 }
 
-std::optional<int> selected_waypoint(const Studio& studio, int intruder) {
-  const Selection& selection = studio.document.selection();
+std::optional<int> selected_waypoint(const ViewContext& context, int intruder) {
+  const Selection& selection = context.document.selection();
   const bool is_here = selection.kind == Selected::waypoint && selection.intruder == intruder;
   return is_here ? std::optional(selection.waypoint) : std::nullopt;
 }
@@ -67,8 +67,8 @@ WaypointTable::WaypointTable() : example_(std::make_unique<Project>()) {
   ENSURE(frame_field_ != nullptr && position_field_ != nullptr);
 }
 
-void WaypointTable::refresh(const Studio& studio, int intruder) {
-  const Document& document = studio.document;
+void WaypointTable::refresh(const ViewContext& context, int intruder) {
+  const Document& document = context.document;
   const bool is_same = revision_ == document.revision().number && intruder_ == intruder &&
                        range_first_ == document.first_frame() && range_last_ == document.last_frame();
   if (is_same) return;
@@ -76,47 +76,47 @@ void WaypointTable::refresh(const Studio& studio, int intruder) {
   intruder_ = intruder;
   range_first_ = document.first_frame();
   range_last_ = document.last_frame();
-  frames_ = frames_of_waypoints(studio, intruder);
+  frames_ = frames_of_waypoints(context, intruder);
 }
 
-void WaypointTable::draw_frame(const Studio& studio, int intruder, int waypoint) {
+void WaypointTable::draw_frame(const ViewContext& context, int intruder, int waypoint) {
   const auto index = static_cast<std::size_t>(waypoint);
-  const bool is_own = waypoints_of(studio, intruder)[index].frame.has_value();
+  const bool is_own = waypoints_of(context, intruder)[index].frame.has_value();
   double frame = frames_[index];
   if (!is_own) ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
   const bool has_changed = number_input("##frame", frame, *frame_field_, ImGui::GetContentRegionAvail().x);
   if (!is_own) ImGui::PopStyleColor();
   tooltip_for_item(is_own ? "Frame in which it is passed; drag, or click to type"
                           : "Spread evenly between its neighbours; give it a frame by dragging or typing");
-  if (ImGui::IsItemActivated()) studio.edits.select({Selected::waypoint, intruder, waypoint});
+  if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
   if (has_changed)
-    studio.edits.change(
+    context.edits.change(
         "move waypoint in time",
         [=, frames = frames_](Project& project) {
           TrajectoryPlan& plan = project.intruders[static_cast<std::size_t>(intruder)].trajectory;
           move_waypoint_in_time(plan, waypoint, frame, frames);
         },
         "inspector frame " + waypoint_key(intruder, waypoint));
-  if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
 }
 
-void WaypointTable::draw_position(const Studio& studio, int intruder, int waypoint) {
+void WaypointTable::draw_position(const ViewContext& context, int intruder, int waypoint) {
   constexpr std::array<const char*, 3> kIds{"##x", "##y", "##z"};
   Field part = *position_field_;
   part.unit = "";  // in the title
-  glm::dvec3 position_m = waypoints_of(studio, intruder)[static_cast<std::size_t>(waypoint)].position_m;
+  glm::dvec3 position_m = waypoints_of(context, intruder)[static_cast<std::size_t>(waypoint)].position_m;
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::TableSetColumnIndex(2 + axis);
     const char* const id = kIds[static_cast<std::size_t>(axis)];
     if (number_input(id, position_m[axis], part, ImGui::GetContentRegionAvail().x))
-      move_waypoint(studio, intruder, waypoint, position_m);
-    if (ImGui::IsItemActivated()) studio.edits.select({Selected::waypoint, intruder, waypoint});
-    if (ImGui::IsItemDeactivated()) studio.edits.end_gesture();
+      move_waypoint(context, intruder, waypoint, position_m);
+    if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
+    if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   }
 }
 
-void WaypointTable::draw_row(const Studio& studio, int intruder, int waypoint, bool is_wrong) {
-  const bool is_selected = selected_waypoint(studio, intruder) == waypoint;
+void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong) {
+  const bool is_selected = selected_waypoint(context, intruder) == waypoint;
   ImGui::TableNextRow();
   if (is_selected) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, color::kAccentSoft);
   ImGui::TableSetColumnIndex(0);
@@ -124,26 +124,26 @@ void WaypointTable::draw_row(const Studio& studio, int intruder, int waypoint, b
   const std::string number = std::to_string(waypoint);
   if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
   if (ImGui::Selectable(number.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) {
-    studio.edits.select({Selected::waypoint, intruder, waypoint});
+    context.edits.select({Selected::waypoint, intruder, waypoint});
     const double frame = std::round(frames_[static_cast<std::size_t>(waypoint)]);
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-      studio.edits.go_to_frame(static_cast<int>(std::clamp(frame, 0.0, 1e9)));
+      context.edits.go_to_frame(static_cast<int>(std::clamp(frame, 0.0, 1e9)));
   }
   if (is_wrong) ImGui::PopStyleColor();
-  studio.places.note_item("inspector/waypoint " + number);
+  context.ui_probe.note_item("inspector/waypoint " + number);
   tooltip_for_item("Click selects, double click goes to its frame");
   ImGui::TableSetColumnIndex(1);
-  draw_frame(studio, intruder, waypoint);
-  studio.places.note_item("inspector/waypoint " + number + "/frame");
-  draw_position(studio, intruder, waypoint);
+  draw_frame(context, intruder, waypoint);
+  context.ui_probe.note_item("inspector/waypoint " + number + "/frame");
+  draw_position(context, intruder, waypoint);
 }
 
 // What was selected elsewhere comes into sight.
-void WaypointTable::scroll_to_selected(const Studio& studio, int intruder, float row_height) {
-  const Selection& selection = studio.document.selection();
+void WaypointTable::scroll_to_selected(const ViewContext& context, int intruder, float row_height) {
+  const Selection& selection = context.document.selection();
   if (selection == shown_) return;
   shown_ = selection;
-  const std::optional<int> waypoint = selected_waypoint(studio, intruder);
+  const std::optional<int> waypoint = selected_waypoint(context, intruder);
   if (!waypoint) return;
   const float top = static_cast<float>(*waypoint) * row_height;
   const float room = ImGui::GetWindowHeight() - 2 * row_height;
@@ -151,20 +151,20 @@ void WaypointTable::scroll_to_selected(const Studio& studio, int intruder, float
   if (top < scroll || top > scroll + room) ImGui::SetScrollY(std::max(0.0F, top - room / 2));
 }
 
-void WaypointTable::draw_rows(const Studio& studio, const ProblemsByField& problems, int intruder) {
-  const auto count = static_cast<int>(waypoints_of(studio, intruder).size());
+void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField& problems, int intruder) {
+  const auto count = static_cast<int>(waypoints_of(context, intruder).size());
   const float row_height = ImGui::GetFrameHeight() + 2 * scaled(1);
   const float room = ImGui::GetContentRegionAvail().x;
-  const float least = scaled(34) + 4 * scaled(58);
-  const int rows = std::min(count, kMostRows);
+  const float minimum = scaled(34) + 4 * scaled(58);
+  const int rows = std::min(count, kMaxRows);
   const float height = row_height * static_cast<float>(rows) + ImGui::GetTextLineHeight() + scaled(8) +
-                       (room < least ? ImGui::GetStyle().ScrollbarSize : 0);
+                       (room < minimum ? ImGui::GetStyle().ScrollbarSize : 0);
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_RowBg |
                                      ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings;
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(2), scaled(1)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {scaled(4), ImGui::GetStyle().FramePadding.y});
   if (ImGui::BeginTable("waypoints", 5, kFlags, {0, height})) {
-    const bool scrolls = count > kMostRows;
+    const bool scrolls = count > kMaxRows;
     const float usable = room - scaled(34) - 5 * scaled(4) - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
     const float each = std::max(scaled(54), std::floor(usable / 4));
     ImGui::TableSetupScrollFreeze(1, 1);
@@ -177,47 +177,48 @@ void WaypointTable::draw_rows(const Studio& studio, const ProblemsByField& probl
     while (clipper.Step())
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
         ImGui::PushID(i);
-        draw_row(studio, intruder, i, has_problem(problems, waypoint_key(intruder, i)));
+        draw_row(context, intruder, i, has_problem(problems, waypoint_key(intruder, i)));
         ImGui::PopID();
       }
-    scroll_to_selected(studio, intruder, row_height);
+    scroll_to_selected(context, intruder, row_height);
     ImGui::EndTable();
   }
   ImGui::PopStyleVar(2);
 }
 
 // Half way in time to the next one, on the curve.
-void WaypointTable::insert_after(const Studio& studio, int intruder, int waypoint) const {
+void WaypointTable::insert_after(const ViewContext& context, int intruder, int waypoint) const {
   const auto index = static_cast<std::size_t>(waypoint);
-  const std::vector<WaypointSettings>& waypoints = waypoints_of(studio, intruder);
+  const std::vector<WaypointSettings>& waypoints = waypoints_of(context, intruder);
   if (index + 1 >= waypoints.size()) return;
   const double frame = std::round((frames_[index] + frames_[index + 1]) / 2);
   const glm::dvec3 between_m = (waypoints[index].position_m + waypoints[index + 1].position_m) / 2.0;
-  add_waypoint(studio, intruder, frame, position_of(studio, intruder, frame).value_or(between_m));
+  add_waypoint(context, intruder, frame, position_of(context, intruder, frame).value_or(between_m));
 }
 
-void WaypointTable::draw_buttons(const Studio& studio, int intruder) const {
-  const std::optional<int> chosen = selected_waypoint(studio, intruder);
+void WaypointTable::draw_buttons(const ViewContext& context, int intruder) const {
+  const std::optional<int> chosen = selected_waypoint(context, intruder);
   const std::size_t count = frames_.size();
   const auto after = static_cast<std::size_t>(chosen.value_or(0)) + 1;
-  const bool has_room = chosen && after < count && frames_[after] - frames_[after - 1] >= 2 * kLeastGap_frames;
+  const bool has_room = chosen && after < count && frames_[after] - frames_[after - 1] >= 2 * kMinGap_frames;
   ButtonFlow flow;
   if (flow.button("Add here", "A waypoint in the playhead's frame, on the trajectory (Enter)"))
-    add_waypoint_here(studio);
-  studio.places.note_item("inspector/add waypoint");
+    add_waypoint_here(context);
+  context.ui_probe.note_item("inspector/add waypoint");
   if (flow.button("Insert", "A waypoint on the curve, half way between this one and the next", has_room))
-    insert_after(studio, intruder, *chosen);
-  studio.places.note_item("inspector/insert waypoint");
+    insert_after(context, intruder, *chosen);
+  context.ui_probe.note_item("inspector/insert waypoint");
   if (flow.button("Duplicate##waypoint", "A copy of this one, farther on (Ctrl + D)", chosen.has_value()))
-    duplicate_selected(studio);
-  if (flow.button("Delete##waypoint", "Takes this waypoint out (Delete)", chosen && count > 1)) delete_selected(studio);
-  studio.places.note_item("inspector/delete waypoint");
+    duplicate_selected(context);
+  if (flow.button("Delete##waypoint", "Takes this waypoint out (Delete)", chosen && count > 1))
+    delete_selected(context);
+  context.ui_probe.note_item("inspector/delete waypoint");
 }
 
-void WaypointTable::draw(const Studio& studio, const ProblemsByField& problems, int intruder) {
-  refresh(studio, intruder);
-  if (!frames_.empty()) draw_rows(studio, problems, intruder);
-  draw_buttons(studio, intruder);
+void WaypointTable::draw(const ViewContext& context, const ProblemsByField& problems, int intruder) {
+  refresh(context, intruder);
+  if (!frames_.empty()) draw_rows(context, problems, intruder);
+  draw_buttons(context, intruder);
 }
 
 }  // namespace sigs::editor

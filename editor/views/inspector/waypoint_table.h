@@ -14,17 +14,17 @@ namespace sigs::editor {
 class WaypointTable {
  public:
   WaypointTable();
-  void draw(const Studio& studio, const ProblemsByField& problems, int intruder);
+  void draw(const ViewContext& context, const ProblemsByField& problems, int intruder);
 
  private:
-  void refresh(const Studio& studio, int intruder);
-  void draw_rows(const Studio& studio, const ProblemsByField& problems, int intruder);
-  void draw_row(const Studio& studio, int intruder, int waypoint, bool is_wrong);
-  void draw_frame(const Studio& studio, int intruder, int waypoint);
-  void draw_position(const Studio& studio, int intruder, int waypoint);
-  void draw_buttons(const Studio& studio, int intruder) const;
-  void insert_after(const Studio& studio, int intruder, int waypoint) const;
-  void scroll_to_selected(const Studio& studio, int intruder, float row_height);
+  void refresh(const ViewContext& context, int intruder);
+  void draw_rows(const ViewContext& context, const ProblemsByField& problems, int intruder);
+  void draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong);
+  void draw_frame(const ViewContext& context, int intruder, int waypoint);
+  void draw_position(const ViewContext& context, int intruder, int waypoint);
+  void draw_buttons(const ViewContext& context, int intruder) const;
+  void insert_after(const ViewContext& context, int intruder, int waypoint) const;
+  void scroll_to_selected(const ViewContext& context, int intruder, float row_height);
 
   std::unique_ptr<Project> example_;  // whose one waypoint's fields tell units and ranges
   std::vector<Field> example_fields_;

@@ -7,7 +7,7 @@
 
 #include "editor/widgets/screen_vec.h"
 #include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -31,9 +31,9 @@ cv::Mat reduced(const cv::Mat& mask, int divisor) {
   return small;
 }
 
-// The part in sight alone, as draw_picture has it.
-void draw_tile(const PictureCanvas& canvas, Textures& textures, const cv::Rect& place, const cv::Mat& shown) {
-  const cv::Rect part = pixels_in_sight(canvas.view, canvas.picture_px, canvas.rect) & place;
+// The part in sight alone, as draw_image has it.
+void draw_tile(const ImageCanvas& canvas, Textures& textures, const cv::Rect& place, const cv::Mat& shown) {
+  const cv::Rect part = pixels_in_sight(canvas.view, canvas.image_px, canvas.rect) & place;
   if (part.empty()) return;
   const glm::dvec2 low(part.x, part.y);
   const glm::dvec2 high(part.x + part.width, part.y + part.height);
@@ -57,16 +57,16 @@ cv::Mat tinted(const cv::Mat& mask) {
   return tint;
 }
 
-void MaskTiles::refresh(Tile& tile, const cv::Mat& mask, int divisor, MaskLook look) {
+void MaskTiles::refresh(Tile& tile, const cv::Mat& mask, int divisor, MaskStyle look) {
   if (tile.divisor == divisor && tile.look == look && is_same(tile.mask, mask)) return;
   tile.mask = mask.clone();
   tile.divisor = divisor;
   tile.look = look;
   const cv::Mat small = reduced(mask, divisor);
-  tile.shown = look == MaskLook::alone ? small : tinted(small);
+  tile.shown = look == MaskStyle::alone ? small : tinted(small);
 }
 
-void MaskTiles::draw(const PictureCanvas& canvas, Textures& textures, const cv::Mat& mask, MaskLook look) {
+void MaskTiles::draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& mask, MaskStyle look) {
   if (mask.size() != size_px_) tiles_.clear();
   size_px_ = mask.size();
   const int divisor = std::max(1, static_cast<int>(std::floor(1 / canvas.view.zoom + 1e-9)));

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-#include "editor/views/own_body/own_body_pictures.h"
+#include "editor/views/own_body/own_body_images.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
 
@@ -39,13 +39,13 @@ std::string formatted(const char* format, Numbers... numbers) {
 
 }  // namespace
 
-Brush OwnBodyCanvas::brush(const Studio& studio) const {
+Brush OwnBodyCanvas::brush(const ViewContext& context) const {
   return {.radius_px = radius_px_,
-          .edge_px = studio.project().own_body.soft_edge_px,
+          .edge_px = context.project().own_body.soft_edge_px,
           .erases = erases_ != ImGui::GetIO().KeyShift};
 }
 
-void OwnBodyCanvas::take_keys() {
+void OwnBodyCanvas::handle_keys() {
   const ImGuiIO& io = ImGui::GetIO();
   if (!hovered_ || io.WantTextInput || io.KeyCtrl || io.KeyAlt) return;
   if (pressed(Key::b)) erases_ = false;
@@ -54,15 +54,16 @@ void OwnBodyCanvas::take_keys() {
   if (pressed(Key::right_bracket, true)) radius_px_ = stepped_radius_px(radius_px_, 1);
 }
 
-void OwnBodyCanvas::take_mouse(const Studio& studio, OwnBodyWork& work, const PictureCanvas& canvas, bool paints) {
-  MaskPainting& painting = work.painting();
-  const glm::dvec2 place = canvas.view.picture_of(mouse_on_screen());
+void OwnBodyCanvas::handle_mouse(const ViewContext& context, OwnBodySession& session, const ImageCanvas& canvas,
+                                 bool paints) {
+  MaskPainting& painting = session.painting();
+  const glm::dvec2 place = canvas.view.image_of(mouse_on_screen());
   if (ImGui::IsItemActivated()) {
     pans_ = !paints || ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
     if (pans_)
       look_.begin_pan();
     else
-      painting.begin_stroke(brush(studio), place);
+      painting.begin_stroke(brush(context), place);
   }
   if (!ImGui::IsItemActive()) {
     painting.end_stroke();
@@ -71,59 +72,61 @@ void OwnBodyCanvas::take_mouse(const Studio& studio, OwnBodyWork& work, const Pi
   const auto button = ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? ImGuiMouseButton_Middle : ImGuiMouseButton_Left;
   if (pans_) look_.pan(dv(ImGui::GetMouseDragDelta(button, 0)));
   if (pressed(Key::escape)) painting.take_back_stroke();
-  painting.go_on(place);
+  painting.extend_stroke(place);
 }
 
-void OwnBodyCanvas::draw(const Studio& studio, OwnBodyWork& work, const ScreenRect& rect, CanvasLook look) {
-  const cv::Size size = work.painting().empty() ? work.footage_px() : work.painting().mask().size();
+void OwnBodyCanvas::draw(const ViewContext& context, OwnBodySession& session, const ScreenRect& rect, CanvasMode look) {
+  const cv::Size size = session.painting().empty() ? session.footage_px() : session.painting().mask().size();
   look_.lay_out(size, rect.size());
   ImGui::SetCursorScreenPos(im(rect.low));
   ImGui::InvisibleButton("own body canvas", im(glm::max(rect.size(), 1.0)),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
   hovered_ = ImGui::IsItemHovered();
-  studio.places.note_item("own body/canvas");
-  const bool paints = look != CanvasLook::confidence && work.fits();
-  if (hovered_ && !work.painting().is_stroking()) take_zoom_input(look_, rect.low);
-  take_keys();
-  const PictureCanvas before{*ImGui::GetWindowDrawList(), rect, look_.view(rect.low), size};
-  take_mouse(studio, work, before, paints);
-  const PictureCanvas canvas{before.draw, rect, look_.view(rect.low), size};
+  context.ui_probe.note_item("own body/canvas");
+  const bool paints = look != CanvasMode::confidence && session.fits();
+  if (hovered_ && !session.painting().is_stroking()) handle_zoom_input(look_, rect.low);
+  handle_keys();
+  const ImageCanvas before{*ImGui::GetWindowDrawList(), rect, look_.view(rect.low), size};
+  handle_mouse(context, session, before, paints);
+  const ImageCanvas canvas{before.draw, rect, look_.view(rect.low), size};
   pixel_ = hovered_ ? canvas.pixel_at(dv(ImGui::GetMousePos())) : std::nullopt;
-  studio.places.note("own body/picture", canvas.picture_on_screen());
-  draw_layers(studio, work, canvas, look);
-  if (paints && (hovered_ || work.painting().is_stroking())) draw_brush(studio, canvas);
+  context.ui_probe.note("own body/image", canvas.image_on_screen());
+  draw_layers(context, session, canvas, look);
+  if (paints && (hovered_ || session.painting().is_stroking())) draw_brush(context, canvas);
 }
 
-void OwnBodyCanvas::draw_layers(const Studio& studio, const OwnBodyWork& work, const PictureCanvas& canvas,
-                                CanvasLook look) {
+void OwnBodyCanvas::draw_layers(const ViewContext& context, const OwnBodySession& session, const ImageCanvas& canvas,
+                                CanvasMode look) {
   const bool footage_alone = hovered_ && !ImGui::GetIO().WantTextInput && held(Key::backslash);
-  const cv::Mat* const footage = studio.shown.footage.get();
-  studio.wishes.footage = true;
+  const cv::Mat* const footage = context.shown.footage.get();
+  context.needs.footage = true;
   canvas.draw.AddRectFilled(im(canvas.rect.low), im(canvas.rect.high), color::kCanvas);
-  if (footage != nullptr && work.fits()) draw_picture(canvas.draw, studio.textures, *footage, canvas.view, canvas.rect);
-  if (!footage_alone && look == CanvasLook::confidence) draw_confidence(studio, work, canvas);
-  if (!footage_alone && look != CanvasLook::confidence && !work.painting().empty())
-    tiles_.draw(canvas, studio.textures, work.painting().mask(),
-                look == CanvasLook::mask_alone ? MaskLook::alone : MaskLook::tint);
+  if (footage != nullptr && session.fits())
+    draw_image(canvas.draw, context.textures, *footage, canvas.view, canvas.rect);
+  if (!footage_alone && look == CanvasMode::confidence) draw_confidence(context, session, canvas);
+  if (!footage_alone && look != CanvasMode::confidence && !session.painting().empty())
+    tiles_.draw(canvas, context.textures, session.painting().mask(),
+                look == CanvasMode::mask_alone ? MaskStyle::alone : MaskStyle::tint);
   draw_pixel_grid(canvas);
 }
 
-void OwnBodyCanvas::draw_confidence(const Studio& studio, const OwnBodyWork& work, const PictureCanvas& canvas) {
-  const std::shared_ptr<const OwnBody>& found = work.detection().found;
-  if (!found || found->confidence.size() != canvas.picture_px) {
+void OwnBodyCanvas::draw_confidence(const ViewContext& context, const OwnBodySession& session,
+                                    const ImageCanvas& canvas) {
+  const std::shared_ptr<const OwnBody>& found = session.detection().found;
+  if (!found || found->confidence.size() != canvas.image_px) {
     draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
                "Nothing is detected yet. Detect first.", color::kPartly);
     return;
   }
-  if (shown_confidence_of_ != found) confidence_ = confidence_picture(found->confidence);
+  if (shown_confidence_of_ != found) confidence_ = confidence_image(found->confidence);
   shown_confidence_of_ = found;
-  draw_picture(canvas.draw, studio.textures, confidence_, canvas.view, canvas.rect);
+  draw_image(canvas.draw, context.textures, confidence_, canvas.view, canvas.rect);
   draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
              "blue: world    grey: nobody can tell    violet: own body", color::kText);
 }
 
-void OwnBodyCanvas::draw_brush(const Studio& studio, const PictureCanvas& canvas) const {
-  const Brush now = brush(studio);
+void OwnBodyCanvas::draw_brush(const ViewContext& context, const ImageCanvas& canvas) const {
+  const Brush now = brush(context);
   const glm::dvec2 at = mouse_on_screen();
   const auto radius = static_cast<float>(std::max(1.0, now.radius_px * canvas.view.zoom));
   const ImU32 ink = now.erases ? color::kText : faded(color::kOwnBody, 1);
@@ -136,18 +139,18 @@ void OwnBodyCanvas::draw_brush(const Studio& studio, const PictureCanvas& canvas
   canvas.draw.PopClipRect();
 }
 
-void OwnBodyCanvas::draw_readout(const OwnBodyWork& work) const {
+void OwnBodyCanvas::draw_readout(const OwnBodySession& session) const {
   const ImFont& mono = *font(Font::mono);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(low, {low.x + size.x, low.y + size.y}, color::kPanel);
   const float y = std::round(low.y + (size.y - mono.FontSize) / 2);
-  const cv::Mat& mask = work.painting().mask();
+  const cv::Mat& mask = session.painting().mask();
   std::string left;
   if (pixel_ && cv::Rect({0, 0}, mask.size()).contains(*pixel_)) {
     left = formatted("x %4d  y %4d   mask %3.0f%%", pixel_->x, pixel_->y, mask.at<uchar>(*pixel_) / 2.55);
-    const std::shared_ptr<const OwnBody>& found = work.detection().found;
+    const std::shared_ptr<const OwnBody>& found = session.detection().found;
     if (found && found->confidence.size() == mask.size())
       left += formatted("   confidence %3.0f%%", found->confidence.at<ushort>(*pixel_) / 655.35);
   }

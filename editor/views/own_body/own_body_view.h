@@ -12,26 +12,26 @@ namespace sigs::editor {
 class OwnBodyView {
  public:
   // Into what is left of the current ImGui window.
-  void draw(const Studio& studio, OwnBodyWork& work);
+  void draw(const ViewContext& context, OwnBodySession& session);
 
  private:
-  enum class Look { paint, mask, confidence, stages };
+  enum class Mode { paint, mask, confidence, stages };
 
-  [[nodiscard]] bool paints() const { return look_ == Look::paint || look_ == Look::mask; }
-  [[nodiscard]] ToolbarItem look_button(const Studio& studio, const char* label, const char* tooltip, Look look);
-  void add_brush_items(std::vector<ToolbarItem>& items, const Studio& studio, MaskPainting& painting);
-  void draw_radius(const Studio& studio);
-  void draw_toolbar_of(const Studio& studio, OwnBodyWork& work);
-  void draw_picture_of(const Studio& studio, OwnBodyWork& work, const ScreenRect& rect);
-  void draw_stages(const Studio& studio, const OwnBodyWork& work, const ScreenRect& rect);
-  void take_undo(const Studio& studio, MaskPainting& painting, const ScreenRect& worked_in);
+  [[nodiscard]] bool paints() const { return look_ == Mode::paint || look_ == Mode::mask; }
+  [[nodiscard]] ToolbarItem look_button(const ViewContext& context, const char* label, const char* tooltip, Mode look);
+  void add_brush_items(std::vector<ToolbarItem>& items, const ViewContext& context, MaskPainting& painting);
+  void draw_radius(const ViewContext& context);
+  void draw_toolbar_of(const ViewContext& context, OwnBodySession& session);
+  void draw_image_of(const ViewContext& context, OwnBodySession& session, const ScreenRect& rect);
+  void draw_stages(const ViewContext& context, const OwnBodySession& session, const ScreenRect& rect);
+  void handle_undo(const ViewContext& context, MaskPainting& painting, const ScreenRect& worked_in);
 
-  Look look_ = Look::paint;
+  Mode look_ = Mode::paint;
   OwnBodyCanvas canvas_;
   OwnBodyPanel panel_;
   StageGrid grid_;
-  bool is_worked_in_ = false;  // the last press was on the picture or its toolbar, or gave the painting another start
-  int last_turn_ = -1;         // in which it was drawn
+  bool is_worked_in_ = false;  // the last press was on the image or its toolbar, or gave the painting another start
+  int last_update_ = -1;       // in which it was drawn
 };
 
 }  // namespace sigs::editor

@@ -16,7 +16,7 @@ namespace sigs::editor {
 namespace {
 
 constexpr ImU32 kGround = IM_COL32(8, 9, 11, 255);
-constexpr double kMostName_px = 150;
+constexpr double kMaxName_px = 150;
 constexpr double kFarApart_px = 12;  // of the screen: nearer middles need no line
 constexpr double kFree_px = 24;
 
@@ -24,29 +24,29 @@ glm::dvec2 middle_of(const ScreenRect& rect) {
   return (rect.low + rect.high) / 2.0;
 }
 
-ScreenRect on_screen(const PictureCanvas& canvas, const Box& box) {
+ScreenRect on_screen(const ImageCanvas& canvas, const Box& box) {
   return {canvas.view.screen_of({box.x, box.y}), canvas.view.screen_of({box.x + box.width, box.y + box.height})};
 }
 
 // From where the truth's middle must be, by the errors, to the reported one.
-void draw_way(const PictureCanvas& canvas, const ScreenRect& box, const FrameScore* score, ImU32 shade) {
+void draw_path_line(const ImageCanvas& canvas, const ScreenRect& box, const FrameScore* score, ImU32 shade) {
   if (score == nullptr || !score->dx_px || !score->dy_px) return;
   const glm::dvec2 to = middle_of(box);
-  const glm::dvec2 way = glm::dvec2(*score->dx_px, *score->dy_px) * canvas.view.zoom;
-  const double length = glm::length(way);
+  const glm::dvec2 direction = glm::dvec2(*score->dx_px, *score->dy_px) * canvas.view.zoom;
+  const double length = glm::length(direction);
   if (length < scaled(kFarApart_px)) return;
   // What is followed stays free.
-  const glm::dvec2 from = to - way * std::max(0.5, 1 - scaled(kFree_px) / length);
+  const glm::dvec2 from = to - direction * std::max(0.5, 1 - scaled(kFree_px) / length);
   canvas.draw.AddLine(im(from), im(to), faded(kGround, 0.5), scaled(2.5));
   canvas.draw.AddLine(im(from), im(to), faded(shade, 0.75), scaled(1));
 }
 
-void draw_reported(const PictureCanvas& canvas, const Scored& scored, const ScoredTracker& tracker, int frame) {
+void draw_reported(const ImageCanvas& canvas, const Scored& scored, const ScoredTracker& tracker, int frame) {
   const ReportedBox* const reported = tracker.results ? tracker.results->best_at(frame) : nullptr;
   if (reported == nullptr) return;
   const ImU32 shade = result_color(tracker.file.color);
   const ScreenRect box = on_screen(canvas, reported->box);
-  draw_way(canvas, box, score_at(tracker, scored.first_frame, frame), shade);
+  draw_path_line(canvas, box, score_at(tracker, scored.first_frame, frame), shade);
   // A dark line outside, none between the dashes: where it agrees with the truth, that shows through.
   const double line = std::max(1.0F, std::round(scaled(1)));
   draw_outline(canvas, {box.low - 2 * line, box.high + 2 * line}, faded(kGround, 0.55), false);
@@ -65,7 +65,7 @@ std::vector<LegendLine> legend_of(const Scored& scored, int frame) {
   std::vector<LegendLine> lines{{.name = "truth", .color = color::kBox, .is_dashed = false}};
   for (const ScoredTracker& tracker : scored.trackers) {
     if (!tracker.file.is_shown || !tracker.results) continue;
-    lines.push_back({.name = elided(shown_name(scored, tracker), scaled(kMostName_px)),
+    lines.push_back({.name = elided(shown_name(scored, tracker), scaled(kMaxName_px)),
                      .value = moment_text(tracker, scored.first_frame, frame),
                      .color = result_color(tracker.file.color)});
   }
@@ -81,18 +81,18 @@ void draw_sample(ImDrawList& list, ImVec2 at, float width, const LegendLine& lin
 
 }  // namespace
 
-void draw_result_boxes(const PictureCanvas& canvas, const Studio& studio, int frame) {
-  if (studio.scored == nullptr) return;
+void draw_result_boxes(const ImageCanvas& canvas, const ViewContext& context, int frame) {
+  if (context.scored == nullptr) return;
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  for (const ScoredTracker& tracker : studio.scored->trackers)
-    if (tracker.file.is_shown) draw_reported(canvas, *studio.scored, tracker, frame);
+  for (const ScoredTracker& tracker : context.scored->trackers)
+    if (tracker.file.is_shown) draw_reported(canvas, *context.scored, tracker, frame);
   canvas.draw.PopClipRect();
 }
 
-void draw_result_legend(const PictureCanvas& canvas, const Studio& studio, int frame) {
-  if (studio.scored == nullptr) return;
+void draw_result_legend(const ImageCanvas& canvas, const ViewContext& context, int frame) {
+  if (context.scored == nullptr) return;
   ImGui::PushFont(font(Font::small));
-  const std::vector<LegendLine> lines = legend_of(*studio.scored, frame);
+  const std::vector<LegendLine> lines = legend_of(*context.scored, frame);
   const float sample = scaled(25);
   const float gap = scaled(7);
   const float row = std::ceil(ImGui::GetFontSize() + scaled(3));
@@ -105,7 +105,7 @@ void draw_result_legend(const PictureCanvas& canvas, const Studio& studio, int f
   const ImVec2 size{2 * gap + sample + gap + names + 2 * gap + values, static_cast<float>(lines.size()) * row + gap};
   const glm::dvec2 low = glm::floor(glm::dvec2(canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8) - size.y));
   const ImVec2 at = im(low);
-  studio.places.note("viewport/legend", {low, low + glm::dvec2(size.x, size.y)});
+  context.ui_probe.note("viewport/legend", {low, low + glm::dvec2(size.x, size.y)});
   canvas.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(12, 13, 16, 205), scaled(3));
   float y = at.y + gap / 2;
   for (const LegendLine& line : lines) {

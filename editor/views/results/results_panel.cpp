@@ -59,12 +59,12 @@ std::string share_text(double share) {
 }
 
 // A square in the tracker's colour, hollow while it is not shown; switches that.
-void draw_switch(const Studio& studio, const ScoredTracker& tracker, const std::string& place) {
+void draw_switch(const ViewContext& context, const ScoredTracker& tracker, const std::string& place) {
   const float side = ImGui::GetFrameHeight();
   const ImVec2 low = ImGui::GetCursorScreenPos();
   if (ImGui::InvisibleButton("show", {side * 0.8F, side}))
-    studio.edits.ask(ShowResults{tracker.file.id, !tracker.file.is_shown});
-  studio.places.note_item(place + "/show");
+    context.edits.ask(ShowResults{tracker.file.id, !tracker.file.is_shown});
+  context.ui_probe.note_item(place + "/show");
   tooltip_for_item(tracker.file.is_shown ? "hide its boxes and its curve" : "show its boxes and its curve");
   const float half = side * 0.26F;
   const ImVec2 middle{low.x + side * 0.4F, low.y + side / 2};
@@ -102,29 +102,29 @@ std::string counts_text(const ScoredTracker& tracker) {
   return text;
 }
 
-void draw_tracker(const Studio& studio, const ScoredTracker& tracker) {
-  const Scored& scored = *studio.scored;
+void draw_tracker(const ViewContext& context, const ScoredTracker& tracker) {
+  const Scored& scored = *context.scored;
   const std::string place = "results/" + tracker.name;
   ImGui::PushID(tracker.file.id);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  draw_switch(studio, tracker, place);
+  draw_switch(context, tracker, place);
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   const bool is_bad = !tracker.problem.empty();
   const std::string name = elided(shown_name(scored, tracker), ImGui::GetContentRegionAvail().x);
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(is_bad ? color::kBad : color::kText), "%s", name.c_str());
-  studio.places.note_item(is_bad ? place + "/problem" : place);
+  context.ui_probe.note_item(is_bad ? place + "/problem" : place);
   tooltip_for_item((is_bad ? tracker.problem : counts_text(tracker)).c_str());
   draw_figures(scored, tracker);
   ImGui::TableNextColumn();
   if (icon_button("remove", Icon::cross, "remove it from here; the file stays"))
-    studio.edits.ask(RemoveResults{tracker.file.id});
-  studio.places.note_item(place + "/remove");
+    context.edits.ask(RemoveResults{tracker.file.id});
+  context.ui_probe.note_item(place + "/remove");
   ImGui::PopID();
 }
 
-void draw_table(const Studio& studio) {
+void draw_table(const ViewContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(3), 0});
   if (ImGui::BeginTable("trackers", kColumns, ImGuiTableFlags_SizingFixedFit)) {
     ImGui::TableSetupColumn("shown");
@@ -132,8 +132,8 @@ void draw_table(const Studio& studio) {
     for (const Column& column : kFigures)
       ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0.000").x);
     ImGui::TableSetupColumn("remove");
-    draw_head(*studio.scored);
-    for (const ScoredTracker& tracker : studio.scored->trackers) draw_tracker(studio, tracker);
+    draw_head(*context.scored);
+    for (const ScoredTracker& tracker : context.scored->trackers) draw_tracker(context, tracker);
     ImGui::EndTable();
   }
   ImGui::PopStyleVar();
@@ -149,27 +149,27 @@ void draw_problems(const Scored& scored) {
   }
 }
 
-void draw_truth(const Studio& studio) {
-  const Scored& scored = *studio.scored;
+void draw_truth(const ViewContext& context) {
+  const Scored& scored = *context.scored;
   ImGui::PushFont(font(Font::small));
   ImGui::PushStyleColor(ImGuiCol_Text, scored.truth == TruthKind::measured ? color::kQuiet : color::kPartly);
   ImGui::TextWrapped("%s", truth_text(scored).c_str());
-  studio.places.note_item(scored.truth == TruthKind::measured ? "results/measured" : "results/about");
+  context.ui_probe.note_item(scored.truth == TruthKind::measured ? "results/measured" : "results/about");
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }
 
 }  // namespace
 
-void draw_results_panel(const Studio& studio) {
-  if (studio.scored == nullptr) return;
-  draw_table(studio);
-  draw_problems(*studio.scored);
-  if (ImGui::Button("Load more...")) studio.edits.ask(LoadResults{});
-  studio.places.note_item("results/load");
+void draw_results_panel(const ViewContext& context) {
+  if (context.scored == nullptr) return;
+  draw_table(context);
+  draw_problems(*context.scored);
+  if (ImGui::Button("Load more...")) context.edits.ask(LoadResults{});
+  context.ui_probe.note_item("results/load");
   tooltip_for_item("Another tracker's result file; files can be dropped onto the window as well");
   // Below the button, or that would move as the text grows and shrinks.
-  draw_truth(studio);
+  draw_truth(context);
 }
 
 }  // namespace sigs::editor

@@ -26,13 +26,13 @@ double gap_px() {
 
 }  // namespace
 
-GridShape grid_shape(int count, const glm::dvec2& picture_px, const glm::dvec2& room_px, double label_px) {
+GridShape grid_shape(int count, const glm::dvec2& image_px, const glm::dvec2& room_px, double label_px) {
   GridShape best;
   double best_zoom = -1;
   for (int columns = 1; columns <= std::max(1, count); ++columns) {
     const int rows = (std::max(1, count) + columns - 1) / columns;
     const glm::dvec2 tile(room_px.x / columns, room_px.y / rows - label_px);
-    const glm::dvec2 zooms = tile / glm::max(picture_px, 1.0);
+    const glm::dvec2 zooms = tile / glm::max(image_px, 1.0);
     const double zoom = std::min(zooms.x, zooms.y);
     if (zoom <= best_zoom) continue;
     best_zoom = zoom;
@@ -45,7 +45,7 @@ void StageGrid::zoom_to_exact() {
   look_.zoom_to(1, look_.room_px() / 2.0);
 }
 
-bool StageGrid::take_escape() {
+bool StageGrid::handle_escape() {
   if (large_.empty() || ImGui::GetIO().WantTextInput || any_popup_open() || !pressed(Key::escape)) return false;
   show_all();
   return true;
@@ -71,7 +71,7 @@ void StageGrid::draw(std::span<const StageTile> tiles, const cv::Size& frame_px,
 }
 
 void StageGrid::draw_tile(const StageTile& tile, const cv::Size& frame_px, const ScreenRect& rect, Textures& textures) {
-  const bool linked = tile.picture.size() == frame_px;
+  const bool linked = tile.image.size() == frame_px;
   const ScreenRect room{{rect.low.x, rect.low.y + head_px()}, rect.high};
   if (room.size().x < 2 || room.size().y < 2) return;
   ImGui::PushID(tile.label.c_str());
@@ -81,20 +81,20 @@ void StageGrid::draw_tile(const StageTile& tile, const cv::Size& frame_px, const
   const std::string about = tile.tooltip.empty() || tile.tooltip == tile.label ? "" : "\n" + tile.tooltip;
   tooltip_for_item((tile.label + about + (large_.empty() ? "\nClick: larger" : "\nClick or Esc: all")).c_str());
   ImGui::SetCursorScreenPos(im(room.low));
-  ImGui::InvisibleButton("picture", im(room.size()),
+  ImGui::InvisibleButton("image", im(room.size()),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
-  take_mouse(tile, linked, room);
-  draw_picture_of(tile, linked, room, textures);
+  handle_mouse(tile, linked, room);
+  draw_image_of(tile, linked, room, textures);
   draw_head(tile, linked, rect);
   ImGui::PopID();
 }
 
-void StageGrid::take_mouse(const StageTile& tile, bool linked, const ScreenRect& room) {
+void StageGrid::handle_mouse(const StageTile& tile, bool linked, const ScreenRect& room) {
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
   const bool hovered = ImGui::IsItemHovered();
   if (hovered && linked) {
-    take_zoom_input(look_, room.low);
-    const PictureCanvas canvas{*ImGui::GetWindowDrawList(), room, look_.view(room.low), tile.picture.size()};
+    handle_zoom_input(look_, room.low);
+    const ImageCanvas canvas{*ImGui::GetWindowDrawList(), room, look_.view(room.low), tile.image.size()};
     next_pixel_ = canvas.pixel_at(mouse);
   }
   if (ImGui::IsItemActivated()) {
@@ -116,16 +116,16 @@ void StageGrid::take_mouse(const StageTile& tile, bool linked, const ScreenRect&
   pressed_.clear();
 }
 
-void StageGrid::draw_picture_of(const StageTile& tile, bool linked, const ScreenRect& room, Textures& textures) {
-  const glm::dvec2 size(tile.picture.cols, tile.picture.rows);
-  const PictureCanvas canvas{*ImGui::GetWindowDrawList(), room, linked ? look_.view(room.low) : fitted(size, room),
-                             tile.picture.size()};
+void StageGrid::draw_image_of(const StageTile& tile, bool linked, const ScreenRect& room, Textures& textures) {
+  const glm::dvec2 size(tile.image.cols, tile.image.rows);
+  const ImageCanvas canvas{*ImGui::GetWindowDrawList(), room, linked ? look_.view(room.low) : fitted(size, room),
+                           tile.image.size()};
   canvas.draw.AddRectFilled(im(room.low), im(room.high), IM_COL32(12, 13, 15, 255));
-  draw_picture(canvas.draw, textures, tile.picture, canvas.view, room);
+  draw_image(canvas.draw, textures, tile.image, canvas.view, room);
   if (!linked) return;
   draw_pixel_grid(canvas);
   if (pixel_) {
-    draw_pixel_values(canvas, tile.picture, canvas.view.screen_of(glm::dvec2(pixel_->x, pixel_->y)));
+    draw_pixel_values(canvas, tile.image, canvas.view.screen_of(glm::dvec2(pixel_->x, pixel_->y)));
     draw_pixel_mark(canvas, *pixel_);
   }
 }
@@ -136,8 +136,8 @@ void StageGrid::draw_head(const StageTile& tile, bool linked, const ScreenRect& 
   const float y = static_cast<float>(std::floor(rect.low.y + (head_px() - font(Font::small)->FontSize) / 2));
   double room = rect.size().x - 2 * scaled(6);
   std::string value;
-  if (linked && pixel_) value = (tile.picture.channels() == 1 ? "value " : "RGB ") + pixel_text(tile.picture, *pixel_);
-  if (!linked) value = std::to_string(tile.picture.cols) + " x " + std::to_string(tile.picture.rows);
+  if (linked && pixel_) value = (tile.image.channels() == 1 ? "value " : "RGB ") + pixel_text(tile.image, *pixel_);
+  if (!linked) value = std::to_string(tile.image.cols) + " x " + std::to_string(tile.image.rows);
   ImGui::PushFont(font(Font::small));
   const float label_width = ImGui::CalcTextSize(tile.label.c_str()).x;
   ImGui::PopFont();

@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "editor/geometry/picture_view.h"
+#include "editor/geometry/image_view.h"
 #include "editor/views/stages/stage_tiles.h"
-#include "editor/widgets/picture_marks.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/image_canvas.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
-// How many columns and rows give pictures of a shape the most room.
+// How many columns and rows give images of a shape the most room.
 struct GridShape {
   int columns = 1;
   int rows = 1;
 };
-[[nodiscard]] GridShape grid_shape(int count, const glm::dvec2& picture_px, const glm::dvec2& room_px, double label_px);
+[[nodiscard]] GridShape grid_shape(int count, const glm::dvec2& image_px, const glm::dvec2& room_px, double label_px);
 
-// Pictures side by side, each under its label. Those of one size, the frame's, are zoomed and panned as one, and the
+// Images side by side, each under its label. Those of one size, the frame's, are zoomed and panned as one, and the
 // pixel under the mouse is marked in all of them; the others are shown whole. A click makes one large, a click more
 // or Escape brings the others back.
 class StageGrid {
@@ -30,18 +30,18 @@ class StageGrid {
   void fit() { look_.fit(); }
   void show(const Box& part) { look_.show(part); }
   void zoom_to_exact();
-  [[nodiscard]] const ZoomablePicture& look() const { return look_; }
+  [[nodiscard]] const ZoomableImage& look() const { return look_; }
   void show_all() { large_.clear(); }
   // Before drawing: Escape brings all back. Whether it was pressed for that.
-  [[nodiscard]] bool take_escape();
+  [[nodiscard]] bool handle_escape();
 
  private:
   void draw_tile(const StageTile& tile, const cv::Size& frame_px, const ScreenRect& rect, Textures& textures);
-  void draw_picture_of(const StageTile& tile, bool linked, const ScreenRect& room, Textures& textures);
+  void draw_image_of(const StageTile& tile, bool linked, const ScreenRect& room, Textures& textures);
   void draw_head(const StageTile& tile, bool linked, const ScreenRect& rect) const;
-  void take_mouse(const StageTile& tile, bool linked, const ScreenRect& room);
+  void handle_mouse(const StageTile& tile, bool linked, const ScreenRect& room);
 
-  ZoomablePicture look_;
+  ZoomableImage look_;
   std::string large_;               // label of the tile that fills the room; "": none
   std::optional<cv::Point> pixel_;  // marked, of the frame
   std::optional<cv::Point> next_pixel_;

@@ -24,24 +24,24 @@ constexpr std::array kWords{
     Words{"a", "A: undistorted", "Input 1 without the lens' distortion"},
     Words{"b", "B: keyed", "Input 2 keyed into A"},
     Words{"c", "C: distorted", "B through the lens"},
-    Words{"d", "D: blurred", "C softened as the lens does at the intruder's distance"},
+    Words{"d", "D: blurred", "C blurred as the lens does at the intruder's distance"},
     Words{"f", "F: key, distorted and blurred",
           "Input 2 distorted and blurred the same way: where it is not green, D is taken"},
     Words{"keyed", "Keyed",
           "What the key gives, before the own body hides any of it: classic takes D where F is not green"},
-    Words{"layer", "Layer", "The intruder alone in its virtual view, before it is bent"},
-    Words{"bent", "Bent", "The layer through the lens"},
-    Words{"blurred", "Blurred", "Softened as the lens does at the intruder's distance"},
+    Words{"layer", "Layer", "The intruder alone in its virtual view, before it is warped"},
+    Words{"bent", "Warped", "The layer through the lens"},
+    Words{"blurred", "Blurred", "Blurred as the lens does at the intruder's distance"},
     Words{"hidden", "Hidden", "Without what the own body hides"},
-    Words{"mask", "Mask", "Opacity with which intruders are laid on"},
+    Words{"mask", "Mask", "Opacity with which intruders are composited"},
     Words{"output", "Output", "The finished frame, as it is exported"},
 };
 
-StageTile tile_of(const std::string& stage, const cv::Mat& picture) {
+StageTile tile_of(const std::string& stage, const cv::Mat& image) {
   const auto words =
       std::find_if(kWords.begin(), kWords.end(), [&](const Words& known) { return stage == known.stage; });
-  if (words == kWords.end()) return {stage, "", picture};
-  return {words->label, words->tooltip, picture};
+  if (words == kWords.end()) return {stage, "", image};
+  return {words->label, words->tooltip, image};
 }
 
 }  // namespace
@@ -64,8 +64,8 @@ std::vector<StageTile> stage_tiles(const std::vector<Stage>& stages, std::option
   std::vector<StageTile> tiles;
   for (const Stage& stage : stages) {
     const StageName name = stage_name(stage.name);
-    if (stage.picture.empty() || (name.intruder && name.intruder != intruder)) continue;
-    tiles.push_back(tile_of(name.stage, stage.picture));
+    if (stage.image.empty() || (name.intruder && name.intruder != intruder)) continue;
+    tiles.push_back(tile_of(name.stage, stage.image));
   }
   return tiles;
 }
@@ -80,13 +80,13 @@ cv::Mat difference(const cv::Mat& a, const cv::Mat& b, double gain) {
 }
 
 cv::Mat Differences::of(const cv::Mat& a, const cv::Mat& b, double gain) {
-  const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
+  const auto known = std::find_if(made_.begin(), made_.end(), [&](const CachedDifference& made) {
     return made.a.data == a.data && made.b.data == b.data && made.gain == gain;
   });
-  if (known != made_.end()) return known->picture;
+  if (known != made_.end()) return known->image;
   if (made_.size() >= kDifferencesKept) made_.erase(made_.begin());
   made_.push_back({a, b, gain, difference(a, b, gain)});
-  return made_.back().picture;
+  return made_.back().image;
 }
 
 }  // namespace sigs::editor

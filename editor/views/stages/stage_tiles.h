@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "frame.h"
+#include "frame/compose_frame.h"
 
 namespace sigs::editor {
 
-// One picture of a grid of them.
+// One image of a grid of them.
 struct StageTile {
   std::string label;
   std::string tooltip;
-  cv::Mat picture;  // CV_8UC3 or CV_8UC1
+  cv::Mat image;  // CV_8UC3 or CV_8UC1
 };
 
 // What a stage's name says: "1_bent" is "bent" of the scene's intruder 1, "bent" and "output" are nobody's.
@@ -31,7 +31,7 @@ struct StageName {
 // paper's figure 4. None: every stage whose name has no number.
 [[nodiscard]] std::vector<StageTile> stage_tiles(const std::vector<Stage>& stages, std::optional<int> intruder);
 
-// How much two pictures differ, times a gain, black where they are equal. Empty where their sizes or kinds differ.
+// How much two images differ, times a gain, black where they are equal. Empty where their sizes or kinds differ.
 [[nodiscard]] cv::Mat difference(const cv::Mat& a, const cv::Mat& b, double gain);
 
 // The same, made once for each pair and gain, for the last few of them.
@@ -40,13 +40,13 @@ class Differences {
   [[nodiscard]] cv::Mat of(const cv::Mat& a, const cv::Mat& b, double gain);
 
  private:
-  struct Made {
+  struct CachedDifference {
     cv::Mat a;  // kept, so that their addresses stay theirs
     cv::Mat b;
     double gain = 1;
-    cv::Mat picture;
+    cv::Mat image;
   };
-  std::vector<Made> made_;
+  std::vector<CachedDifference> made_;
 };
 
 }  // namespace sigs::editor

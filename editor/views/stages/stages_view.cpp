@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "editor/views/viewport/footage_eye.h"
-#include "editor/views/viewport/picture_icons.h"
+#include "editor/views/viewport/footage_camera.h"
+#include "editor/views/viewport/image_icons.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
@@ -19,7 +19,7 @@ namespace sigs::editor {
 namespace {
 
 constexpr std::array kMethods{MethodChoice::direct, MethodChoice::classic, MethodChoice::plain};
-constexpr float kMostGain = 64;
+constexpr float kMaxGain = 64;
 
 std::string name_of(MethodChoice method) {
   switch (method) {
@@ -33,9 +33,9 @@ std::string name_of(MethodChoice method) {
   return "";
 }
 
-std::string name_of_intruder(const Studio& studio, int in_scene) {
-  const std::optional<int> intruder = project_intruder(studio, in_scene);
-  return intruder ? shortened(studio.project().intruders[static_cast<std::size_t>(*intruder)].name, 60)
+std::string name_of_intruder(const ViewContext& context, int in_scene) {
+  const std::optional<int> intruder = project_intruder(context, in_scene);
+  return intruder ? shortened(context.project().intruders[static_cast<std::size_t>(*intruder)].name, 60)
                   : "intruder " + std::to_string(in_scene);
 }
 
@@ -48,7 +48,7 @@ float method_choice_width() {
   return ImGui::CalcTextSize("with classic").x + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().FramePadding.x;
 }
 
-// A list to choose from, with the usual room between its lines; the view itself has none between its pictures.
+// A list to choose from, with the usual room between its lines; the view itself has none between its images.
 bool begin_choice(const char* id, const std::string& shown) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
   const bool open = ImGui::BeginCombo(id, shown.c_str());
@@ -61,33 +61,33 @@ void end_choice() {
   ImGui::PopStyleVar();
 }
 
-const cv::Mat* stage_picture(const Picture& picture, const char* name) {
-  for (const Stage& stage : picture.stages)
-    if (stage_name(stage.name).stage == name) return &stage.picture;
+const cv::Mat* stage_image(const PreviewImage& image, const char* name) {
+  for (const Stage& stage : image.stages)
+    if (stage_name(stage.name).stage == name) return &stage.image;
   return nullptr;
 }
 
 }  // namespace
 
-MethodChoice StagesView::own_method(const Studio& studio) const {
-  return studio.project().compositing.method;
+MethodChoice StagesView::own_method(const ViewContext& context) const {
+  return context.project().compositing.method;
 }
 
-MethodChoice StagesView::other_method(const Studio& studio) const {
-  const MethodChoice own = own_method(studio);
-  if (look_ != Look::against_method) return method_.value_or(own);
+MethodChoice StagesView::other_method(const ViewContext& context) const {
+  const MethodChoice own = own_method(context);
+  if (look_ != Mode::against_method) return method_.value_or(own);
   if (method_ && *method_ != own) return *method_;
   return own == MethodChoice::classic ? MethodChoice::direct : MethodChoice::classic;
 }
 
-void StagesView::wish(const Studio& studio) {
-  studio.wishes.stages = true;
-  const MethodChoice other = other_method(studio);
-  if (other != own_method(studio)) studio.wishes.compare_with = other;
-  if (studio.shown.staged) staged_ = studio.shown.staged;
-  if (studio.shown.compared) compared_ = studio.shown.compared;
+void StagesView::request_preview(const ViewContext& context) {
+  context.needs.stages = true;
+  const MethodChoice other = other_method(context);
+  if (other != own_method(context)) context.needs.compare_with = other;
+  if (context.shown.staged) staged_ = context.shown.staged;
+  if (context.shown.compared) compared_ = context.shown.compared;
   if (compared_ && compared_->method != other) compared_.reset();
-  if (!studio.shown.scene) staged_ = compared_ = nullptr;
+  if (!context.shown.scene) staged_ = compared_ = nullptr;
 }
 
 void StagesView::forget() {
@@ -95,31 +95,31 @@ void StagesView::forget() {
   differences_ = {};
 }
 
-const Picture* StagesView::looked_at(const Studio& studio) const {
-  const bool other = look_ != Look::against_method && other_method(studio) != own_method(studio);
+const PreviewImage* StagesView::frames_checked(const ViewContext& context) const {
+  const bool other = look_ != Mode::against_method && other_method(context) != own_method(context);
   return other ? compared_.get() : staged_.get();
 }
 
-std::vector<int> StagesView::choices(const Studio& studio) const {
-  const Picture* const picture = looked_at(studio);
-  return picture != nullptr ? intruders_of(picture->stages) : std::vector<int>();
+std::vector<int> StagesView::choices(const ViewContext& context) const {
+  const PreviewImage* const image = frames_checked(context);
+  return image != nullptr ? intruders_of(image->stages) : std::vector<int>();
 }
 
-std::optional<int> StagesView::intruder(const Studio& studio) const {
-  const std::vector<int> all = choices(studio);
+std::optional<int> StagesView::intruder(const ViewContext& context) const {
+  const std::vector<int> all = choices(context);
   const auto there = [&](std::optional<int> number) {
     return number && std::find(all.begin(), all.end(), *number) != all.end();
   };
   if (there(intruder_)) return intruder_;
-  const std::optional<int> current = current_intruder(studio);
-  const std::optional<int> worked_on = current ? scene_intruder(studio, *current) : std::nullopt;
+  const std::optional<int> current = current_intruder(context);
+  const std::optional<int> worked_on = current ? scene_intruder(context, *current) : std::nullopt;
   if (there(worked_on)) return worked_on;
   return all.empty() ? std::nullopt : std::optional(all.front());
 }
 
-std::vector<StageTile> StagesView::input_tiles(const Picture& picture) {
-  const cv::Mat* const input = stage_picture(picture, "input1");
-  const cv::Mat* const output = stage_picture(picture, "output");
+std::vector<StageTile> StagesView::input_tiles(const PreviewImage& image) {
+  const cv::Mat* const input = stage_image(image, "input1");
+  const cv::Mat* const output = stage_image(image, "output");
   if (input == nullptr || output == nullptr) return {};
   return {{"Input 1", "The footage", *input},
           {"Output", "The finished frame", *output},
@@ -127,10 +127,10 @@ std::vector<StageTile> StagesView::input_tiles(const Picture& picture) {
            differences_.of(*output, *input, gain_)}};
 }
 
-std::vector<StageTile> StagesView::method_tiles(const Studio& studio) {
+std::vector<StageTile> StagesView::method_tiles(const ViewContext& context) {
   std::vector<StageTile> tiles;
-  if (staged_) tiles.push_back({"A: " + name_of(own_method(studio)), "By the project's own method", staged_->bgr});
-  const MethodChoice other = other_method(studio);
+  if (staged_) tiles.push_back({"A: " + name_of(own_method(context)), "By the project's own method", staged_->bgr});
+  const MethodChoice other = other_method(context);
   if (!compared_ || !staged_ || compared_->frame != staged_->frame) return tiles;
   tiles.push_back({"B: " + name_of(other), "The same frame by the other method", compared_->bgr});
   tiles.push_back({"|A - B|" + gain_text(gain_), "Where the methods differ; black: nowhere",
@@ -138,40 +138,40 @@ std::vector<StageTile> StagesView::method_tiles(const Studio& studio) {
   return tiles;
 }
 
-std::vector<StageTile> StagesView::tiles(const Studio& studio) {
-  if (look_ == Look::against_method) return method_tiles(studio);
-  const Picture* const picture = looked_at(studio);
-  if (picture == nullptr) return {};
-  if (look_ == Look::against_input) return input_tiles(*picture);
-  std::vector<StageTile> made = stage_tiles(picture->stages, intruder(studio));
-  if (made.empty() && !picture->bgr.empty()) made.push_back({"Output", "The finished frame", picture->bgr});
+std::vector<StageTile> StagesView::tiles(const ViewContext& context) {
+  if (look_ == Mode::against_method) return method_tiles(context);
+  const PreviewImage* const image = frames_checked(context);
+  if (image == nullptr) return {};
+  if (look_ == Mode::against_input) return input_tiles(*image);
+  std::vector<StageTile> made = stage_tiles(image->stages, intruder(context));
+  if (made.empty() && !image->bgr.empty()) made.push_back({"Output", "The finished frame", image->bgr});
   return made;
 }
 
-ToolbarItem StagesView::look_button(const char* label, const char* tooltip, Look look) {
+ToolbarItem StagesView::look_button(const char* label, const char* tooltip, Mode look) {
   return {.button = {.id = label, .label = label, .tooltip = tooltip, .on = look_ == look}, .clicked = [this, look] {
             look_ = look;
             grid_.show_all();
           }};
 }
 
-std::string StagesView::own_label(const Studio& studio) const {
-  return "own: " + name_of(own_method(studio));
+std::string StagesView::own_label(const ViewContext& context) const {
+  return "own: " + name_of(own_method(context));
 }
 
-void StagesView::draw_method_choice(const Studio& studio) {
-  const std::string own = own_label(studio);
-  const bool comparing = look_ == Look::against_method;
-  const std::string shown = comparing ? "with " + name_of(other_method(studio)) : method_ ? name_of(*method_) : own;
+void StagesView::draw_method_choice(const ViewContext& context) {
+  const std::string own = own_label(context);
+  const bool comparing = look_ == Mode::against_method;
+  const std::string shown = comparing ? "with " + name_of(other_method(context)) : method_ ? name_of(*method_) : own;
   ImGui::SetNextItemWidth(method_choice_width());
   const bool open = begin_choice("##method", shown);
-  studio.places.note_item("stages/method");
+  context.ui_probe.note_item("stages/method");
   if (open) {
-    if (!comparing && ImGui::Selectable(own.c_str(), other_method(studio) == own_method(studio))) method_.reset();
+    if (!comparing && ImGui::Selectable(own.c_str(), other_method(context) == own_method(context))) method_.reset();
     for (const MethodChoice method : kMethods) {
-      if (method == own_method(studio)) continue;
-      if (ImGui::Selectable(name_of(method).c_str(), method == other_method(studio))) method_ = method;
-      studio.places.note_item("stages/method/" + name_of(method));
+      if (method == own_method(context)) continue;
+      if (ImGui::Selectable(name_of(method).c_str(), method == other_method(context))) method_ = method;
+      context.ui_probe.note_item("stages/method/" + name_of(method));
     }
     end_choice();
   }
@@ -179,13 +179,13 @@ void StagesView::draw_method_choice(const Studio& studio) {
                              : "The method to look at: the project's own, or another; the project stays as it is");
 }
 
-void StagesView::draw_intruder_choice(const Studio& studio) {
-  const std::optional<int> chosen = intruder(studio);
+void StagesView::draw_intruder_choice(const ViewContext& context) {
+  const std::optional<int> chosen = intruder(context);
   ImGui::SetNextItemWidth(scaled(120));
-  if (begin_choice("##intruder", chosen ? name_of_intruder(studio, *chosen) : "")) {
-    for (const int number : choices(studio)) {
+  if (begin_choice("##intruder", chosen ? name_of_intruder(context, *chosen) : "")) {
+    for (const int number : choices(context)) {
       ImGui::PushID(number);
-      if (ImGui::Selectable(name_of_intruder(studio, number).c_str(), chosen == number)) intruder_ = number;
+      if (ImGui::Selectable(name_of_intruder(context, number).c_str(), chosen == number)) intruder_ = number;
       ImGui::PopID();
     }
     end_choice();
@@ -196,86 +196,85 @@ void StagesView::draw_intruder_choice(const Studio& studio) {
 void StagesView::draw_gain() {
   auto gain = static_cast<float>(gain_);
   ImGui::SetNextItemWidth(scaled(110));
-  if (ImGui::SliderFloat("##gain", &gain, 1, kMostGain, "gain x%.0f",
+  if (ImGui::SliderFloat("##gain", &gain, 1, kMaxGain, "gain x%.0f",
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
     gain_ = std::round(gain);
   tooltip_for_item("How much differences are brightened");
 }
 
-void StagesView::zoom_to_intruder(const Studio& studio) {
-  const Picture* const picture = looked_at(studio);
-  if (picture == nullptr) return;
-  const std::optional<int> chosen = intruder(studio);
-  for (const IntruderTruth& truth : picture->truth.intruders) {
+void StagesView::zoom_to_intruder(const ViewContext& context) {
+  const PreviewImage* const image = frames_checked(context);
+  if (image == nullptr) return;
+  const std::optional<int> chosen = intruder(context);
+  for (const IntruderTruth& truth : image->truth.intruders) {
     if (chosen && truth.id != *chosen) continue;
-    if (!truth.box) continue;
-    const cv::Rect& box = *truth.box;
+    if (!truth.visible_box) continue;
+    const cv::Rect& box = *truth.visible_box;
     grid_.show({box.x - 0.5, box.y - 0.5, static_cast<double>(box.width), static_cast<double>(box.height)});
     return;
   }
-  studio.edits.ask(Say{"No intruder is visible in this frame.", false});
+  context.edits.ask(ShowMessage{"No intruder is visible in this frame.", false});
 }
 
-void StagesView::draw_toolbar_of(const Studio& studio) {
+void StagesView::draw_toolbar_of(const ViewContext& context) {
   std::vector<ToolbarItem> items{
-      look_button("Stages", "Every picture on the way to the finished frame", Look::stages),
-      look_button("Against input", "What compositing changed in the footage", Look::against_input),
-      look_button("Between methods", "The frame by two methods, and where they differ", Look::against_method),
+      look_button("Stages", "Every image on the way to the finished frame", Mode::stages),
+      look_button("Against input", "What compositing changed in the footage", Mode::against_input),
+      look_button("Between methods", "The frame by two methods, and where they differ", Mode::against_method),
       {.is_gap = true},
-      {.width = method_choice_width(), .content = [&] { draw_method_choice(studio); }}};
-  if (look_ != Look::stages) items.push_back({.width = scaled(110), .content = [this] { draw_gain(); }});
-  if (look_ == Look::stages && choices(studio).size() > 1)
-    items.push_back({.width = scaled(120), .content = [&] { draw_intruder_choice(studio); }});
+      {.width = method_choice_width(), .content = [&] { draw_method_choice(context); }}};
+  if (look_ != Mode::stages) items.push_back({.width = scaled(110), .content = [this] { draw_gain(); }});
+  if (look_ == Mode::stages && choices(context).size() > 1)
+    items.push_back({.width = scaled(120), .content = [&] { draw_intruder_choice(context); }});
   items.push_back({.is_gap = true});
   items.push_back({.button = {.id = "to intruder",
-                              .icon = picture_icon::target,
+                              .icon = image_icon::target,
                               .label = "To intruder",
                               .tooltip = "Zoom to the intruder"},
-                   .clicked = [&] { zoom_to_intruder(studio); }});
+                   .clicked = [&] { zoom_to_intruder(context); }});
   items.push_back({.button = {.id = "fit",
-                              .icon = picture_icon::fit,
+                              .icon = image_icon::fit,
                               .label = "Fit",
-                              .tooltip = "The whole picture (F or 0)",
+                              .tooltip = "The whole image (F or 0)",
                               .on = grid_.look().is_fitted()},
                    .clicked = [this] { grid_.fit(); }});
   items.push_back({.button = {.id = "exact",
                               .label = "1:1",
-                              .tooltip = "One pixel of the screen for each of the picture (1)",
+                              .tooltip = "One pixel of the screen for each of the image (1)",
                               .on = grid_.look().zoom() == 1},
                    .clicked = [this] { grid_.zoom_to_exact(); }});
   draw_toolbar(items);
 }
 
-void StagesView::draw_notice(const Studio& studio, const ScreenRect& rect) const {
-  const Picture* const picture = looked_at(studio);
+void StagesView::draw_notice(const ViewContext& context, const ScreenRect& rect) const {
+  const PreviewImage* const image = frames_checked(context);
   std::string text;
-  if (picture == nullptr)
-    text = studio.shown.scene ? "Making the stages..." : "Opening the project...";
-  else if (!picture->problem.empty())
-    text = picture->problem;
-  else if (picture->frame != studio.document.playhead() || picture->revision != studio.document.revision().number)
+  if (image == nullptr)
+    text = context.shown.scene ? "Making the stages..." : "Opening the project...";
+  else if (!image->problem.empty())
+    text = image->problem;
+  else if (image->frame != context.document.playhead() || image->revision != context.document.revision().number)
     text = "updating...";
-  else if (look_ == Look::stages && stage_picture(*picture, "bent") == nullptr &&
-           stage_picture(*picture, "input2") == nullptr)
+  else if (look_ == Mode::stages && stage_image(*image, "bent") == nullptr && stage_image(*image, "input2") == nullptr)
     text = "No intruder can be seen in this frame: the output is the footage.";
-  if (text.empty()) studio.places.note("stages/ready", rect);
+  if (text.empty()) context.ui_probe.note("stages/ready", rect);
   if (text.empty()) return;
-  PictureCanvas canvas{*ImGui::GetWindowDrawList(), rect, {}, {}};
+  ImageCanvas canvas{*ImGui::GetWindowDrawList(), rect, {}, {}};
   draw_label(canvas, {rect.low.x + scaled(8), rect.high.y - scaled(8)}, text, color::kPartly);
 }
 
-void StagesView::draw(const Studio& studio) {
+void StagesView::draw(const ViewContext& context) {
   ImGui::PushID("stages");
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-  wish(studio);
-  draw_toolbar_of(studio);
+  request_preview(context);
+  draw_toolbar_of(context);
   const glm::dvec2 low = glm::round(dv(ImGui::GetCursorScreenPos()));
   const ScreenRect rect{low, low + glm::max(glm::floor(dv(ImGui::GetContentRegionAvail())), 1.0)};
-  const std::vector<StageTile> shown = tiles(studio);
-  const Picture* const picture = looked_at(studio);
-  if (!shown.empty() && grid_.take_escape()) studio.wishes.own_escape = true;
-  if (!shown.empty() && picture != nullptr) grid_.draw(shown, picture->bgr.size(), rect, studio.textures);
-  draw_notice(studio, rect);
+  const std::vector<StageTile> shown = tiles(context);
+  const PreviewImage* const image = frames_checked(context);
+  if (!shown.empty() && grid_.handle_escape()) context.needs.own_escape = true;
+  if (!shown.empty() && image != nullptr) grid_.draw(shown, image->bgr.size(), rect, context.textures);
+  draw_notice(context, rect);
   ImGui::PopStyleVar();
   ImGui::PopID();
 }

@@ -112,10 +112,10 @@ void list_tracker(const Scored& scored, const ScoredTracker& tracker, int frame)
   cell(score != nullptr && score->is_scored ? percent_text(score->overlap) : "-", color::kText);
 }
 
-void tooltip_at(const Studio& studio, int frame) {
-  const Scored& scored = *studio.scored;
+void tooltip_at(const ViewContext& context, int frame) {
+  const Scored& scored = *context.scored;
   ImGui::BeginTooltip();
-  ImGui::Text("frame %d   %s", frame, time_text_of(studio, frame).c_str());
+  ImGui::Text("frame %d   %s", frame, time_text_of(context, frame).c_str());
   if (ImGui::BeginTable("errors", 5, ImGuiTableFlags_SizingFixedFit)) {
     ImGui::TableNextRow();
     for (const char* const title : {"", "error", "dx px", "dy px", "overlap"}) cell(title, color::kQuiet);
@@ -152,8 +152,8 @@ void ErrorLane::draw_names(const Scored& scored, const TimelineStrip& strip, flo
     list.AddText({right - width, y}, value_color, value.c_str());
     y += line;
   };
-  const std::string most = curves_.most_px > 0 ? "0 .. " + pixels_text(curves_.most_px) : "";
-  draw_line(kTitle, color::kQuiet, most, faded(color::kQuiet, 0.75));
+  const std::string maximum = curves_.max_px > 0 ? "0 .. " + pixels_text(curves_.max_px) : "";
+  draw_line(kTitle, color::kQuiet, maximum, faded(color::kQuiet, 0.75));
   for (const ScoredTracker& tracker : scored.trackers) {
     if (!tracker.file.is_shown || !tracker.results) continue;
     if (y + line > top_y + height) break;
@@ -163,8 +163,9 @@ void ErrorLane::draw_names(const Scored& scored, const TimelineStrip& strip, flo
   ImGui::PopFont();
 }
 
-void ErrorLane::draw(const Studio& studio, const TimelineStrip& strip, float top_y, float height, RulerRow& ruler) {
-  const Scored& scored = *studio.scored;
+void ErrorLane::draw(const ViewContext& context, const TimelineStrip& strip, float top_y, float height,
+                     RulerRow& ruler) {
+  const Scored& scored = *context.scored;
   refresh(scored);
   ImGui::PushID("errors");
   ImGui::SetCursorScreenPos({strip.names_x, top_y});
@@ -172,11 +173,11 @@ void ErrorLane::draw(const Studio& studio, const TimelineStrip& strip, float top
   tooltip_for_item(kHelp);
   ImGui::SetCursorScreenPos({strip.left(), top_y});
   ImGui::InvisibleButton("lane", {std::max(1.0F, strip.right() - strip.left()), height});
-  studio.places.note_item(std::string("timeline/lane/") + kTitle);
-  ruler.scrub_on_item(studio, strip);
+  context.ui_probe.note_item(std::string("timeline/lane/") + kTitle);
+  ruler.scrub_on_item(context, strip);
   const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
 
-  const int playhead = studio.document.playhead();
+  const int playhead = context.document.playhead();
   draw_names(scored, strip, top_y, height, playhead);
   const LaneParts parts = parts_of(strip, top_y, height - 1, curves_.curves.size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -185,11 +186,11 @@ void ErrorLane::draw(const Studio& studio, const TimelineStrip& strip, float top
   draw_dots(list, parts, curves_, playhead);
   if (hovered) {
     const int frame =
-        strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, 0, std::max(0, studio.document.frame_count() - 1));
+        strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, 0, std::max(0, context.document.frame_count() - 1));
     const float x = std::floor(strip.moment_x(frame));
     list.AddRectFilled({x, top_y}, {x + 1, top_y + height - 1}, faded(color::kText, 0.5));
     draw_dots(list, parts, curves_, frame);
-    tooltip_at(studio, frame);
+    tooltip_at(context, frame);
   }
   list.PopClipRect();
   draw_row_line(list, strip, top_y + height - 1);

@@ -13,11 +13,11 @@ namespace sigs::editor {
 // reported; below them bars where the target was lost. Takes no room while no results are loaded.
 class ErrorLane {
  public:
-  [[nodiscard]] static bool has_any(const Studio& studio) { return studio.scored != nullptr; }
+  [[nodiscard]] static bool has_any(const ViewContext& context) { return context.scored != nullptr; }
   static constexpr const char* kTitle = "Centre error";
 
   // At a height of the screen.
-  void draw(const Studio& studio, const TimelineStrip& strip, float top_y, float height, RulerRow& ruler);
+  void draw(const ViewContext& context, const TimelineStrip& strip, float top_y, float height, RulerRow& ruler);
 
  private:
   void refresh(const Scored& scored);

@@ -10,7 +10,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kLeastSpan_px = 4;
+constexpr double kMinSpan_px = 4;
 
 ErrorCurve curve_of_tracker(const ScoredTracker& tracker, int first_frame) {
   ErrorCurve curve{.color = tracker.file.color};
@@ -44,10 +44,10 @@ ErrorCurves error_curves(const Scored& scored) {
     all.insert(all.end(), errors_px.begin(), errors_px.end());
   }
   for (const double error_px : all)
-    if (std::isfinite(error_px)) result.most_px = std::max(result.most_px, error_px);
+    if (std::isfinite(error_px)) result.max_px = std::max(result.max_px, error_px);
   // From 0 in any case: how far a curve lies above the ground is what is read.
   all.push_back(0);
-  result.scale = scale_for(all, kLeastSpan_px, Scaling::logarithmic);
+  result.scale = scale_for(all, kMinSpan_px, Scaling::logarithmic);
   return result;
 }
 

@@ -31,7 +31,7 @@ struct ErrorCurves {
   int first_frame = 0;
   std::vector<ErrorCurve> curves;
   LaneScale scale;
-  double most_px = 0;  // of all errors; 0: there is none
+  double max_px = 0;  // of all errors; 0: there is none
 };
 
 [[nodiscard]] ErrorCurves error_curves(const Scored& scored);

@@ -10,7 +10,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kMostFrames = 1e9;
+constexpr double kMaxFrames = 1e9;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -60,7 +60,7 @@ std::optional<int> frame_from_entry(std::string_view entry, int playhead, std::s
   double frame = *value;
   if (is_time) frame = nearest_in_time(*value, times_s);
   if (is_relative) frame = text.front() == '-' ? playhead - *value : playhead + *value;
-  const double highest = times_s.empty() ? kMostFrames : static_cast<double>(times_s.size() - 1);
+  const double highest = times_s.empty() ? kMaxFrames : static_cast<double>(times_s.size() - 1);
   return static_cast<int>(std::floor(std::clamp(frame, 0.0, highest)));
 }
 

@@ -18,7 +18,7 @@ namespace sigs::editor {
 namespace {
 
 const TrajectoryPlan& plan_of(const KeyMarks& marks) {
-  return marks.studio.project().intruders[static_cast<std::size_t>(marks.intruder)].trajectory;
+  return marks.context.project().intruders[static_cast<std::size_t>(marks.intruder)].trajectory;
 }
 
 // At constant speed those between the first and the last are passed when the speed brings the aircraft there.
@@ -47,7 +47,7 @@ void draw_key(ImDrawList& list, const KeyMarks& marks, std::size_t waypoint) {
 }
 
 void draw_flags(ImDrawList& list, const KeyMarks& marks) {
-  const Survey* survey = survey_of(marks.studio, marks.intruder);
+  const Survey* survey = survey_of(marks.context, marks.intruder);
   if (survey == nullptr) return;
   const float bottom_y = marks.top_y + marks.height - 1;
   for (const FlightFlag& flag : survey->flags) {
@@ -74,7 +74,7 @@ std::string key_text(const KeyMarks& marks, std::size_t waypoint) {
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), "waypoint %zu of %zu\nframe %.6g   %s\n%.6g, %.6g, %.6g m", waypoint + 1,
                 plan.waypoints.size(), frame,
-                time_text_of(marks.studio, static_cast<int>(std::lround(std::clamp(frame, -1e6, 1e9)))).c_str(), p.x,
+                time_text_of(marks.context, static_cast<int>(std::lround(std::clamp(frame, -1e6, 1e9)))).c_str(), p.x,
                 p.y, p.z);
   std::string result = text.data();
   if (!plan.waypoints[waypoint].frame)
@@ -85,7 +85,7 @@ std::string key_text(const KeyMarks& marks, std::size_t waypoint) {
 }
 
 std::string flags_text(const KeyMarks& marks, double frame) {
-  const Survey* survey = survey_of(marks.studio, marks.intruder);
+  const Survey* survey = survey_of(marks.context, marks.intruder);
   std::string text;
   if (survey == nullptr) return text;
   for (const FlightFlag& flag : survey->flags)
@@ -96,9 +96,9 @@ std::string flags_text(const KeyMarks& marks, double frame) {
 
 }  // namespace
 
-const Survey* survey_of(const Studio& studio, int intruder) {
+const Survey* survey_of(const ViewContext& context, int intruder) {
   const auto index = static_cast<std::size_t>(intruder);
-  return index < studio.shown.surveys.size() ? studio.shown.surveys[index].get() : nullptr;
+  return index < context.shown.surveys.size() ? context.shown.surveys[index].get() : nullptr;
 }
 
 void draw_key_marks(ImDrawList& list, const KeyMarks& marks) {

@@ -9,7 +9,7 @@ namespace sigs::editor {
 
 // What a row of keys shows.
 struct KeyMarks {
-  const Studio& studio;
+  const ViewContext& context;
   const TimelineStrip& strip;
   int intruder = 0;
   const std::vector<double>& frames;  // of the waypoints
@@ -28,6 +28,6 @@ void draw_key_marks(ImDrawList& list, const KeyMarks& marks);
 void tooltip_for_keys(const KeyMarks& marks, double mouse_frame);
 
 // What is known of an intruder's flight; null: nothing yet.
-[[nodiscard]] const Survey* survey_of(const Studio& studio, int intruder);
+[[nodiscard]] const Survey* survey_of(const ViewContext& context, int intruder);
 
 }  // namespace sigs::editor

@@ -14,7 +14,7 @@ class KeyRows {
   [[nodiscard]] static float row_height();
 
   // At the cursor, one row below the other.
-  void draw(const Studio& studio, const TimelineStrip& strip);
+  void draw(const ViewContext& context, const TimelineStrip& strip);
 
  private:
   // A key that the mouse holds.
@@ -35,14 +35,14 @@ class KeyRows {
   };
   struct Row;
 
-  void draw_row(const Studio& studio, const TimelineStrip& strip, int intruder);
-  static void note_places(const Studio& studio, const Row& row);
-  void take_mouse(const Studio& studio, const Row& row);
-  void drag(const Studio& studio, const Row& row);
-  void hold(const Studio& studio, const Row& row);
-  void open_menu(const Studio& studio, const Row& row, int under);
-  void draw_menu(const Studio& studio);
-  void draw_key_menu(const Studio& studio);
+  void draw_row(const ViewContext& context, const TimelineStrip& strip, int intruder);
+  static void probe_places(const ViewContext& context, const Row& row);
+  void handle_mouse(const ViewContext& context, const Row& row);
+  void drag(const ViewContext& context, const Row& row);
+  void hold(const ViewContext& context, const Row& row);
+  void open_menu(const ViewContext& context, const Row& row, int under);
+  void draw_menu(const ViewContext& context);
+  void draw_key_menu(const ViewContext& context);
 
   std::optional<Held> held_;
   Menu menu_;

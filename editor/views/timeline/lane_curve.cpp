@@ -63,7 +63,7 @@ double LaneScale::share_of(double value) const {
   return span > 0 ? std::clamp((shaped(value) - shaped(low)) / span, 0.0, 1.0) : 0.5;
 }
 
-LaneScale scale_for(std::span<const double> values, double least_span, Scaling scaling) {
+LaneScale scale_for(std::span<const double> values, double min_span, Scaling scaling) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const double value : values) {
@@ -71,12 +71,12 @@ LaneScale scale_for(std::span<const double> values, double least_span, Scaling s
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  if (low > high) return {.low = 0, .high = least_span, .scaling = scaling};
+  if (low > high) return {.low = 0, .high = min_span, .scaling = scaling};
   if (low >= 0 && low < kNearZero * high) low = 0;
-  const double span = std::max(high - low, least_span);
+  const double span = std::max(high - low, min_span);
   const double middle = std::midpoint(low, high);
   const double margin = 0.06 * span;
-  if (low == 0 && high >= 0) return {.low = 0, .high = std::max(high + margin, least_span), .scaling = scaling};
+  if (low == 0 && high >= 0) return {.low = 0, .high = std::max(high + margin, min_span), .scaling = scaling};
   return {.low = middle - span / 2 - margin, .high = middle + span / 2 + margin, .scaling = scaling};
 }
 

@@ -22,8 +22,8 @@ struct LaneScale {
 };
 
 // For all finite values: from 0 where they come near it, else a little more than they take; never less across than
-// least_span.
-[[nodiscard]] LaneScale scale_for(std::span<const double> values, double least_span, Scaling scaling = Scaling::linear);
+// min_span.
+[[nodiscard]] LaneScale scale_for(std::span<const double> values, double min_span, Scaling scaling = Scaling::linear);
 
 // Where a lane's curve is drawn.
 struct LaneBox {

@@ -52,10 +52,10 @@ void draw_label(ImDrawList& list, const LaneMarks& marks, float x, float y, ImU3
   ImGui::PopFont();
 }
 
-void draw_sightings(ImDrawList& list, const LaneMarks& marks) {
-  const std::vector<Outlook>& outlooks = marks.survey->outlooks;
+void draw_visibility_states(ImDrawList& list, const LaneMarks& marks) {
+  const std::vector<VisibilityEstimate>& estimates = marks.survey->estimates;
   const TimeRuler& ruler = marks.strip.ruler;
-  const auto size = static_cast<double>(outlooks.size());
+  const auto size = static_cast<double>(estimates.size());
   const double first = marks.survey->first_frame;
   const auto from = static_cast<std::size_t>(std::clamp(std::floor(ruler.first) - first, 0.0, size));
   const auto to = static_cast<std::size_t>(std::clamp(std::ceil(ruler.first + ruler.count) - first, 0.0, size));
@@ -63,11 +63,11 @@ void draw_sightings(ImDrawList& list, const LaneMarks& marks) {
   const float inset = scaled(4);
   for (std::size_t i = from; i < to;) {
     std::size_t end = i + stride;
-    while (end < to && outlooks[end].sighting == outlooks[i].sighting) end += stride;
+    while (end < to && estimates[end].visibility_state == estimates[i].visibility_state) end += stride;
     end = std::min(end, to);
     list.AddRectFilled({marks.strip.edge_x(first + static_cast<double>(i)), marks.top_y + inset},
                        {marks.strip.edge_x(first + static_cast<double>(end)), marks.top_y + marks.height - inset},
-                       faded(color_of(outlooks[i].sighting), 0.85));
+                       faded(color_of(estimates[i].visibility_state), 0.85));
     i = end;
   }
 }
@@ -123,12 +123,12 @@ void list_values(const Survey& survey, std::size_t i) {
   ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit);
   for (int number = 0; number < kLanes; ++number) {
     const auto lane = static_cast<Lane>(number);
-    if (lane != Lane::sighting && i >= survey.flight.size()) continue;
+    if (lane != Lane::visibility_state && i >= survey.flight.size()) continue;
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", style_of(lane).title);
     ImGui::TableNextColumn();
-    const std::string text =
-        lane == Lane::sighting ? name_of(survey.outlooks[i].sighting) : value_text(lane, value_in(survey, lane, i));
+    const std::string text = lane == Lane::visibility_state ? name_of(survey.estimates[i].visibility_state)
+                                                            : value_text(lane, value_in(survey, lane, i));
     ImGui::TextUnformatted(text.c_str());
   }
   ImGui::EndTable();
@@ -137,8 +137,8 @@ void list_values(const Survey& survey, std::size_t i) {
 std::string flags_at(const LaneMarks& marks, int frame) {
   std::string text;
   for (const FlightFlag& flag : marks.survey->flags) {
-    const bool told_here = marks.lane == Lane::sighting || belongs_to(flag.fault, marks.lane);
-    if (told_here && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
+    const bool is_reported_here = marks.lane == Lane::visibility_state || belongs_to(flag.fault, marks.lane);
+    if (is_reported_here && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
       text.append(text.empty() ? "" : "\n").append(flag.text());
   }
   return text;
@@ -146,17 +146,18 @@ std::string flags_at(const LaneMarks& marks, int frame) {
 
 void list_colors() {
   ImGui::Separator();
-  for (const Sighting sighting :
-       {Sighting::in_view, Sighting::partly_hidden, Sighting::hidden, Sighting::out_of_view}) {
+  for (const VisibilityState visibility_state : {VisibilityState::in_view, VisibilityState::partly_occluded,
+                                                 VisibilityState::occluded, VisibilityState::out_of_view}) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float side = ImGui::GetFontSize();
     ImGui::Dummy({side, side});
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F},
-                                              color_of(sighting));
+                                              color_of(visibility_state));
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", sighting == Sighting::in_view || sighting == Sighting::out_of_view
-                                  ? name_of(sighting)
-                                  : (std::string(name_of(sighting)) + " by the own body").c_str());
+    ImGui::TextDisabled("%s",
+                        visibility_state == VisibilityState::in_view || visibility_state == VisibilityState::out_of_view
+                            ? name_of(visibility_state)
+                            : (std::string(name_of(visibility_state)) + " by the own body").c_str());
   }
 }
 
@@ -167,8 +168,8 @@ void draw_lane_marks(ImDrawList& list, const LaneMarks& marks) {
     draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
     return;
   }
-  if (marks.lane == Lane::sighting) {
-    draw_sightings(list, marks);
+  if (marks.lane == Lane::visibility_state) {
+    draw_visibility_states(list, marks);
     return;
   }
   draw_flags(list, marks);
@@ -193,26 +194,26 @@ void draw_hover(ImDrawList& list, const LaneMarks& marks, int frame) {
   draw_label(list, marks, x, marks.top_y + marks.height / 2, color::kText, text + " at " + std::to_string(frame));
 }
 
-void tooltip_for_lanes(const Studio& studio, const LaneMarks& marks, int frame) {
-  const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->outlooks.size());
+void tooltip_for_lanes(const ViewContext& context, const LaneMarks& marks, int frame) {
+  const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
   if (!index || !item_wants_tooltip()) return;
   const std::string flags = flags_at(marks, frame);
   // Over a curve its value stands beside the mouse already.
-  if (marks.lane != Lane::sighting && flags.empty()) return;
+  if (marks.lane != Lane::visibility_state && flags.empty()) return;
   ImGui::BeginTooltip();
-  if (marks.lane == Lane::sighting) {
-    ImGui::Text("frame %d   %s", frame, time_text_of(studio, frame).c_str());
+  if (marks.lane == Lane::visibility_state) {
+    ImGui::Text("frame %d   %s", frame, time_text_of(context, frame).c_str());
     list_values(*marks.survey, *index);
   }
   if (!flags.empty()) ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color::kBad), "%s", flags.c_str());
-  if (marks.lane == Lane::sighting) list_colors();
+  if (marks.lane == Lane::visibility_state) list_colors();
   ImGui::EndTooltip();
 }
 
 std::string lane_text_at(const LaneMarks& marks, int frame) {
-  if (marks.lane == Lane::sighting) {
-    const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->outlooks.size());
-    return index ? name_of(marks.survey->outlooks[*index].sighting) : "-";
+  if (marks.lane == Lane::visibility_state) {
+    const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
+    return index ? name_of(marks.survey->estimates[*index].visibility_state) : "-";
   }
   const std::optional<double> value = value_at(marks, frame);
   return value ? value_text(marks.lane, *value) : "-";

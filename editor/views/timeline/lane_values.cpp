@@ -14,8 +14,8 @@ namespace sigs::editor {
 namespace {
 
 std::size_t count_of(const Survey& survey, Lane lane) {
-  if (lane == Lane::sighting) return 0;
-  return lane == Lane::distance || lane == Lane::size ? survey.outlooks.size() : survey.flight.size();
+  if (lane == Lane::visibility_state) return 0;
+  return lane == Lane::distance || lane == Lane::size ? survey.estimates.size() : survey.flight.size();
 }
 
 std::string formatted(const char* format, double value) {
@@ -30,7 +30,7 @@ const LaneStyle& style_of(Lane lane) {
   static const std::array<LaneStyle, kLanes> kStyles{{
       {"Visibility", "what the camera sees of it", color::kGood, 1, Scaling::linear, std::nullopt},
       {"Distance", "from the camera", IM_COL32(120, 200, 255, 255), 1, Scaling::linear, std::nullopt},
-      {"Size", "longer side of its outline, where the picture shows some of it", color::kBox, 1, Scaling::logarithmic,
+      {"Size", "longer side of its outline, where the image shows some of it", color::kBox, 1, Scaling::logarithmic,
        std::nullopt},
       {"Speed", "over ground", IM_COL32(170, 220, 110, 255), 2, Scaling::linear, std::nullopt},
       {"Load factor", "1 in level flight; felt along the aircraft's own up axis", IM_COL32(240, 150, 205, 255), 0.2,
@@ -43,18 +43,19 @@ const LaneStyle& style_of(Lane lane) {
 double value_in(const Survey& survey, Lane lane, std::size_t i) {
   switch (lane) {
     case Lane::distance:
-      return survey.outlooks[i].distance_m;
+      return survey.estimates[i].distance_m;
     case Lane::size:
-      // Behind a wide lens an outline would be as large as the way around the picture.
-      if (survey.outlooks[i].sighting == Sighting::out_of_view) return std::numeric_limits<double>::quiet_NaN();
-      return survey.outlooks[i].size_px;
+      // Behind a wide lens an outline would be as large as the way around the image.
+      if (survey.estimates[i].visibility_state == VisibilityState::out_of_view)
+        return std::numeric_limits<double>::quiet_NaN();
+      return survey.estimates[i].size_px;
     case Lane::speed:
       return survey.flight[i].speed_mps;
     case Lane::load:
       return survey.flight[i].load_factor;
     case Lane::climb:
       return survey.flight[i].climb_rate_mps;
-    case Lane::sighting:
+    case Lane::visibility_state:
       break;
   }
   return 0;
@@ -63,12 +64,12 @@ double value_in(const Survey& survey, Lane lane, std::size_t i) {
 LaneValues values_of(const Survey& survey, Lane lane) {
   LaneValues result;
   for (std::size_t i = 0; i < count_of(survey, lane); ++i) result.values.push_back(value_in(survey, lane, i));
-  result.scale = scale_for(result.values, style_of(lane).least_span, style_of(lane).scaling);
+  result.scale = scale_for(result.values, style_of(lane).min_span, style_of(lane).scaling);
   bool is_first = true;
   for (const double value : result.values) {
     if (!std::isfinite(value)) continue;
-    result.least = is_first ? value : std::min(result.least, value);
-    result.most = is_first ? value : std::max(result.most, value);
+    result.minimum = is_first ? value : std::min(result.minimum, value);
+    result.maximum = is_first ? value : std::max(result.maximum, value);
     is_first = false;
   }
   return result;
@@ -89,7 +90,7 @@ std::string value_text(Lane lane, double value) {
       return formatted(size >= 100 ? "%.0f g" : "%.2f g", value);
     case Lane::climb:
       return formatted(size >= 100 ? "%+.0f m/s" : "%+.1f m/s", size < 0.05 ? 0.0 : value);
-    case Lane::sighting:
+    case Lane::visibility_state:
       break;
   }
   return {};
@@ -109,29 +110,29 @@ bool belongs_to(FlightFault fault, Lane lane) {
   return false;
 }
 
-const char* name_of(Sighting sighting) {
-  switch (sighting) {
-    case Sighting::in_view:
+const char* name_of(VisibilityState visibility_state) {
+  switch (visibility_state) {
+    case VisibilityState::in_view:
       return "in view";
-    case Sighting::partly_hidden:
+    case VisibilityState::partly_occluded:
       return "partly hidden";
-    case Sighting::hidden:
+    case VisibilityState::occluded:
       return "hidden";
-    case Sighting::out_of_view:
+    case VisibilityState::out_of_view:
       return "out of view";
   }
   return "";
 }
 
-ImU32 color_of(Sighting sighting) {
-  switch (sighting) {
-    case Sighting::in_view:
+ImU32 color_of(VisibilityState visibility_state) {
+  switch (visibility_state) {
+    case VisibilityState::in_view:
       return color::kGood;
-    case Sighting::partly_hidden:
+    case VisibilityState::partly_occluded:
       return color::kPartly;
-    case Sighting::hidden:
+    case VisibilityState::occluded:
       return faded(color::kOwnBody, 1);
-    case Sighting::out_of_view:
+    case VisibilityState::out_of_view:
       return IM_COL32(84, 88, 98, 255);
   }
   return color::kQuiet;

@@ -18,15 +18,15 @@ namespace sigs::editor {
 // One lane on the screen.
 struct LaneRows::Row {
   const TimelineStrip& strip;
-  Lane lane = Lane::sighting;
+  Lane lane = Lane::visibility_state;
   float top_y = 0;
   float height = 0;
 };
 
 namespace {
 
-constexpr double kLeastCurve_px = 29;
-constexpr double kMostCurve_px = 96;
+constexpr double kMinCurve_px = 29;
+constexpr double kMaxCurve_px = 96;
 constexpr float kErrorsShare = 1.7F;  // of a curve's height: several curves, and bars below them
 
 float line_height() {
@@ -59,11 +59,11 @@ void draw_lane_names(const TimelineStrip& strip, Lane lane, ImVec2 low, float he
 
 std::string extent_text(Lane lane, const LaneValues& values) {
   if (values.values.empty()) return {};
-  const std::string least = value_text(lane, values.least);
-  const std::string most = value_text(lane, values.most);
-  if (least == most) return {};
-  const std::string unit = least.substr(std::min(least.size(), least.find(' ')));
-  return (most.ends_with(unit) ? least.substr(0, least.size() - unit.size()) : least) + " .. " + most;
+  const std::string minimum = value_text(lane, values.minimum);
+  const std::string maximum = value_text(lane, values.maximum);
+  if (minimum == maximum) return {};
+  const std::string unit = minimum.substr(std::min(minimum.size(), minimum.find(' ')));
+  return (maximum.ends_with(unit) ? minimum.substr(0, minimum.size() - unit.size()) : minimum) + " .. " + maximum;
 }
 
 }  // namespace
@@ -75,14 +75,14 @@ void LaneRows::refresh(std::shared_ptr<const Survey> survey) {
     values_[static_cast<std::size_t>(lane)] = survey_ ? values_of(*survey_, static_cast<Lane>(lane)) : LaneValues();
 }
 
-bool LaneRows::shows_errors(const Studio& studio) const {
-  return shows_errors_ && ErrorLane::has_any(studio);
+bool LaneRows::shows_errors(const ViewContext& context) const {
+  return shows_errors_ && ErrorLane::has_any(context);
 }
 
-void LaneRows::draw_chooser(const Studio& studio) {
+void LaneRows::draw_chooser(const ViewContext& context) {
   if (icon_button("lanes", Icon::settings, "choose the lanes below")) ImGui::OpenPopup("choose lanes");
   if (!ImGui::BeginPopup("choose lanes")) return;
-  if (ErrorLane::has_any(studio)) ImGui::Checkbox(ErrorLane::kTitle, &shows_errors_);
+  if (ErrorLane::has_any(context)) ImGui::Checkbox(ErrorLane::kTitle, &shows_errors_);
   for (int lane = 0; lane < kLanes; ++lane)
     ImGui::Checkbox(style_of(static_cast<Lane>(lane)).title, &shown_[static_cast<std::size_t>(lane)]);
   ImGui::EndPopup();
@@ -93,10 +93,10 @@ float LaneRows::curve_height(float room_px, bool with_errors) const {
   const float shares = curves + (with_errors ? kErrorsShare : 0);
   const float for_curves = room_px - (shown_[0] ? strip_height() : 0);
   if (shares == 0) return 0;
-  return std::floor(std::clamp(for_curves / shares, scaled(kLeastCurve_px), scaled(kMostCurve_px)));
+  return std::floor(std::clamp(for_curves / shares, scaled(kMinCurve_px), scaled(kMaxCurve_px)));
 }
 
-void LaneRows::draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) const {
+void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const {
   const ImVec2 low{row.strip.left(), row.top_y};
   const ImVec2 high{row.strip.right(), row.top_y + row.height};
   const LaneValues& values = values_[static_cast<std::size_t>(row.lane)];
@@ -105,8 +105,8 @@ void LaneRows::draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) 
   tooltip_for_item(style_of(row.lane).help);
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("lane", {std::max(1.0F, high.x - low.x), row.height});
-  studio.places.note_item(std::string("timeline/lane/") + style_of(row.lane).title);
-  ruler.scrub_on_item(studio, row.strip);
+  context.ui_probe.note_item(std::string("timeline/lane/") + style_of(row.lane).title);
+  ruler.scrub_on_item(context, row.strip);
   const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
 
   const LaneMarks marks{.strip = row.strip,
@@ -115,7 +115,7 @@ void LaneRows::draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) 
                         .values = values,
                         .top_y = row.top_y,
                         .height = row.height - 1};
-  const int playhead = studio.document.playhead();
+  const int playhead = context.document.playhead();
   draw_lane_names(row.strip, row.lane, {row.strip.names_x, row.top_y}, row.height, lane_text_at(marks, playhead),
                   extent_text(row.lane, values));
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -124,34 +124,35 @@ void LaneRows::draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) 
   draw_value_dot(list, marks, playhead);
   if (hovered) {
     const int frame =
-        row.strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, 0, std::max(0, studio.document.frame_count() - 1));
+        row.strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, 0, std::max(0, context.document.frame_count() - 1));
     draw_hover(list, marks, frame);
-    tooltip_for_lanes(studio, marks, frame);
+    tooltip_for_lanes(context, marks, frame);
   }
   list.PopClipRect();
   draw_row_line(list, row.strip, high.y - 1);
 }
 
-void LaneRows::draw(const Studio& studio, const TimelineStrip& strip, float room_px, RulerRow& ruler) {
-  const std::optional<int> intruder = current_intruder(studio);
+void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler) {
+  const std::optional<int> intruder = current_intruder(context);
   const auto index = static_cast<std::size_t>(intruder.value_or(0));
-  const bool known = intruder && index < studio.shown.surveys.size();
-  refresh(known ? studio.shown.surveys[index] : nullptr);
+  const bool known = intruder && index < context.shown.surveys.size();
+  refresh(known ? context.shown.surveys[index] : nullptr);
   const ImVec2 start = ImGui::GetCursorScreenPos();
-  const bool with_errors = shows_errors(studio);
+  const bool with_errors = shows_errors(context);
   const float curve = curve_height(room_px, with_errors);
   float y = start.y;
   if (with_errors) {
     const float height = std::floor(curve * kErrorsShare);
-    errors_.draw(studio, strip, y, height, ruler);
+    errors_.draw(context, strip, y, height, ruler);
     y += height;
   }
   for (int i = 0; i < kLanes; ++i) {
     if (!shown_[static_cast<std::size_t>(i)]) continue;
     const auto lane = static_cast<Lane>(i);
-    const Row row{.strip = strip, .lane = lane, .top_y = y, .height = lane == Lane::sighting ? strip_height() : curve};
+    const Row row{
+        .strip = strip, .lane = lane, .top_y = y, .height = lane == Lane::visibility_state ? strip_height() : curve};
     ImGui::PushID(i);
-    draw_lane(studio, row, ruler);
+    draw_lane(context, row, ruler);
     ImGui::PopID();
     y += row.height;
   }

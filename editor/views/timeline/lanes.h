@@ -16,18 +16,18 @@ namespace sigs::editor {
 class LaneRows {
  public:
   // A button for choosing lanes, at the cursor.
-  void draw_chooser(const Studio& studio);
+  void draw_chooser(const ViewContext& context);
 
   // At the cursor; room_px is how much height there is for all of them, which they take if they can use it.
-  void draw(const Studio& studio, const TimelineStrip& strip, float room_px, RulerRow& ruler);
+  void draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler);
 
  private:
   struct Row;
 
   void refresh(std::shared_ptr<const Survey> survey);
-  [[nodiscard]] bool shows_errors(const Studio& studio) const;
+  [[nodiscard]] bool shows_errors(const ViewContext& context) const;
   [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
-  void draw_lane(const Studio& studio, const Row& row, RulerRow& ruler) const;
+  void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const;
 
   std::array<bool, kLanes> shown_{true, true, true, true, false, false};
   bool shows_errors_ = true;  // where there are any

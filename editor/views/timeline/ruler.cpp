@@ -19,8 +19,8 @@ constexpr double kFiner = 0.1;
 constexpr double kBar_px = 9;
 constexpr double kCached_px = 3;
 
-int last_of_footage(const Studio& studio) {
-  return std::max(0, studio.document.frame_count() - 1);
+int last_of_footage(const ViewContext& context) {
+  return std::max(0, context.document.frame_count() - 1);
 }
 
 // Where the playhead's frame number stands at the head of its line.
@@ -30,11 +30,11 @@ struct Tab {
   std::string number;
 };
 
-Tab playhead_tab(const Studio& studio, const TimelineStrip& strip) {
+Tab playhead_tab(const ViewContext& context, const TimelineStrip& strip) {
   ImGui::PushFont(font(Font::small));
-  Tab tab{.number = std::to_string(studio.document.playhead())};
+  Tab tab{.number = std::to_string(context.document.playhead())};
   const float half = std::max(ImGui::CalcTextSize(tab.number.c_str()).x / 2 + scaled(5), scaled(12));
-  const float x = strip.moment_x(studio.document.playhead());
+  const float x = strip.moment_x(context.document.playhead());
   const bool near = x >= strip.left() - half && x <= strip.right() + half;
   const float middle =
       near ? std::clamp(x, strip.left() + half, std::max(strip.left() + half, strip.right() - half)) : x;
@@ -54,7 +54,7 @@ void draw_tab(ImDrawList& list, const Tab& tab, float top_y, float bottom_y) {
 }
 
 // Frame number and time beside a tick, but not where the tab is.
-void draw_tick_label(ImDrawList& list, const Studio& studio, const Tab& tab, int frame, ImVec2 at, float right) {
+void draw_tick_label(ImDrawList& list, const ViewContext& context, const Tab& tab, int frame, ImVec2 at, float right) {
   const auto put = [&](const std::string& text, ImU32 shade) {
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     const bool beside_tab = at.x + width < tab.left || at.x > tab.right;
@@ -62,10 +62,10 @@ void draw_tick_label(ImDrawList& list, const Studio& studio, const Tab& tab, int
     at.x += width + scaled(5);
   };
   put(std::to_string(frame), color::kText);
-  if (frame <= last_of_footage(studio)) put(time_text_of(studio, frame), color::kQuiet);
+  if (frame <= last_of_footage(context)) put(time_text_of(context, frame), color::kQuiet);
 }
 
-void draw_ticks(ImDrawList& list, const Studio& studio, const TimelineStrip& strip, const Tab& tab, float top_y,
+void draw_ticks(ImDrawList& list, const ViewContext& context, const TimelineStrip& strip, const Tab& tab, float top_y,
                 float bottom_y) {
   ImGui::PushFont(font(Font::small));
   const float space = scaled(5);
@@ -76,14 +76,14 @@ void draw_ticks(ImDrawList& list, const Studio& studio, const TimelineStrip& str
     const float tick_top = tick.labelled ? top_y + scaled(2) : bottom_y - scaled(4);
     list.AddRectFilled({x, tick_top}, {x + 1, bottom_y}, color::kFaint);
     if (tick.labelled)
-      draw_tick_label(list, studio, tab, static_cast<int>(tick.frame), {x + space, top_y}, strip.right());
+      draw_tick_label(list, context, tab, static_cast<int>(tick.frame), {x + space, top_y}, strip.right());
   }
   ImGui::PopFont();
 }
 
 // Runs of frames that are composited and in memory, no finer than a pixel.
-void draw_cached(ImDrawList& list, const Studio& studio, const TimelineStrip& strip, float y) {
-  const std::vector<bool>& cached = studio.shown.cached;
+void draw_cached(ImDrawList& list, const ViewContext& context, const TimelineStrip& strip, float y) {
+  const std::vector<bool>& cached = context.shown.cached;
   const auto size = static_cast<int>(cached.size());
   const int from = std::clamp(static_cast<int>(strip.ruler.first), 0, size);
   const int to = std::clamp(static_cast<int>(std::ceil(strip.ruler.first + strip.ruler.count)), from, size);
@@ -104,8 +104,8 @@ void draw_cached(ImDrawList& list, const Studio& studio, const TimelineStrip& st
 }
 
 // The range that is played and exported, with a handle at either end.
-void draw_range_bar(ImDrawList& list, const Studio& studio, const TimelineStrip& strip, float y, float hot_x) {
-  const Document& document = studio.document;
+void draw_range_bar(ImDrawList& list, const ViewContext& context, const TimelineStrip& strip, float y, float hot_x) {
+  const Document& document = context.document;
   const float height = scaled(kBar_px);
   const float handle = scaled(9);
   const float in_x = strip.edge_x(document.range_first());
@@ -127,27 +127,27 @@ float RulerRow::height() {
   return std::ceil(font(Font::small)->FontSize + scaled(4 + kBar_px + kCached_px + 1));
 }
 
-void RulerRow::scrub(const Studio& studio, const TimelineStrip& strip, bool pressed) {
+void RulerRow::scrub(const ViewContext& context, const TimelineStrip& strip, bool pressed) {
   const ImGuiIO& io = ImGui::GetIO();
   if (pressed || !io.KeyShift) scrub_x_ = io.MousePos.x;
   if (!pressed && io.KeyShift) scrub_x_ += io.MouseDelta.x * kFiner;
-  go_by_hand(studio, strip.ruler.nearest_frame(scrub_x_, 0, last_of_footage(studio)));
+  go_by_hand(context, strip.ruler.nearest_frame(scrub_x_, 0, last_of_footage(context)));
 }
 
-void RulerRow::scrub_on_item(const Studio& studio, const TimelineStrip& strip) {
+void RulerRow::scrub_on_item(const ViewContext& context, const TimelineStrip& strip) {
   if (ImGui::IsItemActivated()) held_ = Held::playhead;
-  scrub_while_held(studio, strip);
+  scrub_while_held(context, strip);
   if (ImGui::IsItemDeactivated()) held_ = Held::none;
 }
 
-// Also in the turn in which the button is let go: the mouse may have moved since the turn before.
-void RulerRow::scrub_while_held(const Studio& studio, const TimelineStrip& strip) {
+// Also in the update in which the button is let go: the mouse may have moved since the update before.
+void RulerRow::scrub_while_held(const ViewContext& context, const TimelineStrip& strip) {
   if (held_ == Held::playhead && (ImGui::IsItemActive() || ImGui::IsItemDeactivated()))
-    scrub(studio, strip, ImGui::IsItemActivated());
+    scrub(context, strip, ImGui::IsItemActivated());
 }
 
-void RulerRow::take_mouse(const Studio& studio, const TimelineStrip& strip, float bar_top_y) {
-  const Document& document = studio.document;
+void RulerRow::handle_mouse(const ViewContext& context, const TimelineStrip& strip, float bar_top_y) {
+  const Document& document = context.document;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const float in_x = strip.edge_x(document.range_first());
   const float out_x = strip.edge_x(document.range_last() + 1.0);
@@ -160,25 +160,25 @@ void RulerRow::take_mouse(const Studio& studio, const TimelineStrip& strip, floa
   const Held under = near_out && (!near_in || out_nearer) ? Held::out : near_in ? Held::in : Held::playhead;
   if (ImGui::IsItemHovered() && under != Held::playhead) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated()) held_ = under;
-  scrub_while_held(studio, strip);
+  scrub_while_held(context, strip);
   if (ImGui::IsItemActive()) {
     const int edge = static_cast<int>(std::lround(std::clamp(strip.ruler.frame_at(mouse.x), -1e6, 1e9)));
     const int first = document.first_frame();
     const int last = document.last_frame();
     if (held_ == Held::in && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2)) {
       const int in = std::clamp(edge, first, document.range_last());
-      studio.edits.set_in_out(in == first ? std::nullopt : std::optional(in), document.out());
+      context.edits.set_in_out(in == first ? std::nullopt : std::optional(in), document.out());
     }
     if (held_ == Held::out && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2)) {
       const int out = std::clamp(edge - 1, document.range_first(), last);
-      studio.edits.set_in_out(document.in(), out == last ? std::nullopt : std::optional(out));
+      context.edits.set_in_out(document.in(), out == last ? std::nullopt : std::optional(out));
     }
   }
   if (ImGui::IsItemDeactivated()) held_ = Held::none;
 }
 
-void RulerRow::draw_menu(const Studio& studio, const TimelineStrip& strip) {
-  const Document& document = studio.document;
+void RulerRow::draw_menu(const ViewContext& context, const TimelineStrip& strip) {
+  const Document& document = context.document;
   if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
     menu_frame_ = strip.ruler.nearest_frame(ImGui::GetIO().MousePos.x, document.first_frame(), document.last_frame());
     ImGui::OpenPopup("ruler menu");
@@ -186,39 +186,39 @@ void RulerRow::draw_menu(const Studio& studio, const TimelineStrip& strip) {
   if (!ImGui::BeginPopup("ruler menu")) return;
   ImGui::TextDisabled("frame %d", menu_frame_);
   ImGui::Separator();
-  if (ImGui::MenuItem("Go there")) go_by_hand(studio, menu_frame_);
-  if (ImGui::MenuItem("Mark in", "I")) studio.edits.set_in_out(menu_frame_, document.out());
-  if (ImGui::MenuItem("Mark out", "O")) studio.edits.set_in_out(document.in(), menu_frame_);
+  if (ImGui::MenuItem("Go there")) go_by_hand(context, menu_frame_);
+  if (ImGui::MenuItem("Mark in", "I")) context.edits.set_in_out(menu_frame_, document.out());
+  if (ImGui::MenuItem("Mark out", "O")) context.edits.set_in_out(document.in(), menu_frame_);
   if (ImGui::MenuItem("Unmark", "X", false, document.in() || document.out()))
-    studio.edits.set_in_out(std::nullopt, std::nullopt);
+    context.edits.set_in_out(std::nullopt, std::nullopt);
   ImGui::EndPopup();
 }
 
-void RulerRow::draw(const Studio& studio, const TimelineStrip& strip) {
+void RulerRow::draw(const ViewContext& context, const TimelineStrip& strip) {
   const float top_y = ImGui::GetCursorScreenPos().y;
   const float bottom_y = top_y + height();
   const float bar_y = bottom_y - scaled(kBar_px + kCached_px);
   ImGui::SetCursorScreenPos({strip.left(), top_y});
   ImGui::InvisibleButton("ruler", {std::max(1.0F, strip.right() - strip.left()), height()});
-  studio.places.note_item("timeline/ruler");
-  take_mouse(studio, strip, bar_y);
+  context.ui_probe.note_item("timeline/ruler");
+  handle_mouse(context, strip, bar_y);
   const bool on_bar = ImGui::GetIO().MousePos.y >= bar_y;
   if (on_bar && held_ == Held::none) tooltip_for_item("drag the ends to mark in and out; green: composited and ready");
-  draw_menu(studio, strip);
+  draw_menu(context, strip);
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect({strip.left(), top_y}, {strip.right(), bottom_y}, true);
   list.AddRectFilled({strip.left(), top_y}, {strip.right(), bottom_y}, color::kCanvas);
-  darken_outside_project(list, strip, studio.document, top_y, bar_y);
-  const Tab tab = playhead_tab(studio, strip);
-  draw_ticks(list, studio, strip, tab, top_y + scaled(1), bar_y);
+  darken_outside_project(list, strip, context.document, top_y, bar_y);
+  const Tab tab = playhead_tab(context, strip);
+  draw_ticks(list, context, strip, tab, top_y + scaled(1), bar_y);
   float hot_x = -1;
-  if (held_ == Held::in) hot_x = strip.edge_x(studio.document.range_first());
-  if (held_ == Held::out) hot_x = strip.edge_x(studio.document.range_last() + 1.0);
-  draw_range_bar(list, studio, strip, bar_y, hot_x);
-  draw_cached(list, studio, strip, bottom_y - scaled(kCached_px));
-  darken_outside_marks(list, strip, studio.document, top_y, bar_y);
-  draw_playhead_line(list, strip, studio.document.playhead(), top_y, bottom_y);
+  if (held_ == Held::in) hot_x = strip.edge_x(context.document.range_first());
+  if (held_ == Held::out) hot_x = strip.edge_x(context.document.range_last() + 1.0);
+  draw_range_bar(list, context, strip, bar_y, hot_x);
+  draw_cached(list, context, strip, bottom_y - scaled(kCached_px));
+  darken_outside_marks(list, strip, context.document, top_y, bar_y);
+  draw_playhead_line(list, strip, context.document.playhead(), top_y, bottom_y);
   draw_tab(list, tab, top_y, bar_y - scaled(1));
   list.PopClipRect();
 }

@@ -11,22 +11,22 @@ class RulerRow {
   [[nodiscard]] static float height();
 
   // At the cursor's height.
-  void draw(const Studio& studio, const TimelineStrip& strip);
+  void draw(const ViewContext& context, const TimelineStrip& strip);
 
   // While the mouse holds the playhead.
   [[nodiscard]] bool scrubbing() const { return held_ == Held::playhead; }
 
   // The playhead follows the mouse on the item that was drawn last (a row that has no other use for it); with Shift ten
   // times finer.
-  void scrub_on_item(const Studio& studio, const TimelineStrip& strip);
+  void scrub_on_item(const ViewContext& context, const TimelineStrip& strip);
 
  private:
   enum class Held { none, playhead, in, out };
 
-  void scrub_while_held(const Studio& studio, const TimelineStrip& strip);
-  void take_mouse(const Studio& studio, const TimelineStrip& strip, float bar_top_y);
-  void scrub(const Studio& studio, const TimelineStrip& strip, bool pressed);
-  void draw_menu(const Studio& studio, const TimelineStrip& strip);
+  void scrub_while_held(const ViewContext& context, const TimelineStrip& strip);
+  void handle_mouse(const ViewContext& context, const TimelineStrip& strip, float bar_top_y);
+  void scrub(const ViewContext& context, const TimelineStrip& strip, bool pressed);
+  void draw_menu(const ViewContext& context, const TimelineStrip& strip);
 
   Held held_ = Held::none;
   double scrub_x_ = 0;  // where the mouse would be if it did not go finer

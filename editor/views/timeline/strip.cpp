@@ -57,14 +57,14 @@ void draw_row_line(ImDrawList& list, const TimelineStrip& strip, float y) {
   list.AddRectFilled({strip.names_x, y}, {strip.right(), y + 1}, faded(color::kFaint, 0.06));
 }
 
-std::string time_text_of(const Studio& studio, int frame) {
-  if (!studio.shown.scene) return {};
-  return time_text(time_of_frame_s(studio.shown.scene->footage->shape, frame));
+std::string time_text_of(const ViewContext& context, int frame) {
+  if (!context.shown.scene) return {};
+  return time_text(time_of_frame_s(context.shown.scene->footage->shape, frame));
 }
 
-void go_by_hand(const Studio& studio, int frame) {
-  if (studio.playing) studio.edits.ask(Play{0});
-  if (frame != studio.document.playhead()) studio.edits.go_to_frame(frame);
+void go_by_hand(const ViewContext& context, int frame) {
+  if (context.playing) context.edits.ask(Play{0});
+  if (frame != context.document.playhead()) context.edits.go_to_frame(frame);
 }
 
 }  // namespace sigs::editor

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editor/geometry/time_ruler.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 struct ImDrawList;
 
@@ -36,9 +36,9 @@ void darken_outside_marks(ImDrawList& list, const TimelineStrip& strip, const Do
 void draw_row_line(ImDrawList& list, const TimelineStrip& strip, float y);
 
 // Time of a frame by the footage that is open; none before one is.
-[[nodiscard]] std::string time_text_of(const Studio& studio, int frame);
+[[nodiscard]] std::string time_text_of(const ViewContext& context, int frame);
 
 // Playing stops and the playhead goes there.
-void go_by_hand(const Studio& studio, int frame);
+void go_by_hand(const ViewContext& context, int frame);
 
 }  // namespace sigs::editor

@@ -32,9 +32,9 @@ bool in_sight(const TimeRuler& ruler, int frame) {
   return frame >= ruler.first && frame + 1 <= ruler.first + ruler.count;
 }
 
-void draw_no_intruder(const Studio& studio, const TimelineStrip& strip) {
+void draw_no_intruder(const ViewContext& context, const TimelineStrip& strip) {
   ImGui::SetCursorScreenPos({strip.names_x, ImGui::GetCursorScreenPos().y + scaled(6)});
-  if (icon_button("add intruder", Icon::plus, "add an intruder ahead of the camera")) add_intruder(studio);
+  if (icon_button("add intruder", Icon::plus, "add an intruder ahead of the camera")) add_intruder(context);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled(
@@ -43,19 +43,19 @@ void draw_no_intruder(const Studio& studio, const TimelineStrip& strip) {
 
 }  // namespace
 
-void TimelineView::fit_to(const Studio& studio) {
-  const Document& document = studio.document;
-  if (document.frame_count() == frame_count_ && studio.project().file == file_) return;
+void TimelineView::fit_to(const ViewContext& context) {
+  const Document& document = context.document;
+  if (document.frame_count() == frame_count_ && context.project().file == file_) return;
   ruler_ = whole(document);
   frame_count_ = document.frame_count();
-  file_ = studio.project().file;
+  file_ = context.project().file;
 }
 
-void TimelineView::follow_playhead(const Studio& studio) {
-  const int playhead = studio.document.playhead();
+void TimelineView::follow_playhead(const ViewContext& context) {
+  const int playhead = context.document.playhead();
   if (playhead == std::exchange(playhead_, playhead) || panning_ || in_sight(ruler_, playhead)) return;
-  if (studio.playing) {
-    const double into = studio.speed < 0 ? 1 - kPageMargin : kPageMargin;
+  if (context.playing) {
+    const double into = context.speed < 0 ? 1 - kPageMargin : kPageMargin;
     ruler_ = panned(ruler_, playhead - into * ruler_.count - ruler_.first, frame_count_);
   }
   ruler_ = with_frame_in_sight(ruler_, playhead, frame_count_);
@@ -71,17 +71,17 @@ TimelineStrip TimelineView::strip_here() const {
   return strip;
 }
 
-void TimelineView::draw_left_of_ruler(const Studio& studio, const TimelineStrip& strip) {
+void TimelineView::draw_left_of_ruler(const ViewContext& context, const TimelineStrip& strip) {
   const ImVec2 low{strip.names_x, ImGui::GetCursorScreenPos().y};
   const float y = low.y + std::floor((RulerRow::height() - ImGui::GetFrameHeight()) / 2);
   const float side = icon_button_width();
   ImGui::SetCursorScreenPos({low.x, y});
-  lanes_.draw_chooser(studio);
+  lanes_.draw_chooser(context);
   ImGui::SetCursorScreenPos({low.x + side + scaled(1), y});
-  if (icon_button("fit", Icon::fit, "show all frames")) ruler_ = whole(studio.document);
+  if (icon_button("fit", Icon::fit, "show all frames")) ruler_ = whole(context.document);
   ImGui::SetCursorScreenPos({low.x + 2 * (side + scaled(1)), y});
   if (icon_button("fit range", Icon::search, "show the range from in to out")) {
-    const Document& document = studio.document;
+    const Document& document = context.document;
     ruler_.first = document.range_first();
     ruler_.count = std::max(4, document.range_last() - document.range_first() + 1);
     ruler_ = panned(ruler_, 0, frame_count_);
@@ -89,7 +89,7 @@ void TimelineView::draw_left_of_ruler(const Studio& studio, const TimelineStrip&
   ImGui::SetCursorScreenPos(low);
 }
 
-void TimelineView::take_wheel(const TimelineStrip& strip, float low_y, float high_y) {
+void TimelineView::handle_wheel(const TimelineStrip& strip, float low_y, float high_y) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool over =
       ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
@@ -111,7 +111,7 @@ void TimelineView::take_wheel(const TimelineStrip& strip, float low_y, float hig
   }
 }
 
-void TimelineView::draw_rows(const Studio& studio, const TimelineStrip& strip) {
+void TimelineView::draw_rows(const ViewContext& context, const TimelineStrip& strip) {
   // The wheel zooms over the strip and scrolls over the names.
   const bool over_names = ImGui::GetIO().MousePos.x < strip.left();
   const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -123,31 +123,31 @@ void TimelineView::draw_rows(const Studio& studio, const TimelineStrip& strip) {
   const ImVec2 high{low.x + ImGui::GetWindowWidth(), low.y + ImGui::GetWindowHeight()};
   const float start_y = ImGui::GetCursorPosY();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (studio.project().intruders.empty()) {
-    draw_no_intruder(studio, strip);
+  if (context.project().intruders.empty()) {
+    draw_no_intruder(context, strip);
   } else {
-    darken_outside_project(list, strip, studio.document, low.y, high.y);
-    keys_.draw(studio, strip);
-    lanes_.draw(studio, strip, ImGui::GetWindowHeight() - (ImGui::GetCursorPosY() - start_y), ruler_row_);
-    darken_outside_marks(list, strip, studio.document, low.y, high.y);
-    draw_playhead_line(list, strip, studio.document.playhead(), low.y, high.y);
+    darken_outside_project(list, strip, context.document, low.y, high.y);
+    keys_.draw(context, strip);
+    lanes_.draw(context, strip, ImGui::GetWindowHeight() - (ImGui::GetCursorPosY() - start_y), ruler_row_);
+    darken_outside_marks(list, strip, context.document, low.y, high.y);
+    draw_playhead_line(list, strip, context.document.playhead(), low.y, high.y);
   }
   ImGui::Dummy({1, 0});
   ImGui::EndChild();
 }
 
-void TimelineView::draw(const Studio& studio) {
-  fit_to(studio);
-  follow_playhead(studio);
-  transport_.draw(studio);
+void TimelineView::draw(const ViewContext& context) {
+  fit_to(context);
+  follow_playhead(context);
+  transport_.draw(context);
   const TimelineStrip strip = strip_here();
   const float low_y = ImGui::GetCursorScreenPos().y;
   const float high_y = low_y + ImGui::GetContentRegionAvail().y;
-  draw_left_of_ruler(studio, strip);
-  ruler_row_.draw(studio, strip);
+  draw_left_of_ruler(context, strip);
+  ruler_row_.draw(context, strip);
   ImGui::SetCursorScreenPos({strip.names_x, low_y + RulerRow::height()});
-  draw_rows(studio, strip);
-  take_wheel(strip, low_y, high_y);
+  draw_rows(context, strip);
+  handle_wheel(strip, low_y, high_y);
 }
 
 }  // namespace sigs::editor

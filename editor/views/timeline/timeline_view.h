@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 #include "editor/views/timeline/keys.h"
 #include "editor/views/timeline/lanes.h"
 #include "editor/views/timeline/ruler.h"
@@ -15,15 +15,15 @@ namespace sigs::editor {
 class TimelineView {
  public:
   // Into what is left of the current ImGui window.
-  void draw(const Studio& studio);
+  void draw(const ViewContext& context);
 
  private:
-  void fit_to(const Studio& studio);
-  void follow_playhead(const Studio& studio);
+  void fit_to(const ViewContext& context);
+  void follow_playhead(const ViewContext& context);
   [[nodiscard]] TimelineStrip strip_here() const;
-  void draw_left_of_ruler(const Studio& studio, const TimelineStrip& strip);
-  void draw_rows(const Studio& studio, const TimelineStrip& strip);
-  void take_wheel(const TimelineStrip& strip, float low_y, float high_y);
+  void draw_left_of_ruler(const ViewContext& context, const TimelineStrip& strip);
+  void draw_rows(const ViewContext& context, const TimelineStrip& strip);
+  void handle_wheel(const TimelineStrip& strip, float low_y, float high_y);
 
   TransportBar transport_;
   RulerRow ruler_row_;
@@ -33,7 +33,7 @@ class TimelineView {
   TimeRuler ruler_;
   int frame_count_ = -1;        // that the ruler was made for
   std::filesystem::path file_;  // the project that it was made for
-  int playhead_ = -1;           // of the turn before
+  int playhead_ = -1;           // of the update before
   bool panning_ = false;
 };
 

@@ -36,7 +36,7 @@ float text_width(const std::string& text) {
   return ImGui::CalcTextSize(text.c_str()).x;
 }
 
-void draw_those_that_fit(const Studio& studio, const Bar& bar) {
+void draw_those_that_fit(const ViewContext& context, const Bar& bar) {
   float room = ImGui::GetContentRegionAvail().x;
   std::vector<std::size_t> order(bar.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -53,7 +53,7 @@ void draw_those_that_fit(const Studio& studio, const Bar& bar) {
     x += item.gap;
     ImGui::SetCursorPos({x, y});
     item.draw();
-    if (*item.name != '\0') studio.places.note_item(std::string("timeline/") + item.name);
+    if (*item.name != '\0') context.ui_probe.note_item(std::string("timeline/") + item.name);
     x += item.width;
   }
   ImGui::SetCursorPos({ImGui::GetCursorStartPos().x, y + ImGui::GetFrameHeightWithSpacing()});
@@ -76,108 +76,109 @@ BarItem button(int rank, float gap, const char* id, Icon icon, const char* toolt
           id};
 }
 
-void step(const Studio& studio, int by) {
-  go_by_hand(studio, studio.document.playhead() + by);
+void step(const ViewContext& context, int by) {
+  go_by_hand(context, context.document.playhead() + by);
 }
 
-void add_transport(Bar& bar, const Studio& studio) {
+void add_transport(Bar& bar, const ViewContext& context) {
   const float gap = scaled(1);
-  const Document& document = studio.document;
+  const Document& document = context.document;
   bar.push_back(button(4, 0, "start", Icon::to_start, "to the first frame of the range (Home)", false,
-                       [&] { go_by_hand(studio, document.range_first()); }));
-  bar.push_back(button(2, gap, "back", Icon::back, "one frame back (Left)", false, [&] { step(studio, -1); }));
-  bar.push_back(button(0, gap, "play", studio.playing ? Icon::pause : Icon::play, "play, stop (Space)", studio.playing,
-                       [&] { studio.edits.ask(TogglePlay{}); }));
-  bar.push_back(button(2, gap, "forward", Icon::forward, "one frame on (Right)", false, [&] { step(studio, 1); }));
+                       [&] { go_by_hand(context, document.range_first()); }));
+  bar.push_back(button(2, gap, "back", Icon::back, "one frame back (Left)", false, [&] { step(context, -1); }));
+  bar.push_back(button(0, gap, "play", context.playing ? Icon::pause : Icon::play, "play, stop (Space)",
+                       context.playing, [&] { context.edits.ask(TogglePlay{}); }));
+  bar.push_back(button(2, gap, "forward", Icon::forward, "one frame on (Right)", false, [&] { step(context, 1); }));
   bar.push_back(button(4, gap, "end", Icon::to_end, "to the last frame of the range (End)", false,
-                       [&] { go_by_hand(studio, document.range_last()); }));
-  bar.push_back(button(5, gap, "loop", Icon::loop, "start again at the end of the range", studio.settings.loop,
-                       [&] { studio.edits.ask(SetLoop{!studio.settings.loop}); }));
+                       [&] { go_by_hand(context, document.range_last()); }));
+  bar.push_back(button(5, gap, "loop", Icon::loop, "start again at the end of the range", context.settings.loop,
+                       [&] { context.edits.ask(SetLoop{!context.settings.loop}); }));
 }
 
-void add_speed(Bar& bar, const Studio& studio) {
-  if (!studio.playing || studio.speed == 1) return;
+void add_speed(Bar& bar, const ViewContext& context) {
+  if (!context.playing || context.speed == 1) return;
   std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "%g\u00D7", studio.speed);
+  std::snprintf(text.data(), text.size(), "%g\u00D7", context.speed);
   bar.push_back({3, scaled(8), text_width(text.data()), [text = std::string(text.data())] {
                    text_in_line(text, color::kAccent, "speed of playing; J slower or backwards, L faster");
                  }});
 }
 
-void add_waypoint_buttons(Bar& bar, const Studio& studio) {
+void add_waypoint_buttons(Bar& bar, const ViewContext& context) {
   bar.push_back(button(3, scaled(10), "add", Icon::plus, "add a waypoint at the playhead (Enter)", false,
-                       [&] { add_waypoint_here(studio); }));
-  const bool selected = studio.document.selection().kind == Selected::waypoint;
+                       [&] { add_waypoint_here(context); }));
+  const bool selected = context.document.selection().kind == Selected::waypoint;
   bar.push_back({3, scaled(1), icon_button_width(),
-                 [&studio, selected] {
+                 [&context, selected] {
                    ImGui::BeginDisabled(!selected);
                    if (icon_button("delete", Icon::trash, "delete the selected waypoint (Delete)"))
-                     delete_selected(studio);
+                     delete_selected(context);
                    ImGui::EndDisabled();
                  },
                  "delete"});
 }
 
-std::string range_tooltip(const Studio& studio) {
-  const int count = studio.document.range_last() - studio.document.range_first() + 1;
+std::string range_tooltip(const ViewContext& context) {
+  const int count = context.document.range_last() - context.document.range_first() + 1;
   return "what is played and exported: " + std::to_string(count) + (count == 1 ? " frame" : " frames");
 }
 
-void add_marks(Bar& bar, const Studio& studio) {
-  const Document& document = studio.document;
+void add_marks(Bar& bar, const ViewContext& context) {
+  const Document& document = context.document;
   const bool any = document.in() || document.out();
   const auto number = [&](int frame, bool set, float gap) {
     const std::string text = std::to_string(frame);
-    bar.push_back({7, gap, text_width(text), [text, set, tooltip = range_tooltip(studio)] {
+    bar.push_back({7, gap, text_width(text), [text, set, tooltip = range_tooltip(context)] {
                      text_in_line(text, set ? color::kText : color::kQuiet, tooltip.c_str());
                    }});
   };
   bar.push_back(button(7, scaled(10), "in", Icon::mark_in, "mark in: start here (I)", document.in().has_value(),
-                       [&] { studio.edits.set_in_out(document.playhead(), document.out()); }));
+                       [&] { context.edits.set_in_out(document.playhead(), document.out()); }));
   number(document.range_first(), document.in().has_value(), scaled(2));
   number(document.range_last(), document.out().has_value(), scaled(12));
   bar.push_back(button(7, scaled(2), "out", Icon::mark_out, "mark out: end here (O)", document.out().has_value(),
-                       [&] { studio.edits.set_in_out(document.in(), document.playhead()); }));
+                       [&] { context.edits.set_in_out(document.in(), document.playhead()); }));
   if (any)
     bar.push_back(button(7, scaled(1), "unmark", Icon::cross, "unmark in and out (X)", false,
-                         [&] { studio.edits.set_in_out(std::nullopt, std::nullopt); }));
+                         [&] { context.edits.set_in_out(std::nullopt, std::nullopt); }));
 }
 
 }  // namespace
 
-void TransportBar::draw_frame_field(const Studio& studio, float width) {
-  const int playhead = studio.document.playhead();
+void TransportBar::draw_frame_field(const ViewContext& context, float width) {
+  const int playhead = context.document.playhead();
   if (!typing_) std::snprintf(entry_.data(), entry_.size(), "%d", playhead);
   ImGui::SetNextItemWidth(width);
   ImGui::InputText("##frame", entry_.data(), entry_.size(), ImGuiInputTextFlags_AutoSelectAll);
-  if (ImGui::IsItemActivated() && studio.playing) studio.edits.ask(Play{0});
+  if (ImGui::IsItemActivated() && context.playing) context.edits.ask(Play{0});
   if (ImGui::IsItemDeactivatedAfterEdit()) {
     static const std::vector<double> kNoTimes;
-    const auto& times_s = studio.shown.scene ? studio.shown.scene->footage->shape.times_s : kNoTimes;
-    if (const std::optional<int> frame = frame_from_entry(entry_.data(), playhead, times_s)) go_by_hand(studio, *frame);
+    const auto& times_s = context.shown.scene ? context.shown.scene->footage->shape.times_s : kNoTimes;
+    if (const std::optional<int> frame = frame_from_entry(entry_.data(), playhead, times_s))
+      go_by_hand(context, *frame);
   }
   typing_ = ImGui::IsItemActive();
   if (!typing_) tooltip_for_item("the playhead's frame; type another one, +10 or -10 from here, or a time as 0:05.32");
 }
 
-void TransportBar::draw(const Studio& studio) {
-  const Document& document = studio.document;
-  const std::string time = time_text_of(studio, document.playhead());
+void TransportBar::draw(const ViewContext& context) {
+  const Document& document = context.document;
+  const std::string time = time_text_of(context, document.playhead());
   const std::string last = std::string("/ ").append(std::to_string(std::max(0, document.frame_count() - 1)));
   const float digits = std::max(4.0F, static_cast<float>(std::to_string(document.frame_count()).size() + 1));
   const float field = text_width("0") * digits + 2 * ImGui::GetStyle().FramePadding.x;
   Bar bar;
-  add_transport(bar, studio);
+  add_transport(bar, context);
   if (!time.empty())
     bar.push_back({6, scaled(10), std::ceil(text_width("00:00.00")),
                    [&] { text_in_line(time, color::kText, "time of the frame in the footage"); }});
-  bar.push_back({1, scaled(8), field, [&] { draw_frame_field(studio, field); }, "frame"});
+  bar.push_back({1, scaled(8), field, [&] { draw_frame_field(context, field); }, "frame"});
   bar.push_back(
       {8, scaled(5), text_width(last), [&] { text_in_line(last, color::kQuiet, "the footage's last frame"); }});
-  add_speed(bar, studio);
-  add_waypoint_buttons(bar, studio);
-  add_marks(bar, studio);
-  draw_those_that_fit(studio, bar);
+  add_speed(bar, context);
+  add_waypoint_buttons(bar, context);
+  add_marks(bar, context);
+  draw_those_that_fit(context, bar);
 }
 
 }  // namespace sigs::editor

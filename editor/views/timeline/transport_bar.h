@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
@@ -12,10 +12,10 @@ namespace sigs::editor {
 class TransportBar {
  public:
   // One line high.
-  void draw(const Studio& studio);
+  void draw(const ViewContext& context);
 
  private:
-  void draw_frame_field(const Studio& studio, float width);
+  void draw_frame_field(const ViewContext& context, float width);
 
   std::array<char, 32> entry_{};  // what is typed into the frame field
   bool typing_ = false;

@@ -9,21 +9,21 @@
 #include "editor/views/viewport/path.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr double kReach_px = 7;      // of the line, where text is 15 px high
-constexpr double kLeastDrag_px = 3;  // a click's tremble is none
+constexpr double kReach_px = 7;    // of the line, where text is 15 px high
+constexpr double kMinDrag_px = 3;  // a click's tremble is none
 
-glm::dvec2 picture_size(const ToolTurn& turn) {
-  return {turn.canvas.picture_px.width, turn.canvas.picture_px.height};
+glm::dvec2 image_size(const ToolContext& tool) {
+  return {tool.canvas.image_px.width, tool.canvas.image_px.height};
 }
 
-std::vector<PixelLine> horizon_of(const ToolTurn& turn) {
-  return horizon_through_lens(turn.eye.world_from_camera, turn.eye.lens, picture_size(turn));
+std::vector<PixelLine> horizon_of(const ToolContext& tool) {
+  return horizon_through_lens(tool.eye.world_from_camera, tool.eye.lens, image_size(tool));
 }
 
 HorizonTilt tilt_of(const Project& project) {
@@ -36,8 +36,8 @@ double rounded_deg(double angle_rad) {
   return std::round(deg_of_rad(angle_rad) * 100) / 100;
 }
 
-void put_tilt(const Studio& studio, const HorizonTilt& tilt, const std::string& gesture) {
-  studio.edits.change(
+void put_tilt(const ViewContext& context, const HorizonTilt& tilt, const std::string& gesture) {
+  context.edits.change(
       "set horizon",
       [roll_deg = rounded_deg(tilt.roll_rad), pitch_deg = rounded_deg(tilt.pitch_rad)](Project& project) {
         project.camera.roll_deg = roll_deg;
@@ -47,12 +47,12 @@ void put_tilt(const Studio& studio, const HorizonTilt& tilt, const std::string& 
 }
 
 // On the line, within the mouse's reach.
-std::optional<HorizonGrip> grip_at(const ToolTurn& turn) {
-  if (!turn.studio.project().camera.attitude_file.empty()) return std::nullopt;
+std::optional<HorizonGrip> grip_at(const ToolContext& tool) {
+  if (!tool.context.project().camera.attitude_file.empty()) return std::nullopt;
   const std::optional<HorizonGrip> grip =
-      grip_of(horizon_of(turn), turn.canvas.view.picture_of(turn.mouse), picture_size(turn));
+      grip_of(horizon_of(tool), tool.canvas.view.image_of(tool.mouse), image_size(tool));
   if (!grip) return std::nullopt;
-  const double away_px = glm::distance(turn.canvas.view.screen_of(grip->on_line_px), turn.mouse);
+  const double away_px = glm::distance(tool.canvas.view.screen_of(grip->on_line_px), tool.mouse);
   return away_px <= scaled(kReach_px) ? grip : std::nullopt;
 }
 
@@ -63,14 +63,14 @@ std::string readout(const Project& project) {
   return text;
 }
 
-void draw_handle(const PictureCanvas& canvas, const glm::dvec2& pixel) {
+void draw_handle(const ImageCanvas& canvas, const glm::dvec2& pixel) {
   const ImVec2 at = im(canvas.view.screen_of(pixel));
   canvas.draw.AddCircleFilled(at, scaled(6), IM_COL32(16, 18, 22, 220));
   canvas.draw.AddCircleFilled(at, scaled(4), color::kHorizon | IM_COL32_A_MASK);
 }
 
 // Beside the line's left handle, where intruders are seldom.
-void draw_text(const PictureCanvas& canvas, const HorizonGrip& grip, const std::string& text, PictureLabels& labels) {
+void draw_text(const ImageCanvas& canvas, const HorizonGrip& grip, const std::string& text, ImageLabels& labels) {
   const glm::dvec2 left = canvas.view.screen_of(grip.first_px) - glm::dvec2(scaled(6), 0);
   const glm::dvec2 right = canvas.view.screen_of(grip.last_px) + glm::dvec2(scaled(6) - label_size(text).x, 0);
   const glm::dvec2 below(0, scaled(10) + label_size(text).y);
@@ -81,70 +81,70 @@ void draw_text(const PictureCanvas& canvas, const HorizonGrip& grip, const std::
 
 }  // namespace
 
-void keep_horizon(const Studio& studio) {
-  put_tilt(studio, tilt_of(studio.project()), {});
+void keep_horizon(const ViewContext& context) {
+  put_tilt(context, tilt_of(context.project()), {});
 }
 
-bool HorizonTool::press(const ToolTurn& turn) {
-  const std::optional<HorizonGrip> grip = grip_at(turn);
+bool HorizonTool::press(const ToolContext& tool) {
+  const std::optional<HorizonGrip> grip = grip_at(tool);
   if (!grip) return false;
   taken_ = Taken{.part = grip->part,
-                 .start = tilt_of(turn.studio.project()),
+                 .start = tilt_of(tool.context.project()),
                  .pivot_px = grip->middle_px,
-                 .offset_px = grip->on_line_px - turn.canvas.view.picture_of(turn.mouse),
-                 .pressed = turn.mouse,
-                 .revision_before = turn.studio.document.revision().number,
+                 .offset_px = grip->on_line_px - tool.canvas.view.image_of(tool.mouse),
+                 .pressed = tool.mouse,
+                 .revision_before = tool.context.document.revision().number,
                  .gesture = "horizon " + std::to_string(++gestures_)};
   return true;
 }
 
-void HorizonTool::drag(const ToolTurn& turn) {
+void HorizonTool::drag(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (turn.studio.document.has_other_changes(taken.revision_before, taken.gesture)) {
+  if (tool.context.document.has_other_changes(taken.revision_before, taken.gesture)) {
     taken_.reset();
     return;
   }
   if (pressed(Key::escape)) {
-    if (taken.is_moving) turn.studio.edits.cancel_gesture(taken.gesture);
+    if (taken.is_moving) tool.context.edits.cancel_gesture(taken.gesture);
     taken_.reset();
     return;
   }
-  taken.is_moving = taken.is_moving || glm::distance(turn.mouse, taken.pressed) >= scaled(kLeastDrag_px);
+  taken.is_moving = taken.is_moving || glm::distance(tool.mouse, taken.pressed) >= scaled(kMinDrag_px);
   if (!taken.is_moving) return;
-  const glm::dvec2 pixel = turn.canvas.view.picture_of(turn.mouse) + taken.offset_px;
+  const glm::dvec2 pixel = tool.canvas.view.image_of(tool.mouse) + taken.offset_px;
   const std::optional<HorizonTilt> tilt = taken.part == HorizonPart::middle
-                                              ? lifted_to(pixel, taken.start.roll_rad, turn.eye.lens)
-                                              : through(taken.pivot_px, pixel, taken.start, turn.eye.lens);
-  if (tilt) put_tilt(turn.studio, *tilt, taken.gesture);
+                                              ? lifted_to(pixel, taken.start.roll_rad, tool.eye.lens)
+                                              : through(taken.pivot_px, pixel, taken.start, tool.eye.lens);
+  if (tilt) put_tilt(tool.context, *tilt, taken.gesture);
 }
 
-void HorizonTool::release(const Studio& studio) {
-  if (taken_ && taken_->is_moving) studio.edits.end_gesture();
+void HorizonTool::release(const ViewContext& context) {
+  if (taken_ && taken_->is_moving) context.edits.end_gesture();
   taken_.reset();
 }
 
-std::optional<HorizonPart> HorizonTool::part_at(const ToolTurn& turn) const {
+std::optional<HorizonPart> HorizonTool::part_at(const ToolContext& tool) const {
   if (taken_) return taken_->part;
-  const std::optional<HorizonGrip> grip = grip_at(turn);
+  const std::optional<HorizonGrip> grip = grip_at(tool);
   return grip ? std::optional(grip->part) : std::nullopt;
 }
 
-void HorizonTool::draw(const ToolTurn& turn, bool lit, PictureLabels& labels) const {
-  draw_horizon(turn.canvas, turn.eye);
-  const bool is_known = knows_horizon(turn.studio.project().camera);
-  if (is_known && !lit && !taken_) return;
-  const glm::dvec2 center = (picture_size(turn) - 1.0) / 2.0;
-  const std::optional<HorizonGrip> grip = grip_of(horizon_of(turn), center, picture_size(turn));
+void HorizonTool::draw(const ToolContext& tool, bool highlighted, ImageLabels& labels) const {
+  draw_horizon(tool.canvas, tool.eye);
+  const bool is_known = knows_horizon(tool.context.project().camera);
+  if (is_known && !highlighted && !taken_) return;
+  const glm::dvec2 center = (image_size(tool) - 1.0) / 2.0;
+  const std::optional<HorizonGrip> grip = grip_of(horizon_of(tool), center, image_size(tool));
   if (!grip) return;
-  const glm::dvec2 middle = turn.canvas.view.screen_of(grip->middle_px);
+  const glm::dvec2 middle = tool.canvas.view.screen_of(grip->middle_px);
   const auto handle = static_cast<double>(scaled(6));
-  turn.studio.places.note("viewport/horizon", {middle - handle, middle + handle});
-  if (turn.studio.project().camera.attitude_file.empty())
-    for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px}) draw_handle(turn.canvas, pixel);
+  tool.context.ui_probe.note("viewport/horizon", {middle - handle, middle + handle});
+  if (tool.context.project().camera.attitude_file.empty())
+    for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px}) draw_handle(tool.canvas, pixel);
   if (!is_known)
-    draw_text(turn.canvas, *grip, "Horizon not set: drag this line onto it, its ends to tilt it", labels);
+    draw_text(tool.canvas, *grip, "Horizon not set: drag this line onto it, its ends to tilt it", labels);
   else if (taken_ && taken_->is_moving)
-    draw_text(turn.canvas, *grip, readout(turn.studio.project()), labels);
+    draw_text(tool.canvas, *grip, readout(tool.context.project()), labels);
 }
 
 }  // namespace sigs::editor

@@ -6,13 +6,13 @@
 
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr int kFramesBetweenCorners = 25;  // the way's own corners are not known here where speed is constant
+constexpr int kFramesBetweenCorners = 25;  // the path's own corners are not known here where speed is constant
 
 glm::dvec2 size_of(const cv::Size& size) {
   return {size.width, size.height};
@@ -26,7 +26,7 @@ std::vector<double> times_between(const FootageShape& footage, int from, int to)
   return times;
 }
 
-void draw_lines(const PictureCanvas& canvas, const std::vector<PixelLine>& lines, ImU32 color, float thick) {
+void draw_lines(const ImageCanvas& canvas, const std::vector<PixelLine>& lines, ImU32 color, float thick) {
   std::vector<ImVec2> points;
   for (const PixelLine& line : lines) {
     points.clear();
@@ -37,8 +37,8 @@ void draw_lines(const PictureCanvas& canvas, const std::vector<PixelLine>& lines
 
 }  // namespace
 
-void PathOverlay::make(const Scene& scene, const FootageEye& eye) {
-  ways_.clear();
+void PathOverlay::make(const Scene& scene, const FootageCamera& eye) {
+  pieces_.clear();
   const int here = std::clamp(eye.frame, scene.first_frame, scene.last_frame);
   for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
     const Trajectory& trajectory = scene.intruders[i].trajectory;
@@ -46,7 +46,7 @@ void PathOverlay::make(const Scene& scene, const FootageEye& eye) {
       const std::vector<double> times = times_between(scene.footage, from, to);
       if (times.size() < 2) return;
       const auto position = [&](double time_s) { return trajectory.position_m(time_s); };
-      ways_.push_back(
+      pieces_.push_back(
           {static_cast<int>(i), past,
            path_through_lens(position, times, eye.world_from_camera, eye.lens, size_of(scene.footage.size_px))});
     };
@@ -55,26 +55,26 @@ void PathOverlay::make(const Scene& scene, const FootageEye& eye) {
   }
 }
 
-void PathOverlay::draw(const PictureCanvas& canvas, const Studio& studio, const FootageEye& eye) {
-  if (!studio.shown.scene) return;
-  const OpenedScene& opened = *studio.shown.scene;
+void PathOverlay::draw(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye) {
+  if (!context.shown.scene) return;
+  const OpenedScene& opened = *context.shown.scene;
   if (scene_ != opened.revision || frame_ != eye.frame) make(opened.draft.scene, eye);
   scene_ = opened.revision;
   frame_ = eye.frame;
-  const std::optional<int> current = current_intruder(studio);
+  const std::optional<int> current = current_intruder(context);
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  for (const Way& way : ways_) {
-    const std::optional<int> intruder = project_intruder(studio, way.intruder);
+  for (const PathPiece& piece : pieces_) {
+    const std::optional<int> intruder = project_intruder(context, piece.intruder);
     const bool worked_on = intruder && current == intruder;
-    const double opacity = (way.past ? 0.4 : 0.95) * (worked_on ? 1 : 0.6);
-    draw_lines(canvas, way.lines, faded(intruder_color(intruder.value_or(0)), opacity), scaled(worked_on ? 2 : 1.3));
+    const double opacity = (piece.past ? 0.4 : 0.95) * (worked_on ? 1 : 0.6);
+    draw_lines(canvas, piece.lines, faded(intruder_color(intruder.value_or(0)), opacity), scaled(worked_on ? 2 : 1.3));
   }
   canvas.draw.PopClipRect();
 }
 
-void draw_horizon(const PictureCanvas& canvas, const FootageEye& eye) {
+void draw_horizon(const ImageCanvas& canvas, const FootageCamera& eye) {
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  draw_lines(canvas, horizon_through_lens(eye.world_from_camera, eye.lens, size_of(canvas.picture_px)), color::kHorizon,
+  draw_lines(canvas, horizon_through_lens(eye.world_from_camera, eye.lens, size_of(canvas.image_px)), color::kHorizon,
              scaled(1.4));
   canvas.draw.PopClipRect();
 }

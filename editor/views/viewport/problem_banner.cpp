@@ -8,13 +8,13 @@
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr std::size_t kMostShown = 4;
+constexpr std::size_t kMaxShown = 4;
 
 float padding() {
   return scaled(8);
@@ -30,36 +30,36 @@ std::string heading(std::size_t count) {
 
 }  // namespace
 
-std::vector<std::string> problems_of(const Studio& studio, const Picture* picture) {
+std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image) {
   std::vector<std::string> problems;
   const auto add = [&](const std::string& problem) {
     std::string shown = shortened(problem, 400);
     if (!shown.empty() && std::find(problems.begin(), problems.end(), shown) == problems.end())
       problems.push_back(std::move(shown));
   };
-  if (studio.shown.scene) {
-    const OpenedScene& scene = *studio.shown.scene;
+  if (context.shown.scene) {
+    const OpenedScene& scene = *context.shown.scene;
     const bool no_footage = scene.footage && !scene.footage->problem.empty();
-    if (no_footage) add("Grey stands in for the footage: " + scene.footage->problem);
+    if (no_footage) add("Grey replaces the footage: " + scene.footage->problem);
     for (const Problem& problem : scene.draft.problems)
       if (!(no_footage && problem.field == "footage.video")) add(problem.field + ": " + problem.what);
   }
-  // What the scene is known to lack is not said again of each picture.
-  if (picture != nullptr && problems.empty()) add(picture->problem);
+  // What the scene is known to lack is not said again of each image.
+  if (image != nullptr && problems.empty()) add(image->problem);
   return problems;
 }
 
 void ProblemBanner::lay_out(const ScreenRect& rect) {
   lines_.clear();
   const float margin = scaled(8);
-  const float most = std::min(static_cast<float>(rect.size().x) - 2 * margin, scaled(640));
+  const float maximum_width = std::min(static_cast<float>(rect.size().x) - 2 * margin, scaled(640));
   const float indent = 2 * padding() + icon_side();
-  const float room = std::max(scaled(60), most - indent - padding());
+  const float room = std::max(scaled(60), maximum_width - indent - padding());
   std::vector<std::string> texts{heading(problems_.size())};
   if (!folded_) {
-    texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMostShown, problems_.size())));
-    if (problems_.size() > kMostShown)
-      texts.push_back("and " + std::to_string(problems_.size() - kMostShown) +
+    texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMaxShown, problems_.size())));
+    if (problems_.size() > kMaxShown)
+      texts.push_back("and " + std::to_string(problems_.size() - kMaxShown) +
                       " more, at their fields in the inspector");
   }
   glm::dvec2 size(0, 2 * padding() - scaled(3));
@@ -72,7 +72,7 @@ void ProblemBanner::lay_out(const ScreenRect& rect) {
   plate_.high = glm::min(plate_.low + glm::ceil(size), rect.high - 1.0);
 }
 
-void ProblemBanner::take_mouse(const ScreenRect& rect, std::vector<std::string> problems) {
+void ProblemBanner::handle_mouse(const ScreenRect& rect, std::vector<std::string> problems) {
   if (problems != problems_) folded_ = false;
   problems_ = std::move(problems);
   hovered_ = false;
@@ -98,10 +98,10 @@ void ProblemBanner::draw(ImDrawList& draw) const {
   const float text_x = left + icon_side() + padding();
   float y = static_cast<float>(plate_.low.y) + padding();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (i < kMostShown)
+    if (i < kMaxShown)
       draw_icon(draw, Icon::warning, {left + icon_side() / 2, y + icon_side() / 2}, icon_side(), color::kPartly);
     const float room = static_cast<float>(plate_.high.x) - text_x - padding() + 1;
-    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y}, i < kMostShown ? color::kText : color::kQuiet,
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y}, i < kMaxShown ? color::kText : color::kQuiet,
                  lines_[i].text.c_str(), nullptr, room);
     y += lines_[i].height;
   }

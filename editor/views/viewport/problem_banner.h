@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "editor/geometry/picture_view.h"
-#include "editor/views/studio.h"
+#include "editor/geometry/image_view.h"
+#include "editor/views/context.h"
 
 namespace sigs::editor {
 
-// What is missing or wrong with what is shown, in sentences: footage, what was stood in for, the picture itself.
-[[nodiscard]] std::vector<std::string> problems_of(const Studio& studio, const Picture* picture);
+// What is missing or wrong with what is shown, in sentences: footage, what was with_preset in for, the image itself.
+[[nodiscard]] std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image);
 
-// Those, over the upper left of a picture, without hiding much of it. A click folds it up; other problems unfold it.
+// Those, over the upper left of an image, without hiding much of it. A click folds it up; other problems unfold it.
 class ProblemBanner {
  public:
-  // Before the picture takes the mouse: what lies on top comes first.
-  void take_mouse(const ScreenRect& rect, std::vector<std::string> problems);
-  // After the picture was drawn.
+  // Before the image takes the mouse: what lies on top comes first.
+  void handle_mouse(const ScreenRect& rect, std::vector<std::string> problems);
+  // After the image was drawn.
   void draw(ImDrawList& draw) const;
 
  private:

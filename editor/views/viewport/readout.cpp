@@ -33,41 +33,41 @@ double mebibytes(std::size_t bytes) {
   return static_cast<double>(bytes) / (1 << 20);
 }
 
-const cv::Mat* picture_of(const Studio& studio, const ViewportReadout& readout) {
-  if (readout.of_footage) return studio.shown.footage.get();
-  return studio.shown.picture ? &studio.shown.picture->bgr : nullptr;
+const cv::Mat* image_of(const ViewContext& context, const ViewportReadout& readout) {
+  if (readout.of_footage) return context.shown.footage.get();
+  return context.shown.image ? &context.shown.image->bgr : nullptr;
 }
 
-void add_pixel(std::vector<Part>& parts, const Studio& studio, const ViewportReadout& readout) {
-  const cv::Mat* picture = picture_of(studio, readout);
-  if (!readout.pixel || picture == nullptr || !cv::Rect({0, 0}, picture->size()).contains(*readout.pixel)) return;
+void add_pixel(std::vector<Part>& parts, const ViewContext& context, const ViewportReadout& readout) {
+  const cv::Mat* image = image_of(context, readout);
+  if (!readout.pixel || image == nullptr || !cv::Rect({0, 0}, image->size()).contains(*readout.pixel)) return;
   const cv::Point at = *readout.pixel;
   parts.push_back(
       {"x " + formatted("%4.0f", at.x) + "  y " + formatted("%4.0f", at.y), "x 00000  y 00000", 0, color::kText});
-  parts.push_back({pixel_text(*picture, at), "000 000 000", 0, color::kText,
-                   picture->type() == CV_8UC3 ? std::optional(picture->at<cv::Vec3b>(at)) : std::nullopt});
+  parts.push_back({pixel_text(*image, at), "000 000 000", 0, color::kText,
+                   image->type() == CV_8UC3 ? std::optional(image->at<cv::Vec3b>(at)) : std::nullopt});
   if (readout.of_footage) {
     parts.push_back({"footage", "covered 100.0%", 1});
     return;
   }
-  const cv::Mat& mask = studio.shown.picture->mask;
+  const cv::Mat& mask = context.shown.image->mask;
   const bool masked = mask.type() == CV_8UC1 && cv::Rect({0, 0}, mask.size()).contains(at);
   const double covered = masked ? mask.at<uchar>(at) / 2.55 : 0;
   parts.push_back(
       {formatted("covered %5.1f%%", covered), "covered 100.0%", 1, covered > 0 ? color::kAccent : color::kQuiet});
 }
 
-void add_picture(std::vector<Part>& parts, const Studio& studio, const ViewportReadout& readout) {
-  if (!studio.shown.picture || !studio.shown.picture_is_current)
+void add_image(std::vector<Part>& parts, const ViewContext& context, const ViewportReadout& readout) {
+  if (!context.shown.image || !context.shown.image_is_current)
     parts.push_back({"updating...", "updating...", 2, color::kAccent});
-  if (!studio.shown.picture) return;
-  const MemoryUse& memory = studio.shown.memory;
+  if (!context.shown.image) return;
+  const MemoryUse& memory = context.shown.memory;
   parts.push_back({formatted("memory %.0f of %.0f MiB", mebibytes(memory.sum()), mebibytes(memory.limit)),
                    "memory 0000 of 0000 MiB", 5});
-  const Picture& picture = *studio.shown.picture;
+  const PreviewImage& image = *context.shown.image;
   parts.push_back({formatted("%.0f%%", readout.zoom * 100), "0000%", 0, color::kText});
-  parts.push_back({formatted("%.0f x %.0f", picture.bgr.cols, picture.bgr.rows), "0000 x 0000", 3});
-  parts.push_back({formatted("%.1f ms", studio.shown.compose_ms), "0000.0 ms", 4});
+  parts.push_back({formatted("%.0f x %.0f", image.bgr.cols, image.bgr.rows), "0000 x 0000", 3});
+  parts.push_back({formatted("%.1f ms", context.shown.compose_ms), "0000.0 ms", 4});
 }
 
 float swatch_side() {
@@ -86,7 +86,7 @@ float width_of(const std::vector<Part>& parts) {
   return width;
 }
 
-void drop_least_wanted(std::vector<Part>& left, std::vector<Part>& right) {
+void drop_lowest_priority(std::vector<Part>& left, std::vector<Part>& right) {
   const auto rank_of = [](const std::vector<Part>& parts) {
     int rank = -1;
     for (const Part& part : parts) rank = std::max(rank, part.rank);
@@ -116,16 +116,16 @@ float readout_height() {
   return std::ceil(font(Font::mono)->FontSize + scaled(9));
 }
 
-void draw_readout(const Studio& studio, const ViewportReadout& readout) {
+void draw_readout(const ViewContext& context, const ViewportReadout& readout) {
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, readout_height());
   std::vector<Part> left;
   std::vector<Part> right;
-  add_pixel(left, studio, readout);
-  add_picture(right, studio, readout);
+  add_pixel(left, context, readout);
+  add_image(right, context, readout);
   const float margin = scaled(10);
   while (!(left.empty() && right.empty()) && width_of(left) + width_of(right) + 2 * margin > size.x)
-    drop_least_wanted(left, right);
+    drop_lowest_priority(left, right);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(low, {low.x + size.x, low.y + size.y}, color::kPanel);
   const float y = std::round(low.y + (size.y - font(Font::mono)->FontSize) / 2);

@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "editor/views/studio.h"
-#include "editor/widgets/picture_marks.h"
+#include "editor/views/context.h"
+#include "editor/widgets/image_canvas.h"
 
 namespace sigs::editor {
 
-// The line below the picture: what the mouse is over, and what the picture is.
+// The line below the image: what the mouse is over, and what the image is.
 struct ViewportReadout {
   std::optional<cv::Point> pixel;  // under the mouse
   bool of_footage = false;         // its colour is the untouched footage's
@@ -16,6 +16,6 @@ struct ViewportReadout {
 };
 
 [[nodiscard]] float readout_height();
-void draw_readout(const Studio& studio, const ViewportReadout& readout);
+void draw_readout(const ViewContext& context, const ViewportReadout& readout);
 
 }  // namespace sigs::editor

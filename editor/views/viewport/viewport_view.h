@@ -3,14 +3,14 @@
 
 #include <optional>
 
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/views/viewport/path.h"
 #include "editor/views/viewport/problem_banner.h"
 #include "editor/views/viewport/waypoint_tool.h"
 #include "editor/views/viewport/wipe.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -18,28 +18,28 @@ namespace sigs::editor {
 class ViewportView {
  public:
   // Into what is left of the current ImGui window.
-  void draw(const Studio& studio);
+  void draw(const ViewContext& context);
 
-  // The horizon's line over the picture, to be dragged.
+  // The horizon's line over the image, to be dragged.
   void show_horizon() { overlays_.horizon = true; }
 
  private:
   enum class Grip { nothing, line, waypoint, horizon, ground };
 
-  void draw_canvas(const Studio& studio, const ScreenRect& rect);
-  void draw_opening(const ScreenRect& rect, const Studio& studio) const;
-  void take_mouse(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn);
-  [[nodiscard]] Grip grip_of_press(const ToolTurn* turn);
-  void take_press(const PictureCanvas& canvas, const ToolTurn* turn);
-  void take_double_click(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn);
-  void draw_menu(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn);
-  void draw_waypoint_menu(const Studio& studio);
-  void draw_picture_menu(const Studio& studio, const ToolTurn* turn);
-  void draw_picture_layers(const Studio& studio, const PictureCanvas& canvas);
-  void draw_overlays(const Studio& studio, const PictureCanvas& canvas, const ToolTurn* turn,
+  void draw_canvas(const ViewContext& context, const ScreenRect& rect);
+  void draw_opening(const ScreenRect& rect, const ViewContext& context) const;
+  void handle_mouse(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
+  [[nodiscard]] Grip grip_of_press(const ToolContext* tool);
+  void handle_press(const ImageCanvas& canvas, const ToolContext* tool);
+  void handle_double_click(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
+  void draw_menu(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
+  void draw_waypoint_menu(const ViewContext& context);
+  void draw_image_menu(const ViewContext& context, const ToolContext* tool);
+  void draw_image_layers(const ViewContext& context, const ImageCanvas& canvas);
+  void draw_overlays(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool,
                      std::span<const WaypointMark> marks);
 
-  ZoomablePicture look_;
+  ZoomableImage look_;
   OverlayChoice overlays_;
   OwnBodyTint own_body_;
   PathOverlay path_;

@@ -9,19 +9,19 @@
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
 namespace {
 
-constexpr double kReach_px = 9;      // of a waypoint, where text is 15 px high
-constexpr double kLeastDrag_px = 3;  // a click's tremble is none
-constexpr double kLeastBox_px = 16;  // a distant intruder is larger for the mouse than for the eye
+constexpr double kReach_px = 9;    // of a waypoint, where text is 15 px high
+constexpr double kMinDrag_px = 3;  // a click's tremble is none
+constexpr double kMinBox_px = 16;  // a distant intruder is larger for the mouse than for the eye
 constexpr double kUsualDistance_m = 300;
 
-std::optional<glm::dvec3> waypoint_position(const Studio& studio, int intruder, int waypoint) {
-  const std::vector<IntruderSettings>& intruders = studio.project().intruders;
+std::optional<glm::dvec3> waypoint_position(const ViewContext& context, int intruder, int waypoint) {
+  const std::vector<IntruderSettings>& intruders = context.project().intruders;
   if (intruder < 0 || static_cast<std::size_t>(intruder) >= intruders.size()) return std::nullopt;
   const std::vector<WaypointSettings>& waypoints = intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
   if (waypoint < 0 || static_cast<std::size_t>(waypoint) >= waypoints.size()) return std::nullopt;
@@ -29,23 +29,23 @@ std::optional<glm::dvec3> waypoint_position(const Studio& studio, int intruder, 
 }
 
 // The first change of a drag that makes a waypoint; the moves that follow join it by the gesture.
-int put_in_gesture(const Studio& studio, int intruder, int frame, const glm::dvec3& position_m,
+int put_in_gesture(const ViewContext& context, int intruder, int frame, const glm::dvec3& position_m,
                    const std::string& gesture) {
-  const std::vector<double> frames = frames_of_waypoints(studio, intruder);
+  const std::vector<double> frames = frames_of_waypoints(context, intruder);
   const auto index = static_cast<std::size_t>(intruder);
-  TrajectoryPlan trial = studio.project().intruders[index].trajectory;
+  TrajectoryPlan trial = context.project().intruders[index].trajectory;
   const int number = put_waypoint(trial, frame, position_m, frames);
-  studio.edits.change(
+  context.edits.change(
       "add waypoint",
       [=](Project& project) { (void)put_waypoint(project.intruders.at(index).trajectory, frame, position_m, frames); },
       gesture);
-  studio.edits.select({Selected::waypoint, intruder, number});
+  context.edits.select({Selected::waypoint, intruder, number});
   return number;
 }
 
-void move_in_gesture(const Studio& studio, int intruder, int waypoint, const glm::dvec3& position_m,
+void move_in_gesture(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m,
                      const std::string& gesture) {
-  studio.edits.change(
+  context.edits.change(
       "move waypoint",
       [=](Project& project) {
         auto& waypoints = project.intruders.at(static_cast<std::size_t>(intruder)).trajectory.waypoints;
@@ -54,19 +54,19 @@ void move_in_gesture(const Studio& studio, int intruder, int waypoint, const glm
       gesture);
 }
 
-bool along_is_meant() {
+bool moves_along_sight() {
   return ImGui::GetIO().KeyAlt || ImGui::GetIO().KeyShift;
 }
 
 }  // namespace
 
-const WaypointMark* waypoint_at(const ToolTurn& turn) {
+const WaypointMark* waypoint_at(const ToolContext& tool) {
   const WaypointMark* best = nullptr;
   double best_px = scaled(kReach_px);
-  for (const WaypointMark& mark : turn.marks) {
-    const double away_px = glm::distance(turn.canvas.view.screen_of(mark.pixel), turn.mouse);
+  for (const WaypointMark& mark : tool.marks) {
+    const double away_px = glm::distance(tool.canvas.view.screen_of(mark.pixel), tool.mouse);
     if (away_px > scaled(kReach_px)) continue;
-    if (turn.studio.document.selection() == Selection{Selected::waypoint, mark.intruder, mark.waypoint}) return &mark;
+    if (tool.context.document.selection() == Selection{Selected::waypoint, mark.intruder, mark.waypoint}) return &mark;
     if (away_px > best_px) continue;
     best_px = away_px;
     best = &mark;
@@ -74,19 +74,19 @@ const WaypointMark* waypoint_at(const ToolTurn& turn) {
   return best;
 }
 
-std::optional<int> intruder_at(const ToolTurn& turn) {
-  if (!turn.studio.shown.picture) return std::nullopt;
+std::optional<int> intruder_at(const ToolContext& tool) {
+  if (!tool.context.shown.image) return std::nullopt;
   std::optional<int> found;
   double nearest_m = 0;
-  for (const IntruderTruth& truth : turn.studio.shown.picture->truth.intruders) {
-    if (!truth.box) continue;
-    const cv::Rect& box = *truth.box;
-    glm::dvec2 low = turn.canvas.view.screen_of(glm::dvec2(box.x, box.y) - 0.5);
-    glm::dvec2 high = turn.canvas.view.screen_of(glm::dvec2(box.x + box.width, box.y + box.height) - 0.5);
-    const glm::dvec2 more = glm::max(glm::dvec2(scaled(kLeastBox_px)) - (high - low), 0.0) / 2.0;
-    if (!ScreenRect{low - more, high + more}.contains(turn.mouse)) continue;
+  for (const IntruderTruth& truth : tool.context.shown.image->truth.intruders) {
+    if (!truth.visible_box) continue;
+    const cv::Rect& box = *truth.visible_box;
+    glm::dvec2 low = tool.canvas.view.screen_of(glm::dvec2(box.x, box.y) - 0.5);
+    glm::dvec2 high = tool.canvas.view.screen_of(glm::dvec2(box.x + box.width, box.y + box.height) - 0.5);
+    const glm::dvec2 more = glm::max(glm::dvec2(scaled(kMinBox_px)) - (high - low), 0.0) / 2.0;
+    if (!ScreenRect{low - more, high + more}.contains(tool.mouse)) continue;
     const double distance_m = glm::length(truth.position_m);
-    const std::optional<int> intruder = project_intruder(turn.studio, truth.id);
+    const std::optional<int> intruder = project_intruder(tool.context, truth.id);
     if (!intruder || (found && distance_m >= nearest_m)) continue;
     found = intruder;
     nearest_m = distance_m;
@@ -94,136 +94,136 @@ std::optional<int> intruder_at(const ToolTurn& turn) {
   return found;
 }
 
-void add_waypoint_at(const ToolTurn& turn, const glm::dvec2& pixel) {
-  const std::optional<int> intruder = current_intruder(turn.studio);
+void add_waypoint_at(const ToolContext& tool, const glm::dvec2& pixel) {
+  const std::optional<int> intruder = current_intruder(tool.context);
   if (!intruder) return;
-  const std::optional<glm::dvec3> now_m = position_of(turn.studio, *intruder, turn.eye.frame);
-  const double distance_m = now_m ? turn.eye.distance_m(*now_m) : kUsualDistance_m;
-  const std::optional<glm::dvec3> there_m = point_behind(pixel, distance_m, turn.eye.world_from_camera, turn.eye.lens);
+  const std::optional<glm::dvec3> now_m = position_of(tool.context, *intruder, tool.eye.frame);
+  const double distance_m = now_m ? tool.eye.distance_m(*now_m) : kUsualDistance_m;
+  const std::optional<glm::dvec3> there_m = point_behind(pixel, distance_m, tool.eye.world_from_camera, tool.eye.lens);
   if (there_m)
-    add_waypoint(turn.studio, *intruder, turn.eye.frame, *there_m);
+    add_waypoint(tool.context, *intruder, tool.eye.frame, *there_m);
   else
-    turn.studio.edits.ask(
-        Say{"The lens looks nowhere in that corner of the picture; choose a place nearer its middle.", true});
+    tool.context.edits.ask(
+        ShowMessage{"The lens looks nowhere in that corner of the image; choose a place nearer its middle.", true});
 }
 
-bool WaypointTool::press(const ToolTurn& turn) {
-  if (const WaypointMark* mark = waypoint_at(turn)) {
+bool WaypointTool::press(const ToolContext& tool) {
+  if (const WaypointMark* mark = waypoint_at(tool)) {
     taken_ = Taken{.intruder = mark->intruder,
                    .waypoint = mark->waypoint,
-                   .revision_before = turn.studio.document.revision().number,
+                   .revision_before = tool.context.document.revision().number,
                    .selected_before = {Selected::waypoint, mark->intruder, mark->waypoint},
-                   .pressed = turn.mouse};
+                   .pressed = tool.mouse};
     const double frame = std::clamp(std::round(mark->frame), 0.0, 1e9);
-    if (static_cast<int>(frame) != turn.eye.frame) {
-      turn.studio.edits.ask(Play{0});
-      turn.studio.edits.go_to_frame(static_cast<int>(frame));
+    if (static_cast<int>(frame) != tool.eye.frame) {
+      tool.context.edits.ask(Play{0});
+      tool.context.edits.go_to_frame(static_cast<int>(frame));
     }
-    turn.studio.edits.select(taken_->selected_before);
+    tool.context.edits.select(taken_->selected_before);
     return true;
   }
-  const std::optional<int> intruder = intruder_at(turn);
+  const std::optional<int> intruder = intruder_at(tool);
   if (!intruder) return false;
   taken_ = Taken{.intruder = *intruder,
                  .waypoint = -1,
-                 .revision_before = turn.studio.document.revision().number,
+                 .revision_before = tool.context.document.revision().number,
                  .selected_before = {Selected::intruder, *intruder, 0},
-                 .pressed = turn.mouse};
-  const Selection& selection = turn.studio.document.selection();
+                 .pressed = tool.mouse};
+  const Selection& selection = tool.context.document.selection();
   if (selection.kind != Selected::waypoint || selection.intruder != *intruder)
-    turn.studio.edits.select({Selected::intruder, *intruder, 0});
+    tool.context.edits.select({Selected::intruder, *intruder, 0});
   return true;
 }
 
 // Numbers count what they counted as long as nothing but this drag has changed the project.
-bool WaypointTool::is_still_there(const Studio& studio) const {
-  if (studio.document.has_other_changes(taken_->revision_before, taken_->gesture)) return false;
-  if (taken_->waypoint >= 0) return waypoint_position(studio, taken_->intruder, taken_->waypoint).has_value();
-  return static_cast<std::size_t>(taken_->intruder) < studio.project().intruders.size();
+bool WaypointTool::is_still_there(const ViewContext& context) const {
+  if (context.document.has_other_changes(taken_->revision_before, taken_->gesture)) return false;
+  if (taken_->waypoint >= 0) return waypoint_position(context, taken_->intruder, taken_->waypoint).has_value();
+  return static_cast<std::size_t>(taken_->intruder) < context.project().intruders.size();
 }
 
 // Where going to a waypoint's frame has carried it away from the mouse, there is nothing to drag.
-bool WaypointTool::is_under_press(const ToolTurn& turn, const glm::dvec3& position_m) const {
-  const std::optional<glm::dvec2> pixel = pixel_of(position_m, turn.eye.world_from_camera, turn.eye.lens);
-  return pixel && glm::distance(turn.canvas.view.screen_of(*pixel), taken_->pressed) <= 2 * scaled(kReach_px);
+bool WaypointTool::is_under_press(const ToolContext& tool, const glm::dvec3& position_m) const {
+  const std::optional<glm::dvec2> pixel = pixel_of(position_m, tool.eye.world_from_camera, tool.eye.lens);
+  return pixel && glm::distance(tool.canvas.view.screen_of(*pixel), taken_->pressed) <= 2 * scaled(kReach_px);
 }
 
 // Once the mouse has moved far enough to mean it.
-bool WaypointTool::begin(const ToolTurn& turn) {
+bool WaypointTool::begin(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (glm::distance(turn.mouse, taken.pressed) < scaled(kLeastDrag_px)) return false;
-  if (turn.studio.playing) turn.studio.edits.ask(Play{0});
+  if (glm::distance(tool.mouse, taken.pressed) < scaled(kMinDrag_px)) return false;
+  if (tool.context.playing) tool.context.edits.ask(Play{0});
   const bool makes_one = taken.waypoint < 0;
-  const std::optional<glm::dvec3> start_m = makes_one ? position_of(turn.studio, taken.intruder, turn.eye.frame)
-                                                      : waypoint_position(turn.studio, taken.intruder, taken.waypoint);
+  const std::optional<glm::dvec3> start_m = makes_one ? position_of(tool.context, taken.intruder, tool.eye.frame)
+                                                      : waypoint_position(tool.context, taken.intruder, taken.waypoint);
   if (!start_m) return false;
-  if (!makes_one && !is_under_press(turn, *start_m)) return false;
+  if (!makes_one && !is_under_press(tool, *start_m)) return false;
   taken.gesture = "over the footage " + std::to_string(++gestures_);
   // Where a waypoint stands within a frame of this one, that is the one it gets.
-  if (makes_one) taken.waypoint = put_in_gesture(turn.studio, taken.intruder, turn.eye.frame, *start_m, taken.gesture);
+  if (makes_one) taken.waypoint = put_in_gesture(tool.context, taken.intruder, tool.eye.frame, *start_m, taken.gesture);
   taken.start_m = taken.now_m = taken.first_m = *start_m;
   taken.start_mouse = taken.pressed;
-  taken.along = along_is_meant();
+  taken.along = moves_along_sight();
   taken.moving = true;
-  return !makes_one;  // the waypoint is there from the next turn on
+  return !makes_one;  // the waypoint is there from the next update on
 }
 
-void WaypointTool::drag(const ToolTurn& turn) {
-  if (!is_still_there(turn.studio)) {
+void WaypointTool::drag(const ToolContext& tool) {
+  if (!is_still_there(tool.context)) {
     taken_.reset();
     return;
   }
   if (pressed(Key::escape)) {
-    cancel(turn.studio);
+    cancel(tool.context);
     return;
   }
-  if (!taken_->moving && !begin(turn)) return;
-  move(turn);
+  if (!taken_->moving && !begin(tool)) return;
+  move(tool);
 }
 
-void WaypointTool::move(const ToolTurn& turn) {
+void WaypointTool::move(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (along_is_meant() != taken.along) {
+  if (moves_along_sight() != taken.along) {
     taken.along = !taken.along;
     taken.start_m = taken.now_m;
-    taken.start_mouse = turn.mouse;
+    taken.start_mouse = tool.mouse;
   }
-  const PictureView& view = turn.canvas.view;
-  const CameraPose& pose = turn.eye.world_from_camera;
+  const ImageView& view = tool.canvas.view;
+  const CameraPose& pose = tool.eye.world_from_camera;
   const std::optional<glm::dvec3> there_m = taken.along
-                                                ? dragged_along(taken.start_m, taken.start_mouse.y - turn.mouse.y, pose)
-                                                : dragged_across(taken.start_m, view.picture_of(taken.start_mouse),
-                                                                 view.picture_of(turn.mouse), pose, turn.eye.lens);
+                                                ? dragged_along(taken.start_m, taken.start_mouse.y - tool.mouse.y, pose)
+                                                : dragged_across(taken.start_m, view.image_of(taken.start_mouse),
+                                                                 view.image_of(tool.mouse), pose, tool.eye.lens);
   if (!there_m || *there_m == taken.now_m) return;
   taken.now_m = *there_m;
-  move_in_gesture(turn.studio, taken.intruder, taken.waypoint, *there_m, taken.gesture);
+  move_in_gesture(tool.context, taken.intruder, taken.waypoint, *there_m, taken.gesture);
 }
 
-void WaypointTool::cancel(const Studio& studio) {
+void WaypointTool::cancel(const ViewContext& context) {
   if (taken_->moving) {
-    studio.edits.cancel_gesture(taken_->gesture);
+    context.edits.cancel_gesture(taken_->gesture);
     selected_again_ = taken_->selected_before;
   }
   taken_.reset();
 }
 
 // Taking back a drag brings back what was selected before its first move; what was dragged is to stay selected.
-void WaypointTool::select_again(const Studio& studio) {
-  if (selected_again_) studio.edits.select(*selected_again_);
+void WaypointTool::select_again(const ViewContext& context) {
+  if (selected_again_) context.edits.select(*selected_again_);
   selected_again_.reset();
 }
 
-void WaypointTool::release(const Studio& studio) {
-  if (taken_ && taken_->moving) studio.edits.end_gesture();
+void WaypointTool::release(const ViewContext& context) {
+  if (taken_ && taken_->moving) context.edits.end_gesture();
   taken_.reset();
 }
 
-void WaypointTool::draw(const ToolTurn& turn) const {
+void WaypointTool::draw(const ToolContext& tool) const {
   if (!taken_ || !taken_->moving) return;
   const glm::dvec3 moved_m = taken_->now_m - taken_->first_m;
   const std::string how = taken_->along ? "along the line of sight" : "across";
-  draw_label(turn.canvas, turn.mouse + glm::dvec2(scaled(16), scaled(54)),
-             distance_text(turn.eye.distance_m(taken_->now_m)) + "   moved " + distance_text(glm::length(moved_m)) +
+  draw_label(tool.canvas, tool.mouse + glm::dvec2(scaled(16), scaled(54)),
+             distance_text(tool.eye.distance_m(taken_->now_m)) + "   moved " + distance_text(glm::length(moved_m)) +
                  "   " + how,
              color::kText);
 }

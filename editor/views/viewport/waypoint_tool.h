@@ -6,28 +6,28 @@
 #include <span>
 #include <string>
 
-#include "editor/views/viewport/footage_eye.h"
-#include "editor/widgets/picture_marks.h"
+#include "editor/views/viewport/footage_camera.h"
+#include "editor/widgets/image_canvas.h"
 
 namespace sigs::editor {
 
-// What the waypoint tool works with in one turn.
-struct ToolTurn {
-  const Studio& studio;
-  const PictureCanvas& canvas;
-  const FootageEye& eye;
+// What the waypoint tool works with in one update.
+struct ToolContext {
+  const ViewContext& context;
+  const ImageCanvas& canvas;
+  const FootageCamera& eye;
   std::span<const WaypointMark> marks;
   glm::dvec2 mouse{0, 0};  // on the screen
 };
 
 // The waypoint under the mouse: the selected one before others, then the nearest.
-[[nodiscard]] const WaypointMark* waypoint_at(const ToolTurn& turn);
+[[nodiscard]] const WaypointMark* waypoint_at(const ToolContext& tool);
 
-// The intruder whose box, by the truth of the shown picture, is under the mouse; the nearest to the camera of several.
-[[nodiscard]] std::optional<int> intruder_at(const ToolTurn& turn);
+// The intruder whose box, by the truth of the shown image, is under the mouse; the nearest to the camera of several.
+[[nodiscard]] std::optional<int> intruder_at(const ToolContext& tool);
 
 // A waypoint here, at the distance that the intruder has at this moment.
-void add_waypoint_at(const ToolTurn& turn, const glm::dvec2& pixel);
+void add_waypoint_at(const ToolContext& tool, const glm::dvec2& pixel);
 
 // Takes waypoints over the footage: at constant distance from the camera, with Alt or Shift along the line of sight. A
 // waypoint of another frame is gone to when it is taken; it is dragged on only where it is seen under the mouse then.
@@ -36,14 +36,14 @@ void add_waypoint_at(const ToolTurn& turn, const glm::dvec2& pixel);
 class WaypointTool {
  public:
   // Whether the press took hold of something.
-  bool press(const ToolTurn& turn);
-  void drag(const ToolTurn& turn);
-  void release(const Studio& studio);
-  void select_again(const Studio& studio);  // once a turn, before anything else
+  bool press(const ToolContext& tool);
+  void drag(const ToolContext& tool);
+  void release(const ViewContext& context);
+  void select_again(const ViewContext& context);  // once per update, before anything else
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
 
   // Distance beside the mouse, while something is dragged.
-  void draw(const ToolTurn& turn) const;
+  void draw(const ToolContext& tool) const;
 
  private:
   struct Taken {
@@ -61,11 +61,11 @@ class WaypointTool {
     glm::dvec3 first_m{0, 0, 0};
   };
 
-  [[nodiscard]] bool is_still_there(const Studio& studio) const;
-  [[nodiscard]] bool is_under_press(const ToolTurn& turn, const glm::dvec3& position_m) const;
-  bool begin(const ToolTurn& turn);
-  void cancel(const Studio& studio);
-  void move(const ToolTurn& turn);
+  [[nodiscard]] bool is_still_there(const ViewContext& context) const;
+  [[nodiscard]] bool is_under_press(const ToolContext& tool, const glm::dvec3& position_m) const;
+  bool begin(const ToolContext& tool);
+  void cancel(const ViewContext& context);
+  void move(const ToolContext& tool);
 
   std::optional<Taken> taken_;
   std::optional<Selection> selected_again_;

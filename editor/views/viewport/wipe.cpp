@@ -25,35 +25,35 @@ void draw_handle(ImDrawList& draw, const glm::dvec2& middle, ImU32 color) {
 
 }  // namespace
 
-double ViewportWipe::line_x(const PictureCanvas& canvas) const {
+double ViewportWipe::line_x(const ImageCanvas& canvas) const {
   return std::round(canvas.rect.low.x + share_ * canvas.rect.size().x);
 }
 
-bool ViewportWipe::is_at(const PictureCanvas& canvas, const glm::dvec2& mouse) const {
+bool ViewportWipe::is_at(const ImageCanvas& canvas, const glm::dvec2& mouse) const {
   return on_ && std::abs(mouse.x - line_x(canvas)) <= scaled(7);
 }
 
-bool ViewportWipe::is_left_of_line(const PictureCanvas& canvas, const glm::dvec2& mouse) const {
+bool ViewportWipe::is_left_of_line(const ImageCanvas& canvas, const glm::dvec2& mouse) const {
   return on_ && mouse.x < line_x(canvas);
 }
 
-void ViewportWipe::drag_to(const PictureCanvas& canvas, const glm::dvec2& mouse) {
+void ViewportWipe::drag_to(const ImageCanvas& canvas, const glm::dvec2& mouse) {
   share_ = std::clamp((mouse.x - canvas.rect.low.x) / std::max(1.0, canvas.rect.size().x), 0.02, 0.98);
 }
 
-void ViewportWipe::draw_footage(const PictureCanvas& canvas, const Studio& studio, bool everywhere) {
+void ViewportWipe::draw_footage(const ImageCanvas& canvas, const ViewContext& context, bool everywhere) {
   if (!on_ && !everywhere) return;
-  studio.wishes.footage = true;
-  if (!studio.shown.footage) return;
+  context.needs.footage = true;
+  if (!context.shown.footage) return;
   ScreenRect left = canvas.rect;
   if (!everywhere) left.high.x = line_x(canvas);
-  draw_picture(canvas.draw, studio.textures, *studio.shown.footage, canvas.view, left);
+  draw_image(canvas.draw, context.textures, *context.shown.footage, canvas.view, left);
 }
 
-void ViewportWipe::draw_line(const PictureCanvas& canvas, bool lit) const {
+void ViewportWipe::draw_line(const ImageCanvas& canvas, bool highlighted) const {
   if (!on_) return;
   const double x = line_x(canvas);
-  const ImU32 color = lit ? color::kAccent : IM_COL32(255, 255, 255, 220);
+  const ImU32 color = highlighted ? color::kAccent : IM_COL32(255, 255, 255, 220);
   canvas.draw.AddRectFilled(im({x - 1, canvas.rect.low.y}), im({x + 1, canvas.rect.high.y}), color);
   // Below the middle, where intruders are looked for.
   draw_handle(canvas.draw, {x, std::round(std::lerp(canvas.rect.low.y, canvas.rect.high.y, kHandleHeight))}, color);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editor/views/studio.h"
-#include "editor/widgets/picture_marks.h"
-#include "editor/widgets/zoomable_picture.h"
+#include "editor/views/context.h"
+#include "editor/widgets/image_canvas.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -14,16 +14,16 @@ class ViewportWipe {
   void toggle() { on_ = !on_; }
 
   // Whether a press there takes hold of the line.
-  [[nodiscard]] bool is_at(const PictureCanvas& canvas, const glm::dvec2& mouse) const;
-  [[nodiscard]] bool is_left_of_line(const PictureCanvas& canvas, const glm::dvec2& mouse) const;
-  void drag_to(const PictureCanvas& canvas, const glm::dvec2& mouse);
+  [[nodiscard]] bool is_at(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  [[nodiscard]] bool is_left_of_line(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  void drag_to(const ImageCanvas& canvas, const glm::dvec2& mouse);
 
-  // The footage over the picture; asks for it in the studio's wishes.
-  void draw_footage(const PictureCanvas& canvas, const Studio& studio, bool everywhere);
-  void draw_line(const PictureCanvas& canvas, bool lit) const;
+  // The footage over the image; asks for it in the context's needs.
+  void draw_footage(const ImageCanvas& canvas, const ViewContext& context, bool everywhere);
+  void draw_line(const ImageCanvas& canvas, bool highlighted) const;
 
  private:
-  [[nodiscard]] double line_x(const PictureCanvas& canvas) const;
+  [[nodiscard]] double line_x(const ImageCanvas& canvas) const;
 
   bool on_ = false;
   double share_ = 0.5;  // of the rect's width

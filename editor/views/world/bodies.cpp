@@ -12,8 +12,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kLeastBody_px = 30;  // across the model's largest extent
-constexpr int kMostFaces = 300;
+constexpr double kMinBody_px = 30;  // across the model's largest extent
+constexpr int kMaxFaces = 300;
 constexpr double kOwnColorShare = 0.35;  // of the model's, the rest is the intruder's
 constexpr double kSun_px = 6;
 
@@ -66,8 +66,8 @@ Corners corners_of(const WorldCanvas& canvas, const CoarseMesh& mesh, const Draw
   return corners;
 }
 
-std::optional<ScreenFace> seen(const WorldCanvas& canvas, const CoarseMesh::Face& face, const Corners& corners,
-                               const Drawing& drawing) {
+std::optional<ScreenFace> visible_face(const WorldCanvas& canvas, const CoarseMesh::Face& face, const Corners& corners,
+                                       const Drawing& drawing) {
   ScreenFace drawn;
   std::array<glm::dvec2, 3> at;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -89,7 +89,8 @@ void draw_faces(WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& draw
   const Corners corners = corners_of(canvas, mesh, drawing);
   std::vector<ScreenFace> drawn;
   for (const CoarseMesh::Face& face : mesh.faces)
-    if (const std::optional<ScreenFace> on_screen = seen(canvas, face, corners, drawing)) drawn.push_back(*on_screen);
+    if (const std::optional<ScreenFace> on_screen = visible_face(canvas, face, corners, drawing))
+      drawn.push_back(*on_screen);
   std::sort(drawn.begin(), drawn.end(), [](const ScreenFace& a, const ScreenFace& b) { return a.depth_m > b.depth_m; });
   // Soft edges would let what lies behind shine through between neighbours.
   ImDrawList& list = canvas.list();
@@ -100,22 +101,23 @@ void draw_faces(WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& draw
   list.Flags = flags;
 }
 
-void draw_body(WorldCanvas& canvas, const WorldTurn& turn, const WorldBody& body, const CoarseMesh& mesh, bool lit) {
+void draw_body(WorldCanvas& canvas, const WorldContext& world, const WorldBody& body, const CoarseMesh& mesh,
+               bool highlighted) {
   const glm::dvec3& at_m = body.world_from_body.translation_m;
   const ImU32 color = intruder_color(body.intruder);
   draw_drop_line(canvas, at_m, color);
   const std::optional<glm::dvec2> at = canvas.in_sight(at_m, 100);
   if (!at) return;
   const double true_px = canvas.eye().pixels_per_metre(at_m, canvas.rect()) * length_m(*body.model);
-  const double enlarged = std::max(1.0, scaled(kLeastBody_px) / std::max(true_px, 1e-12));
-  if (lit) canvas.list().AddCircle(im(*at), scaled(kLeastBody_px) * 0.72F, color::kAccent, 0, scaled(1.5));
+  const double enlarged = std::max(1.0, scaled(kMinBody_px) / std::max(true_px, 1e-12));
+  if (highlighted) canvas.list().AddCircle(im(*at), scaled(kMinBody_px) * 0.72F, color::kAccent, 0, scaled(1.5));
   draw_faces(canvas, mesh,
              {.world_from_body = glm::mat3_cast(body.world_from_body.rotation),
               .at_m = at_m,
               .enlarged = enlarged,
               .color = color});
-  const double distance_m = glm::distance(turn.moment.world_from_camera.translation_m, at_m);
-  const double aside = scaled(kLeastBody_px) * 0.6 + scaled(4);
+  const double distance_m = glm::distance(world.moment.world_from_camera.translation_m, at_m);
+  const double aside = scaled(kMinBody_px) * 0.6 + scaled(4);
   const std::string text = distance_text(distance_m);
   if (!canvas.label(*at + glm::dvec2(aside, scaled(12)), text, color))
     canvas.label(*at + glm::dvec2(0, -aside), text, color, WorldCanvas::Side::centre);
@@ -131,12 +133,12 @@ void draw_sun(ImDrawList& list, const glm::dvec2& at, ImU32 color) {
   }
 }
 
-// Which way on the screen a place lies that is not in sight.
-glm::dvec2 way_to(const OrbitCamera& eye, const glm::dvec3& p_m) {
+// Which direction on the screen a place lies that is not in sight.
+glm::dvec2 direction_to(const OrbitCamera& eye, const glm::dvec3& p_m) {
   const glm::dvec3 from_eye = p_m - eye.eye_m();
-  const glm::dvec2 way{glm::dot(from_eye, eye.right()), -glm::dot(from_eye, eye.up())};
-  const double length = glm::length(way);
-  return length > 0 ? way / length : glm::dvec2(0, -1);
+  const glm::dvec2 direction{glm::dot(from_eye, eye.right()), -glm::dot(from_eye, eye.up())};
+  const double length = glm::length(direction);
+  return length > 0 ? direction / length : glm::dvec2(0, -1);
 }
 
 bool is_marked_at_edge(const WorldCanvas& canvas, const glm::dvec3& light_m) {
@@ -145,10 +147,10 @@ bool is_marked_at_edge(const WorldCanvas& canvas, const glm::dvec3& light_m) {
 
 void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::dvec3& light_m, double distance_m,
                          bool selected, ImU32 color) {
-  const glm::dvec2 way = way_to(canvas.eye(), light_m);
-  const glm::dvec2 across{-way.y, way.x};
-  const glm::dvec2 tip = at + way * static_cast<double>(scaled(17));
-  const glm::dvec2 neck = tip - way * static_cast<double>(scaled(6));
+  const glm::dvec2 direction = direction_to(canvas.eye(), light_m);
+  const glm::dvec2 across{-direction.y, direction.x};
+  const glm::dvec2 tip = at + direction * static_cast<double>(scaled(17));
+  const glm::dvec2 neck = tip - direction * static_cast<double>(scaled(6));
   const double half = scaled(4.5);
   canvas.list().AddTriangleFilled(im(tip), im(neck + across * half), im(neck - across * half), color);
   const std::string text = "light " + distance_text(distance_m) + (selected ? "  (F: in sight)" : "");
@@ -156,14 +158,14 @@ void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::d
   ImFont* face = font(Font::small);
   const double width = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str()).x;
   const double aside = on_right ? -scaled(18) - width : scaled(18);
-  canvas.label(at + glm::dvec2(aside, std::abs(way.y) > 0.7 ? 0 : scaled(18)), text, color::kQuiet);
+  canvas.label(at + glm::dvec2(aside, std::abs(direction.y) > 0.7 ? 0 : scaled(18)), text, color::kQuiet);
 }
 
 }  // namespace
 
 const CoarseMesh& BodyShapes::of(const std::shared_ptr<const Model>& model) {
   const auto [entry, is_new] = shapes_.try_emplace(model);
-  if (is_new) entry->second = coarse(model->mesh, kMostFaces);
+  if (is_new) entry->second = coarse(model->mesh, kMaxFaces);
   return entry->second;
 }
 
@@ -173,39 +175,40 @@ void BodyShapes::keep_only(const std::vector<WorldBody>& bodies) {
   });
 }
 
-void draw_bodies(WorldCanvas& canvas, const WorldTurn& turn, BodyShapes& shapes, const Selection& hovered) {
+void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& shapes, const Selection& hovered) {
   std::vector<const WorldBody*> far_to_near;
-  for (const WorldBody& body : turn.moment.bodies)
+  for (const WorldBody& body : world.moment.bodies)
     if (body.model) far_to_near.push_back(&body);
   const glm::dvec3 forward = canvas.eye().forward();
   std::stable_sort(far_to_near.begin(), far_to_near.end(), [&](const WorldBody* a, const WorldBody* b) {
     return glm::dot(a->world_from_body.translation_m - b->world_from_body.translation_m, forward) > 0;
   });
-  const Selection& selection = turn.studio.document.selection();
+  const Selection& selection = world.context.document.selection();
   for (const WorldBody* body : far_to_near) {
     const auto means = [&](const Selection& s) { return s.kind == Selected::intruder && s.intruder == body->intruder; };
-    draw_body(canvas, turn, *body, shapes.of(body->model), means(selection) || means(hovered));
+    draw_body(canvas, world, *body, shapes.of(body->model), means(selection) || means(hovered));
   }
-  shapes.keep_only(turn.moment.bodies);
+  shapes.keep_only(world.moment.bodies);
 }
 
 glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m) {
   if (!is_marked_at_edge(canvas, light_m)) return *canvas.in_sight(light_m);
   const glm::dvec2 middle = (canvas.rect().low + canvas.rect().high) / 2.0;
   const glm::dvec2 room = glm::max(canvas.rect().size() / 2.0 - static_cast<double>(scaled(22)), 1.0);
-  const glm::dvec2 way = way_to(canvas.eye(), light_m);
-  const double reach = std::min(room.x / std::max(std::abs(way.x), 1e-9), room.y / std::max(std::abs(way.y), 1e-9));
-  return middle + way * reach;
+  const glm::dvec2 direction = direction_to(canvas.eye(), light_m);
+  const double reach =
+      std::min(room.x / std::max(std::abs(direction.x), 1e-9), room.y / std::max(std::abs(direction.y), 1e-9));
+  return middle + direction * reach;
 }
 
-void draw_light(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
-  const glm::dvec3& light_m = turn.studio.project().light.position_m;
-  const bool is_selected = turn.studio.document.selection().kind == Selected::light;
-  const bool lit = is_selected || hovered.kind == Selected::light;
-  const ImU32 color = lit ? color::kAccent : color::kLight;
+void draw_light(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered) {
+  const glm::dvec3& light_m = world.context.project().light.position_m;
+  const bool is_selected = world.context.document.selection().kind == Selected::light;
+  const bool highlighted = is_selected || hovered.kind == Selected::light;
+  const ImU32 color = highlighted ? color::kAccent : color::kLight;
   const glm::dvec2 at = light_mark(canvas, light_m);
   if (is_marked_at_edge(canvas, light_m)) {
-    const double distance_m = glm::distance(light_m, turn.moment.world_from_camera.translation_m);
+    const double distance_m = glm::distance(light_m, world.moment.world_from_camera.translation_m);
     draw_arrow_to_light(canvas, at, light_m, distance_m, is_selected, color);
   } else {
     draw_drop_line(canvas, light_m, color);

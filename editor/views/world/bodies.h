@@ -23,10 +23,10 @@ class BodyShapes {
 
 // Aircraft at the playhead, far to near, flat shaded in their colours; drawn larger than they are where they would be
 // too small to be seen. With drop line and distance to the camera.
-void draw_bodies(WorldCanvas& canvas, const WorldTurn& turn, BodyShapes& shapes, const Selection& hovered);
+void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& shapes, const Selection& hovered);
 
 // A sun where the light stands, or at the edge an arrow to it where it stands elsewhere.
-void draw_light(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered);
+void draw_light(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered);
 // Where the sun or the arrow is on the screen.
 [[nodiscard]] glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m);
 

@@ -8,7 +8,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kLeastStep_px = 1.5;  // what lies nearer to the point before adds nothing to a polyline
+constexpr double kMinStep_px = 1.5;  // what lies nearer to the point before adds nothing to a polyline
 
 bool overlap(const ScreenRect& a, const ScreenRect& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
@@ -59,11 +59,11 @@ void WorldCanvas::line(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color
 }
 
 void WorldCanvas::dashes(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width) {
-  constexpr int kMostDashes = 200;
+  constexpr int kMaxDashes = 200;
   const auto ends = screen_line(eye_, rect_, a_m, b_m);
   if (!ends) return;
   const double length = glm::distance((*ends)[0], (*ends)[1]);
-  const double period = std::max<double>(scaled(9), length / kMostDashes);
+  const double period = std::max<double>(scaled(9), length / kMaxDashes);
   for (double along = 0; along < length; along += period) {
     const glm::dvec2 from = glm::mix((*ends)[0], (*ends)[1], along / length);
     const glm::dvec2 to = glm::mix((*ends)[0], (*ends)[1], std::min(1.0, (along + period * 0.55) / length));
@@ -86,10 +86,10 @@ void WorldCanvas::polyline(std::span<const glm::dvec3> points_m, ImU32 color, do
       finish();
       continue;
     }
-    if (!stroke.empty() && glm::distance(last, (*ends)[0]) > kLeastStep_px) finish();
+    if (!stroke.empty() && glm::distance(last, (*ends)[0]) > kMinStep_px) finish();
     if (stroke.empty()) stroke.push_back(im(last = (*ends)[0]));
     const bool is_end = i + 1 == points_m.size();
-    if (is_end || glm::distance(last, (*ends)[1]) >= kLeastStep_px) stroke.push_back(im(last = (*ends)[1]));
+    if (is_end || glm::distance(last, (*ends)[1]) >= kMinStep_px) stroke.push_back(im(last = (*ends)[1]));
   }
   finish();
 }

@@ -23,12 +23,12 @@ struct Piece {
   [[nodiscard]] bool operator<(const Piece& other) const { return off_chord_m < other.off_chord_m; }
 };
 
-std::vector<double> first_parameters(double first, double last, std::span<const double> through, std::size_t most) {
+std::vector<double> first_parameters(double first, double last, std::span<const double> through, std::size_t maximum) {
   std::vector<double> at;
-  const std::size_t pieces = std::clamp<std::size_t>(kFirstPieces, 1, std::max<std::size_t>(1, most / 4));
+  const std::size_t pieces = std::clamp<std::size_t>(kFirstPieces, 1, std::max<std::size_t>(1, maximum / 4));
   for (std::size_t i = 0; i <= pieces; ++i)
     at.push_back(std::lerp(first, last, static_cast<double>(i) / static_cast<double>(pieces)));
-  for (const double parameter : through.first(std::min(through.size(), most / 2)))
+  for (const double parameter : through.first(std::min(through.size(), maximum / 2)))
     if (parameter > first && parameter < last) at.push_back(parameter);
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end()), at.end());
@@ -46,16 +46,16 @@ Piece piece_between(const std::function<glm::dvec3(double)>& curve, double first
 }  // namespace
 
 CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, double first, double last,
-                           std::span<const double> through, double tolerance_m, std::size_t most) {
+                           std::span<const double> through, double tolerance_m, std::size_t maximum) {
   if (!(last > first)) return {{first}, {curve(first)}};
   std::map<double, glm::dvec3> points;
-  for (const double at : first_parameters(first, last, through, most)) points.emplace(at, curve(at));
+  for (const double at : first_parameters(first, last, through, maximum)) points.emplace(at, curve(at));
   std::priority_queue<Piece> pieces;
   for (auto end = std::next(points.begin()); end != points.end(); ++end) {
     const auto begin = std::prev(end);
     pieces.push(piece_between(curve, begin->first, begin->second, end->first, end->second));
   }
-  while (points.size() < most && !pieces.empty() && pieces.top().off_chord_m > tolerance_m) {
+  while (points.size() < maximum && !pieces.empty() && pieces.top().off_chord_m > tolerance_m) {
     const Piece piece = pieces.top();
     pieces.pop();
     const double middle = piece.middle();

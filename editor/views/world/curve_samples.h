@@ -18,11 +18,11 @@ struct CurveSamples {
 };
 
 // Samples a curve where it bends: pieces are halved, the one whose middle lies farthest off the middle of its chord
-// first, until none lies farther than tolerance_m or `most` points are there (at least 2). Parameters of `through` that
-// lie within first
-// .. last get a point of their own, up to half of `most`. last <= first: a single point.
+// first, until none lies farther than tolerance_m or `maximum` points are there (at least 2). Parameters of `through`
+// that lie within first
+// .. last get a point of their own, up to half of `maximum`. last <= first: a single point.
 [[nodiscard]] CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, double first, double last,
-                                         std::span<const double> through, double tolerance_m, std::size_t most);
+                                         std::span<const double> through, double tolerance_m, std::size_t maximum);
 
 // The stretch of a polyline between two parameters, with its ends; nothing where they leave no stretch.
 [[nodiscard]] std::vector<glm::dvec3> stretch(const CurveSamples& samples, double from, double to);

@@ -32,7 +32,7 @@ void draw_label(WorldCanvas& canvas, const GridLine& line, double text_px) {
   const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]);
   if (!ends) return;
   const auto [a, b] = *ends;
-  // Lines of one x end below, those of one y at the left, whichever way they run.
+  // Lines of one x end below, those of one y at the left, whichever direction they run.
   const bool a_is_it = line.is_of_x == (std::abs(canvas.eye().right().y) > 0.7) ? a.x < b.x : a.y > b.y;
   const glm::dvec2 at = a_is_it ? a : b;
   const glm::dvec2 inwards = glm::normalize((a_is_it ? b : a) - at + glm::dvec2(1e-9));
@@ -94,14 +94,14 @@ void draw_axes(WorldCanvas& canvas) {
   ImFont* face = font(Font::small);
   for (const std::size_t axis : order) {
     const auto i = static_cast<int>(axis);
-    const glm::dvec2 way{eye.right()[i], -eye.up()[i]};
-    const glm::dvec2 tip = origin + way * reach;
+    const glm::dvec2 direction{eye.right()[i], -eye.up()[i]};
+    const glm::dvec2 tip = origin + direction * reach;
     canvas.list().AddLine(im(origin), im(tip), kAxisColors[axis], scaled(1.8));
     const char name[2] = {static_cast<char>('X' + i), 0};
     const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, name);
-    const double length = glm::length(way);
+    const double length = glm::length(direction);
     if (length < 0.25) continue;  // the axis points at the eye
-    const glm::dvec2 middle = tip + way / length * (0.7 * face->FontSize);
+    const glm::dvec2 middle = tip + direction / length * (0.7 * face->FontSize);
     canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), kAxisColors[axis], name);
   }
   canvas.keep_free({origin - reach * 1.5, origin + reach * 1.5});

@@ -16,49 +16,49 @@ namespace {
 
 constexpr const char* kId = "world menu";
 
-void go_to(const Studio& studio, double frame) {
-  studio.edits.ask(Play{0});
-  studio.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
+void go_to(const ViewContext& context, double frame) {
+  context.edits.ask(Play{0});
+  context.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
 }
 
-double frame_of(const Studio& studio, const Selection& waypoint) {
-  return frames_of_waypoints(studio, waypoint.intruder)[static_cast<std::size_t>(waypoint.waypoint)];
+double frame_of(const ViewContext& context, const Selection& waypoint) {
+  return frames_of_waypoints(context, waypoint.intruder)[static_cast<std::size_t>(waypoint.waypoint)];
 }
 
 // The selection was moved to the waypoint when the menu was asked for; what follows acts on it.
-bool draw_waypoint_items(const WorldTurn& turn, const Selection& what) {
-  const Studio& studio = turn.studio;
-  const std::string frame = std::to_string(std::lround(frame_of(studio, what)));
-  if (ImGui::MenuItem(("Go to frame " + frame).c_str())) go_to(studio, frame_of(studio, what));
+bool draw_waypoint_items(const WorldContext& world, const Selection& what) {
+  const ViewContext& context = world.context;
+  const std::string frame = std::to_string(std::lround(frame_of(context, what)));
+  if (ImGui::MenuItem(("Go to frame " + frame).c_str())) go_to(context, frame_of(context, what));
   const bool numbers = ImGui::MenuItem("Type its position ...", "N");
   ImGui::Separator();
-  if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(studio);
-  if (ImGui::MenuItem("Delete", "Del")) delete_selected(studio);
+  if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(context);
+  if (ImGui::MenuItem("Delete", "Del")) delete_selected(context);
   return numbers;
 }
 
-void draw_curve_items(const WorldTurn& turn, int intruder, double frame) {
+void draw_curve_items(const WorldContext& world, int intruder, double frame) {
   const double whole = std::round(frame);
   const std::string text = std::to_string(std::lround(whole));
   if (ImGui::MenuItem(("Insert a waypoint at frame " + text).c_str()))
-    if (const std::optional<glm::dvec3> at_m = position_of(turn.studio, intruder, whole))
-      add_waypoint(turn.studio, intruder, whole, *at_m);
-  if (ImGui::MenuItem(("Go to frame " + text).c_str())) go_to(turn.studio, whole);
+    if (const std::optional<glm::dvec3> at_m = position_of(world.context, intruder, whole))
+      add_waypoint(world.context, intruder, whole, *at_m);
+  if (ImGui::MenuItem(("Go to frame " + text).c_str())) go_to(world.context, whole);
 }
 
-void draw_place_items(const WorldTurn& turn, const std::optional<glm::dvec3>& place_m) {
-  const Studio& studio = turn.studio;
-  if (!current_intruder(studio)) {
-    if (ImGui::MenuItem("Add an intruder")) add_intruder(studio);
+void draw_place_items(const WorldContext& world, const std::optional<glm::dvec3>& place_m) {
+  const ViewContext& context = world.context;
+  if (!current_intruder(context)) {
+    if (ImGui::MenuItem("Add an intruder")) add_intruder(context);
     return;
   }
-  const std::string frame = std::to_string(studio.document.playhead());
+  const std::string frame = std::to_string(context.document.playhead());
   const bool add =
       ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value());
-  studio.places.note_item("world/menu/add waypoint");
-  if (add) add_waypoint_here(studio, place_m);
+  context.ui_probe.note_item("world/menu/add waypoint");
+  if (add) add_waypoint_here(context, place_m);
   if (!place_m) return;
-  const double distance_m = glm::distance(*place_m, turn.moment.world_from_camera.translation_m);
+  const double distance_m = glm::distance(*place_m, world.moment.world_from_camera.translation_m);
   ImGui::TextDisabled("%s from the camera, %s high", distance_text(distance_m).c_str(),
                       distance_text(std::max(0.0, -place_m->z)).c_str());
 }
@@ -71,29 +71,29 @@ void WorldMenu::open(const WorldPick& pick, const std::optional<glm::dvec3>& pla
   state_ = State::asked;
 }
 
-std::optional<Selection> WorldMenu::draw_items(const WorldTurn& turn) const {
+std::optional<Selection> WorldMenu::draw_items(const WorldContext& world) const {
   const Selection& what = pick_.what;
   if (pick_.frame) {
-    draw_curve_items(turn, what.intruder, *pick_.frame);
+    draw_curve_items(world, what.intruder, *pick_.frame);
     return std::nullopt;
   }
   switch (what.kind) {
     case Selected::waypoint:
-      if (!movable(turn, what)) return std::nullopt;
-      return draw_waypoint_items(turn, what) ? std::optional(what) : std::nullopt;
+      if (!movable(world, what)) return std::nullopt;
+      return draw_waypoint_items(world, what) ? std::optional(what) : std::nullopt;
     case Selected::light:
     case Selected::camera:
       return ImGui::MenuItem("Type its position ...", "N") ? std::optional(what) : std::nullopt;
     case Selected::intruder:
-      if (ImGui::MenuItem("Add a waypoint here", "Enter")) add_waypoint_here(turn.studio);
+      if (ImGui::MenuItem("Add a waypoint here", "Enter")) add_waypoint_here(world.context);
       return std::nullopt;
     default:
-      draw_place_items(turn, place_m_);
+      draw_place_items(world, place_m_);
       return std::nullopt;
   }
 }
 
-std::optional<Selection> WorldMenu::draw(const WorldTurn& turn) {
+std::optional<Selection> WorldMenu::draw(const WorldContext& world) {
   if (state_ == State::closed) return std::nullopt;
   if (state_ == State::asked) {
     ImGui::OpenPopup(kId);
@@ -103,7 +103,7 @@ std::optional<Selection> WorldMenu::draw(const WorldTurn& turn) {
     state_ = State::closed;
     return std::nullopt;
   }
-  const std::optional<Selection> numbers_for = draw_items(turn);
+  const std::optional<Selection> numbers_for = draw_items(world);
   ImGui::EndPopup();
   return numbers_for;
 }

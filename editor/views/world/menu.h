@@ -12,13 +12,13 @@ class WorldMenu {
  public:
   // place_m: where a new waypoint would be, if that can be said.
   void open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m);
-  // Once a turn; what a position is to be typed for, if that was chosen.
-  [[nodiscard]] std::optional<Selection> draw(const WorldTurn& turn);
+  // Once per update; what a position is to be typed for, if that was chosen.
+  [[nodiscard]] std::optional<Selection> draw(const WorldContext& world);
 
  private:
   enum class State { closed, asked, open };
 
-  [[nodiscard]] std::optional<Selection> draw_items(const WorldTurn& turn) const;
+  [[nodiscard]] std::optional<Selection> draw_items(const WorldContext& world) const;
 
   State state_ = State::closed;
   WorldPick pick_;

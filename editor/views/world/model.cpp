@@ -14,13 +14,13 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 400;  // of a trajectory
-constexpr std::size_t kMostTicks = 300;   // of a trajectory
+constexpr std::size_t kMaxPoints = 400;   // of a trajectory
+constexpr std::size_t kMaxTicks = 300;    // of a trajectory
 constexpr double kTickReach_s = 0.05;     // to see where the trajectory leads
 constexpr double kToleranceShare = 5e-5;  // of a trajectory's extent: a tenth of a pixel when it fills the screen
-constexpr int kBorderSteps = 10;          // a side of the picture, for a bent lens
+constexpr int kBorderSteps = 10;          // a side of the image, for a distorting lens
 constexpr int kHalvings = 14;
-constexpr double kFlatPictureX = 0.3;  // of a ray's length: 72 degrees off the axis
+constexpr double kFlatImageX = 0.3;  // of a ray's length: 72 degrees off the axis
 constexpr double kUsualInterval_s = 0.04;
 
 double extent_m(const std::vector<glm::dvec3>& points_m) {
@@ -35,7 +35,7 @@ double extent_m(const std::vector<glm::dvec3>& points_m) {
 
 std::vector<WorldTick> ticks_along(const Trajectory& trajectory, double first_s, double last_s, double step_s) {
   std::vector<WorldTick> ticks;
-  for (double time_s = std::ceil(first_s / step_s) * step_s; time_s <= last_s && ticks.size() <= kMostTicks;
+  for (double time_s = std::ceil(first_s / step_s) * step_s; time_s <= last_s && ticks.size() <= kMaxTicks;
        time_s += step_s)
     ticks.push_back({trajectory.position_m(time_s), trajectory.position_m(time_s + kTickReach_s)});
   return ticks;
@@ -44,12 +44,12 @@ std::vector<WorldTick> ticks_along(const Trajectory& trajectory, double first_s,
 WorldCurve curve_of(const OpenedScene& opened, int intruder, const SceneIntruder& flown) {
   const Scene& scene = opened.draft.scene;
   const auto& waypoints = opened.project->intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
-  const std::vector<double> stops = waypoint_frames(waypoints, scene.first_frame, scene.last_frame);
+  const std::vector<double> knots = waypoint_frames(waypoints, scene.first_frame, scene.last_frame);
   double first = scene.first_frame;
   double last = scene.last_frame;
-  for (const double stop : stops) {
-    first = std::min(first, stop);
-    last = std::max(last, stop);
+  for (const double knot : knots) {
+    first = std::min(first, knot);
+    last = std::max(last, knot);
   }
   const auto position = [&](double frame) {
     return flown.trajectory.position_m(time_of_frame_s(scene.footage, frame));
@@ -59,9 +59,9 @@ WorldCurve curve_of(const OpenedScene& opened, int intruder, const SceneIntruder
   const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
   const double first_s = time_of_frame_s(scene.footage, scene.first_frame);
   const double last_s = time_of_frame_s(scene.footage, scene.last_frame);
-  const double step_s = std::max(1.0, round_step((last_s - first_s) / double(kMostTicks)));
+  const double step_s = std::max(1.0, round_step((last_s - first_s) / double(kMaxTicks)));
   return {.intruder = intruder,
-          .samples = sampled_curve(position, first, last, stops, tolerance_m, kMostPoints),
+          .samples = sampled_curve(position, first, last, knots, tolerance_m, kMaxPoints),
           .range_first = static_cast<double>(scene.first_frame),
           .range_last = static_cast<double>(scene.last_frame),
           .ticks = ticks_along(flown.trajectory, first_s, last_s, step_s),
@@ -80,21 +80,21 @@ double farthest_from_camera_m(const Scene& scene, const WorldCurve& curve) {
   return farthest_m;
 }
 
-// Of a pixel, or where the lens has none there, of the outermost on the way to it from the picture's middle.
+// Of a pixel, or where the lens has none there, of the outermost on the way to it from the image's middle.
 std::optional<glm::dvec3> ray_towards(const Lens& lens, const glm::dvec2& middle, const glm::dvec2& pixel) {
   if (const std::optional<glm::dvec3> ray = lens.ray(pixel)) return ray;
-  double seen = 0;
-  double unseen = 1;
+  double visible = 0;
+  double not_visible = 1;
   for (int i = 0; i < kHalvings; ++i) {
-    const double share = (seen + unseen) / 2;
-    (lens.ray(glm::mix(middle, pixel, share)) ? seen : unseen) = share;
+    const double share = (visible + not_visible) / 2;
+    (lens.ray(glm::mix(middle, pixel, share)) ? visible : not_visible) = share;
   }
-  return lens.ray(glm::mix(middle, pixel, seen));
+  return lens.ray(glm::mix(middle, pixel, visible));
 }
 
-void make_flat_if_ahead(PictureBorder& border) {
+void make_flat_if_ahead(ImageBorder& border) {
   const bool ahead =
-      std::all_of(border.rays.begin(), border.rays.end(), [](const glm::dvec3& ray) { return ray.x > kFlatPictureX; });
+      std::all_of(border.rays.begin(), border.rays.end(), [](const glm::dvec3& ray) { return ray.x > kFlatImageX; });
   if (!ahead) return;
   for (glm::dvec3& ray : border.rays) ray /= ray.x;
 }
@@ -107,12 +107,12 @@ std::shared_ptr<const Model> shared_model(const Scene& scene, const Model* model
 
 }  // namespace
 
-PictureBorder picture_border(const Camera& camera) {
+ImageBorder image_border(const Camera& camera) {
   const glm::dvec2 low{-0.5, -0.5};
   const glm::dvec2 high{camera.size_px.width - 0.5, camera.size_px.height - 0.5};
   const std::array<glm::dvec2, 5> corners{low, {high.x, low.y}, high, {low.x, high.y}, low};
   const int steps = camera.lens.is_pinhole() ? 1 : kBorderSteps;
-  PictureBorder border;
+  ImageBorder border;
   for (std::size_t side = 0; side < 4; ++side)
     for (int step = 0; step < steps; ++step) {
       const glm::dvec2 pixel = glm::mix(corners[side], corners[side + 1], static_cast<double>(step) / steps);
@@ -127,7 +127,7 @@ PictureBorder picture_border(const Camera& camera) {
 
 WorldModel world_model(const OpenedScene& opened) {
   const Scene& scene = opened.draft.scene;
-  WorldModel model{.revision = opened.revision, .border = picture_border(scene.camera)};
+  WorldModel model{.revision = opened.revision, .border = image_border(scene.camera)};
   const std::vector<int>& numbers = opened.draft.intruder_of_project;
   for (std::size_t i = 0; i < numbers.size() && i < opened.project->intruders.size(); ++i) {
     if (numbers[i] < 0) continue;
@@ -145,19 +145,19 @@ CameraPose camera_pose_at(const Project& project, double time_s) {
                    time_s);
 }
 
-double time_of(const Studio& studio, double frame) {
-  if (!studio.shown.scene) return frame * kUsualInterval_s;
-  return time_of_frame_s(studio.shown.scene->draft.scene.footage, frame);
+double time_of(const ViewContext& context, double frame) {
+  if (!context.shown.scene) return frame * kUsualInterval_s;
+  return time_of_frame_s(context.shown.scene->draft.scene.footage, frame);
 }
 
-WorldMoment world_moment(const Studio& studio) {
-  const double time_s = time_of(studio, studio.document.playhead());
-  WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(studio.project(), time_s)};
-  if (!studio.shown.scene) return moment;
-  const DraftScene& draft = studio.shown.scene->draft;
+WorldMoment world_moment(const ViewContext& context) {
+  const double time_s = time_of(context, context.document.playhead());
+  WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(context.project(), time_s)};
+  if (!context.shown.scene) return moment;
+  const DraftScene& draft = context.shown.scene->draft;
   moment.world_from_camera.rotation =
       world_from_carrier_at(draft.scene.motion.turns, time_s) * moment.world_from_camera.rotation;
-  const std::size_t count = std::min(draft.intruder_of_project.size(), studio.project().intruders.size());
+  const std::size_t count = std::min(draft.intruder_of_project.size(), context.project().intruders.size());
   for (std::size_t i = 0; i < count; ++i) {
     if (draft.intruder_of_project[i] < 0) continue;
     const SceneIntruder& flown = draft.scene.intruders[static_cast<std::size_t>(draft.intruder_of_project[i])];
@@ -168,14 +168,14 @@ WorldMoment world_moment(const Studio& studio) {
   return moment;
 }
 
-std::vector<glm::dvec3> points_of_interest(const Studio& studio, const WorldModel& model) {
-  const Document& document = studio.document;
+std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const WorldModel& model) {
+  const Document& document = context.document;
   std::vector<glm::dvec3> points_m;
   for (const int frame : {document.first_frame(), document.last_frame()})
-    points_m.push_back(camera_pose_at(studio.project(), time_of(studio, frame)).translation_m);
-  for (const IntruderSettings& intruder : studio.project().intruders)
+    points_m.push_back(camera_pose_at(context.project(), time_of(context, frame)).translation_m);
+  for (const IntruderSettings& intruder : context.project().intruders)
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints) points_m.push_back(waypoint.position_m);
-  if (document.selection().kind == Selected::light) points_m.push_back(studio.project().light.position_m);
+  if (document.selection().kind == Selected::light) points_m.push_back(context.project().light.position_m);
   for (const WorldCurve& curve : model.curves) {
     const std::vector<glm::dvec3> flown_m = stretch(curve.samples, curve.range_first, curve.range_last);
     points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());

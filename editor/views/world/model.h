@@ -8,7 +8,7 @@
 
 #include "editor/geometry/image_drag.h"
 #include "editor/preview/previewer.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 #include "editor/views/world/curve_samples.h"
 
 namespace sigs::editor {
@@ -19,7 +19,7 @@ struct WorldTick {
   glm::dvec3 next_m{0, 0, 0};
 };
 
-// An intruder's way through the world, over the range and as far as its waypoints go.
+// An intruder's path through the world, over the range and as far as its waypoints go.
 struct WorldCurve {
   int intruder = 0;      // of the project
   CurveSamples samples;  // by frame
@@ -29,22 +29,22 @@ struct WorldCurve {
   double tick_step_s = 1;
 };
 
-// The edge of the picture as rays of the camera frame, once around; rays of length 1, or that reach X = 1 where the
-// whole picture lies well before the camera.
-struct PictureBorder {
+// The edge of the image as rays of the camera frame, once around; rays of length 1, or that reach X = 1 where the
+// whole image lies well before the camera.
+struct ImageBorder {
   std::vector<glm::dvec3> rays;
-  std::vector<std::size_t> corners;  // which of them are the picture's corners
+  std::vector<std::size_t> corners;  // which of them are the image's corners
 };
 
 // What takes some time to find out of an opened scene, found once for each.
 struct WorldModel {
   std::uint64_t revision = 0;
   std::vector<WorldCurve> curves;
-  PictureBorder border;
+  ImageBorder border;
   double farthest_m = 0;  // of all intruders from the camera, over the range; 0: there is none
 };
 [[nodiscard]] WorldModel world_model(const OpenedScene& opened);
-[[nodiscard]] PictureBorder picture_border(const Camera& camera);
+[[nodiscard]] ImageBorder image_border(const Camera& camera);
 
 // The playhead's moment. The camera is the document's own, so that it does not lag behind a drag.
 struct WorldBody {
@@ -57,16 +57,16 @@ struct WorldMoment {
   CameraPose world_from_camera;
   std::vector<WorldBody> bodies;
 };
-[[nodiscard]] WorldMoment world_moment(const Studio& studio);
+[[nodiscard]] WorldMoment world_moment(const ViewContext& context);
 
 // By the document's settings, with what carries the camera level.
 [[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
 
 // Of a frame, by the footage where it is known, else by 25 frames a second.
-[[nodiscard]] double time_of(const Studio& studio, double frame);
+[[nodiscard]] double time_of(const ViewContext& context, double frame);
 
 // Everything near that should be in sight when a project is first shown: camera, trajectories within the range,
 // waypoints; the light only while it is selected.
-[[nodiscard]] std::vector<glm::dvec3> points_of_interest(const Studio& studio, const WorldModel& model);
+[[nodiscard]] std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const WorldModel& model);
 
 }  // namespace sigs::editor

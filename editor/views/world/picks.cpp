@@ -16,8 +16,8 @@ namespace {
 constexpr double kReach_px = 9;
 constexpr double kBodyReach_px = 16;
 constexpr double kCurveReach_px = 6;
-constexpr double kFarthest_m = 1e6;   // of a new waypoint from the camera
-constexpr double kLeastSlope = 0.12;  // below, the view looks along level ground
+constexpr double kMaxCoordinate_m = 1e6;  // of a new waypoint from the camera
+constexpr double kMinSlope = 0.12;        // below, the view looks along level ground
 
 double depth_m(const WorldCanvas& canvas, const glm::dvec3& at_m) {
   return glm::dot(at_m - canvas.eye().eye_m(), canvas.eye().forward());
@@ -39,25 +39,25 @@ struct Offers {
 };
 
 // Those of the intruder that is worked on come first.
-Offers waypoints_offered(const WorldCanvas& canvas, const Studio& studio, bool of_current) {
+Offers waypoints_offered(const WorldCanvas& canvas, const ViewContext& context, bool of_current) {
   Offers offers;
-  const std::optional<int> current = current_intruder(studio);
-  for (int i = 0; i < static_cast<int>(studio.project().intruders.size()); ++i) {
+  const std::optional<int> current = current_intruder(context);
+  for (int i = 0; i < static_cast<int>(context.project().intruders.size()); ++i) {
     if ((i == current) != of_current) continue;
-    const auto& waypoints = studio.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
+    const auto& waypoints = context.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
     for (int w = 0; w < static_cast<int>(waypoints.size()); ++w)
       offers.add({Selected::waypoint, i, w}, canvas, waypoints[static_cast<std::size_t>(w)].position_m);
   }
   return offers;
 }
 
-Offers things_offered(const WorldCanvas& canvas, const WorldTurn& turn) {
+Offers things_offered(const WorldCanvas& canvas, const WorldContext& world) {
   Offers offers;
-  for (const WorldBody& body : turn.moment.bodies)
+  for (const WorldBody& body : world.moment.bodies)
     offers.add({Selected::intruder, body.intruder, 0}, canvas, body.world_from_body.translation_m);
-  offers.add({Selected::camera, 0, 0}, canvas, turn.moment.world_from_camera.translation_m);
+  offers.add({Selected::camera, 0, 0}, canvas, world.moment.world_from_camera.translation_m);
   offers.what.push_back({Selected::light, 0, 0});
-  offers.points.push_back({light_mark(canvas, turn.studio.project().light.position_m), 1e9});
+  offers.points.push_back({light_mark(canvas, world.context.project().light.position_m), 1e9});
   return offers;
 }
 
@@ -81,18 +81,18 @@ std::optional<CurvePlace> place_on(const WorldCurve& curve, const WorldCanvas& c
   return CurvePlace{{{Selected::nothing, curve.intruder, 0}, frame}, place->distance_px};
 }
 
-WorldPick curve_at(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse) {
+WorldPick curve_at(const WorldCanvas& canvas, const WorldContext& world, const glm::dvec2& mouse) {
   CurvePlace nearest{.distance_px = 1e9};
-  for (const WorldCurve& curve : turn.model.curves) {
-    if (static_cast<std::size_t>(curve.intruder) >= turn.studio.project().intruders.size()) continue;
+  for (const WorldCurve& curve : world.model.curves) {
+    if (static_cast<std::size_t>(curve.intruder) >= world.context.project().intruders.size()) continue;
     const std::optional<CurvePlace> place = place_on(curve, canvas, mouse);
     if (place && place->distance_px < nearest.distance_px) nearest = *place;
   }
   return nearest.pick;
 }
 
-std::string waypoint_title(const Studio& studio, const Selection& what) {
-  const std::vector<double> frames = frames_of_waypoints(studio, what.intruder);
+std::string waypoint_title(const ViewContext& context, const Selection& what) {
+  const std::vector<double> frames = frames_of_waypoints(context, what.intruder);
   const long frame = std::lround(frames[static_cast<std::size_t>(what.waypoint)]);
   return "Waypoint at frame " + std::to_string(frame);
 }
@@ -107,24 +107,24 @@ const WaypointSettings* waypoint_of(const Project& project, const Selection& wha
 
 }  // namespace
 
-WorldPick pick_at(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse) {
+WorldPick pick_at(const WorldCanvas& canvas, const WorldContext& world, const glm::dvec2& mouse) {
   for (const bool of_current : {true, false})
-    if (const auto found = waypoints_offered(canvas, turn.studio, of_current).at(mouse, scaled(kReach_px)))
+    if (const auto found = waypoints_offered(canvas, world.context, of_current).at(mouse, scaled(kReach_px)))
       return {*found, {}};
-  if (const auto found = things_offered(canvas, turn).at(mouse, scaled(kBodyReach_px))) return {*found, {}};
-  return curve_at(canvas, turn, mouse);
+  if (const auto found = things_offered(canvas, world).at(mouse, scaled(kBodyReach_px))) return {*found, {}};
+  return curve_at(canvas, world, mouse);
 }
 
-std::optional<Movable> movable(const WorldTurn& turn) {
-  return movable(turn, turn.studio.document.selection());
+std::optional<Movable> movable(const WorldContext& world) {
+  return movable(world, world.context.document.selection());
 }
 
-std::optional<Movable> movable(const WorldTurn& turn, const Selection& what) {
-  const Project& project = turn.studio.project();
+std::optional<Movable> movable(const WorldContext& world, const Selection& what) {
+  const Project& project = world.context.project();
   if (what.kind == Selected::light) return Movable{what, "Light", project.light.position_m};
-  if (what.kind == Selected::camera) return Movable{what, "Camera", turn.moment.world_from_camera.translation_m};
+  if (what.kind == Selected::camera) return Movable{what, "Camera", world.moment.world_from_camera.translation_m};
   if (const WaypointSettings* waypoint = waypoint_of(project, what))
-    return Movable{what, waypoint_title(turn.studio, what), waypoint->position_m};
+    return Movable{what, waypoint_title(world.context, what), waypoint->position_m};
   return std::nullopt;
 }
 
@@ -133,35 +133,36 @@ std::string gesture_of(const Selection& moved) {
   return moved.kind == Selected::light ? "move light" : "move camera";
 }
 
-void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m) {
-  Edits& edits = turn.studio.edits;
-  if (moved.what.kind == Selected::waypoint) move_waypoint(turn.studio, moved.what.intruder, moved.what.waypoint, to_m);
+void move_to(const WorldContext& world, const Movable& moved, const glm::dvec3& to_m) {
+  Edits& edits = world.context.edits;
+  if (moved.what.kind == Selected::waypoint)
+    move_waypoint(world.context, moved.what.intruder, moved.what.waypoint, to_m);
   if (moved.what.kind == Selected::light)
     edits.change(
         "move light", [=](Project& project) { project.light.position_m = to_m; }, gesture_of(moved.what));
   if (moved.what.kind != Selected::camera) return;
   // The project holds where it starts.
-  const glm::dvec3 flown_m{turn.studio.project().camera.speed_mps * turn.moment.time_s, 0, 0};
+  const glm::dvec3 flown_m{world.context.project().camera.speed_mps * world.moment.time_s, 0, 0};
   edits.change(
       "move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, gesture_of(moved.what));
 }
 
-std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn,
+std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldContext& world,
                                              const glm::dvec2& mouse) {
-  const Studio& studio = turn.studio;
-  const std::optional<int> intruder = current_intruder(studio);
+  const ViewContext& context = world.context;
+  const std::optional<int> intruder = current_intruder(context);
   if (!intruder) return std::nullopt;
-  const glm::dvec3 camera_m = turn.moment.world_from_camera.translation_m;
-  const glm::dvec3 through_m = position_of(studio, *intruder, studio.document.playhead()).value_or(camera_m);
+  const glm::dvec3 camera_m = world.moment.world_from_camera.translation_m;
+  const glm::dvec3 through_m = position_of(context, *intruder, context.document.playhead()).value_or(camera_m);
   const Ray ray = canvas.eye().ray_at(mouse, canvas.rect());
-  const bool level = std::abs(ray.direction.z) >= kLeastSlope;
+  const bool level = std::abs(ray.direction.z) >= kMinSlope;
   const glm::dvec3 forward = canvas.eye().forward();
   const glm::dvec3 normal = level ? glm::dvec3(0, 0, 1) : glm::normalize(glm::dvec3(forward.x, forward.y, 0));
   const double slope = glm::dot(ray.direction, normal);
   const double along_m = glm::dot(through_m - ray.origin_m, normal) / slope;
   const bool before = canvas.eye().projection == Projection::parallel || along_m > 0;
   const glm::dvec3 place_m = ray.origin_m + ray.direction * along_m;
-  if (!std::isfinite(along_m) || !before || glm::distance(place_m, camera_m) > kFarthest_m) return std::nullopt;
+  if (!std::isfinite(along_m) || !before || glm::distance(place_m, camera_m) > kMaxCoordinate_m) return std::nullopt;
   return place_m;
 }
 

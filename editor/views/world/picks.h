@@ -15,7 +15,7 @@ struct WorldPick {
 };
 
 // The nearest within reach; waypoints before aircraft, camera and light, of equals the one that is worked on.
-[[nodiscard]] WorldPick pick_at(const WorldCanvas& canvas, const WorldTurn& turn, const glm::dvec2& mouse);
+[[nodiscard]] WorldPick pick_at(const WorldCanvas& canvas, const WorldContext& world, const glm::dvec2& mouse);
 
 // A point of the world that a handle moves, and how.
 struct Movable {
@@ -24,15 +24,15 @@ struct Movable {
   glm::dvec3 at_m{0, 0, 0};
 };
 // What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the playhead).
-[[nodiscard]] std::optional<Movable> movable(const WorldTurn& turn);
-[[nodiscard]] std::optional<Movable> movable(const WorldTurn& turn, const Selection& what);
+[[nodiscard]] std::optional<Movable> movable(const WorldContext& world);
+[[nodiscard]] std::optional<Movable> movable(const WorldContext& world, const Selection& what);
 // Part of a gesture, of this name.
 [[nodiscard]] std::string gesture_of(const Selection& moved);
-void move_to(const WorldTurn& turn, const Movable& moved, const glm::dvec3& to_m);
+void move_to(const WorldContext& world, const Movable& moved, const glm::dvec3& to_m);
 
 // Where a waypoint put at a place of the screen is to be: at the height of the intruder that is worked on; where the
 // view looks along that plane, upright through the intruder. None where the plane is not under the mouse.
-[[nodiscard]] std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldTurn& turn,
+[[nodiscard]] std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldContext& world,
                                                            const glm::dvec2& mouse);
 
 }  // namespace sigs::editor

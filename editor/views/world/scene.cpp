@@ -16,27 +16,27 @@ namespace {
 
 constexpr double kCamera_px = 13;  // of the little camera, along its axis
 constexpr double kTick_px = 3.5;   // half a mark across a trajectory
-constexpr double kLeastTickGap_px = 7;
+constexpr double kMinTickGap_px = 7;
 constexpr ImU32 kCameraColor = IM_COL32(214, 222, 235, 255);
 
-bool is_current(const Studio& studio, int intruder) {
-  return current_intruder(studio) == intruder;
+bool is_current(const ViewContext& context, int intruder) {
+  return current_intruder(context) == intruder;
 }
 
-// The picture's edge at a depth, in the world.
-std::vector<glm::dvec3> border_at(const PictureBorder& border, double depth_m, const CameraPose& world_from_camera) {
+// The image's edge at a depth, in the world.
+std::vector<glm::dvec3> border_at(const ImageBorder& border, double depth_m, const CameraPose& world_from_camera) {
   std::vector<glm::dvec3> points_m;
   for (const glm::dvec3& ray : border.rays) points_m.push_back(world_from_camera * (ray * depth_m));
   if (!points_m.empty()) points_m.push_back(points_m.front());
   return points_m;
 }
 
-void draw_field_of_view(WorldCanvas& canvas, const PictureBorder& border, double depth_m, const CameraPose& pose,
-                        bool lit) {
+void draw_field_of_view(WorldCanvas& canvas, const ImageBorder& border, double depth_m, const CameraPose& pose,
+                        bool highlighted) {
   const std::vector<glm::dvec3> edge_m = border_at(border, depth_m, pose);
   for (const std::size_t corner : border.corners)
-    canvas.line(pose.translation_m, edge_m[corner], faded(kCameraColor, lit ? 0.4 : 0.14));
-  canvas.polyline(edge_m, faded(kCameraColor, lit ? 0.5 : 0.2), 1);
+    canvas.line(pose.translation_m, edge_m[corner], faded(kCameraColor, highlighted ? 0.4 : 0.14));
+  canvas.polyline(edge_m, faded(kCameraColor, highlighted ? 0.5 : 0.2), 1);
 }
 
 // A small pyramid open to where the camera looks, and a mark on its upper side.
@@ -58,7 +58,7 @@ void draw_ticks(WorldCanvas& canvas, const WorldCurve& curve, ImU32 color) {
     const std::optional<glm::dvec2> next = canvas.eye().screen_of(tick.next_m, canvas.rect());
     if (!at || !next) continue;
     const double length = glm::distance(*at, *next);
-    if (length < 1e-6 || (last && glm::distance(*last, *at) < scaled(kLeastTickGap_px))) continue;
+    if (length < 1e-6 || (last && glm::distance(*last, *at) < scaled(kMinTickGap_px))) continue;
     const glm::dvec2 along = (*next - *at) / length;
     const glm::dvec2 across = glm::dvec2(-along.y, along.x) * static_cast<double>(scaled(kTick_px));
     canvas.list().AddLine(im(*at - across), im(*at + across), color, scaled(1.2));
@@ -66,8 +66,8 @@ void draw_ticks(WorldCanvas& canvas, const WorldCurve& curve, ImU32 color) {
   }
 }
 
-const Survey* survey_of(const Studio& studio, int intruder) {
-  const auto& surveys = studio.shown.surveys;
+const Survey* survey_of(const ViewContext& context, int intruder) {
+  const auto& surveys = context.shown.surveys;
   const auto index = static_cast<std::size_t>(intruder);
   return index < surveys.size() ? surveys[index].get() : nullptr;
 }
@@ -96,7 +96,7 @@ std::string frame_text(double frame) {
 }  // namespace
 
 double view_depth_m(const WorldModel& model) {
-  // A bent edge bulges around the camera and would hide what is within.
+  // A curved edge bulges around the camera and would hide what is within.
   const bool is_bent = std::any_of(model.border.rays.begin(), model.border.rays.end(),
                                    [](const glm::dvec3& ray) { return ray.x < 0.999; });
   return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_bent ? 0.35 : 1.05), 20.0, 5000.0) : 200;
@@ -109,28 +109,28 @@ void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color) 
     canvas.list().AddCircleFilled(im(*foot), scaled(2), faded(color, 0.6));
 }
 
-void draw_camera(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
-  const Document& document = turn.studio.document;
+void draw_camera(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered) {
+  const Document& document = world.context.document;
   const auto place = [&](int frame) {
-    return camera_pose_at(turn.studio.project(), time_of(turn.studio, frame)).translation_m;
+    return camera_pose_at(world.context.project(), time_of(world.context, frame)).translation_m;
   };
   canvas.line(place(document.first_frame()), place(document.last_frame()), faded(kCameraColor, 0.55), 1.6);
-  const CameraPose& pose = turn.moment.world_from_camera;
-  const bool lit = document.selection().kind == Selected::camera || hovered.kind == Selected::camera;
-  draw_field_of_view(canvas, turn.model.border, view_depth_m(turn.model), pose, lit);
+  const CameraPose& pose = world.moment.world_from_camera;
+  const bool highlighted = document.selection().kind == Selected::camera || hovered.kind == Selected::camera;
+  draw_field_of_view(canvas, world.model.border, view_depth_m(world.model), pose, highlighted);
   draw_drop_line(canvas, pose.translation_m, kCameraColor);
-  draw_camera_icon(canvas, pose, lit ? color::kAccent : kCameraColor);
+  draw_camera_icon(canvas, pose, highlighted ? color::kAccent : kCameraColor);
 }
 
-void draw_trajectories(WorldCanvas& canvas, const WorldTurn& turn) {
-  const Project& project = turn.studio.project();
-  for (const WorldCurve& curve : turn.model.curves) {
+void draw_trajectories(WorldCanvas& canvas, const WorldContext& world) {
+  const Project& project = world.context.project();
+  for (const WorldCurve& curve : world.model.curves) {
     const auto index = static_cast<std::size_t>(curve.intruder);
     if (index >= project.intruders.size()) continue;
-    const bool current = is_current(turn.studio, curve.intruder);
+    const bool current = is_current(world.context, curve.intruder);
     const ImU32 color = faded(intruder_color(curve.intruder), current ? 1 : 0.6);
     draw_control_lines(canvas, project.intruders[index].trajectory, color);
-    draw_flagged(canvas, curve, survey_of(turn.studio, curve.intruder));
+    draw_flagged(canvas, curve, survey_of(world.context, curve.intruder));
     canvas.polyline(stretch(curve.samples, -1e300, curve.range_first), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_last, 1e300), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_first, curve.range_last), color, current ? 2.2 : 1.6);
@@ -138,13 +138,13 @@ void draw_trajectories(WorldCanvas& canvas, const WorldTurn& turn) {
   }
 }
 
-void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered) {
-  const Studio& studio = turn.studio;
-  const Selection& selection = studio.document.selection();
-  for (int i = 0; i < static_cast<int>(studio.project().intruders.size()); ++i) {
-    const auto& waypoints = studio.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
-    const std::vector<double> frames = frames_of_waypoints(studio, i);
-    const bool current = is_current(studio, i);
+void draw_waypoints(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered) {
+  const ViewContext& context = world.context;
+  const Selection& selection = context.document.selection();
+  for (int i = 0; i < static_cast<int>(context.project().intruders.size()); ++i) {
+    const auto& waypoints = context.project().intruders[static_cast<std::size_t>(i)].trajectory.waypoints;
+    const std::vector<double> frames = frames_of_waypoints(context, i);
+    const bool current = is_current(context, i);
     Thinning thinning(scaled(3));
     for (int w = 0; w < static_cast<int>(waypoints.size()); ++w) {
       const glm::dvec3& at_m = waypoints[static_cast<std::size_t>(w)].position_m;
@@ -152,33 +152,33 @@ void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection&
       if (selection == self) draw_drop_line(canvas, at_m, color::kAccent);
       const std::optional<glm::dvec2> at = canvas.in_sight(at_m, 8);
       if (!at) continue;
-      const bool lit = selection == self || hovered == self;
-      if (thinning.leaves_out(*at) && !lit) continue;
-      const float radius = scaled(lit ? 5 : current ? 4 : 3);
-      studio.places.note("world/waypoint/" + std::to_string(i) + "/" + std::to_string(w),
-                         {*at - glm::dvec2(radius), *at + glm::dvec2(radius)});
+      const bool highlighted = selection == self || hovered == self;
+      if (thinning.leaves_out(*at) && !highlighted) continue;
+      const float radius = scaled(highlighted ? 5 : current ? 4 : 3);
+      context.ui_probe.note("world/waypoint/" + std::to_string(i) + "/" + std::to_string(w),
+                            {*at - glm::dvec2(radius), *at + glm::dvec2(radius)});
       canvas.list().AddCircleFilled(im(*at), radius + scaled(1.5), IM_COL32(0, 0, 0, 150), 12);
       canvas.list().AddCircleFilled(im(*at), radius,
-                                    lit       ? color::kAccent
-                                    : current ? color::kWaypoint
-                                              : intruder_color(i),
+                                    highlighted ? color::kAccent
+                                    : current   ? color::kWaypoint
+                                                : intruder_color(i),
                                     12);
-      if (!current && !lit) continue;
+      if (!current && !highlighted) continue;
       canvas.label_beside(*at, scaled(9), frame_text(frames[static_cast<std::size_t>(w)]),
-                          lit ? color::kAccent : color::kText);
+                          highlighted ? color::kAccent : color::kText);
     }
   }
 }
 
-void draw_closest_approaches(WorldCanvas& canvas, const WorldTurn& turn) {
-  for (const WorldCurve& curve : turn.model.curves) {
-    const Survey* survey = survey_of(turn.studio, curve.intruder);
+void draw_closest_approaches(WorldCanvas& canvas, const WorldContext& world) {
+  for (const WorldCurve& curve : world.model.curves) {
+    const Survey* survey = survey_of(world.context, curve.intruder);
     if (survey == nullptr || !(survey->closest.distance_m > 0)) continue;
     const ClosestApproach& closest = survey->closest;
-    const glm::dvec3 camera_m = camera_pose_at(turn.studio.project(), closest.time_s).translation_m;
-    const std::optional<glm::dvec3> body_m = position_of(turn.studio, curve.intruder, closest.frame);
+    const glm::dvec3 camera_m = camera_pose_at(world.context.project(), closest.time_s).translation_m;
+    const std::optional<glm::dvec3> body_m = position_of(world.context, curve.intruder, closest.frame);
     if (!body_m) continue;
-    const bool current = is_current(turn.studio, curve.intruder);
+    const bool current = is_current(world.context, curve.intruder);
     const ImU32 color = faded(color::kPartly, current ? 0.95 : 0.5);
     canvas.dashes(camera_m, *body_m, color, 1.3);
     // While something is dragged the lines are ahead of the survey: the label says what is drawn.

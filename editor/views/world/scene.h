@@ -2,25 +2,25 @@
 #pragma once
 
 #include "editor/document/edits.h"
-#include "editor/views/studio.h"
+#include "editor/views/context.h"
 #include "editor/views/world/canvas.h"
 #include "editor/views/world/model.h"
 
 namespace sigs::editor {
 
-// What the world view draws from in one turn.
-struct WorldTurn {
-  const Studio& studio;
+// What the world view draws from in one update.
+struct WorldContext {
+  const ViewContext& context;
   const WorldModel& model;
   const WorldMoment& moment;
 };
 
 // Camera path, camera and its field of view, trajectories with what is flagged on them, closest approaches. `hovered`
-// is lit as if it were selected.
-void draw_camera(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered);
-void draw_trajectories(WorldCanvas& canvas, const WorldTurn& turn);
-void draw_waypoints(WorldCanvas& canvas, const WorldTurn& turn, const Selection& hovered);
-void draw_closest_approaches(WorldCanvas& canvas, const WorldTurn& turn);
+// is highlighted as if it were selected.
+void draw_camera(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered);
+void draw_trajectories(WorldCanvas& canvas, const WorldContext& world);
+void draw_waypoints(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered);
+void draw_closest_approaches(WorldCanvas& canvas, const WorldContext& world);
 
 // A line from a place of the air to the ground below (or above) it, with a mark where it stands.
 void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color);

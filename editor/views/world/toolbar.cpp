@@ -62,18 +62,20 @@ void snap_icon(ImDrawList& list, ImVec2 center, float side, ImU32 color) {
 
 }  // namespace
 
-WorldToolbarAnswer draw_world_toolbar(WorldLook& look) {
-  WorldToolbarAnswer answer;
-  const auto stand = [&](ToolButton button, WorldStand wanted) {
-    button.on = look.stand == wanted;
-    return ToolbarItem{.button = button, .clicked = [&answer, wanted] { answer.stand = wanted; }};
+WorldToolbarResult draw_world_toolbar(WorldViewState& look) {
+  WorldToolbarResult answer;
+  const auto preset = [&](ToolButton button, WorldViewPreset wanted) {
+    button.on = look.preset == wanted;
+    return ToolbarItem{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
   };
   const std::vector<ToolbarItem> items{
-      stand({"orbit", orbit_icon, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
-            WorldStand::orbit),
-      stand({"top", top_icon, "Top", "From above, the camera's way upwards"}, WorldStand::top),
-      stand({"side", side_icon, "Side", "From the right-hand side, the camera flying to the right"}, WorldStand::side),
-      stand({"camera", camera_icon, "Camera", "From behind the camera, going with it"}, WorldStand::camera),
+      preset(
+          {"orbit", orbit_icon, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
+          WorldViewPreset::orbit),
+      preset({"top", top_icon, "Top", "From above, the camera's way upwards"}, WorldViewPreset::top),
+      preset({"side", side_icon, "Side", "From the right-hand side, the camera flying to the right"},
+             WorldViewPreset::side),
+      preset({"camera", camera_icon, "Camera", "From behind the camera, going with it"}, WorldViewPreset::camera),
       {.is_gap = true},
       {.button = {"frame", frame_icon, "", "Everything in sight (F); the light too while it is selected"},
        .clicked = [&] { answer.frame_all = true; }},

@@ -3,17 +3,17 @@
 
 #include <optional>
 
-#include "editor/views/world/look.h"
+#include "editor/views/world/view_presets.h"
 
 namespace sigs::editor {
 
 // What was asked for with a button; the rest it does itself (projection, snapping).
-struct WorldToolbarAnswer {
-  std::optional<WorldStand> stand;
+struct WorldToolbarResult {
+  std::optional<WorldViewPreset> preset;
   bool frame_all = false;
 };
 
 // One row over the world view.
-[[nodiscard]] WorldToolbarAnswer draw_world_toolbar(WorldLook& look);
+[[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look);
 
 }  // namespace sigs::editor

@@ -24,7 +24,7 @@ glm::dvec2 mouse_now() {
   return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
 }
 
-double snap_now_m(const WorldCanvas& canvas, const WorldLook& look, const glm::dvec3& at_m) {
+double snap_now_m(const WorldCanvas& canvas, const WorldViewState& look, const glm::dvec3& at_m) {
   return look.snap != ImGui::GetIO().KeyCtrl ? snap_step_m(canvas.eye(), at_m, canvas.rect()) : 0;
 }
 
@@ -54,17 +54,17 @@ void draw_plate(WorldCanvas& canvas, const std::vector<std::string>& lines) {
 
 }  // namespace
 
-void WorldTools::update(const WorldTurn& turn, const WorldCanvas& canvas, WorldLook& look) {
+void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, WorldViewState& look) {
   const bool over = ImGui::IsItemHovered();
   hovered_ = {};
-  move_handle(turn, canvas, look);
+  move_handle(world, canvas, look);
   if (handle_.dragging()) return;
   if (over && holding_ == Holding::nothing && handle_.part() == GizmoPart::none)
-    hovered_ = pick_at(canvas, turn, mouse_now());
+    hovered_ = pick_at(canvas, world, mouse_now());
   if (hovered_.what.kind != Selected::nothing) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  if (over) press(turn, canvas);
+  if (over) press(world, canvas);
   hold(canvas.rect(), look);
-  release(turn, canvas);
+  release(world, canvas);
   if (!over) return;
   if (ImGui::GetIO().MouseWheel != 0) {
     const double factor = std::pow(kZoomStep, ImGui::GetIO().MouseWheel);
@@ -72,55 +72,55 @@ void WorldTools::update(const WorldTurn& turn, const WorldCanvas& canvas, WorldL
     look.touched = true;
   }
   const bool may_type = !ImGui::GetIO().WantTextInput && !ImGui::GetIO().KeyCtrl;
-  if (may_type && pressed(Key::n)) enter_position(turn, turn.studio.document.selection());
+  if (may_type && pressed(Key::n)) enter_position(world, world.context.document.selection());
 }
 
-void WorldTools::move_handle(const WorldTurn& turn, const WorldCanvas& canvas, const WorldLook& look) {
+void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
   moved_to_.reset();
   // Numbers count what they counted as long as nothing but this drag has changed the project.
-  if (handle_.dragging() && turn.studio.document.has_other_changes(revision_before_, gesture_of(dragged_)))
-    handle_.let_go();
-  const std::optional<Movable> target = handle_.dragging() ? movable(turn, dragged_) : movable(turn);
+  if (handle_.dragging() && world.context.document.has_other_changes(revision_before_, gesture_of(dragged_)))
+    handle_.abandon_drag();
+  const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
   if (!target) {
-    handle_.let_go();
+    handle_.abandon_drag();
     return;
   }
   const bool was_dragging = handle_.dragging();
-  const GizmoStage stage{.camera = canvas.eye(),
+  const GizmoInput input{.camera = canvas.eye(),
                          .rect = canvas.rect(),
                          .mouse_is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing,
                          .snap_m = snap_now_m(canvas, look, target->at_m)};
-  const GizmoAnswer answer = handle_.update(target->at_m, stage);
+  const GizmoResult answer = handle_.update(target->at_m, input);
   if (!was_dragging && handle_.dragging()) {
     dragged_ = target->what;
-    revision_before_ = turn.studio.document.revision().number;
+    revision_before_ = world.context.document.revision().number;
   }
-  if (answer.moved_to) move_to(turn, *target, *answer.moved_to);
+  if (answer.moved_to) move_to(world, *target, *answer.moved_to);
   moved_to_ = answer.moved_to;
-  if (answer.released) turn.studio.edits.end_gesture();
-  if (answer.cancelled) cancel_drag(turn);
+  if (answer.released) world.context.edits.end_gesture();
+  if (answer.cancelled) cancel_drag(world);
   if (answer.wants_numbers || (answer.wants_middle && target->what.kind != Selected::waypoint))
-    enter_position(turn, target->what);
+    enter_position(world, target->what);
   else if (answer.wants_middle)
-    take_double_click(turn);
+    handle_double_click(world);
 }
 
-void WorldTools::cancel_drag(const WorldTurn& turn) {
-  turn.studio.edits.cancel_gesture(gesture_of(dragged_));
+void WorldTools::cancel_drag(const WorldContext& world) {
+  world.context.edits.cancel_gesture(gesture_of(dragged_));
 }
 
-void WorldTools::press(const WorldTurn& turn, const WorldCanvas& canvas) {
+void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left);
   const bool middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   const bool right = ImGui::IsMouseClicked(ImGuiMouseButton_Right);
   if (handle_.part() != GizmoPart::none && left) return;  // the handle has had it
   if (holding_ != Holding::nothing || !(left || middle || right)) return;
   held_px_ = 0;
-  hovered_ = pick_at(canvas, turn, mouse_now());
+  hovered_ = pick_at(canvas, world, mouse_now());
   if (left && !ImGui::GetIO().KeyShift) {
-    if (const std::optional<Movable> target = movable(turn, hovered_.what);
+    if (const std::optional<Movable> target = movable(world, hovered_.what);
         target && hovered_.what.kind == Selected::waypoint) {
-      take_waypoint(turn, *target);
+      take_waypoint(world, *target);
       return;
     }
     holding_ = Holding::orbit;
@@ -130,14 +130,14 @@ void WorldTools::press(const WorldTurn& turn, const WorldCanvas& canvas) {
 }
 
 // Selected by the press, and moved in the screen's plane if the mouse goes on.
-void WorldTools::take_waypoint(const WorldTurn& turn, const Movable& waypoint) {
-  turn.studio.edits.select(waypoint.what);
+void WorldTools::take_waypoint(const WorldContext& world, const Movable& waypoint) {
+  world.context.edits.select(waypoint.what);
   handle_.take(GizmoPart::screen, waypoint.at_m);
   dragged_ = waypoint.what;
-  revision_before_ = turn.studio.document.revision().number;
+  revision_before_ = world.context.document.revision().number;
 }
 
-void WorldTools::hold(const ScreenRect& rect, WorldLook& look) {
+void WorldTools::hold(const ScreenRect& rect, WorldViewState& look) {
   if (holding_ == Holding::nothing) return;
   const glm::dvec2 by_px{ImGui::GetIO().MouseDelta.x, ImGui::GetIO().MouseDelta.y};
   const bool was_click = held_px_ < scaled(kClick_px);
@@ -148,52 +148,52 @@ void WorldTools::hold(const ScreenRect& rect, WorldLook& look) {
   if (holding_ == Holding::pan) look.eye = panned(look.eye, move_px, rect);
   if (holding_ != Holding::orbit || move_px == glm::dvec2(0)) return;
   look.eye = orbited(look.eye, move_px);
-  if (look.stand == WorldStand::top || look.stand == WorldStand::side) look.stand = WorldStand::orbit;
+  if (look.preset == WorldViewPreset::top || look.preset == WorldViewPreset::side) look.preset = WorldViewPreset::orbit;
 }
 
-void WorldTools::release(const WorldTurn& turn, const WorldCanvas& canvas) {
+void WorldTools::release(const WorldContext& world, const WorldCanvas& canvas) {
   const ImGuiMouseButton button = holding_ == Holding::menu ? ImGuiMouseButton_Right : ImGuiMouseButton_Left;
   const bool down =
       ImGui::IsMouseDown(button) || (holding_ == Holding::pan && ImGui::IsMouseDown(ImGuiMouseButton_Middle));
   if (holding_ == Holding::nothing || down) return;
   const Holding held = std::exchange(holding_, Holding::nothing);
   if (held_px_ >= scaled(kClick_px) || held == Holding::pan) return;
-  const WorldPick pick = pick_at(canvas, turn, mouse_now());
+  const WorldPick pick = pick_at(canvas, world, mouse_now());
   if (held == Holding::menu) {
-    if (pick.what.kind != Selected::nothing) turn.studio.edits.select(pick.what);
-    menu_.open(pick, place_for_waypoint(canvas, turn, mouse_now()));
+    if (pick.what.kind != Selected::nothing) world.context.edits.select(pick.what);
+    menu_.open(pick, place_for_waypoint(canvas, world, mouse_now()));
   } else if (pick.frame) {
-    turn.studio.edits.select({Selected::intruder, pick.what.intruder, 0});
+    world.context.edits.select({Selected::intruder, pick.what.intruder, 0});
   } else {
-    turn.studio.edits.select(pick.what);
+    world.context.edits.select(pick.what);
   }
 }
 
 // The first click has selected a waypoint, the second goes to its frame.
-void WorldTools::take_double_click(const WorldTurn& turn) {
-  const Selection& selection = turn.studio.document.selection();
+void WorldTools::handle_double_click(const WorldContext& world) {
+  const Selection& selection = world.context.document.selection();
   if (selection.kind != Selected::waypoint) return;
   const double frame =
-      frames_of_waypoints(turn.studio, selection.intruder)[static_cast<std::size_t>(selection.waypoint)];
-  turn.studio.edits.ask(Play{0});
-  turn.studio.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
+      frames_of_waypoints(world.context, selection.intruder)[static_cast<std::size_t>(selection.waypoint)];
+  world.context.edits.ask(Play{0});
+  world.context.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
 }
 
-void WorldTools::enter_position(const WorldTurn& turn, const Selection& what) {
-  const std::optional<Movable> target = movable(turn, what);
+void WorldTools::enter_position(const WorldContext& world, const Selection& what) {
+  const std::optional<Movable> target = movable(world, what);
   if (!target) return;
   entered_ = what;
   entry_.open(target->title, target->at_m);
 }
 
-void WorldTools::draw_entry(const WorldTurn& turn) {
+void WorldTools::draw_entry(const WorldContext& world) {
   const std::optional<glm::dvec3> typed_m = entry_.draw();
   if (!typed_m) return;
-  const std::optional<Movable> target = movable(turn, entered_);
+  const std::optional<Movable> target = movable(world, entered_);
   if (!target) return;
-  turn.studio.edits.end_gesture();  // a step of its own
-  move_to(turn, *target, *typed_m);
-  turn.studio.edits.end_gesture();
+  world.context.edits.end_gesture();  // a step of its own
+  move_to(world, *target, *typed_m);
+  world.context.edits.end_gesture();
 }
 
 void WorldTools::draw_readout(WorldCanvas& canvas, const Movable& moved, double snap_m) const {
@@ -205,24 +205,24 @@ void WorldTools::draw_readout(WorldCanvas& canvas, const Movable& moved, double 
   draw_plate(canvas, lines);
 }
 
-void WorldTools::keep_handle_free(WorldCanvas& canvas, const WorldTurn& turn) const {
-  const std::optional<Movable> target = handle_.dragging() ? movable(turn, dragged_) : movable(turn);
+void WorldTools::keep_handle_free(WorldCanvas& canvas, const WorldContext& world) const {
+  const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
   if (!target) return;
   const glm::dvec3 at_m = moved_to_.value_or(target->at_m);
   for (const ScreenRect& rect : handle_.covered(at_m, {.camera = canvas.eye(), .rect = canvas.rect()}))
     canvas.keep_free(rect);
 }
 
-void WorldTools::draw(WorldCanvas& canvas, const WorldTurn& turn, const WorldLook& look) {
-  const std::optional<Movable> target = handle_.dragging() ? movable(turn, dragged_) : movable(turn);
+void WorldTools::draw(WorldCanvas& canvas, const WorldContext& world, const WorldViewState& look) {
+  const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
   if (target) {
     const glm::dvec3 at_m = moved_to_.value_or(target->at_m);
     handle_.draw(canvas.list(), at_m, {.camera = canvas.eye(), .rect = canvas.rect()});
-    handle_.note_places(turn.studio.places, at_m, {.camera = canvas.eye(), .rect = canvas.rect()});
+    handle_.probe_places(world.context.ui_probe, at_m, {.camera = canvas.eye(), .rect = canvas.rect()});
     if (handle_.dragging() && moved_to_) draw_readout(canvas, *target, snap_now_m(canvas, look, at_m));
   }
-  draw_entry(turn);
-  if (const std::optional<Selection> what = menu_.draw(turn)) enter_position(turn, *what);
+  draw_entry(world);
+  if (const std::optional<Selection> what = menu_.draw(world)) enter_position(world, *what);
 }
 
 }  // namespace sigs::editor

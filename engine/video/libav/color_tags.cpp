@@ -25,18 +25,18 @@ bool is_limited_by_standard(AVCodecID codec) {
          codec == AV_CODEC_ID_AV1 || codec == AV_CODEC_ID_MPEG4 || codec == AV_CODEC_ID_MPEG2VIDEO;
 }
 
-void read_range(ColorInfo& color, const AVFrame& picture, AVCodecID codec, PixelLayout layout) {
-  const bool jpeg = is_jpeg_format(static_cast<AVPixelFormat>(picture.format));
-  color.range_stated = jpeg || layout == PixelLayout::rgb || picture.color_range != AVCOL_RANGE_UNSPECIFIED;
+void read_range(ColorInfo& color, const AVFrame& image, AVCodecID codec, PixelLayout layout) {
+  const bool jpeg = is_jpeg_format(static_cast<AVPixelFormat>(image.format));
+  color.range_stated = jpeg || layout == PixelLayout::rgb || image.color_range != AVCOL_RANGE_UNSPECIFIED;
   const bool full_gray = layout == PixelLayout::gray && !is_limited_by_standard(codec);
-  const bool full = jpeg || layout == PixelLayout::rgb || picture.color_range == AVCOL_RANGE_JPEG ||
-                    (picture.color_range == AVCOL_RANGE_UNSPECIFIED && full_gray);
+  const bool full = jpeg || layout == PixelLayout::rgb || image.color_range == AVCOL_RANGE_JPEG ||
+                    (image.color_range == AVCOL_RANGE_UNSPECIFIED && full_gray);
   color.range = full ? ColorRange::full : ColorRange::limited;
 }
 
-std::string read_matrix(ColorInfo& color, const AVFrame& picture) {
+std::string read_matrix(ColorInfo& color, const AVFrame& image) {
   color.matrix_stated = true;
-  switch (picture.colorspace) {
+  switch (image.colorspace) {
     case AVCOL_SPC_BT709:
       color.matrix = ColorMatrix::bt709;
       return {};
@@ -51,15 +51,15 @@ std::string read_matrix(ColorInfo& color, const AVFrame& picture) {
       break;
   }
   color.matrix_stated = false;
-  color.matrix = picture.height < kHighDefinitionLines ? ColorMatrix::bt601 : ColorMatrix::bt709;
-  if (picture.colorspace == AVCOL_SPC_UNSPECIFIED || picture.colorspace == AVCOL_SPC_RGB) return {};
-  const char* name = av_color_space_name(picture.colorspace);
+  color.matrix = image.height < kHighDefinitionLines ? ColorMatrix::bt601 : ColorMatrix::bt709;
+  if (image.colorspace == AVCOL_SPC_UNSPECIFIED || image.colorspace == AVCOL_SPC_RGB) return {};
+  const char* name = av_color_space_name(image.colorspace);
   return std::string("the colour matrix ") + (name == nullptr ? "of this number" : name) + " is not known; " +
          (color.matrix == ColorMatrix::bt601 ? "BT.601" : "BT.709") + " is assumed";
 }
 
-std::string read_site(ColorInfo& color, const AVFrame& picture, AVCodecID codec) {
-  switch (picture.chroma_location) {
+std::string read_site(ColorInfo& color, const AVFrame& image, AVCodecID codec) {
+  switch (image.chroma_location) {
     case AVCHROMA_LOC_LEFT:
       color.chroma_site = ChromaSite::left;
       return {};
@@ -74,8 +74,8 @@ std::string read_site(ColorInfo& color, const AVFrame& picture, AVCodecID codec)
   }
   // JFIF puts chroma midway; every video standard puts it at the left, full range or not.
   color.chroma_site = codec == AV_CODEC_ID_MJPEG ? ChromaSite::center : ChromaSite::left;
-  if (picture.chroma_location == AVCHROMA_LOC_UNSPECIFIED) return {};
-  return std::string("chroma siting ") + av_chroma_location_name(picture.chroma_location) +
+  if (image.chroma_location == AVCHROMA_LOC_UNSPECIFIED) return {};
+  return std::string("chroma siting ") + av_chroma_location_name(image.chroma_location) +
          " is not known; left is assumed";
 }
 
@@ -123,15 +123,15 @@ AVChromaLocation location_of(ChromaSite site) {
 
 }  // namespace
 
-ColorReading color_of(const AVFrame& picture, AVCodecID codec, PixelLayout layout) {
+ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout) {
   ColorReading reading;
   ColorInfo& color = reading.color;
-  color.primaries = code_point(picture.color_primaries);
-  color.transfer = code_point(picture.color_trc);
-  read_range(color, picture, codec, layout);
-  reading.remark = layout == PixelLayout::rgb ? "" : read_matrix(color, picture);
+  color.primaries = code_point(image.color_primaries);
+  color.transfer = code_point(image.color_trc);
+  read_range(color, image, codec, layout);
+  reading.remark = layout == PixelLayout::rgb ? "" : read_matrix(color, image);
   const bool shares_chroma = layout == PixelLayout::yuv420 || layout == PixelLayout::yuv422;
-  const std::string site = shares_chroma ? read_site(color, picture, codec) : "";
+  const std::string site = shares_chroma ? read_site(color, image, codec) : "";
   add_remark(reading.remark, site);
   add_remark(reading.remark, remark_on_light(color));
   return reading;

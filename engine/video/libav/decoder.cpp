@@ -15,11 +15,11 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   CodecPtr context(avcodec_alloc_context3(codec));
   if (context == nullptr) throw std::bad_alloc();
   int error = avcodec_parameters_to_context(context.get(), &parameters);
-  // Which macroblocks of a damaged MPEG-4 picture FFmpeg misses depends on which of its threads is ahead.
+  // Which macroblocks of a damaged MPEG-4 image FFmpeg misses depends on which of its threads is ahead.
   context->thread_count = parameters.codec_id == AV_CODEC_ID_MPEG4 ? 1 : settings.threads;
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
-  if (error < 0 && settings.threads > 1)  // there may be no more threads to be had; one gives the same pictures
+  if (error < 0 && settings.threads > 1)  // there may be no more threads to be had; one gives the same images
     return open_decoder(parameters, {.threads = 1, .reorder_depth = settings.reorder_depth});
   check_memory(error);
   if (error < 0)

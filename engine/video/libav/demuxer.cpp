@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A file cut off in the middle gives an error for each packet that its index still names.
-constexpr int kMostReadErrorsInARow = 64;
+constexpr int kMaxReadErrorsInARow = 64;
 
 Result<void> check_is_file(const fs::path& path) {
   if (const Result<void> file = check_input_file(path, "video"); !file) return file;
@@ -120,7 +120,7 @@ Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* can
 }
 
 bool Demuxer::next(AVPacket& packet) {
-  for (int errors = 0; errors < kMostReadErrorsInARow;) {
+  for (int errors = 0; errors < kMaxReadErrorsInARow;) {
     av_packet_unref(&packet);
     const int result = av_read_frame(input_.get(), &packet);
     check_memory(result);

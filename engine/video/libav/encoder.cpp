@@ -29,7 +29,7 @@ int frame_threads(int wanted) {
 void set_up_ffv1(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
   context.level = 3;  // slices with checksums
   context.gop_size = 1;
-  context.slices = 0;  // chosen by the encoder from the picture's size alone: four, more where that is not possible
+  context.slices = 0;  // chosen by the encoder from the image's size alone: four, more where that is not possible
   context.thread_count = frame_threads(format.threads);
   context.thread_type = FF_THREAD_SLICE;
   av_dict_set(options, "slicecrc", "1", 0);
@@ -47,12 +47,12 @@ void set_up_mjpeg(AVCodecContext& context, const VideoFormat& format) {
   context.flags |= AV_CODEC_FLAG_QSCALE;
   context.global_quality = FF_QP2LAMBDA * kMjpegQuality;
   context.qmin = context.qmax = kMjpegQuality;
-  // Slices would change the bytes; pictures do not depend on one another.
+  // Slices would change the bytes; images do not depend on one another.
   context.thread_count = frame_threads(format.threads);
   context.thread_type = FF_THREAD_FRAME;
 }
 
-void set_up_picture(AVCodecContext& context, const VideoFormat& format, const Encoding& encoding, AVRational tick) {
+void set_up_frame(AVCodecContext& context, const VideoFormat& format, const Encoding& encoding, AVRational tick) {
   context.width = format.size_px.width;
   context.height = format.size_px.height;
   context.pix_fmt = encoding.pixel_format;
@@ -71,7 +71,7 @@ Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encodin
     return fail("", std::string("this FFmpeg has no encoder ") + encoding.encoder, ErrorKind::unavailable);
   CodecPtr context(avcodec_alloc_context3(codec));
   if (context == nullptr) throw std::bad_alloc();
-  set_up_picture(*context, format, encoding, tick);
+  set_up_frame(*context, format, encoding, tick);
   if (headers) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   AVDictionary* options = nullptr;
   if (format.codec == VideoCodec::ffv1) set_up_ffv1(*context, format, &options);

@@ -34,21 +34,21 @@ std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-// FFmpeg's FFV1 cuts every picture into slices and does not give back those that are one sample wide or high.
+// FFmpeg's FFV1 cuts every image into slices and does not give back those that are one sample wide or high.
 constexpr int kSmallestFfv1_px = 4;
 
-// H.264's 4:2:0 and 4:2:2 pictures are whole chroma samples wide and high.
+// H.264's 4:2:0 and 4:2:2 images are whole chroma samples wide and high.
 Result<void> check_size(const VideoFormat& format, const Encoding& encoding) {
   if (format.size_px.width <= 0 || format.size_px.height <= 0)
-    return fail("", "the picture is empty: " + size_text(format.size_px), ErrorKind::usage);
+    return fail("", "the image is empty: " + size_text(format.size_px), ErrorKind::usage);
   if (format.codec == VideoCodec::ffv1 && std::min(format.size_px.width, format.size_px.height) < kSmallestFfv1_px)
-    return fail("", "ffv1 cannot hold a picture as small as " + size_text(format.size_px) + "; 4x4 is the least",
+    return fail("", "ffv1 cannot hold an image as small as " + size_text(format.size_px) + "; 4x4 is the least",
                 ErrorKind::usage);
   if (format.codec != VideoCodec::h264) return {};
   const cv::Size step = chroma_step(encoding.layout);
   if (format.size_px.width % step.width == 0 && format.size_px.height % step.height == 0) return {};
   return fail("",
-              std::string(name_of(format.codec)) + " needs an even width and height, the picture is " +
+              std::string(name_of(format.codec)) + " needs an even width and height, the image is " +
                   size_text(format.size_px) + "; ffv1, mjpeg and png take any size",
               ErrorKind::usage);
 }

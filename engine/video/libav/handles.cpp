@@ -10,25 +10,25 @@
 namespace sigs::libav {
 namespace {
 
-constexpr std::string_view kGap = "Frame num gap";  // H.264: a reference picture is missing; FFmpeg fills in another
+constexpr std::string_view kGap = "Frame num gap";  // H.264: a reference image is missing; FFmpeg fills in another
 
-// What FFmpeg calls errors and sound footage has too: supplemental information of a kind it cannot parse, references
+// What FFmpeg calls errors and intact footage has too: supplemental information of a kind it cannot parse, references
 // that lie before a start in the middle.
 constexpr std::string_view kHarmless[] = {"SEI type", "mmco: unref", "number of reference frames"};
 
-// Patching up the macroblocks of a damaged picture is no more than information to FFmpeg.
-bool is_complaint(int level, std::string_view format) {
+// Patching up the macroblocks of a damaged image is no more than information to FFmpeg.
+bool is_decoder_error(int level, std::string_view format) {
   for (const std::string_view begin : kHarmless)
     if (format.starts_with(begin)) return false;
   return level <= AV_LOG_ERROR || format.starts_with("concealing") || format.starts_with(kGap);
 }
 
 // Called from FFmpeg's own threads. A threaded decoder's contexts are copies of the one that was opened.
-void note_complaint(void* source, int level, const char* format, va_list /*values*/) {
-  if (source == nullptr || !is_complaint(level, format)) return;
+void note_decoder_error(void* source, int level, const char* format, va_list /*values*/) {
+  if (source == nullptr || !is_decoder_error(level, format)) return;
   if (*static_cast<const AVClass**>(source) != avcodec_get_class()) return;
   void* tag = static_cast<const AVCodecContext*>(source)->opaque;
-  if (tag != nullptr) Complaints::report(tag, std::string_view(format).starts_with(kGap));
+  if (tag != nullptr) DecoderErrors::report(tag, std::string_view(format).starts_with(kGap));
 }
 
 }  // namespace
@@ -76,31 +76,31 @@ std::string url_of(const std::filesystem::path& path) {
 }
 
 void silence() {
-  av_log_set_callback(note_complaint);
+  av_log_set_callback(note_decoder_error);
 }
 
-void Complaints::restart(int first) {
+void DecoderErrors::restart(int first) {
   const std::lock_guard lock(mutex_);
   first_ = first;
   ordinals_.clear();
 }
 
-void* Complaints::tag_of(int ordinal) {
+void* DecoderErrors::tag_of(int ordinal) {
   Tag& tag = tags_[static_cast<size_t>(ordinal) % tags_.size()];
   tag = {this, ordinal};
   return &tag;
 }
 
-std::vector<int> Complaints::taken() {
+std::vector<int> DecoderErrors::taken() {
   const std::lock_guard lock(mutex_);
   return std::exchange(ordinals_, {});
 }
 
-void Complaints::report(void* tag, bool of_a_gap) {
+void DecoderErrors::report(void* tag, bool of_a_gap) {
   const Tag named = *static_cast<const Tag*>(tag);
-  const std::lock_guard lock(named.complaints->mutex_);
-  if (of_a_gap && named.ordinal <= named.complaints->first_) return;
-  named.complaints->ordinals_.push_back(named.ordinal);
+  const std::lock_guard lock(named.decoder_errors->mutex_);
+  if (of_a_gap && named.ordinal <= named.decoder_errors->first_) return;
+  named.decoder_errors->ordinals_.push_back(named.ordinal);
 }
 
 }  // namespace sigs::libav

@@ -38,7 +38,7 @@ using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 [[nodiscard]] PacketPtr new_packet();
 [[nodiscard]] FramePtr new_frame();
 
-// Throws std::bad_alloc where that is what the error code says. A picture that could not be decoded for want of memory
+// Throws std::bad_alloc where that is what the error code says. An image that could not be decoded for want of memory
 // is not a damaged one.
 void check_memory(int error);
 
@@ -49,11 +49,11 @@ void check_memory(int error);
 [[nodiscard]] std::string url_of(const std::filesystem::path& path);
 
 // FFmpeg reports to stderr, which belongs to the program's own log and progress. silence() turns that off; what a
-// decoder reports goes to the Complaints of the packet it is about, if any.
+// decoder reports goes to the DecoderErrors of the packet it is about, if any.
 void silence();
 
 // The packets of which a decoder reports that something is wrong with them. Its worker threads report too.
-class Complaints {
+class DecoderErrors {
  public:
   // Forgets all. first: ordinal of the packet that decoding begins at; what is missing before it is not missed.
   void restart(int first);
@@ -69,7 +69,7 @@ class Complaints {
 
  private:
   struct Tag {
-    Complaints* complaints = nullptr;
+    DecoderErrors* decoder_errors = nullptr;
     int ordinal = 0;
   };
   std::array<Tag, 64> tags_;  // more than a decoder has threads

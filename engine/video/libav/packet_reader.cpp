@@ -8,9 +8,9 @@
 namespace sigs::libav {
 namespace {
 
-constexpr int kMostSeeks = 5;
-constexpr size_t kMostRecent = 64;
-constexpr size_t kMostRecentBytes = 8 << 20;
+constexpr int kMaxSeeks = 5;
+constexpr size_t kMaxRecent = 64;
+constexpr size_t kMaxRecentBytes = 8 << 20;
 
 // Before the keyframe's own packet in decode order; some containers seek by decode time, some by presentation time.
 std::optional<int64_t> seek_time(const PacketMark& mark) {
@@ -40,7 +40,7 @@ Result<void> PacketReader::reopen() {
 
 bool PacketReader::seek_before(int ordinal) {
   int target = ordinal;
-  for (int i = 0; i < kMostSeeks && target > 0; ++i, target = key_before(*table_, target)) {
+  for (int i = 0; i < kMaxSeeks && target > 0; ++i, target = key_before(*table_, target)) {
     const std::optional<int64_t> time = seek_time((*table_)[target]);
     if (!time || !demuxer_.seek(*time) || !demuxer_.next(*packet_)) return false;
     const std::optional<int> landed = table_->ordinal_of(*packet_);
@@ -92,7 +92,7 @@ void PacketReader::keep() {
   av_packet_move_ref(kept.get(), packet_.get());
   recent_.push_back(std::move(kept));
   ++read_;
-  while (recent_.size() > 1 && (recent_.size() > kMostRecent || recent_bytes_ > kMostRecentBytes)) {
+  while (recent_.size() > 1 && (recent_.size() > kMaxRecent || recent_bytes_ > kMaxRecentBytes)) {
     recent_bytes_ -= static_cast<size_t>(recent_.front()->size);
     recent_.pop_front();
   }

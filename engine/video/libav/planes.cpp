@@ -107,15 +107,14 @@ std::vector<uchar> rounding_table(int depth, bool is_chroma, ColorRange range) {
   return table;
 }
 
-const uchar* sample_row(const AVFrame& picture, const AVComponentDescriptor& component, int y) {
-  return picture.data[component.plane] + static_cast<ptrdiff_t>(y) * picture.linesize[component.plane] +
-         component.offset;
+const uchar* sample_row(const AVFrame& image, const AVComponentDescriptor& component, int y) {
+  return image.data[component.plane] + static_cast<ptrdiff_t>(y) * image.linesize[component.plane] + component.offset;
 }
 
-cv::Mat picked_bytes(const AVFrame& picture, const AVComponentDescriptor& component, cv::Size size) {
+cv::Mat picked_bytes(const AVFrame& image, const AVComponentDescriptor& component, cv::Size size) {
   cv::Mat plane(size, CV_8UC1);
   for (int y = 0; y < size.height; ++y) {
-    const uchar* in = sample_row(picture, component, y);
+    const uchar* in = sample_row(image, component, y);
     uchar* out = plane.ptr<uchar>(y);
     if (component.step == 1)
       std::memcpy(out, in, static_cast<size_t>(size.width));
@@ -125,12 +124,12 @@ cv::Mat picked_bytes(const AVFrame& picture, const AVComponentDescriptor& compon
   return plane;
 }
 
-cv::Mat picked_words(const AVFrame& picture, const AVComponentDescriptor& component, cv::Size size,
+cv::Mat picked_words(const AVFrame& image, const AVComponentDescriptor& component, cv::Size size,
                      const std::vector<uchar>& table) {
   cv::Mat plane(size, CV_8UC1);
   const size_t mask = table.size() - 1;
   for (int y = 0; y < size.height; ++y) {
-    const uchar* in = sample_row(picture, component, y);
+    const uchar* in = sample_row(image, component, y);
     uchar* out = plane.ptr<uchar>(y);
     for (int x = 0; x < size.width; ++x, in += component.step) {
       uint16_t word = 0;
@@ -141,9 +140,9 @@ cv::Mat picked_words(const AVFrame& picture, const AVComponentDescriptor& compon
   return plane;
 }
 
-Frame picked(const AVFrame& picture, const AVPixFmtDescriptor& format, PixelLayout layout, const ColorInfo& color) {
+Frame picked(const AVFrame& image, const AVPixFmtDescriptor& format, PixelLayout layout, const ColorInfo& color) {
   Frame frame{.layout = layout, .color = color};
-  const cv::Size size(picture.width, picture.height);
+  const cv::Size size(image.width, image.height);
   const ColorRange range = layout == PixelLayout::rgb ? ColorRange::full : color.range;
   for (int i = 0; i < component_count(layout); ++i) {
     const AVComponentDescriptor& component = format.comp[i];
@@ -151,21 +150,21 @@ Frame picked(const AVFrame& picture, const AVPixFmtDescriptor& format, PixelLayo
     const cv::Size plane_size = is_chroma ? chroma_size(layout, size) : size;
     frame.planes[static_cast<size_t>(i)] =
         component.depth == 8
-            ? picked_bytes(picture, component, plane_size)
-            : picked_words(picture, component, plane_size, rounding_table(component.depth, is_chroma, range));
+            ? picked_bytes(image, component, plane_size)
+            : picked_words(image, component, plane_size, rounding_table(component.depth, is_chroma, range));
   }
   return frame;
 }
 
 // data[1] holds 256 words of opacity, red, green and blue, from the highest byte down.
-Frame looked_up(const AVFrame& picture, const ColorInfo& color) {
+Frame looked_up(const AVFrame& image, const ColorInfo& color) {
   Frame frame{.layout = PixelLayout::rgb, .color = color};
-  for (cv::Mat& plane : frame.planes) plane.create(picture.height, picture.width, CV_8UC1);
-  for (int y = 0; y < picture.height; ++y) {
-    const uchar* in = picture.data[0] + static_cast<ptrdiff_t>(y) * picture.linesize[0];
-    for (int x = 0; x < picture.width; ++x) {
+  for (cv::Mat& plane : frame.planes) plane.create(image.height, image.width, CV_8UC1);
+  for (int y = 0; y < image.height; ++y) {
+    const uchar* in = image.data[0] + static_cast<ptrdiff_t>(y) * image.linesize[0];
+    for (int x = 0; x < image.width; ++x) {
       uint32_t word = 0;
-      std::memcpy(&word, picture.data[1] + 4 * in[x], sizeof word);
+      std::memcpy(&word, image.data[1] + 4 * in[x], sizeof word);
       for (int i = 0; i < 3; ++i)
         frame.planes[static_cast<size_t>(i)].at<uchar>(y, x) = static_cast<uchar>(word >> (16 - 8 * i));
     }
@@ -180,21 +179,21 @@ void keep_range(SwsContext& scaler, ColorRange range) {
   sws_setColorspaceDetails(&scaler, coefficients, full, coefficients, full, 0, 1 << 16, 1 << 16);
 }
 
-Result<FramePtr> scaled(const AVFrame& picture, PixelLayout layout, ColorRange range) {
+Result<FramePtr> scaled(const AVFrame& image, PixelLayout layout, ColorRange range) {
   FramePtr plain = new_frame();
   plain->format = plain_format(layout);
-  plain->width = picture.width;
-  plain->height = picture.height;
+  plain->width = image.width;
+  plain->height = image.height;
   if (av_frame_get_buffer(plain.get(), 0) < 0) throw std::bad_alloc();
-  const ScalerPtr scaler(sws_getContext(picture.width, picture.height, static_cast<AVPixelFormat>(picture.format),
+  const ScalerPtr scaler(sws_getContext(image.width, image.height, static_cast<AVPixelFormat>(image.format),
                                         plain->width, plain->height, static_cast<AVPixelFormat>(plain->format),
                                         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,
                                         nullptr, nullptr));
   if (scaler == nullptr)
-    return fail("", std::string("the pixel format ") + av_get_pix_fmt_name(static_cast<AVPixelFormat>(picture.format)) +
+    return fail("", std::string("the pixel format ") + av_get_pix_fmt_name(static_cast<AVPixelFormat>(image.format)) +
                         " cannot be converted to 8-bit planes");
   keep_range(*scaler, range);
-  sws_scale(scaler.get(), picture.data, picture.linesize, 0, picture.height, plain->data, plain->linesize);
+  sws_scale(scaler.get(), image.data, image.linesize, 0, image.height, plain->data, plain->linesize);
   return plain;
 }
 
@@ -215,23 +214,23 @@ Conversion conversion_of(AVPixelFormat pixel_format) {
   return conversion;
 }
 
-Result<Frame> frame_of(const AVFrame& picture, PixelLayout layout, const ColorInfo& color) {
-  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(picture.format));
-  if (can_pick(format) && nearest_layout(format) == layout) return picked(picture, format, layout, color);
-  if (picture.format == AV_PIX_FMT_PAL8 && layout == PixelLayout::rgb) return looked_up(picture, color);
-  const Result<FramePtr> plain = scaled(picture, layout, color.range);
+Result<Frame> frame_of(const AVFrame& image, PixelLayout layout, const ColorInfo& color) {
+  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(image.format));
+  if (can_pick(format) && nearest_layout(format) == layout) return picked(image, format, layout, color);
+  if (image.format == AV_PIX_FMT_PAL8 && layout == PixelLayout::rgb) return looked_up(image, color);
+  const Result<FramePtr> plain = scaled(image, layout, color.range);
   if (!plain) return fail(plain.error());
   return picked(**plain, description_of(plain_format(layout)), layout, color);
 }
 
-void fill(AVFrame& picture, const Frame& frame) {
-  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(picture.format));
+void fill(AVFrame& image, const Frame& frame) {
+  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(image.format));
   for (int i = 0; i < frame.plane_count(); ++i) {
     const AVComponentDescriptor& component = format.comp[i];
     const cv::Mat& plane = frame.planes[static_cast<size_t>(i)];
     for (int y = 0; y < plane.rows; ++y) {
       const uchar* in = plane.ptr<uchar>(y);
-      uchar* out = const_cast<uchar*>(sample_row(picture, component, y));
+      uchar* out = const_cast<uchar*>(sample_row(image, component, y));
       if (component.step == 1)
         std::memcpy(out, in, static_cast<size_t>(plane.cols));
       else

@@ -16,12 +16,12 @@ struct Conversion {
 };
 [[nodiscard]] Conversion conversion_of(AVPixelFormat format);
 
-// The picture's samples as 8-bit planes of the given layout. 8-bit formats keep every sample, packed or planar. Deeper
+// The image's samples as 8-bit planes of the given layout. 8-bit formats keep every sample, packed or planar. Deeper
 // ones are rounded to the nearest 8-bit code of the same range. Everything else goes through swscale.
 // Error bad_data where swscale does not know the format.
-[[nodiscard]] Result<Frame> frame_of(const AVFrame& picture, PixelLayout layout, const ColorInfo& color);
+[[nodiscard]] Result<Frame> frame_of(const AVFrame& image, PixelLayout layout, const ColorInfo& color);
 
-// Fills the writable picture, whose pixel format has 8 bits a sample and the frame's layout.
-void fill(AVFrame& picture, const Frame& frame);
+// Fills the writable image, whose pixel format has 8 bits a sample and the frame's layout.
+void fill(AVFrame& image, const Frame& frame);
 
 }  // namespace sigs::libav

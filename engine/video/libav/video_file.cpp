@@ -9,7 +9,7 @@
 
 #include "base/ensure.h"
 #include "video/libav/encoder.h"
-#include "video/libav/lending.h"
+#include "video/libav/plane_wrapping.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {
@@ -40,7 +40,7 @@ AVRational tick_of(const VideoFormat& format) {
   return {1, static_cast<int>(num * std::max<int64_t>(1, (kFinestTicksPerSecond + num - 1) / num))};
 }
 
-// The encoder has read a picture's samples when it returns; others may hold on to them.
+// The encoder has read an image's samples when it returns; others may hold on to them.
 bool is_done_at_once(VideoCodec codec) {
   return codec == VideoCodec::ffv1 || codec == VideoCodec::h264;
 }
@@ -101,30 +101,30 @@ Result<int64_t> VideoFile::next_stamp(double time_s) {
   return last_stamp_ = std::max(stamp, last_stamp_ + 1);
 }
 
-FramePtr VideoFile::picture_of(const Frame& frame) const {
-  FramePtr picture = new_frame();
-  picture->format = encoder_->pix_fmt;
-  picture->width = encoder_->width;
-  picture->height = encoder_->height;
-  picture->color_range = encoder_->color_range;
-  picture->colorspace = encoder_->colorspace;
+FramePtr VideoFile::av_frame_of(const Frame& frame) const {
+  FramePtr image = new_frame();
+  image->format = encoder_->pix_fmt;
+  image->width = encoder_->width;
+  image->height = encoder_->height;
+  image->color_range = encoder_->color_range;
+  image->colorspace = encoder_->colorspace;
   const Frame as_stored = stored(frame, encoding_);
-  if (is_done_at_once(format_.codec) && can_lend(encoder_->pix_fmt)) {
-    lend(*picture, as_stored);
+  if (is_done_at_once(format_.codec) && can_wrap_planes(encoder_->pix_fmt)) {
+    wrap_planes(*image, as_stored);
   } else {
-    if (av_frame_get_buffer(picture.get(), 0) < 0) throw std::bad_alloc();
-    fill(*picture, as_stored);
+    if (av_frame_get_buffer(image.get(), 0) < 0) throw std::bad_alloc();
+    fill(*image, as_stored);
   }
-  return picture;
+  return image;
 }
 
 Result<void> VideoFile::write(const Frame& frame) {
   ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
-  const FramePtr picture = picture_of(frame);
-  picture->pts = *stamp;
-  return encode(picture.get());
+  const FramePtr image = av_frame_of(frame);
+  image->pts = *stamp;
+  return encode(image.get());
 }
 
 Result<void> VideoFile::write_blank(double time_s) {
@@ -135,18 +135,18 @@ Result<void> VideoFile::write_blank(double time_s) {
   return write(frame);
 }
 
-// Every picture of FFV1 here is a key picture, so the same picture makes the same packet.
+// Every image of FFV1 here is a key image, so the same image makes the same packet.
 void VideoFile::prepare_blanks() {
   if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
   Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
   blank_ = packet_alone(frame);
 }
 
-// What the encoder makes of a picture that is not written. Empty where it does not come out at once.
+// What the encoder makes of an image that is not written. Empty where it does not come out at once.
 std::vector<uint8_t> VideoFile::packet_alone(const Frame& frame) {
-  const FramePtr picture = picture_of(frame);
-  picture->pts = std::max<int64_t>(last_stamp_, 0);
-  if (avcodec_send_frame(encoder_.get(), picture.get()) < 0) return {};
+  const FramePtr image = av_frame_of(frame);
+  image->pts = std::max<int64_t>(last_stamp_, 0);
+  if (avcodec_send_frame(encoder_.get(), image.get()) < 0) return {};
   if (avcodec_receive_packet(encoder_.get(), packet_.get()) < 0) return {};
   std::vector<uint8_t> bytes(packet_->data, packet_->data + packet_->size);
   av_packet_unref(packet_.get());
@@ -158,8 +158,8 @@ tl::unexpected<Error> VideoFile::encoding_failed(int error) const {
   return fail(path_.string(), "could not be encoded: " + text_of(error), ErrorKind::write_failed);
 }
 
-Result<void> VideoFile::encode(const AVFrame* picture) {
-  if (const int sent = avcodec_send_frame(encoder_.get(), picture); sent < 0) return encoding_failed(sent);
+Result<void> VideoFile::encode(const AVFrame* image) {
+  if (const int sent = avcodec_send_frame(encoder_.get(), image); sent < 0) return encoding_failed(sent);
   while (true) {
     const int received = avcodec_receive_packet(encoder_.get(), packet_.get());
     if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return {};

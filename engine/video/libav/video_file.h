@@ -22,7 +22,7 @@ class VideoFile {
  public:
   [[nodiscard]] static Result<VideoFile> create(const std::filesystem::path& path, const VideoFormat& format);
 
-  // Does now what the first pictures would wait for. No need to call it; the bytes are the same.
+  // Does now what the first images would wait for. No need to call it; the bytes are the same.
   void warm_up() { prepare_blanks(); }
   [[nodiscard]] Result<void> write(const Frame& frame);
   [[nodiscard]] Result<void> write_blank(double time_s);
@@ -33,8 +33,8 @@ class VideoFile {
 
   [[nodiscard]] Result<void> begin();
   [[nodiscard]] Result<int64_t> next_stamp(double time_s);
-  [[nodiscard]] FramePtr picture_of(const Frame& frame) const;
-  [[nodiscard]] Result<void> encode(const AVFrame* picture);
+  [[nodiscard]] FramePtr av_frame_of(const Frame& frame) const;
+  [[nodiscard]] Result<void> encode(const AVFrame* image);
   [[nodiscard]] std::vector<uint8_t> packet_alone(const Frame& frame);
   void prepare_blanks();
   [[nodiscard]] Result<void> put(AVPacket& packet);
@@ -50,7 +50,7 @@ class VideoFile {
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();
   bool blanks_are_prepared_ = false;
-  std::vector<uint8_t> blank_;  // what the encoder makes of a blank picture, where that is always the same
+  std::vector<uint8_t> blank_;  // what the encoder makes of a blank image, where that is always the same
   std::optional<double> first_time_s_;
   double last_time_s_ = 0;
   int64_t last_stamp_ = -1;

@@ -62,7 +62,7 @@ void settle(Screen& screen, const std::function<void()>& draw) {
 
 }  // namespace
 
-TEST_CASE("the first turn draws the whole window, the next one nothing") {
+TEST_CASE("the first update draws the whole window, the next one nothing") {
   Screen screen;
   const auto draw = [] { panel("a", 0, 0, 300, 200, "same"); };
   const std::vector<ImVec4> first = screen.turn(draw);
@@ -87,21 +87,21 @@ TEST_CASE("a panel that changes is drawn, its neighbour is not") {
   CHECK(within(changed[0], {0, 0, 300, 200}));
 }
 
-TEST_CASE("of a panel's pictures the one that is exchanged is drawn, the others are not") {
+TEST_CASE("of a panel's images the one that is exchanged is drawn, the others are not") {
   Screen screen;
-  int picture = 7;
+  int image = 7;
   const auto draw = [&] {
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize({700, 500});
-    ImGui::Begin("pictures", nullptr, ImGuiWindowFlags_NoDecoration);
+    ImGui::Begin("images", nullptr, ImGuiWindowFlags_NoDecoration);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(5)), {20, 20}, {120, 120});
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture)), {300, 200}, {400, 300});
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(image)), {300, 200}, {400, 300});
     list.AddText({500, 400}, IM_COL32_WHITE, "after it");
     ImGui::End();
   };
   settle(screen, draw);
-  picture = 8;
+  image = 8;
   const std::vector<ImVec4> changed = screen.turn(draw);
   REQUIRE(changed.size() == 1);
   CHECK(within({300, 200, 400, 300}, changed[0]));
@@ -131,7 +131,7 @@ TEST_CASE("a panel that comes, goes or changes its place in the pile draws every
   };
   settle(screen, draw);
   second = true;
-  (void)screen.turn(draw);  // ImGui shows a new window one turn later
+  (void)screen.turn(draw);  // ImGui shows a new window one update later
   std::vector<ImVec4> changed = screen.turn(draw);
   settle(screen, draw);
   second = false;

@@ -17,7 +17,7 @@ cv::Mat black() {
   return cv::Mat::zeros(kSize, CV_8UC1);
 }
 
-// The brush's definition, pixel by pixel over the whole picture.
+// The brush's definition, pixel by pixel over the whole image.
 cv::Mat dot_by_definition(const Brush& brush, const glm::dvec2& at) {
   cv::Mat mask = black();
   for (int y = 0; y < mask.rows; ++y)
@@ -34,7 +34,7 @@ cv::Mat dot_by_definition(const Brush& brush, const glm::dvec2& at) {
   return mask;
 }
 
-int most_apart(const cv::Mat& a, const cv::Mat& b) {
+int max_apart(const cv::Mat& a, const cv::Mat& b) {
   return static_cast<int>(cv::norm(a, b, cv::NORM_INF));
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("a stroke of no length is a dot, exactly round") {
         const Brush brush{radius_px, edge_px};
         cv::Mat mask = black();
         move_brush(mask, brush, at, at);
-        CHECK(most_apart(mask, dot_by_definition(brush, at)) <= (edge_px > 0 ? 1 : 0));  // rounded from other sums
+        CHECK(max_apart(mask, dot_by_definition(brush, at)) <= (edge_px > 0 ? 1 : 0));  // rounded from other sums
       }
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("a line is what dots close to each other along it cover") {
       const glm::dvec2 at = from + (to - from) * (double(i) / kDots);
       move_brush(dots, brush, at, at);
     }
-    CHECK(most_apart(line, dots) <= 1);  // dots lie up to 0.02 px from the nearest point: 85 * 0.0001 of a code
+    CHECK(max_apart(line, dots) <= 1);  // dots lie up to 0.02 px from the nearest point: 85 * 0.0001 of a code
     CHECK(cv::countNonZero(line) > 100);
   }
 }
@@ -93,9 +93,9 @@ TEST_CASE("erasing takes away what painting would give, and no brush goes beyond
   CHECK(cv::norm(painted + erased, cv::Mat(kSize, CV_8UC1, cv::Scalar(255)), cv::NORM_INF) == 0);
   cv::Mat grey(kSize, CV_8UC1, cv::Scalar(100));
   move_brush(grey, paint, {20, 20}, {40, 30});
-  double least = 0;
-  cv::minMaxLoc(grey, &least);
-  CHECK(least == 100);
+  double minimum = 0;
+  cv::minMaxLoc(grey, &minimum);
+  CHECK(minimum == 100);
 }
 
 TEST_CASE("passing twice changes nothing more, and a line in pieces is the line") {
@@ -106,29 +106,29 @@ TEST_CASE("passing twice changes nothing more, and a line in pieces is the line"
     move_brush(once, brush, {5, 5}, {55, 40});
     cv::Mat twice = once.clone();
     move_brush(twice, brush, {55, 40}, {5, 5});
-    CHECK(most_apart(once, twice) <= 1);  // the other end's sums round otherwise
+    CHECK(max_apart(once, twice) <= 1);  // the other end's sums round otherwise
     cv::Mat pieces = start.clone();
     move_brush(pieces, brush, {5, 5}, {30, 22.5});
     move_brush(pieces, brush, {30, 22.5}, {55, 40});
-    CHECK(most_apart(once, pieces) <= 1);
+    CHECK(max_apart(once, pieces) <= 1);
   }
 }
 
-TEST_CASE("only pixels of the rectangle that is told have changed, and all of it lies in the picture") {
+TEST_CASE("only pixels of the rectangle that is changed have changed, and all of it lies in the image") {
   const Brush brush{7, 3};
   const std::vector<std::pair<glm::dvec2, glm::dvec2>> lines{
       {{10, 10}, {30, 20}}, {{-3, -3}, {5, 5}}, {{60, 40}, {200, 300}}, {{31.5, 23.5}, {31.5, 23.5}}};
   for (const auto& [from, to] : lines) {
     cv::Mat mask = black();
-    const cv::Rect told = move_brush(mask, brush, from, to);
-    REQUIRE_FALSE(told.empty());
-    CHECK((told & cv::Rect({0, 0}, kSize)) == told);
-    CHECK(cv::countNonZero(mask) == cv::countNonZero(mask(told)));
+    const cv::Rect changed = move_brush(mask, brush, from, to);
+    REQUIRE_FALSE(changed.empty());
+    CHECK((changed & cv::Rect({0, 0}, kSize)) == changed);
+    CHECK(cv::countNonZero(mask) == cv::countNonZero(mask(changed)));
     CHECK(cv::countNonZero(mask) > 0);
   }
 }
 
-TEST_CASE("beside the picture, far away and at places that are none nothing is painted") {
+TEST_CASE("beside the image, far away and at places that are none nothing is painted") {
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<glm::dvec2, glm::dvec2>> lines{
@@ -143,7 +143,7 @@ TEST_CASE("beside the picture, far away and at places that are none nothing is p
   CHECK(move_brush(nothing, {5, 2}, {0, 0}, {1, 1}).empty());
 }
 
-TEST_CASE("a line from very far through the picture crosses it") {
+TEST_CASE("a line from very far through the image crosses it") {
   cv::Mat mask = black();
   move_brush(mask, {4, 0}, {-1e7, 24}, {1e7, 24});
   CHECK(cv::countNonZero(mask.row(24)) == kSize.width);
@@ -152,13 +152,13 @@ TEST_CASE("a line from very far through the picture crosses it") {
 }
 
 TEST_CASE("the radius grows and shrinks in steps that are seen, within its limits") {
-  for (double radius_px = kLeastRadius_px; radius_px < kMostRadius_px;) {
+  for (double radius_px = kMinRadius_px; radius_px < kMaxRadius_px;) {
     const double next = stepped_radius_px(radius_px, 1);
-    CHECK(next >= std::min(kMostRadius_px, radius_px + 0.5));
-    CHECK(next <= std::min(kMostRadius_px, std::max(radius_px + 0.5, radius_px * 1.2)));
+    CHECK(next >= std::min(kMaxRadius_px, radius_px + 0.5));
+    CHECK(next <= std::min(kMaxRadius_px, std::max(radius_px + 0.5, radius_px * 1.2)));
     CHECK(stepped_radius_px(next, -1) < next);
     radius_px = next;
   }
-  CHECK(stepped_radius_px(kMostRadius_px, 1) == kMostRadius_px);
-  CHECK(stepped_radius_px(kLeastRadius_px, -1) == kLeastRadius_px);
+  CHECK(stepped_radius_px(kMaxRadius_px, 1) == kMaxRadius_px);
+  CHECK(stepped_radius_px(kMinRadius_px, -1) == kMinRadius_px);
 }

@@ -27,7 +27,7 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 
 void stroke(MaskPainting& painting, const Brush& brush, std::initializer_list<glm::dvec2> way) {
   painting.begin_stroke(brush, *way.begin());
-  for (const glm::dvec2& at : way) painting.go_on(at);
+  for (const glm::dvec2& at : way) painting.extend_stroke(at);
   painting.end_stroke();
 }
 
@@ -88,21 +88,21 @@ TEST_CASE("a stroke that is taken back leaves no trace") {
   MaskPainting painting(noise());
   const std::uint64_t state = painting.state();
   painting.begin_stroke({8, 2}, {20, 20});
-  painting.go_on({60, 40});
+  painting.extend_stroke({60, 40});
   CHECK_FALSE(is_same(painting.mask(), noise()));
   CHECK_FALSE(painting.can_undo());
   painting.take_back_stroke();
   CHECK(is_same(painting.mask(), noise()));
   CHECK(painting.state() == state);
   CHECK_FALSE(painting.can_undo());
-  painting.go_on({10, 10});  // no stroke any more
+  painting.extend_stroke({10, 10});  // no stroke any more
   CHECK(is_same(painting.mask(), noise()));
 }
 
 TEST_CASE("what changes no byte is no step") {
   MaskPainting painting(black());
   stroke(painting, {5, 1, true}, {{20, 20}, {40, 40}});  // black stays black
-  stroke(painting, {5, 1}, {{-50, -50}, {-60, -50}});    // beside the picture
+  stroke(painting, {5, 1}, {{-50, -50}, {-60, -50}});    // beside the image
   painting.replace(black(), "clear");
   CHECK_FALSE(painting.can_undo());
   CHECK_FALSE(painting.has_unsaved_changes());

@@ -100,14 +100,21 @@ TEST_CASE("whatever is asked, waypoints stay in order of time") {
   for (int i = 0; i < 2000; ++i) {
     const int which = static_cast<int>(random() % (plan.waypoints.size() + 2)) - 1;
     switch (random() % 4) {
-      case 0: (void)put_waypoint(plan, any(random), {0, 0, 0}, frames_of(plan)); break;
-      case 1: delete_waypoint(plan, which, frames_of(plan)); break;
-      case 2: (void)duplicate_waypoint(plan, which, frames_of(plan)); break;
-      default: move_waypoint_in_time(plan, which, any(random), frames_of(plan));
+      case 0:
+        (void)put_waypoint(plan, any(random), {0, 0, 0}, frames_of(plan));
+        break;
+      case 1:
+        delete_waypoint(plan, which, frames_of(plan));
+        break;
+      case 2:
+        (void)duplicate_waypoint(plan, which, frames_of(plan));
+        break;
+      default:
+        move_waypoint_in_time(plan, which, any(random), frames_of(plan));
     }
     if (plan.waypoints.size() > 40) plan.waypoints.resize(5);
     const std::vector<double> frames = frames_of(plan);
     REQUIRE_FALSE(frames.empty());
-    for (std::size_t j = 1; j < frames.size(); ++j) REQUIRE(frames[j] - frames[j - 1] >= kLeastGap_frames - 1e-9);
+    for (std::size_t j = 1; j < frames.size(); ++j) REQUIRE(frames[j] - frames[j - 1] >= kMinGap_frames - 1e-9);
   }
 }

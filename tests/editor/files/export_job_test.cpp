@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "editor/preview/export_plan.h"
@@ -124,7 +124,7 @@ TEST_CASE("what is there is not overwritten unless that is asked for") {
   CHECK(finished(job).phase == ExportPhase::done);
 }
 
-TEST_CASE("the export is polite, the thread that asks for it stays as it was") {
+TEST_CASE("the export runs at low priority, the thread that asks for it stays as it was") {
   const TinyProject tiny(300);
   const int own = ::getpriority(PRIO_PROCESS, 0);
   std::atomic<int> exporting = own;

@@ -143,15 +143,15 @@ TEST_CASE("a discarded project is gone with its lock") {
   CHECK(fs::is_empty(folder.path()));
 }
 
-TEST_CASE("a folder that cannot be written is told of once, and writing is tried again") {
+TEST_CASE("a folder that cannot be written is reported once, and writing is tried again") {
   const TemporaryFolder folder;
   std::ofstream(folder / "state") << "a file where the folder should be";
   Recovery recovery(folder / "state");
   const Document document = edited("a");
   CHECK_FALSE(recovery.keep(document, 0, 20));
-  const std::optional<Error> told = recovery.keep(document, 20, 20);
-  REQUIRE(told);
-  CHECK(told->text().find("state") != std::string::npos);
+  const std::optional<Error> reported = recovery.keep(document, 20, 20);
+  REQUIRE(reported);
+  CHECK(reported->text().find("state") != std::string::npos);
   CHECK_FALSE(recovery.keep(document, 40, 20));
   fs::remove(folder / "state");
   CHECK_FALSE(recovery.keep(document, 60, 20));
@@ -184,8 +184,8 @@ void editor_that_dies(const fs::path& folder, const Document& document, const Ma
   const pid_t child = ::fork();
   if (child == 0) {
     Recovery recovery(folder);
-    const bool told = recovery.keep(document, 0, 0, mask).has_value();
-    ::_exit(told ? 1 : 0);
+    const bool reported = recovery.keep(document, 0, 0, mask).has_value();
+    ::_exit(reported ? 1 : 0);
   }
   int status = -1;
   ::waitpid(child, &status, 0);
@@ -255,7 +255,7 @@ TEST_CASE("a project whose mask is damaged is recovered without it, and says so"
   const TemporaryFolder folder;
   editor_that_dies(folder.path(), edited("a"), {.state = 7, .pixels = striped_mask(9)});
   for (const auto& entry : fs::directory_iterator(folder.path()))
-    if (entry.path().extension() == ".png") std::ofstream(entry.path()) << "no picture";
+    if (entry.path().extension() == ".png") std::ofstream(entry.path()) << "no image";
   Recovery recovery(folder.path());
   const Result<RecoveredProject> taken = recovery.take_over(abandoned_projects(folder.path()).at(0));
   REQUIRE(taken);
@@ -271,7 +271,7 @@ TEST_CASE("a discarded project takes its mask with it") {
   CHECK(fs::is_empty(folder.path()));
 }
 
-TEST_CASE("a recovery file that cannot be read is told of, after those that can, and can be discarded") {
+TEST_CASE("a recovery file that cannot be read is reported, after those that can, and can be discarded") {
   const TemporaryFolder folder;
   std::ofstream(folder / "editor-1-1.json") << "{\"sigs_recovery\": 1, \"name\": \"cut o";
   std::ofstream(folder / "editor-1-2.json") << "";

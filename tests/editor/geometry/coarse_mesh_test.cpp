@@ -36,10 +36,10 @@ Mesh ball(int rings, int spokes) {
 
 TEST_CASE("a coarse ball is a ball of few faces that look outwards, in its colours") {
   const Mesh mesh = ball(60, 80);
-  for (const int most : {60, 300, 700}) {
-    const CoarseMesh coarse_ball = coarse(mesh, most);
-    CHECK(static_cast<int>(coarse_ball.faces.size()) <= most);
-    CHECK(static_cast<int>(coarse_ball.faces.size()) > most / 4);
+  for (const int maximum : {60, 300, 700}) {
+    const CoarseMesh coarse_ball = coarse(mesh, maximum);
+    CHECK(static_cast<int>(coarse_ball.faces.size()) <= maximum);
+    CHECK(static_cast<int>(coarse_ball.faces.size()) > maximum / 4);
     for (const glm::vec3& p : coarse_ball.points_m) CHECK(glm::length(p) == doctest::Approx(10).epsilon(0.25));
     for (const auto& face : coarse_ball.faces) {
       glm::vec3 middle{0, 0, 0};

@@ -31,7 +31,7 @@ double slope_at(const glm::dvec2& pixel, const HorizonTilt& tilt, const Lens& le
 TEST_CASE("before a pinhole, the horizon lifted by dy gives the pitch atan(dy / f)") {
   const Lens lens = pinhole(800, {639.5, 479.5});
   for (const double down_px : {-400.0, -1.0, 0.0, 37.5, 2000.0}) {
-    // Without roll it is the same across the picture.
+    // Without roll it is the same across the image.
     for (const double x : {0.0, 639.5, 1100.0}) {
       const auto tilt = lifted_to({x, 479.5 + down_px}, 0, lens);
       REQUIRE(tilt);

@@ -29,7 +29,7 @@ double distance_to(const std::vector<PixelLine>& lines, const glm::dvec2& p) {
   return nearest;
 }
 
-bool in_picture(const glm::dvec2& p) {
+bool in_image(const glm::dvec2& p) {
   return p.x >= 0 && p.y >= 0 && p.x < kSize.x && p.y < kSize.y;
 }
 
@@ -40,18 +40,18 @@ glm::dvec3 spiral(double t) {
 
 }  // namespace
 
-TEST_CASE("a path through a lens is drawn to half a pixel wherever it is in the picture") {
+TEST_CASE("a path through a lens is drawn to half a pixel wherever it is in the image") {
   const std::vector<double> times{0, 1, 2, 5};
   for (const Camera& camera : example_lenses()) {
     const auto lines = path_through_lens(spiral, times, kPose, camera.lens, kSize);
-    int seen = 0;
+    int observed = 0;
     for (double t = 0; t <= 5; t += 0.0037) {
       const auto pixel = pixel_of(spiral(t), kPose, camera.lens);
-      if (!pixel || !in_picture(*pixel)) continue;
-      ++seen;
+      if (!pixel || !in_image(*pixel)) continue;
+      ++observed;
       CHECK(distance_to(lines, *pixel) < 0.5);
     }
-    CHECK(seen > 50);
+    CHECK(observed > 50);
   }
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("the horizon through a lens looks level: rays behind it have no slope"
     for (const PixelLine& line : lines)
       for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const glm::dvec2 middle = (line[i] + line[i + 1]) / 2.0;
-        const auto ray = in_picture(middle) ? camera.lens.ray(middle) : std::nullopt;
+        const auto ray = in_image(middle) ? camera.lens.ray(middle) : std::nullopt;
         if (!ray) continue;
         const double slope = (kPose.rotation * *ray).z;
         CHECK(std::abs(slope) < 0.5 / 400);  // half a pixel, where some 400 px or more are a radian

@@ -9,12 +9,12 @@
 
 namespace sigs::editor {
 
-TEST_CASE("a round step is 1, 2 or 5 times a power of ten and the least that suffices") {
-  for (double least = 1e-6; least < 1e9; least *= 1.07) {
-    const double step = round_step(least);
-    CAPTURE(least);
-    CHECK(step >= least * (1 - 1e-11));
-    CHECK(step < least * 2.5000001);
+TEST_CASE("a round step is 1, 2 or 5 times a power of ten and the minimum that suffices") {
+  for (double minimum = 1e-6; minimum < 1e9; minimum *= 1.07) {
+    const double step = round_step(minimum);
+    CAPTURE(minimum);
+    CHECK(step >= minimum * (1 - 1e-11));
+    CHECK(step < minimum * 2.5000001);
     const double mantissa = step / std::pow(10.0, std::floor(std::log10(step * 1.000001)));
     const bool is_round =
         std::abs(mantissa - 1) < 1e-9 || std::abs(mantissa - 2) < 1e-9 || std::abs(mantissa - 5) < 1e-9;

@@ -98,23 +98,23 @@ TEST_CASE("one frame larger than the whole cache is not kept and a cache of noth
 }
 
 TEST_CASE("distances do not overflow") {
-  constexpr int kMost = std::numeric_limits<int>::max();
-  constexpr int kLeast = std::numeric_limits<int>::min();
+  constexpr int kMax = std::numeric_limits<int>::max();
+  constexpr int kMin = std::numeric_limits<int>::min();
   Cache cache(20);
-  cache.set_playhead({1, kLeast});
-  put(cache, {1, kMost}, 10);
+  cache.set_playhead({1, kMin});
+  put(cache, {1, kMax}, 10);
   put(cache, {1, 0}, 10);
-  put(cache, {1, kLeast}, 10);
-  CHECK(cache.frames_of(1) == std::vector<int>{kLeast, 0});
+  put(cache, {1, kMin}, 10);
+  CHECK(cache.frames_of(1) == std::vector<int>{kMin, 0});
 }
 
 TEST_CASE("whatever comes the memory bound holds and the frames that stay are the best by the rule") {
   std::mt19937 random(7);
-  const auto any = [&random](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
+  const auto any = [&random](int maximum) { return std::uniform_int_distribution<int>(0, maximum)(random); };
   Cache cache(1000);
   std::map<FrameKey, std::size_t> truth;
   FrameKey playhead{1, 50};
-  // By brute force: the least of all, looked at one by one.
+  // By brute force: the minimum of all, looked at one by one.
   const auto is_less = [&playhead](FrameKey a, FrameKey b) {
     const bool a_other = a.state != playhead.state, b_other = b.state != playhead.state;
     if (a_other != b_other) return a_other;
@@ -132,10 +132,10 @@ TEST_CASE("whatever comes the memory bound holds and the frames that stay are th
     std::size_t sum = 0;
     for (const auto& [other, size] : truth) sum += size;
     while (sum > 1000) {
-      const auto least = std::min_element(truth.begin(), truth.end(),
-                                          [&](const auto& a, const auto& b) { return is_less(a.first, b.first); });
-      sum -= least->second;
-      truth.erase(least);
+      const auto minimum = std::min_element(truth.begin(), truth.end(),
+                                            [&](const auto& a, const auto& b) { return is_less(a.first, b.first); });
+      sum -= minimum->second;
+      truth.erase(minimum);
     }
     REQUIRE(cache.bytes() == sum);
     REQUIRE(cache.bytes() <= 1000);

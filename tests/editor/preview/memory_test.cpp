@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "editor/preview/board.h"
+#include "editor/preview/preview_state.h"
 
 using namespace sigs;
 using namespace sigs::editor;
@@ -15,20 +15,21 @@ namespace {
 
 constexpr std::size_t kLimit = 1 << 20;
 const cv::Size kFrame(64, 64);
-constexpr std::size_t kPicture_bytes = 64 * 64 * 4;      // colour and mask
+constexpr std::size_t kImage_bytes = 64 * 64 * 4;        // colour and mask
 constexpr std::size_t kDecoded_bytes = 64 * 64 * 3 / 2;  // 4:2:0
 constexpr int kStages = 12;
 
-std::shared_ptr<const Picture> picture(bool staged) {
-  Picture made{.bgr = cv::Mat(kFrame, CV_8UC3, cv::Scalar::all(1)), .mask = cv::Mat(kFrame, CV_8UC1, cv::Scalar(1))};
+std::shared_ptr<const PreviewImage> image(bool staged) {
+  PreviewImage made{.bgr = cv::Mat(kFrame, CV_8UC3, cv::Scalar::all(1)),
+                    .mask = cv::Mat(kFrame, CV_8UC1, cv::Scalar(1))};
   for (int i = 0; staged && i < kStages; ++i)
     made.stages.push_back({"a", cv::Mat(kFrame, CV_8UC4, cv::Scalar::all(1))});
-  return std::make_shared<const Picture>(std::move(made));
+  return std::make_shared<const PreviewImage>(std::move(made));
 }
 
-// What is alive of all that was put down on a board, weighed by the test itself.
-struct Table {
-  Board board{PreviewLimits{.cache_bytes = kLimit}, [] {}};
+// What is alive of all that was put into a preview state, weighed by the test itself.
+struct PreviewStateFixture {
+  PreviewState preview_state{PreviewLimits{.cache_bytes = kLimit}, [] {}};
   std::vector<std::pair<std::weak_ptr<const void>, std::size_t>> put_down;
 
   template <class T>
@@ -39,14 +40,14 @@ struct Table {
 
   void put_decoded(FrameKey key) {
     auto decoded =
-        std::make_shared<const Decoded>(Decoded{.frame = grey_frame({.size_px = kFrame, .times_s = {0}}, 0)});
-    board.put_decoded(key, noted(std::move(decoded), kDecoded_bytes));
+        std::make_shared<const DecodedFrame>(DecodedFrame{.frame = grey_frame({.size_px = kFrame, .times_s = {0}}, 0)});
+    preview_state.put_decoded(key, noted(std::move(decoded), kDecoded_bytes));
   }
-  void put_picture(FrameKey key, bool was_wanted) {
-    board.put_picture(key, noted(picture(false), kPicture_bytes), 1, was_wanted);
+  void put_image(FrameKey key, bool was_wanted) {
+    preview_state.put_image(key, noted(image(false), kImage_bytes), 1, was_wanted);
   }
   void put_staged(FrameKey key) {
-    board.put_staged(key, noted(picture(true), kPicture_bytes + kStages * kPicture_bytes));
+    preview_state.put_staged(key, noted(image(true), kImage_bytes + kStages * kImage_bytes));
   }
 
   [[nodiscard]] std::size_t alive() const {
@@ -62,65 +63,65 @@ Revision revision(std::uint64_t number) {
 
 }  // namespace
 
-TEST_CASE("pictures, decoded frames and stages stay within one limit whatever comes") {
-  Table table;
-  std::size_t most = 0;
+TEST_CASE("images, decoded frames and stages stay within one limit whatever comes") {
+  PreviewStateFixture fixture;
+  std::size_t maximum = 0;
   for (std::uint64_t state = 1; state <= 3; ++state)
     for (int frame = 0; frame < 200; ++frame) {
-      table.board.want({.revision = revision(state), .frame = frame, .stages = frame % 50 > 25});
-      table.board.name_revision(state, state, {.id = 1});
-      table.put_decoded({1, frame});
-      table.put_picture({state, frame}, true);
-      if (frame % 50 > 25) table.put_staged({state, frame});
-      most = std::max(most, table.alive());
-      const Shown shown = table.board.shown();
-      CHECK(shown.picture_is_current);
+      fixture.preview_state.want({.revision = revision(state), .frame = frame, .stages = frame % 50 > 25});
+      fixture.preview_state.identify_revision(state, state, {.id = 1});
+      fixture.put_decoded({1, frame});
+      fixture.put_image({state, frame}, true);
+      if (frame % 50 > 25) fixture.put_staged({state, frame});
+      maximum = std::max(maximum, fixture.alive());
+      const PreviewOutput shown = fixture.preview_state.shown();
+      CHECK(shown.image_is_current);
     }
-  CHECK(most > kLimit / 2);  // it is used
-  CHECK(most <= kLimit);
+  CHECK(maximum > kLimit / 2);  // it is used
+  CHECK(maximum <= kLimit);
 }
 
 TEST_CASE("stages that the view no longer asks for are let go") {
-  Table table;
-  table.board.want({.revision = revision(1), .stages = true});
-  table.board.name_revision(1, 1, {.id = 1});
-  table.put_picture({1, 0}, true);
-  table.put_staged({1, 0});
-  CHECK(table.board.shown().staged != nullptr);
-  table.board.want({.revision = revision(1)});
-  CHECK(table.alive() == kPicture_bytes);
-  table.put_staged({1, 0});  // that was still being made
-  CHECK(table.alive() == kPicture_bytes);
+  PreviewStateFixture fixture;
+  fixture.preview_state.want({.revision = revision(1), .stages = true});
+  fixture.preview_state.identify_revision(1, 1, {.id = 1});
+  fixture.put_image({1, 0}, true);
+  fixture.put_staged({1, 0});
+  CHECK(fixture.preview_state.shown().staged != nullptr);
+  fixture.preview_state.want({.revision = revision(1)});
+  CHECK(fixture.alive() == kImage_bytes);
+  fixture.put_staged({1, 0});  // that was still being made
+  CHECK(fixture.alive() == kImage_bytes);
 }
 
 TEST_CASE("what is told of the memory is what is alive, with the window's textures") {
-  Table table;
-  table.board.want({.revision = revision(1), .frame = 3});
-  table.board.name_revision(1, 1, {.id = 1});
+  PreviewStateFixture fixture;
+  fixture.preview_state.want({.revision = revision(1), .frame = 3});
+  fixture.preview_state.identify_revision(1, 1, {.id = 1});
   for (int frame = 0; frame < 300; ++frame) {
-    table.put_decoded({1, frame});
-    table.put_picture({1, frame}, frame == 3);
+    fixture.put_decoded({1, frame});
+    fixture.put_image({1, frame}, frame == 3);
     const std::size_t textures = static_cast<std::size_t>(frame) * 1000;
-    table.board.set_texture_bytes(textures);
-    const MemoryUse memory = table.board.shown().memory;
-    CHECK(memory.sum() == table.alive() + textures);
+    fixture.preview_state.set_texture_bytes(textures);
+    const MemoryUse memory = fixture.preview_state.shown().memory;
+    CHECK(memory.sum() == fixture.alive() + textures);
     CHECK(memory.sum() <= kLimit);
     CHECK(memory.limit == kLimit);
     CHECK(memory.textures == textures);
   }
-  CHECK(table.board.shown().picture_is_current == true);
+  CHECK(fixture.preview_state.shown().image_is_current == true);
 }
 
 TEST_CASE("what is shown stays though it is larger than the limit, and nothing else does") {
-  Table table;
-  table.board.want({.revision = revision(1), .frame = 3});
-  table.board.name_revision(1, 1, {.id = 1});
-  table.board.set_texture_bytes(2 * kLimit);
+  PreviewStateFixture fixture;
+  fixture.preview_state.want({.revision = revision(1), .frame = 3});
+  fixture.preview_state.identify_revision(1, 1, {.id = 1});
+  fixture.preview_state.set_texture_bytes(2 * kLimit);
   for (int frame = 0; frame < 9; ++frame) {
-    table.put_decoded({1, frame});
-    table.put_picture({1, frame}, frame == 3);
+    fixture.put_decoded({1, frame});
+    fixture.put_image({1, frame}, frame == 3);
   }
-  CHECK(table.board.shown().picture_is_current);
-  CHECK(table.alive() == kPicture_bytes + kDecoded_bytes);
-  CHECK(table.board.shown().memory.shown == kPicture_bytes + kDecoded_bytes);
+  CHECK(fixture.preview_state.shown().image_is_current);
+  CHECK(fixture.alive() == kImage_bytes + kDecoded_bytes);
+  CHECK(fixture.preview_state.shown().memory.shown == kImage_bytes + kDecoded_bytes);
 }

@@ -147,7 +147,7 @@ TEST_CASE("the window is woken some ten times a second, however fast frames pass
   CHECK(wakes <= 3 + 10 * took_s.count());
 }
 
-TEST_CASE("the detection is polite, the thread that asks for it stays as it was") {
+TEST_CASE("the detection runs at low priority, the thread that asks for it stays as it was") {
   const int own = ::getpriority(PRIO_PROCESS, 0);
   std::atomic<int> detecting = own;
   OwnBodyJob job([] {},

@@ -40,7 +40,7 @@ TEST_CASE("at an even rate the frame is the one that the clock says") {
   }
 }
 
-TEST_CASE("a frame is due at its own time stamp and not a turn later") {
+TEST_CASE("a frame is due at its own time stamp and not an update later") {
   for (const double start_s : {0.0, 0.1, 1e3, 1e6})
     for (int i = 0; i < 90; ++i) {
       const Playback playback = playing(start_s, 0, 1);
@@ -91,16 +91,16 @@ TEST_CASE("a range is played to its end and says so") {
 TEST_CASE("a loop goes round for ever and shows each frame as long as any other") {
   for (const double speed : {1.0, -1.0, 4.0, -8.0}) {
     const Playback playback = playing(0, 20, speed);
-    std::vector<int> seen(100, 0);
+    std::vector<int> observed(100, 0);
     const int samples = 20 * 15 * 100;
     for (int i = 0; i < samples; ++i) {  // 100 rounds of 15 frames, 20 looks a frame
       const double now_s = (i + 0.5) * 0.04 / 20 / std::abs(speed);
       const PlayedFrame played = playback.frame_at(now_s, k25Hz, {15, 29, true});
       REQUIRE_FALSE(played.over);
-      ++seen[static_cast<std::size_t>(played.frame)];
+      ++observed[static_cast<std::size_t>(played.frame)];
     }
     for (int frame = 0; frame < 100; ++frame)
-      CHECK(seen[static_cast<std::size_t>(frame)] == (frame >= 15 && frame <= 29 ? samples / 15 : 0));
+      CHECK(observed[static_cast<std::size_t>(frame)] == (frame >= 15 && frame <= 29 ? samples / 15 : 0));
   }
 }
 

@@ -9,12 +9,12 @@
 #include <random>
 #include <thread>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/program.h"
-#include "export.h"
+#include "export/export_project.h"
+#include "preview_client.h"
 #include "project/json.h"
 #include "support/test_data.h"
-#include "viewer.h"
 
 using namespace sigs;
 using namespace sigs::editor;
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kFrame = 120;  // the aircraft is large and its blur soft
 
-Wanted frame_of(Revision revision, int frame) {
+PreviewRequest frame_of(Revision revision, int frame) {
   return {.revision = std::move(revision), .frame = frame, .range_first = 0, .range_last = 199};
 }
 
@@ -40,19 +40,19 @@ struct Engine {
         scene(open_scene(project, shape_of(source.info())).value()) {}
 
   ComposedFrame composed(int frame, Stages stages = Stages::leave_out) {
-    return compose_frame(scene, frame, source.read(frame).value(), bench, stages).value();
+    return compose_frame(scene, frame, source.read(frame).value(), context, stages).value();
   }
 
   FrameSource source;
   Scene scene;
-  Bench bench;
+  ComposeContext context;
 };
 
 }  // namespace
 
 TEST_CASE("the preview is byte for byte what the program writes as a frame") {
   const TemporaryFolder folder;
-  Viewer viewer;
+  PreviewClient preview_client;
   std::uint64_t number = 0;
   for (const auto& [method, name] :
        {std::pair(MethodChoice::direct, "direct"), {MethodChoice::classic, "classic"}, {MethodChoice::plain, "plain"}})
@@ -64,10 +64,10 @@ TEST_CASE("the preview is byte for byte what the program writes as a frame") {
                                " --set compositing.method=" + name + " --out " + out);
       REQUIRE_MESSAGE(run.status == 0, run.err);
       const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
-      const Shown shown = viewer.show(frame_of(revision(++number, project), kFrame));
-      REQUIRE(shown.picture->problem.empty());
-      CHECK(shown.picture->frame == kFrame);
-      CHECK(is_same_picture(shown.picture->bgr, written));
+      const PreviewOutput shown = preview_client.show(frame_of(revision(++number, project), kFrame));
+      REQUIRE(shown.image->problem.empty());
+      CHECK(shown.image->frame == kFrame);
+      CHECK(is_same_image(shown.image->bgr, written));
     }
 }
 
@@ -82,41 +82,41 @@ TEST_CASE("with the camera's attitude known the preview is still what the progra
                            " --set camera.attitude_file=" + project.camera.attitude_file + " --out " + out);
   REQUIRE_MESSAGE(run.status == 0, run.err);
   const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
-  Viewer viewer;
-  const Shown shaken = viewer.show(frame_of(revision(1, project), kFrame));
-  CHECK(is_same_picture(shaken.picture->bgr, written));
+  PreviewClient preview_client;
+  const PreviewOutput shaken = preview_client.show(frame_of(revision(1, project), kFrame));
+  CHECK(is_same_image(shaken.image->bgr, written));
   project.camera.attitude_file.clear();
-  CHECK_FALSE(is_same_picture(viewer.show(frame_of(revision(2, project), kFrame)).picture->bgr, written));
+  CHECK_FALSE(is_same_image(preview_client.show(frame_of(revision(2, project), kFrame)).image->bgr, written));
 }
 
 TEST_CASE("mask, truth, untouched frame, stages and the other method are those of the engine") {
   const Project project = sample("head-on");
   Engine engine(project);
-  Viewer viewer;
-  Wanted wanted = frame_of(revision(1, project), kFrame);
+  PreviewClient preview_client;
+  PreviewRequest wanted = frame_of(revision(1, project), kFrame);
   wanted.footage = true;
   wanted.stages = true;
   wanted.compare_with = MethodChoice::classic;
-  viewer.want(wanted);
-  const Shown shown =
-      viewer.wait([](const Shown& s) { return s.picture_is_current && s.footage && s.staged && s.compared; });
+  preview_client.want(wanted);
+  const PreviewOutput shown = preview_client.wait(
+      [](const PreviewOutput& s) { return s.image_is_current && s.footage && s.staged && s.compared; });
 
   const ComposedFrame composed = engine.composed(kFrame, Stages::keep);
-  CHECK(is_same_picture(shown.picture->bgr, bgr_of(composed.picture)));
-  CHECK(is_same_picture(shown.picture->mask, composed.mask));
-  CHECK(shown.picture->truth.time_s == composed.truth.time_s);
-  CHECK(shown.picture->truth.intruders.at(0).visible_fraction == composed.truth.intruders.at(0).visible_fraction);
-  CHECK(is_same_picture(*shown.footage, bgr_of(engine.source.read(kFrame).value())));
-  CHECK(is_same_picture(shown.staged->bgr, bgr_of(composed.picture)));
+  CHECK(is_same_image(shown.image->bgr, bgr_of(composed.image)));
+  CHECK(is_same_image(shown.image->mask, composed.mask));
+  CHECK(shown.image->truth.time_s == composed.truth.time_s);
+  CHECK(shown.image->truth.intruders.at(0).visible_fraction == composed.truth.intruders.at(0).visible_fraction);
+  CHECK(is_same_image(*shown.footage, bgr_of(engine.source.read(kFrame).value())));
+  CHECK(is_same_image(shown.staged->bgr, bgr_of(composed.image)));
   REQUIRE(shown.staged->stages.size() == composed.stages.size());
   for (std::size_t i = 0; i < composed.stages.size(); ++i) {
     CHECK(shown.staged->stages[i].name == composed.stages[i].name);
-    CHECK(is_same_picture(shown.staged->stages[i].picture, composed.stages[i].picture));
+    CHECK(is_same_image(shown.staged->stages[i].image, composed.stages[i].image));
   }
   Project classic = project;
   classic.compositing.method = MethodChoice::classic;
   CHECK(shown.compared->method == MethodChoice::classic);
-  CHECK(is_same_picture(shown.compared->bgr, bgr_of(Engine(classic).composed(kFrame).picture)));
+  CHECK(is_same_image(shown.compared->bgr, bgr_of(Engine(classic).composed(kFrame).image)));
 }
 
 TEST_CASE("another lens after the first is bent as by itself") {
@@ -132,77 +132,78 @@ TEST_CASE("another lens after the first is bent as by itself") {
                      "  data: [-0.2, 0.02, 0., 0.]\nimage_width: 1280\nimage_height: 960\n",
                      true));
   other.footage.calibration = path;
-  Viewer viewer;
-  CHECK(is_same_picture(viewer.show(frame_of(revision(1, one), kFrame)).picture->bgr,
-                        bgr_of(Engine(one).composed(kFrame).picture)));
-  CHECK(is_same_picture(viewer.show(frame_of(revision(2, other), kFrame)).picture->bgr,
-                        bgr_of(Engine(other).composed(kFrame).picture)));
+  PreviewClient preview_client;
+  CHECK(is_same_image(preview_client.show(frame_of(revision(1, one), kFrame)).image->bgr,
+                      bgr_of(Engine(one).composed(kFrame).image)));
+  CHECK(is_same_image(preview_client.show(frame_of(revision(2, other), kFrame)).image->bgr,
+                      bgr_of(Engine(other).composed(kFrame).image)));
 }
 
 TEST_CASE("the next frames are composed ahead and a cached frame is there at once") {
-  Viewer viewer({.cache_bytes = std::size_t(1) << 30, .ahead = 12});
-  Wanted wanted = frame_of(revision(1, sample("head-on")), 10);
+  PreviewClient preview_client({.cache_bytes = std::size_t(1) << 30, .ahead = 12});
+  PreviewRequest wanted = frame_of(revision(1, sample("head-on")), 10);
   wanted.range_last = 18;
-  viewer.show(wanted);
-  const Shown shown = viewer.wait([](const Shown& s) { return s.cached.size() == 200 && s.cached[18]; });
+  preview_client.show(wanted);
+  const PreviewOutput shown =
+      preview_client.wait([](const PreviewOutput& s) { return s.cached.size() == 200 && s.cached[18]; });
   for (int frame = 0; frame < 200; ++frame)
     CHECK(shown.cached[static_cast<std::size_t>(frame)] == (frame >= 10 && frame <= 18));
   for (const int frame : {17, 11, 18, 10}) {
     wanted.frame = frame;
-    viewer.want(wanted);
-    CHECK(viewer.shown().picture_is_current);
-    CHECK(viewer.shown().picture->frame == frame);
+    preview_client.want(wanted);
+    CHECK(preview_client.shown().image_is_current);
+    CHECK(preview_client.shown().image->frame == frame);
   }
   wanted.revision = revision(2, moved(sample("head-on"), 5));
-  viewer.show(wanted);
-  CHECK_FALSE(viewer.shown().cached[17]);
+  preview_client.show(wanted);
+  CHECK_FALSE(preview_client.shown().cached[17]);
   wanted.revision.number = 1;  // undo
   wanted.frame = 17;
-  viewer.want(wanted);
-  CHECK(viewer.shown().picture_is_current);
+  preview_client.want(wanted);
+  CHECK(preview_client.shown().image_is_current);
 }
 
-TEST_CASE("a change that touches no picture keeps the pictures") {
-  Viewer viewer;
+TEST_CASE("a change that touches no image keeps the images") {
+  PreviewClient preview_client;
   Project project = sample("head-on");
-  const Shown before = viewer.show(frame_of(revision(1, project), 30));
+  const PreviewOutput before = preview_client.show(frame_of(revision(1, project), 30));
   project.name = "another";
   project.output.crf = 30;
-  const Shown after = viewer.show(frame_of(revision(2, project), 30));
-  CHECK(after.picture == before.picture);
-  const Shown opened = viewer.wait([](const Shown& s) { return s.scene->revision == 2; });
+  const PreviewOutput after = preview_client.show(frame_of(revision(2, project), 30));
+  CHECK(after.image == before.image);
+  const PreviewOutput opened = preview_client.wait([](const PreviewOutput& s) { return s.scene->revision == 2; });
   CHECK(opened.scene->project->name == "another");
 }
 
-TEST_CASE("while modest nothing is fetched ahead") {
-  Viewer viewer;
-  viewer.set_modest(true);
-  viewer.show(frame_of(revision(1, sample("head-on")), 10));
-  viewer.wait([](const Shown& s) { return !s.busy; });
+TEST_CASE("while prefetching is paused nothing is fetched ahead") {
+  PreviewClient preview_client;
+  preview_client.set_prefetch_paused(true);
+  preview_client.show(frame_of(revision(1, sample("head-on")), 10));
+  preview_client.wait([](const PreviewOutput& s) { return !s.busy; });
   std::this_thread::sleep_for(std::chrono::milliseconds(600));  // far longer than edits are waited for
-  const std::vector<bool> cached = viewer.shown().cached;
+  const std::vector<bool> cached = preview_client.shown().cached;
   CHECK(std::count(cached.begin(), cached.end(), true) == 1);
-  viewer.set_modest(false);
-  viewer.wait([](const Shown& s) { return s.cached[20]; });
+  preview_client.set_prefetch_paused(false);
+  preview_client.wait([](const PreviewOutput& s) { return s.cached[20]; });
 }
 
-TEST_CASE("a cache too small for anything still shows the right picture") {
+TEST_CASE("a cache too small for anything still shows the right image") {
   const Project project = sample("head-on");
-  Viewer viewer({.cache_bytes = 1000, .ahead = 48});
+  PreviewClient preview_client({.cache_bytes = 1000, .ahead = 48});
   Engine engine(project);
   for (const int frame : {5, 6, 100})
-    CHECK(is_same_picture(viewer.show(frame_of(revision(1, project), frame)).picture->bgr,
-                          bgr_of(engine.composed(frame).picture)));
-  viewer.wait([](const Shown& s) { return !s.busy; });
+    CHECK(is_same_image(preview_client.show(frame_of(revision(1, project), frame)).image->bgr,
+                        bgr_of(engine.composed(frame).image)));
+  preview_client.wait([](const PreviewOutput& s) { return !s.busy; });
 }
 
-TEST_CASE("a storm of wishes ends at the right picture") {
+TEST_CASE("a storm of requests ends at the right image") {
   const Project project = sample("head-on");
   std::mt19937 random(3);
-  Viewer viewer({.cache_bytes = std::size_t(64) << 20, .ahead = 8});
-  Wanted wanted;
+  PreviewClient preview_client({.cache_bytes = std::size_t(64) << 20, .ahead = 8});
+  PreviewRequest wanted;
   for (int i = 1; i <= 400; ++i) {
-    const auto any = [&random](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
+    const auto any = [&random](int maximum) { return std::uniform_int_distribution<int>(0, maximum)(random); };
     const int step = any(60);
     wanted = frame_of(revision(static_cast<std::uint64_t>(1 + step), moved(project, step)), any(230) - 10);
     wanted.direction = any(1) == 0 ? 1 : -1;
@@ -211,59 +212,59 @@ TEST_CASE("a storm of wishes ends at the right picture") {
     wanted.stages = any(9) == 0;
     if (any(30) == 0) wanted.compare_with = MethodChoice::plain;
     if (any(3) == 0) wanted.turntable = {{any(2), 0.1 * i, {64, 48}}};
-    viewer.want(wanted);
+    preview_client.want(wanted);
     if (i % 8 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(any(20)));
-    const Shown shown = viewer.shown();
-    if (shown.picture) CHECK(shown.picture->problem.empty());
+    const PreviewOutput shown = preview_client.shown();
+    if (shown.image) CHECK(shown.image->problem.empty());
   }
   wanted = frame_of(revision(500, moved(project, 3.5)), kFrame);
-  const Shown shown = viewer.show(wanted);
-  CHECK(shown.picture->revision == 500);
-  CHECK(is_same_picture(shown.picture->bgr, bgr_of(Engine(moved(project, 3.5)).composed(kFrame).picture)));
+  const PreviewOutput shown = preview_client.show(wanted);
+  CHECK(shown.image->revision == 500);
+  CHECK(is_same_image(shown.image->bgr, bgr_of(Engine(moved(project, 3.5)).composed(kFrame).image)));
 }
 
-TEST_CASE("edits that come faster than pictures starve nothing") {
+TEST_CASE("edits that come faster than images starve nothing") {
   const Project project = sample("head-on");
-  Viewer viewer;
-  viewer.show(frame_of(revision(1, project), kFrame));
-  std::uint64_t seen = 1;
-  int pictures = 0;
+  PreviewClient preview_client;
+  preview_client.show(frame_of(revision(1, project), kFrame));
+  std::uint64_t observed = 1;
+  int images = 0;
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
   for (std::uint64_t number = 2; std::chrono::steady_clock::now() < end; ++number) {
-    viewer.want(frame_of(revision(number, moved(project, 0.01 * static_cast<double>(number))), kFrame));
+    preview_client.want(frame_of(revision(number, moved(project, 0.01 * static_cast<double>(number))), kFrame));
     std::this_thread::sleep_for(std::chrono::milliseconds(4));
-    const std::uint64_t shown = viewer.shown().picture->revision;
-    CHECK(shown >= seen);  // never back in time
-    pictures += shown != seen ? 1 : 0;
-    seen = shown;
+    const std::uint64_t shown = preview_client.shown().image->revision;
+    CHECK(shown >= observed);  // never back in time
+    images += shown != observed ? 1 : 0;
+    observed = shown;
   }
-  CHECK(pictures >= 5);  // some tens on any machine that is not held up
+  CHECK(images >= 5);  // some tens on any machine that is not held up
 }
 
-TEST_CASE("a scrub faster than decoding shows pictures on its way") {
-  Viewer viewer({.ahead = 0});
+TEST_CASE("a scrub faster than decoding shows images on its way") {
+  PreviewClient preview_client({.ahead = 0});
   const Revision project = revision(1, sample("head-on"));
-  viewer.show(frame_of(project, 0));
+  preview_client.show(frame_of(project, 0));
   int last = 0;
-  int pictures = 0;
+  int images = 0;
   for (int turn = 0; turn < 250; ++turn) {
-    viewer.want(frame_of(project, 1 + turn * 37 % 199));
+    preview_client.want(frame_of(project, 1 + turn * 37 % 199));
     std::this_thread::sleep_for(std::chrono::milliseconds(8));
-    pictures += viewer.shown().picture->frame != last ? 1 : 0;
-    last = viewer.shown().picture->frame;
+    images += preview_client.shown().image->frame != last ? 1 : 0;
+    last = preview_client.shown().image->frame;
   }
-  CHECK(pictures >= 3);
+  CHECK(images >= 3);
 }
 
 TEST_CASE("it goes away promptly while busy") {
   for (const int after_ms : {0, 5, 60, 300}) {
     std::chrono::steady_clock::time_point start;
     {
-      Viewer viewer;
-      Wanted wanted = frame_of(revision(1, sample("head-on")), 150);
+      PreviewClient preview_client;
+      PreviewRequest wanted = frame_of(revision(1, sample("head-on")), 150);
       wanted.playing = true;
       wanted.turntable = {{0, 0.3, {200, 200}}};
-      viewer.want(wanted);
+      preview_client.want(wanted);
       std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
       start = std::chrono::steady_clock::now();
     }

@@ -9,14 +9,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
-#include "base/partial_file.h"
+#include "base/temporary_file.h"
 #include "cli/tiny_project.h"
 #include "editor/preview/outline_truth.h"
-#include "editor/preview/survey_maker.h"
+#include "editor/preview/survey_builder.h"
 #include "evaluation/track_start.h"
-#include "export.h"
+#include "export/export_project.h"
+#include "preview_client.h"
 #include "project/json.h"
-#include "viewer.h"
 
 namespace sigs::test {
 
@@ -51,13 +51,13 @@ Scene opened(const Project& project) {
 }
 
 Surveys surveys_of(const Scene& scene) {
-  SurveyMaker maker;
+  SurveyBuilder maker;
   maker.begin(scene);
   while (!maker.done()) maker.work(1);
   return maker.surveys();
 }
 
-// The own body hides the picture's lower half, and that of the cube.
+// The own body hides the image's lower half, and that of the cube.
 Project half_hidden(const TinyProject& tiny) {
   cv::Mat mask = cv::Mat::zeros(48, 64, CV_8UC1);
   mask.rowRange(24, 48).setTo(255);
@@ -68,30 +68,30 @@ Project half_hidden(const TinyProject& tiny) {
 }
 
 // The annotation that an export writes, read back.
-FilmTruth exported_truth(const TinyProject& tiny, const Project& project) {
+ClipTruth exported_truth(const TinyProject& tiny, const Project& project) {
   const Result<ExportReport> report = export_project({.project = project, .folder = tiny.file("exported")}, {});
   REQUIRE_MESSAGE(report.has_value(), report.error().text());
   return read_truth(tiny.file("exported") / (project.name + ".xml")).value();
 }
 
 // Follows the truth with an error that grows, says nothing in frame 5 and loses it in frame 7.
-void write_results(const fs::path& path, const FilmTruth& film) {
+void write_results(const fs::path& path, const ClipTruth& clip) {
   std::string text = "frame,x,y,width,height\n";
-  for (int i = 0; i < film.frames(); ++i) {
-    const std::optional<Box>& box = film.targets[0].frames[static_cast<std::size_t>(i)].visible;
+  for (int i = 0; i < clip.frames(); ++i) {
+    const std::optional<Box>& box = clip.targets[0].frames[static_cast<std::size_t>(i)].visible;
     if (!box || i == 5) continue;
     const double away_px = i == 7 ? 500 : 0.3 * i;
-    text += std::to_string(film.footage.first_frame + i) + "," + std::to_string(box->x + 0.5 + away_px) + "," +
+    text += std::to_string(clip.footage.first_frame + i) + "," + std::to_string(box->x + 0.5 + away_px) + "," +
             std::to_string(box->y + 0.5 - away_px / 2) + "," + std::to_string(box->width) + "," +
             std::to_string(box->height) + "\n";
   }
   put_text(path, text);
 }
 
-TrackScore score_by_hand(const fs::path& file, const FilmTruth& film) {
-  const TrackPolicy policy = policy_from_start(film, film.targets[0]).value();
-  const Results results = read_results(file, film.footage, {.start_frame = policy.from_frame}).value();
-  return score_track(film, film.targets[0], results, policy);
+TrackScore score_by_hand(const fs::path& file, const ClipTruth& clip) {
+  const TrackPolicy policy = policy_from_start(clip, clip.targets[0]).value();
+  const Results results = read_results(file, clip.footage, {.start_frame = policy.from_frame}).value();
+  return score_track(clip, clip.targets[0], results, policy);
 }
 
 // Not a number equals itself here.
@@ -129,10 +129,10 @@ bool is_measured(const std::shared_ptr<const Scored>& scored) {
 TEST_CASE("the editor's figures are those of the annotation that is exported") {
   const TinyProject tiny;
   const Project project = half_hidden(tiny);
-  const FilmTruth film = exported_truth(tiny, project);
+  const ClipTruth clip = exported_truth(tiny, project);
   const fs::path file = tiny.file("my tracker.csv");
-  write_results(file, film);
-  const TrackScore by_hand = score_by_hand(file, film);
+  write_results(file, clip);
+  const TrackScore by_hand = score_by_hand(file, clip);
   REQUIRE(by_hand.scored > 6);
   REQUIRE(by_hand.lost == 2);
 
@@ -148,7 +148,7 @@ TEST_CASE("the editor's figures are those of the annotation that is exported") {
   REQUIRE(scored->trackers.size() == 1);
   CHECK(scored->trackers[0].name == "my tracker");
   CHECK(scored->target == "cube");
-  CHECK(scored->first_frame == film.footage.first_frame);
+  CHECK(scored->first_frame == clip.footage.first_frame);
   REQUIRE(scored->trackers[0].score);
   check_same(*scored->trackers[0].score, by_hand);
 }
@@ -156,18 +156,18 @@ TEST_CASE("the editor's figures are those of the annotation that is exported") {
 TEST_CASE("until frames are drawn the outlines tell it, within a pixel or so") {
   const TinyProject tiny;
   const Project project = read(tiny);
-  const FilmTruth film = exported_truth(tiny, project);
+  const ClipTruth clip = exported_truth(tiny, project);
   const Scene scene = opened(project);
-  const std::shared_ptr<const FilmTruth> outlines = outline_truth(*scene, surveys_of(scene));
+  const std::shared_ptr<const ClipTruth> outlines = outline_truth(*scene, surveys_of(scene));
   REQUIRE(outlines);
-  REQUIRE(outlines->frames() == film.frames());
-  CHECK(outlines->footage.video == film.footage.video);
-  CHECK(outlines->times_s.back() == doctest::Approx(film.times_s.back()).epsilon(1e-9));
+  REQUIRE(outlines->frames() == clip.frames());
+  CHECK(outlines->footage.video == clip.footage.video);
+  CHECK(outlines->times_s.back() == doctest::Approx(clip.times_s.back()).epsilon(1e-9));
   REQUIRE(outlines->targets.size() == 1);
   int compared = 0;
   for (std::size_t i = 0; i < 10; ++i) {
     const std::optional<Box>& about = outlines->targets[0].frames[i].visible;
-    const std::optional<Box>& exact = film.targets[0].frames[i].visible;
+    const std::optional<Box>& exact = clip.targets[0].frames[i].visible;
     CHECK(about.has_value() == exact.has_value());
     if (!about || !exact) continue;
     ++compared;
@@ -226,16 +226,16 @@ TEST_CASE("nothing is composed while no results are loaded, and nothing is shown
   put_text(file, "frame,x,y,width,height\n0,1,2,3,4\n");
   const Scene scene = opened(project);
   std::atomic<int> shows = 0;
-  const auto show = [&](const Project&, int, const TruthMaker::See&) -> Result<void> {
+  const auto stream = [&](const Project&, int, const TruthBuilder::OnFrame&) -> Result<void> {
     ++shows;
-    return fail("film", "is not shown");
+    return fail("clip", "is not shown");
   };
-  Scoring scoring([] {}, show);
+  Scoring scoring([] {}, stream);
   scoring.want({.scene = scene, .surveys = surveys_of(scene)});
   CHECK_FALSE(scoring.scored());
   scoring.want({.scene = scene, .surveys = surveys_of(scene), .files = {file_at(file)}});
   REQUIRE(comes_true([&] { return scoring.scored() && !scoring.scored()->truth_problem.empty(); }));
-  CHECK(scoring.scored()->truth_problem == "film: is not shown");
+  CHECK(scoring.scored()->truth_problem == "clip: is not shown");
   CHECK(shows == 1);
   scoring.want({.scene = scene});
   CHECK_FALSE(scoring.scored());

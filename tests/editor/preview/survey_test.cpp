@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "editor/preview/survey_maker.h"
-#include "export.h"
-#include "viewer.h"
+#include "editor/preview/survey_builder.h"
+#include "export/export_project.h"
+#include "preview_client.h"
 
 using namespace sigs;
 using namespace sigs::editor;
@@ -15,7 +15,7 @@ using namespace sigs::test;
 namespace {
 
 bool is_whole(const std::shared_ptr<const Survey>& survey, std::size_t frames) {
-  return survey && survey->outlooks.size() == frames;
+  return survey && survey->estimates.size() == frames;
 }
 
 // A scene of very many frames at 50 a second.
@@ -33,15 +33,15 @@ TEST_CASE("the survey is what the engine says of each frame") {
   Project project = sample("two-intruders");
   project.footage.first_frame = 12;
   project.footage.last_frame = 160;
-  Viewer viewer;
-  viewer.want({.revision = revision(4, project), .frame = 12, .range_first = 12, .range_last = 160});
-  const Shown shown = viewer.wait([](const Shown& s) {
+  PreviewClient preview_client;
+  preview_client.want({.revision = revision(4, project), .frame = 12, .range_first = 12, .range_last = 160});
+  const PreviewOutput shown = preview_client.wait([](const PreviewOutput& s) {
     return s.surveys.size() == 2 && is_whole(s.surveys[0], 149) && is_whole(s.surveys[1], 149);
   });
 
   const FrameSource source = FrameSource::open(resolved(project, project.footage.video)).value();
   const Scene scene = open_scene(project, shape_of(source.info())).value();
-  const OutlookPoints points(scene);
+  const VisibilityEstimator points(scene);
   for (int id = 0; id < 2; ++id) {
     const Survey& survey = *shown.surveys[static_cast<std::size_t>(id)];
     CHECK(survey.revision == 4);
@@ -49,11 +49,11 @@ TEST_CASE("the survey is what the engine says of each frame") {
     REQUIRE(survey.flight.size() == 149);
     for (std::size_t i = 0; i < 149; ++i) {
       const int frame = 12 + static_cast<int>(i);
-      const Outlook outlook = points.at(id, frame);
-      CHECK(survey.outlooks[i].frame == frame);
-      CHECK(survey.outlooks[i].distance_m == outlook.distance_m);
-      CHECK(survey.outlooks[i].size_px == outlook.size_px);
-      CHECK(survey.outlooks[i].sighting == outlook.sighting);
+      const VisibilityEstimate estimate = points.at(id, frame);
+      CHECK(survey.estimates[i].frame == frame);
+      CHECK(survey.estimates[i].distance_m == estimate.distance_m);
+      CHECK(survey.estimates[i].size_px == estimate.size_px);
+      CHECK(survey.estimates[i].visibility_state == estimate.visibility_state);
       const FlightState flight =
           flight_at(scene.intruders[static_cast<std::size_t>(id)], time_of_frame_s(scene.footage, frame));
       CHECK(survey.flight[i].speed_mps == flight.speed_mps);
@@ -66,31 +66,32 @@ TEST_CASE("the survey is what the engine says of each frame") {
 
 TEST_CASE("a long survey comes in slices and grows") {
   constexpr int kFrames = 20000;
-  SurveyMaker maker;
+  SurveyBuilder maker;
   CHECK(maker.done());
   maker.begin(long_scene(kFrames));
-  double longest_s = 0;
+  double max_duration_s = 0;
   int slices = 0;
   int showings = 0;
   std::size_t before = 0;
   while (!maker.done()) {
     const auto start = std::chrono::steady_clock::now();
     const bool worth_showing = maker.work(0.003);
-    longest_s = std::max(longest_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    max_duration_s =
+        std::max(max_duration_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     ++slices;
     if (!worth_showing) continue;
     ++showings;
     const auto surveys = maker.surveys();
     REQUIRE(surveys.size() == 2);
-    CHECK(surveys[0]->outlooks.size() >= before);
-    CHECK(surveys[0]->outlooks.size() == surveys[0]->flight.size());
-    CHECK(surveys[1]->outlooks.size() == surveys[0]->outlooks.size());
-    before = surveys[0]->outlooks.size();
+    CHECK(surveys[0]->estimates.size() >= before);
+    CHECK(surveys[0]->estimates.size() == surveys[0]->flight.size());
+    CHECK(surveys[1]->estimates.size() == surveys[0]->estimates.size());
+    before = surveys[0]->estimates.size();
   }
   CHECK(before == kFrames);
   CHECK(slices > 10);
   CHECK(showings >= 5);
   CHECK(showings <= 30);  // each copies all there is
-  MESSAGE("slices " << slices << ", longest " << longest_s * 1e3 << " ms");
-  CHECK(longest_s < 0.25);  // 3 ms where nobody else has the core
+  MESSAGE("slices " << slices << ", longest " << max_duration_s * 1e3 << " ms");
+  CHECK(max_duration_s < 0.25);  // 3 ms where nobody else has the core
 }

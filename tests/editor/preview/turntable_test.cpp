@@ -9,7 +9,7 @@
 
 #include "base/transfer.h"
 #include "mesh/mesh.h"
-#include "scene/stand_ins.h"
+#include "scene/placeholders.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -18,7 +18,7 @@ using namespace sigs::test;
 
 namespace {
 
-cv::Rect seen_box(const cv::Mat& rgba) {
+cv::Rect visible_box(const cv::Mat& rgba) {
   cv::Mat opacity;
   cv::extractChannel(rgba, opacity, 3);
   int left = rgba.cols, right = -1, top = rgba.rows, bottom = -1;
@@ -52,12 +52,12 @@ TEST_CASE("the nose points to the viewer's right and comes nearer, seen from abo
   const cv::Size size(201, 201);
   // Nose at yaw 145 and 325 degrees, 10 m long, seen from 18 degrees above and four radii (of the bounds' sphere,
   // 17.3 m) away with a focal length of 373.7 px: where its tip must be. Of a thin tip some pixels are not covered.
-  const cv::Rect rest = seen_box(turntable_picture(spike(), 0, size, renderer).value());
+  const cv::Rect rest = visible_box(turntable_image(spike(), 0, size, renderer).value());
   CHECK(rest.x + rest.width == doctest::Approx(134.9).epsilon(0.05));
   CHECK(rest.y + rest.height == doctest::Approx(115.4).epsilon(0.05));
   CHECK(rest.x >= 97);
   CHECK(rest.y >= 97);
-  const cv::Rect turned = seen_box(turntable_picture(spike(), std::numbers::pi, size, renderer).value());
+  const cv::Rect turned = visible_box(turntable_image(spike(), std::numbers::pi, size, renderer).value());
   CHECK(turned.x == doctest::Approx(72.2).epsilon(0.1));
   CHECK(turned.y == doctest::Approx(87.7).epsilon(0.05));
   CHECK(turned.x + turned.width <= 103);
@@ -74,7 +74,7 @@ TEST_CASE("the ends of the axes that are drawn over the model are where its tip 
   wedge.vertices[2].position_m = {10, 0, 0.5F};
   for (const double turn_rad : {0.0, 1.0, 2.5, std::numbers::pi, 5.0}) {
     CAPTURE(turn_rad);
-    const cv::Rect box = seen_box(turntable_picture(wedge, turn_rad, size, renderer).value());
+    const cv::Rect box = visible_box(turntable_image(wedge, turn_rad, size, renderer).value());
     const glm::dvec2 tip = turntable_point_px({10 / radius_m, 0, 0}, turn_rad, size);
     const double nearest_x = std::min(std::abs(tip.x - box.x), std::abs(tip.x - (box.x + box.width)));
     CHECK(nearest_x < 3);  // a pixel, and the wedge's upper end is nearer to the camera
@@ -87,13 +87,13 @@ TEST_CASE("the ends of the axes that are drawn over the model are where its tip 
   CHECK(turntable_point_px({0, 0, -1}, 1.0, size).y < 100);  // its top is up
 }
 
-TEST_CASE("a model of any size fills the picture and leaves it nowhere") {
+TEST_CASE("a model of any size fills the image and leaves it nowhere") {
   Renderer renderer = Renderer::create().value();
   const auto model = source_dir() / "assets/models/airliner/airliner.obj";
   for (const double length_m : {0.01, 40.0, 1e6}) {
     const Mesh mesh = read_obj(model, {.length_m = length_m}).value();
     for (double turn_rad = 0; turn_rad < 6.3; turn_rad += 0.7) {
-      const cv::Rect box = seen_box(turntable_picture(mesh, turn_rad, {160, 120}, renderer).value());
+      const cv::Rect box = visible_box(turntable_image(mesh, turn_rad, {160, 120}, renderer).value());
       CHECK(box.x > 0);
       CHECK(box.y > 0);
       CHECK(box.x + box.width < 160);

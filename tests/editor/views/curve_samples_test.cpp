@@ -40,9 +40,9 @@ TEST_CASE("a circle's polyline stays within the tolerance, with about as many po
 }
 
 TEST_CASE("there are never more points than allowed, and both ends are among them") {
-  for (const std::size_t most : {std::size_t(2), std::size_t(5), std::size_t(40)}) {
-    const CurveSamples samples = sampled_curve(circle, 0.25, 0.75, {}, 0, most);
-    CHECK(samples.at.size() <= most);
+  for (const std::size_t maximum : {std::size_t(2), std::size_t(5), std::size_t(40)}) {
+    const CurveSamples samples = sampled_curve(circle, 0.25, 0.75, {}, 0, maximum);
+    CHECK(samples.at.size() <= maximum);
     CHECK(samples.at.front() == 0.25);
     CHECK(samples.at.back() == 0.75);
     CHECK(samples.at.size() == samples.points_m.size());

@@ -74,7 +74,7 @@ TEST_CASE("a curve has gaps where nothing is compared, and says where the target
 
 TEST_CASE("all curves share a scale from 0 to beyond the largest error, in which small ones are still told apart") {
   const ErrorCurves curves = error_curves(scored());
-  CHECK(curves.most_px == 250);
+  CHECK(curves.max_px == 250);
   CHECK(curves.scale.share_of(0) == 0);
   CHECK(curves.scale.share_of(250) < 1);
   CHECK(curves.scale.share_of(250) > 0.9);
@@ -87,12 +87,12 @@ TEST_CASE("a tracker that is not shown has no curve and does not stretch the sca
   const ErrorCurves curves = error_curves(half);
   REQUIRE(curves.curves.size() == 1);
   CHECK(curves.curves[0].color == 1);
-  CHECK(curves.most_px == 2);
+  CHECK(curves.max_px == 2);
   Scored unread = scored();
   unread.trackers[0].score = nullptr;
   CHECK(error_curves(unread).curves.size() == 1);
   CHECK(error_curves({}).curves.empty());
-  CHECK(error_curves({}).most_px == 0);
+  CHECK(error_curves({}).max_px == 0);
 }
 
 TEST_CASE("a frame is told in words: an error, lost, silent, not scored, unknown") {

@@ -13,7 +13,7 @@ TEST_CASE("a text is cut in its middle to a number of bytes, and not where it fi
   CHECK(shortened("0123456789", 7) == "01...89");
   const std::string path = "/somewhere/" + std::string(100'000, 'x') + "/model.obj: no such file";
   const std::string shown = shortened(path);
-  CHECK(shown.size() == kMostShownText);
+  CHECK(shown.size() == kMaxShownText);
   CHECK(shown.starts_with("/somewhere/"));
   CHECK(shown.ends_with("/model.obj: no such file"));
   CHECK(shown.size() * 4 < 65'536);  // vertices of a letter, what an index can count
@@ -22,9 +22,9 @@ TEST_CASE("a text is cut in its middle to a number of bytes, and not where it fi
 TEST_CASE("a text is never cut between the bytes of one character") {
   std::string text;
   for (int i = 0; i < 50; ++i) text += "\u20ac";  // three bytes each
-  for (std::size_t most = 4; most < 60; ++most) {
-    std::string shown = shortened(text, most);
-    CHECK(shown.size() <= most);
+  for (std::size_t maximum = 4; maximum < 60; ++maximum) {
+    std::string shown = shortened(text, maximum);
+    CHECK(shown.size() <= maximum);
     const std::size_t dots = shown.find("...");
     REQUIRE(dots != std::string::npos);
     CHECK(dots % 3 == 0);

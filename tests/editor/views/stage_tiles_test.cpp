@@ -41,9 +41,9 @@ TEST_CASE("each intruder with stages is named once, rising") {
 
 TEST_CASE("an intruder's tiles are its own stages and the frame's, in the order in which they were made") {
   std::vector<Stage> stages{stage("input1"), stage("0_layer"), stage("1_layer"), stage("1_bent"), stage("output")};
-  CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Bent", "Output"});
+  CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Warped", "Output"});
   CHECK(labels_of(stage_tiles(stages, std::nullopt)) == std::vector<std::string>{"Input 1", "Output"});
-  stages[3].picture = cv::Mat();
+  stages[3].image = cv::Mat();
   CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Output"});
   CHECK(labels_of(stage_tiles({stage("not known yet")}, 0)) == std::vector<std::string>{"not known yet"});
 }
@@ -68,9 +68,9 @@ TEST_CASE("a difference is its size times the gain in each channel, cut at white
   CHECK(difference({}, {}, 1).empty());
 }
 
-TEST_CASE("a difference asked for again is the same memory, another gain is another picture") {
-  const cv::Mat a = stage("a", 10).picture;
-  const cv::Mat b = stage("b", 12).picture;
+TEST_CASE("a difference asked for again is the same memory, another gain is another image") {
+  const cv::Mat a = stage("a", 10).image;
+  const cv::Mat b = stage("b", 12).image;
   Differences differences;
   const cv::Mat first = differences.of(a, b, 4);
   CHECK(differences.of(a, b, 4).data == first.data);

@@ -23,8 +23,8 @@ TEST_CASE("the start page offers projects, and no recipes of datasets") {
 
 TEST_CASE("every message passes by itself, errors after a longer time, and another project's start takes all away") {
   Toasts toasts;
-  toasts.say({"Saved"}, 100);
-  toasts.say({"cannot be read", true}, 100);
+  toasts.show({"Saved"}, 100);
+  toasts.show({"cannot be read", true}, 100);
   toasts.pass(102);
   CHECK(toasts.count() == 2);
   toasts.pass(108);
@@ -33,7 +33,7 @@ TEST_CASE("every message passes by itself, errors after a longer time, and anoth
   toasts.pass(130);
   CHECK(toasts.count() == 0);
   CHECK_FALSE(toasts.is_passing());
-  toasts.say({"cannot be read", true}, 200);
+  toasts.show({"cannot be read", true}, 200);
   toasts.clear();
   CHECK(toasts.count() == 0);
 }

@@ -10,9 +10,9 @@
 using namespace sigs;
 using namespace sigs::editor;
 
-TEST_CASE("a pinhole's picture has four corners on the plane a metre ahead") {
+TEST_CASE("a pinhole's image has four corners on the plane a metre ahead") {
   const Camera camera{*Lens::make({LensModel::brown_conrady, 900, 800, 639.5, 479.5, {}}), {1280, 960}};
-  const PictureBorder border = picture_border(camera);
+  const ImageBorder border = image_border(camera);
   REQUIRE(border.rays.size() == 4);
   CHECK(border.corners == std::vector<std::size_t>{0, 1, 2, 3});
   // (pixel - centre) / focal length, from the pixels' outer edges: 1280 / 2 / 900 and 960 / 2 / 800.
@@ -22,9 +22,9 @@ TEST_CASE("a pinhole's picture has four corners on the plane a metre ahead") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(glm::distance(border.rays[i], expected[i]) < 1e-12);
 }
 
-TEST_CASE("the border's rays meet the picture's edge through every lens that sees it") {
+TEST_CASE("the border's rays meet the image's edge through every lens that sees it") {
   for (const Camera& camera : editor::test::example_lenses()) {
-    const PictureBorder border = picture_border(camera);
+    const ImageBorder border = image_border(camera);
     REQUIRE(border.corners.size() == 4);
     for (const glm::dvec3& ray : border.rays) {
       const std::optional<glm::dvec2> pixel = camera.lens.pixel(ray);

@@ -33,10 +33,10 @@ struct Bystander {
   explicit Bystander(const Project& project) : document(project) {
     ImGui::CreateContext();
     load_fonts(15);
-    turn_model.curves.push_back({.intruder = 0,
-                                 .samples = {{0, 100}, {{400, -100, -150}, {400, 100, -150}}},
-                                 .range_first = 0,
-                                 .range_last = 100});
+    render_turntable.curves.push_back({.intruder = 0,
+                                       .samples = {{0, 100}, {{400, -100, -150}, {400, 100, -150}}},
+                                       .range_first = 0,
+                                       .range_last = 100});
     moment.world_from_camera = camera_pose_at(project, 0);
   }
   ~Bystander() { ImGui::DestroyContext(); }
@@ -44,23 +44,23 @@ struct Bystander {
   Bystander& operator=(const Bystander&) = delete;
 
   [[nodiscard]] glm::dvec2 on_screen(const glm::dvec3& p_m) const { return *eye.screen_of(p_m, kRect); }
-  [[nodiscard]] WorldPick pick(const glm::dvec2& mouse) { return pick_at(WorldCanvas(list, eye, kRect), turn, mouse); }
+  [[nodiscard]] WorldPick pick(const glm::dvec2& mouse) { return pick_at(WorldCanvas(list, eye, kRect), world, mouse); }
   [[nodiscard]] std::optional<glm::dvec3> place(const glm::dvec2& mouse) {
-    return place_for_waypoint(WorldCanvas(list, eye, kRect), turn, mouse);
+    return place_for_waypoint(WorldCanvas(list, eye, kRect), world, mouse);
   }
   void apply() { document.apply(edits.take_edits()); }
 
   Document document;
-  Shown shown;
+  PreviewOutput shown;
   Settings settings;
   Textures textures;
   Edits edits;
-  Wishes wishes;
-  Places places;
-  Studio studio{document, shown, settings, textures, edits, wishes, places};
-  WorldModel turn_model;
+  ViewNeeds needs;
+  UiProbe ui_probe;
+  ViewContext context{document, shown, settings, textures, edits, needs, ui_probe};
+  WorldModel render_turntable;
   WorldMoment moment;
-  WorldTurn turn{studio, turn_model, moment};
+  WorldContext world{context, render_turntable, moment};
   ImDrawList list{nullptr};
   OrbitCamera eye{.target_m = {400, 0, -150},
                   .distance_m = 1200,
@@ -119,19 +119,19 @@ TEST_CASE("moving the camera at a later moment moves where it starts") {
   Bystander it(project);
   it.moment.time_s = 4;
   it.moment.world_from_camera = camera_pose_at(project, 4);
-  const std::optional<Movable> camera = movable(it.turn, {Selected::camera, 0, 0});
+  const std::optional<Movable> camera = movable(it.world, {Selected::camera, 0, 0});
   REQUIRE(camera.has_value());
   CHECK(camera->at_m == glm::dvec3(80, 0, -150));
-  move_to(it.turn, *camera, {100, 5, -160});
+  move_to(it.world, *camera, {100, 5, -160});
   it.apply();
   CHECK(it.document.project().camera.position_m == glm::dvec3(20, 5, -160));
 }
 
 TEST_CASE("a waypoint that has gone cannot be moved") {
   Bystander it(crossing());
-  CHECK_FALSE(movable(it.turn, {Selected::waypoint, 0, 2}).has_value());
-  CHECK_FALSE(movable(it.turn, {Selected::waypoint, 7, 0}).has_value());
-  CHECK_FALSE(movable(it.turn, {Selected::intruder, 0, 0}).has_value());
-  REQUIRE(movable(it.turn, {Selected::waypoint, 0, 1}).has_value());
-  CHECK(movable(it.turn, {Selected::waypoint, 0, 1})->at_m == glm::dvec3(400, 100, -150));
+  CHECK_FALSE(movable(it.world, {Selected::waypoint, 0, 2}).has_value());
+  CHECK_FALSE(movable(it.world, {Selected::waypoint, 7, 0}).has_value());
+  CHECK_FALSE(movable(it.world, {Selected::intruder, 0, 0}).has_value());
+  REQUIRE(movable(it.world, {Selected::waypoint, 0, 1}).has_value());
+  CHECK(movable(it.world, {Selected::waypoint, 0, 1})->at_m == glm::dvec3(400, 100, -150));
 }

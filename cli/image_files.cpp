@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "image_files.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+namespace sigs::cli {
+
+namespace fs = std::filesystem;
+
+Result<void> ImageFiles::reserve(const fs::path& path) {
+  const Result<fs::path> staged = outputs_.add_file(path);
+  if (!staged) return fail(staged.error());
+  staged_[path] = *staged;
+  return {};
+}
+
+Result<void> ImageFiles::write(const fs::path& path, const cv::Mat& image) {
+  if (!staged_.contains(path))
+    if (const Result<void> reserved = reserve(path); !reserved) return reserved;
+  std::vector<uchar> bytes;
+  cv::imencode(".png", image, bytes);
+  std::ofstream out(staged_[path], std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out)
+    return fail(path.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
+  return {};
+}
+
+Result<std::vector<fs::path>> ImageFiles::commit() {
+  if (const Result<void> kept = outputs_.commit(); !kept) return fail(kept.error());
+  return outputs_.final_paths();
+}
+
+}  // namespace sigs::cli

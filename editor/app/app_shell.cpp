@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/app_shell.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/app/layout.h"
+#include "editor/views/menu_bar.h"
+#include "editor/views/viewport/readout.h"
+#include "editor/widgets/elided.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxTitle = 80;  // bytes
+
+void add_place(std::vector<BrowserPlace>& places, std::string name, fs::path folder) {
+  std::error_code code;
+  folder = fs::absolute(folder, code).lexically_normal();
+  const bool is_known =
+      std::any_of(places.begin(), places.end(), [&](const BrowserPlace& place) { return place.folder == folder; });
+  if (!folder.empty() && !is_known && fs::is_directory(folder, code)) places.push_back({std::move(name), folder});
+}
+
+// Where a person who works on this project probably wants to go.
+std::vector<BrowserPlace> places_for(const Project& project, const Settings& settings, const fs::path& samples) {
+  std::vector<BrowserPlace> places = usual_places();
+  if (!project.file.empty()) add_place(places, "Project", project.file.parent_path());
+  if (!project.footage.video.empty())
+    add_place(places, "Footage", resolved(project, project.footage.video).parent_path());
+  add_place(places, "Sample projects", samples);
+  constexpr std::size_t kMaxRecent = 4;
+  for (std::size_t i = 0; i < std::min(kMaxRecent, settings.recent.size()); ++i) {
+    const fs::path folder = settings.recent[i].parent_path();
+    add_place(places, folder.filename().string(), folder);
+  }
+  return places;
+}
+
+}  // namespace
+
+AppShell::AppShell(Document& document, Settings& settings, Setup setup)
+    : document_(document),
+      settings_(settings),
+      setup_(std::move(setup)),
+      export_(setup_.wake),
+      session_(document, settings,
+               {.recovery_folder = setup_.recovery_folder,
+                .wake = setup_.wake,
+                .is_exporting = [this] { return export_.is_running(); },
+                .mask = setup_.mask,
+                .is_asking_for_file = [this] { return browser_.is_open(); }}),
+      start_page_(setup_.samples, setup_.wake) {
+  const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
+  browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);
+}
+
+bool AppShell::needs_redraw() const {
+  return export_.is_running() || toasts_.is_passing() || !session_.loading().empty() || browser_.is_open();
+}
+
+// One after the other: the later waits until the browser is closed.
+void AppShell::ask_for_files() {
+  if (browser_.is_open() || files_wanted_.empty()) return;
+  const AskForFile wanted = std::move(files_wanted_.front());
+  files_wanted_.pop_front();
+  const FileDialogMode kind = wanted.of_folder
+                                  ? FileDialogMode::folder
+                                  : (wanted.for_saving ? FileDialogMode::to_save : FileDialogMode::to_open);
+  chosen_ = wanted.chosen;
+  browser_.ask({shortened(wanted.title, kMaxTitle), wanted.of_folder ? std::vector<std::string>() : wanted.extensions,
+                kind, wanted.start},
+               places_for(document_.project(), settings_, setup_.samples));
+}
+
+bool AppShell::handle(const Request& request) {
+  if (session_.handle(request)) return true;
+  if (const auto* wanted = std::get_if<AskForFile>(&request)) {
+    files_wanted_.push_back(*wanted);
+    ask_for_files();
+  } else if (const auto* message = std::get_if<ShowMessage>(&request)) {
+    toasts_.show(*message, now_s_);
+  } else if (std::holds_alternative<ClearMessages>(request)) {
+    toasts_.clear();
+  } else if (std::holds_alternative<ShowExport>(request)) {
+    if (has_project()) export_view_.open(document_);
+  } else if (std::holds_alternative<ShowMissingFiles>(request)) {
+    if (has_project()) relink_.open(document_.project());
+  } else if (std::holds_alternative<ShowSettings>(request)) {
+    shows_settings_ = true;
+  } else if (std::holds_alternative<ShowHelp>(request)) {
+    shows_help_ = true;
+  } else if (std::holds_alternative<ShowAbout>(request)) {
+    shows_about_ = true;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void AppShell::handle_own_requests() {
+  for (const Request& request : session_.take_requests()) handle(request);
+}
+
+// Who went on with other things meanwhile is not interrupted.
+void AppShell::report_export() {
+  if (export_view_.is_open()) return;
+  const ExportState state = export_.state();
+  if (state.phase == ExportPhase::done)
+    toasts_.show({"Exported into " + state.request.folder.string() + "; Ctrl + E shows it"}, now_s_);
+  if (state.phase == ExportPhase::failed) toasts_.show({"The export failed; Ctrl + E shows why", true}, now_s_);
+}
+
+void AppShell::update(double now_s) {
+  now_s_ = now_s;
+  for (const auto& step : std::exchange(answered_, {})) step();
+  session_.update(now_s);
+  handle_own_requests();
+  ask_for_files();
+  if (std::exchange(project_file_, document_.project().file) != document_.project().file) export_view_.forget_folder();
+  const bool exporting = export_.is_running();
+  if (std::exchange(was_exporting_, exporting) && !exporting) report_export();
+}
+
+void AppShell::draw_menu(const ViewContext& context) {
+  draw_menu_bar(context, {.has_project = has_project(), .exporting = export_.state()}, settings_);
+}
+
+void AppShell::draw_start_page(const ViewContext& context) {
+  const StartPageChoice choice =
+      start_page_.draw(context, {.abandoned = session_.abandoned(), .loading = session_.loading()});
+  if (choice.recover) answered_.emplace_back([this, project = *choice.recover] { session_.recover(project); });
+  if (choice.discard) answered_.emplace_back([this, project = *choice.discard] { session_.discard(project); });
+}
+
+// One at a time; what has to be answered first comes first.
+void AppShell::draw_dialog(const ViewContext& context) {
+  if (session_.question()) {
+    if (const std::optional<int> answer = draw_question(*session_.question(), context.ui_probe))
+      answered_.emplace_back([this, number = *answer] { session_.answer(number); });
+  } else if (browser_.is_open()) {
+    const std::optional<fs::path> path = browser_.draw(context.ui_probe);
+    settings_.last_folder = browser_.folder();
+    if (path && chosen_) answered_.emplace_back([chosen = std::exchange(chosen_, nullptr), path] { chosen(*path); });
+  } else if (relink_.is_open()) {
+    relink_.draw(context);
+  } else if (export_view_.is_open()) {
+    export_view_.draw(context, export_);
+  } else if (shows_settings_) {
+    shows_settings_ = settings_dialog_.draw(settings_, context.ui_probe);
+  } else if (shows_help_) {
+    shows_help_ = draw_help(setup_.help, context.ui_probe);
+  } else if (shows_about_) {
+    shows_about_ = draw_about(setup_.version, context.ui_probe);
+  }
+}
+
+void AppShell::draw_over_all(const ViewContext& context) {
+  draw_dialog(context);
+  const ImGuiViewport& screen = *ImGui::GetMainViewport();
+  const float inspector = has_project() && settings_.show_inspector ? scaled(settings_.inspector_width) : 0;
+  // Neither the timeline nor what is read off the image above it is covered.
+  const float below =
+      has_project() ? Layout::timeline_height_px(settings_, screen.WorkSize.y) + readout_height() + scaled(6) : 0;
+  const float width = screen.Size.x - inspector;
+  toasts_.draw(context.ui_probe, now_s_, {screen.Pos.x + width / 2, screen.Pos.y + screen.Size.y - below - scaled(18)},
+               width);
+}
+
+}  // namespace sigs::editor

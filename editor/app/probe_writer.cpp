@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "editor/app/probe_writer.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/temporary_file.h"
+
+namespace sigs::editor {
+
+namespace {
+
+std::vector<std::string> problems_of(const PreviewOutput& shown) {
+  std::vector<std::string> problems;
+  if (!shown.scene) return problems;
+  if (!shown.scene->footage->problem.empty()) problems.push_back(shown.scene->footage->problem);
+  for (const Problem& problem : shown.scene->draft.problems) problems.push_back(problem.field + ": " + problem.what);
+  return problems;
+}
+
+}  // namespace
+
+void ProbeWriter::write(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe,
+                        const ProbedWindow& window) {
+  if (!wanted()) return;
+  nlohmann::json json;
+  json["frame"] = document.playhead();
+  json["revision"] = document.revision().number;
+  json["unsaved"] = document.has_unsaved_changes();
+  json["current"] = shown.image_is_current;
+  json["busy"] = shown.busy;
+  json["page"] = window.page;
+  json["problems"] = problems_of(shown);
+  const MemoryUse& memory = shown.memory;
+  json["memory"] = {{"pictures", memory.images},   {"decoded", memory.decoded}, {"shown", memory.shown},
+                    {"textures", memory.textures}, {"sum", memory.sum()},       {"limit", memory.limit}};
+  json["turns_a_second"] = window.updates_per_second;
+  for (const auto& [name, rect] : ui_probe.all())
+    json["places"][name] = {rect.low.x, rect.low.y, rect.size().x, rect.size().y};
+  ++update_;
+  const std::string text = json.dump();
+  if (text == last_) return;
+  json["turn"] = update_;
+  if (write_text(file_, json.dump() + "\n", true)) last_ = text;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "editor/geometry/image_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigs::editor {
+namespace {
+
+constexpr double kSnapShare = 0.03;  // how close to a whole zoom counts as meant
+
+bool is_finite(const glm::dvec2& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
+bool has_size(const glm::dvec2& size) {
+  return is_finite(size) && size.x > 0 && size.y > 0;
+}
+
+// A whole number of screen pixels an image pixel, or of image pixels a screen pixel.
+double whole_zoom(double zoom) {
+  return zoom >= 1 ? std::round(zoom) : 1 / std::round(1 / zoom);
+}
+
+// Only a whole zoom that lies ahead draws the zoom to itself: slow steps of a touch pad get away from one.
+double snapped_zoom(double before, double zoom) {
+  const double whole = whole_zoom(zoom);
+  const bool is_close = std::abs(whole - zoom) <= kSnapShare * zoom;
+  const bool is_ahead = zoom > before ? whole > before : whole < before;
+  return is_close && is_ahead ? whole : zoom;
+}
+
+glm::dvec2 exact_origin(double zoom, const glm::dvec2& origin) {
+  return zoom >= 1 ? glm::round(origin) : origin;
+}
+
+// One axis of panning: where an image of a length on the screen may begin.
+double kept_in_sight(double origin, double length, double low, double high, bool whole) {
+  const double showing = std::min(length, high - low) / 4;
+  double minimum = low + showing - length;
+  double maximum = high - showing;
+  if (whole && std::ceil(minimum) <= std::floor(maximum)) {
+    minimum = std::ceil(minimum);
+    maximum = std::floor(maximum);
+  }
+  return std::clamp(whole ? std::round(origin) : origin, minimum, maximum);
+}
+
+}  // namespace
+
+glm::dvec2 ImageView::screen_of(const glm::dvec2& image) const {
+  return origin_on_screen + (image + 0.5) * zoom;
+}
+
+glm::dvec2 ImageView::image_of(const glm::dvec2& screen) const {
+  return (screen - origin_on_screen) / zoom - 0.5;
+}
+
+ImageView fitted(const glm::dvec2& image_size, const ScreenRect& rect) {
+  const glm::dvec2 middle = (rect.low + rect.high) / 2.0;
+  if (!has_size(image_size) || !has_size(rect.size())) return {1, is_finite(middle) ? middle : glm::dvec2{0, 0}};
+  const glm::dvec2 zooms = rect.size() / image_size;
+  const double zoom = std::clamp(std::min(zooms.x, zooms.y), kMinZoom, kMaxZoom);
+  return {zoom, exact_origin(zoom, middle - image_size * zoom / 2.0)};
+}
+
+ImageView zoomed(const ImageView& view, double factor, const glm::dvec2& fixed_on_screen) {
+  if (!(factor > 0) || factor == 1 || !is_finite(fixed_on_screen)) return view;
+  const double wanted = std::clamp(view.zoom * factor, kMinZoom, kMaxZoom);
+  const double zoom = wanted == view.zoom ? wanted : snapped_zoom(view.zoom, wanted);
+  if (zoom == view.zoom) return view;
+  const glm::dvec2 origin = fixed_on_screen + (view.origin_on_screen - fixed_on_screen) * (zoom / view.zoom);
+  return {zoom, exact_origin(zoom, origin)};
+}
+
+ImageView panned(const ImageView& view, const glm::dvec2& by_px, const glm::dvec2& image_size, const ScreenRect& rect) {
+  if (!is_finite(by_px) || !has_size(image_size) || !has_size(rect.size())) return view;
+  const glm::dvec2 length = image_size * view.zoom;
+  const glm::dvec2 origin = view.origin_on_screen + by_px;
+  const bool whole = view.zoom >= 1;
+  return {view.zoom,
+          {kept_in_sight(origin.x, length.x, rect.low.x, rect.high.x, whole),
+           kept_in_sight(origin.y, length.y, rect.low.y, rect.high.y, whole)}};
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/opened_footage.h"
+
+#include <utility>
+
+#include "export/export_project.h"
+
+namespace sigs::editor {
+
+OpenedFootage opened_footage(const std::filesystem::path& video) {
+  if (video.empty()) return {nullptr, std::make_shared<const Footage>(Footage{.problem = "no video is chosen"})};
+  Result<FrameSource> source = FrameSource::open(video);
+  if (!source) return {nullptr, std::make_shared<const Footage>(Footage{.problem = source.error().text()})};
+  if (source->info().frame_count() == 0)
+    return {nullptr, std::make_shared<const Footage>(Footage{.problem = video.string() + ": has no frames"})};
+  auto footage = std::make_shared<const Footage>(Footage{.shape = shape_of(source->info()), .video = source->info()});
+  return {std::make_unique<FrameSource>(std::move(*source)), std::move(footage)};
+}
+
+std::shared_ptr<const Footage> footage_for(const Project& project, const std::shared_ptr<const Footage>& footage) {
+  if (footage->video) return footage;
+  return std::make_shared<const Footage>(Footage{.shape = placeholder_footage(project), .problem = footage->problem});
+}
+
+Frame grey_frame(const FootageShape& footage, int frame) {
+  const cv::Size chroma((footage.size_px.width + 1) / 2, (footage.size_px.height + 1) / 2);
+  const cv::Scalar grey(128);
+  Frame made{.layout = PixelLayout::yuv420,
+             .planes = {cv::Mat(footage.size_px, CV_8UC1, grey), cv::Mat(chroma, CV_8UC1, grey),
+                        cv::Mat(chroma, CV_8UC1, grey)}};
+  made.time_s = time_of_frame_s(footage, frame);
+  return made;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/preview_renderer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/guarded.h"
+#include "editor/preview/thread_priority.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLookAtFiles(1000);  // how often they are looked at for changes from outside
+constexpr std::chrono::milliseconds kEditPause(50);      // until edits have come to rest
+constexpr std::chrono::milliseconds kOldSurvey(300);     // how long an older survey replaces one that is made
+constexpr double kSurveySlice_s = 0.003;
+constexpr int kBackgroundTasks = 3;
+
+}  // namespace
+
+void PreviewRenderer::run() {
+  lower_thread_priority(kPreviewNiceness);
+  while (const std::optional<PreviewSnapshot> snapshot = preview_state_.snapshot()) {
+    // What failed for want of memory is tried again in the next round, when something else may have given it back.
+    const Result<bool> did = guarded([&]() -> Result<bool> { return step(*snapshot); });
+    if (did && *did) continue;
+    preview_state_.wait_for_changes(snapshot->version, did && snapshot->ahead ? kLookAtFiles : kEditPause);
+  }
+}
+
+int PreviewRenderer::clamped(int frame) const {
+  return std::clamp(frame, 0, static_cast<int>(scene_->footage->shape.times_s.size()) - 1);
+}
+
+void PreviewRenderer::identify_revision(const PreviewSnapshot& snapshot) {
+  const Revision& revision = snapshot.wanted->revision;
+  const Clock::time_point now = Clock::now();
+  if (revision.number == revision_ && now - named_ < kLookAtFiles) return;
+  state_ = content_ids_.id_of(content_id_of(*revision.project));
+  const FileStamp video = footage_stamp_of(*revision.project);
+  footage_ = {footage_ids_.id_of(video), video.path};
+  revision_ = revision.number;
+  named_ = now;
+  preview_state_.identify_revision(revision_, state_, footage_);
+}
+
+// Also where only the number is new: whoever looks at the scene finds the project that it belongs to.
+void PreviewRenderer::open_revision(const PreviewSnapshot& snapshot) {
+  if (snapshot.footage.id != footage_.id || !snapshot.opened_footage) return;
+  const bool is_open = scene_fits() && scene_->revision == revision_ && scene_footage_ == footage_.id;
+  if (is_open) return;
+  const Revision& revision = snapshot.wanted->revision;
+  scene_ = scene_renderer_.opened(revision, footage_for(*revision.project, snapshot.opened_footage));
+  scene_state_ = state_;
+  scene_footage_ = footage_.id;
+  preview_state_.put_scene(scene_);
+}
+
+std::shared_ptr<const DecodedFrame> PreviewRenderer::footage_frame(int frame) const {
+  if (scene_->footage->video) return preview_state_.decoded({scene_footage_, frame});
+  return std::make_shared<const DecodedFrame>(DecodedFrame{grey_frame(scene_->footage->shape, frame), ""});
+}
+
+bool PreviewRenderer::compose(int frame, bool was_wanted) {
+  const std::shared_ptr<const DecodedFrame> footage = footage_frame(frame);
+  if (!footage) return false;
+  const Clock::time_point start = Clock::now();
+  auto image = scene_renderer_.image(*scene_, frame, *footage, Stages::leave_out, std::nullopt);
+  const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+  preview_state_.put_image({state_, frame}, std::move(image), took.count(), was_wanted);
+  return true;
+}
+
+// While the wanted frame is still being decoded, the one that was wanted before it is better than nothing: a fast
+// scrub shows images on its way.
+bool PreviewRenderer::render_requested(const PreviewSnapshot& snapshot) {
+  const int frame = clamped(snapshot.wanted->frame);
+  if (preview_state_.has_image({state_, frame})) return false;
+  if (compose(frame, true)) return true;
+  const bool is_fresh = snapshot.fresh && snapshot.fresh->state == scene_footage_;
+  return is_fresh && !preview_state_.has_image({state_, snapshot.fresh->frame}) && compose(snapshot.fresh->frame, true);
+}
+
+bool PreviewRenderer::render_extras(const PreviewSnapshot& snapshot) {
+  const PreviewRequest& wanted = *snapshot.wanted;
+  const FrameKey key{state_, clamped(wanted.frame)};
+  const FrameKey footage_key{scene_footage_, key.frame};
+  const bool untouched = wanted.footage && !preview_state_.has_untouched(footage_key);
+  const bool compared = wanted.compare_with && !preview_state_.has_compared(key, *wanted.compare_with, wanted.stages);
+  const bool staged = wanted.stages && !preview_state_.has_staged(key);
+  if (!untouched && !compared && !staged) return false;
+  const std::shared_ptr<const DecodedFrame> footage = footage_frame(key.frame);
+  if (!footage) return false;
+  if (untouched)
+    preview_state_.put_untouched(footage_key, std::make_shared<const cv::Mat>(bgr_of(footage->frame)));
+  else if (compared)
+    preview_state_.put_compared(
+        key, scene_renderer_.image(*scene_, key.frame, *footage, wanted.stages ? Stages::keep : Stages::leave_out,
+                                   wanted.compare_with));
+  else
+    preview_state_.put_staged(key, scene_renderer_.image(*scene_, key.frame, *footage, Stages::keep, std::nullopt));
+  return true;
+}
+
+bool PreviewRenderer::prefetch(const PreviewSnapshot& snapshot) {
+  if (!snapshot.ahead || !scene_fits()) return false;
+  const int count = static_cast<int>(scene_->footage->shape.times_s.size());
+  const std::optional<int> frame = preview_state_.next_prefetch(snapshot, state_, count);
+  return frame && compose(*frame, false);
+}
+
+// The survey of the revision before stays for a moment, so that it does not shrink and grow with every step of a drag.
+bool PreviewRenderer::survey() {
+  if (!scene_fits()) return false;
+  if (survey_state_ != scene_state_) {
+    survey_builder_.begin(scene_);
+    survey_state_ = scene_state_;
+    survey_is_shown_ = false;
+    survey_begun_ = Clock::now();
+  }
+  if (survey_builder_.done() && survey_is_shown_) return false;
+  const bool has_more = survey_builder_.work(kSurveySlice_s);
+  if (!has_more || (!survey_builder_.done() && Clock::now() - survey_begun_ < kOldSurvey)) return true;
+  preview_state_.put_surveys(survey_builder_.surveys());
+  survey_is_shown_ = survey_builder_.done();
+  return true;
+}
+
+bool PreviewRenderer::render_turntable(const PreviewSnapshot& snapshot) {
+  const std::optional<PreviewRequest::Turntable>& wanted = snapshot.wanted->turntable;
+  const auto intruders = static_cast<int>(snapshot.wanted->revision.project->intruders.size());
+  if (!wanted || wanted->intruder < 0 || wanted->intruder >= intruders || wanted->size_px.empty()) return false;
+  const ModelKey key{state_, wanted->intruder, wanted->turn_rad, wanted->size_px};
+  if (model_ == key) return false;
+  model_ = key;
+  preview_state_.put_model(scene_renderer_.model_image(*snapshot.wanted->revision.project, *wanted));
+  return true;
+}
+
+bool PreviewRenderer::step(const PreviewSnapshot& snapshot) {
+  if (!snapshot.wanted || !snapshot.wanted->revision.project) return false;
+  identify_revision(snapshot);
+  open_revision(snapshot);
+  if (scene_fits() && (render_requested(snapshot) || render_extras(snapshot))) return true;
+  for (int i = 0; i < kBackgroundTasks; ++i) {
+    next_background_task_ = (next_background_task_ + 1) % kBackgroundTasks;
+    const bool did = next_background_task_ == 0   ? prefetch(snapshot)
+                     : next_background_task_ == 1 ? survey()
+                                                  : render_turntable(snapshot);
+    if (did) return true;
+  }
+  return false;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/preview_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/preview/frame_bytes.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::chrono::milliseconds kWakeInterval(250);  // how long the window may not hear of frames fetched ahead
+constexpr std::chrono::milliseconds kStillEditing(200);  // after an edit the next one is likely
+constexpr std::size_t kRevisionsKnown = 4096;
+
+template <class T>
+std::size_t held_bytes(const std::shared_ptr<const T>& kept) {
+  return kept ? bytes_of(*kept) : 0;
+}
+
+bool is_same(const std::optional<PreviewRequest::Turntable>& a, const std::optional<PreviewRequest::Turntable>& b) {
+  if (!a || !b) return !a && !b;
+  return a->intruder == b->intruder && a->turn_rad == b->turn_rad && a->size_px == b->size_px;
+}
+
+bool is_same(const PreviewRequest& a, const PreviewRequest& b) {
+  return a.revision.number == b.revision.number && a.frame == b.frame && a.direction == b.direction &&
+         a.range_first == b.range_first && a.range_last == b.range_last && a.playing == b.playing &&
+         a.footage == b.footage && a.stages == b.stages && a.compare_with == b.compare_with &&
+         is_same(a.turntable, b.turntable);
+}
+
+}  // namespace
+
+std::vector<int> prefetch_order(const PreviewRequest& wanted, int frame_count, int maximum) {
+  const int first = std::clamp(wanted.range_first, 0, frame_count - 1);
+  const int last = std::clamp(wanted.range_last, first, frame_count - 1);
+  const int step = wanted.direction < 0 ? -1 : 1;
+  const int length = last - first + 1;
+  std::vector<int> frames;
+  for (int i = 1; i <= std::min(maximum, length); ++i) {
+    int frame = wanted.frame + step * i;
+    const bool is_past = step > 0 ? frame > last : frame < first;
+    if (is_past && !wanted.playing) break;
+    if (is_past) frame -= step * length;
+    if (frame >= first && frame <= last && frame != wanted.frame) frames.push_back(frame);
+  }
+  return frames;
+}
+
+PreviewState::PreviewState(PreviewLimits limits, std::function<void()> wake)
+    : wake_(std::move(wake)), limits_(limits), decoded_(0), images_(0) {
+  share_memory();
+}
+
+void PreviewState::notify_threads() {
+  ++version_;
+  changed_.notify_all();
+}
+
+bool PreviewState::should_wake(bool at_once) {
+  has_news_ = true;
+  const Clock::time_point now = Clock::now();
+  if (stop_ || (!at_once && now - last_wake_ < kWakeInterval)) return false;
+  last_wake_ = now;
+  has_news_ = false;
+  return true;
+}
+
+template <class Change>
+void PreviewState::put(bool at_once, const Change& change) {
+  bool call = false;
+  {
+    const std::lock_guard lock(mutex_);
+    change();
+    share_memory();
+    call = should_wake(at_once);
+  }
+  if (call && wake_) wake_();
+}
+
+int PreviewState::clamped(int frame) const {
+  if (!scene_) return frame;
+  return std::clamp(frame, 0, static_cast<int>(scene_->footage->shape.times_s.size()) - 1);
+}
+
+std::optional<FrameKey> PreviewState::wanted_key() const {
+  if (!wanted_) return std::nullopt;
+  const auto revision = revisions_.find(wanted_->revision.number);
+  if (revision == revisions_.end()) return std::nullopt;
+  return FrameKey{revision->second.state, clamped(wanted_->frame)};
+}
+
+std::shared_ptr<const PreviewImage> PreviewState::found(FrameKey key) const {
+  return newest_.is(key) ? newest_.value : images_.find(key);
+}
+
+bool PreviewState::is_decoded(FrameKey key) const {
+  return last_decoded_.is(key) || decoded_.find(key) != nullptr;
+}
+
+// What the playhead meets in the cache is what is shown from then on.
+void PreviewState::follow_playhead() {
+  if (const std::optional<FrameKey> key = wanted_key()) {
+    images_.set_playhead(*key);
+    if (const auto image = found(*key)) newest_ = {*key, image};
+  }
+  if (wanted_) decoded_.set_playhead({footage_.id, clamped(wanted_->frame)});
+}
+
+// Of what the preview state holds beside its caches. also_cached: even where a cache holds it too.
+std::size_t PreviewState::shown_bytes(bool also_cached) const {
+  std::size_t sum = held_bytes(untouched_.value) + held_bytes(staged_.value) + held_bytes(compared_.value);
+  if (also_cached || images_.find(newest_.key) != newest_.value) sum += held_bytes(newest_.value);
+  if (also_cached || decoded_.find(last_decoded_.key) != last_decoded_.value) sum += held_bytes(last_decoded_.value);
+  return sum + (model_ ? bytes_of(model_->rgba) : 0);
+}
+
+MemoryUse PreviewState::memory() const {
+  return {.images = images_.bytes(),
+          .decoded = decoded_.bytes(),
+          .shown = shown_bytes(false),
+          .textures = texture_bytes_,
+          .limit = limits_.cache_bytes};
+}
+
+// The caches share what textures and the view leave. What is shown has its room even while a cache holds it: it may go
+// there at any time. A decoded frame has 1.5 bytes a pixel, an image 4: a quarter holds about as many frames.
+void PreviewState::share_memory() {
+  const std::size_t taken = std::max(texture_bytes_, limits_.texture_bytes()) + shown_bytes(true);
+  const std::size_t room = limits_.cache_bytes - std::min(limits_.cache_bytes, taken);
+  decoded_.set_limit(room / 4);
+  images_.set_limit(room - room / 4);
+}
+
+void PreviewState::want(const PreviewRequest& wanted) {
+  const std::lock_guard lock(mutex_);
+  if (wanted_ && is_same(*wanted_, wanted)) return;
+  if (!wanted_ || wanted_->revision.number != wanted.revision.number) revised_ = Clock::now();
+  wanted_ = wanted;
+  if (!wanted.footage) untouched_ = {};
+  if (!wanted.stages) staged_ = {};
+  if (!wanted.compare_with) compared_ = {};
+  follow_playhead();
+  share_memory();
+  notify_threads();
+}
+
+PreviewOutput PreviewState::shown() const {
+  const std::lock_guard lock(mutex_);
+  PreviewOutput shown{.scene = scene_,
+                      .image = newest_.value,
+                      .surveys = surveys_,
+                      .model = model_,
+                      .opening = footage_wanted_.id != footage_.id,
+                      .compose_ms = compose_ms_};
+  const std::optional<FrameKey> key = wanted_key();
+  if (key) {
+    const FrameKey footage{footage_.id, key->frame};
+    shown.image_is_current = newest_.is(*key);
+    if (wanted_->footage && untouched_.is(footage)) shown.footage = untouched_.value;
+    if (wanted_->stages && staged_.is(*key)) shown.staged = staged_.value;
+    if (wanted_->compare_with && compared_.is(*key) && compared_.value->method == wanted_->compare_with)
+      shown.compared = compared_.value;
+  }
+  if (scene_) shown.cached.resize(scene_->footage->shape.times_s.size());
+  if (key)
+    for (const int frame : images_.frames_of(key->state))
+      if (static_cast<std::size_t>(frame) < shown.cached.size()) shown.cached[static_cast<std::size_t>(frame)] = true;
+  shown.memory = memory();
+  shown.busy = wanted_ && (!shown.image_is_current || rendering_ || decoding_ || shown.opening);
+  return shown;
+}
+
+void PreviewState::set_texture_bytes(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (texture_bytes_ == bytes) return;
+  texture_bytes_ = bytes;
+  share_memory();
+}
+
+void PreviewState::set_prefetch_paused(bool paused) {
+  const std::lock_guard lock(mutex_);
+  prefetch_paused_ = paused;
+  notify_threads();
+}
+
+void PreviewState::stop() {
+  const std::lock_guard lock(mutex_);
+  stop_ = true;
+  notify_threads();
+}
+
+bool PreviewState::may_prefetch() const {
+  return !prefetch_paused_ && Clock::now() - revised_ >= kStillEditing;
+}
+
+std::optional<FrameKey> PreviewState::next_to_decode() const {
+  const bool is_there = footage_.id != 0 && footage_.id == footage_wanted_.id && opened_footage_->video;
+  if (!wanted_ || !is_there) return std::nullopt;
+  const int count = opened_footage_->video->frame_count();
+  const FrameKey first{footage_.id, std::clamp(wanted_->frame, 0, count - 1)};
+  if (!is_decoded(first)) return first;
+  if (prefetch_paused_) return std::nullopt;
+  const std::optional<FrameKey> shown = wanted_key();
+  for (const int frame : prefetch_order(*wanted_, count, limits_.ahead)) {
+    const FrameKey key{footage_.id, frame};
+    if (shown && images_.find({shown->state, frame})) continue;
+    if (decoded_.find(key)) continue;
+    if (!decoded_.would_keep(key, decoded_bytes_)) break;
+    return key;
+  }
+  return std::nullopt;
+}
+
+std::optional<DecodeTask> PreviewState::next_decoding() {
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    DecodeTask task;
+    if (arrived_) {
+      task.adopt = true;
+      task.source = *std::exchange(arrived_, std::nullopt);
+      return task;
+    }
+    if (std::exchange(opening_, footage_wanted_.id) != footage_wanted_.id && footage_wanted_.id != footage_.id) {
+      task.open = footage_wanted_;
+      return task;
+    }
+    task.decode = next_to_decode();
+    decoding_ = task.decode.has_value();
+    if (task.decode) return task;
+    changed_.wait(lock);
+  }
+  return std::nullopt;
+}
+
+void PreviewState::put_opened(const FootageId& footage, OpenedFootage opened) {
+  put(true, [&] {
+    if (footage.id != footage_wanted_.id) return;
+    footage_ = footage;
+    opened_footage_ = std::move(opened.footage);
+    arrived_ = std::move(opened.source);
+    follow_playhead();
+    notify_threads();
+  });
+}
+
+void PreviewState::put_decoded(FrameKey key, std::shared_ptr<const DecodedFrame> decoded) {
+  const std::lock_guard lock(mutex_);
+  decoded_bytes_ = bytes_of(*decoded);
+  // What lies ahead takes the place of nothing that is wanted at this moment.
+  if (!wanted_ || key.frame == clamped(wanted_->frame) || !is_decoded({footage_.id, clamped(wanted_->frame)}))
+    last_decoded_ = {key, decoded};
+  decoded_.put(key, std::move(decoded), decoded_bytes_);
+  share_memory();
+  notify_threads();
+}
+
+std::optional<PreviewSnapshot> PreviewState::snapshot() {
+  const std::lock_guard lock(mutex_);
+  if (stop_) return std::nullopt;
+  PreviewSnapshot snapshot{.version = version_,
+                           .wanted = wanted_,
+                           .footage = footage_,
+                           .opened_footage = opened_footage_,
+                           .ahead = may_prefetch()};
+  if (last_decoded_.value) snapshot.fresh = last_decoded_.key;
+  return snapshot;
+}
+
+void PreviewState::wait_for_changes(std::uint64_t version, std::chrono::milliseconds at_most) {
+  bool call = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (rendering_ || has_news_) call = should_wake(true);
+    rendering_ = false;
+  }
+  if (call && wake_) wake_();
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, at_most, [&] { return stop_ || version_ != version; });
+}
+
+void PreviewState::identify_revision(std::uint64_t revision, std::uint64_t state, const FootageId& footage) {
+  const std::lock_guard lock(mutex_);
+  const auto known = revisions_.find(revision);
+  const bool is_new = known == revisions_.end() || known->second.state != state;
+  remember_id(revision, state);
+  if (!is_new && footage_wanted_.id == footage.id) return;
+  footage_wanted_ = footage;
+  follow_playhead();
+  notify_threads();
+}
+
+// Undo comes back to low numbers: what goes is what was named longest ago, not what has the lowest number.
+void PreviewState::remember_id(std::uint64_t revision, std::uint64_t state) {
+  KnownRevision& known = revisions_[revision];
+  if (known.named != 0) revisions_by_time_.erase(known.named);
+  known = {.state = state, .named = ++identifications_};
+  revisions_by_time_[known.named] = revision;
+  if (revisions_.size() <= kRevisionsKnown) return;
+  revisions_.erase(revisions_by_time_.begin()->second);
+  revisions_by_time_.erase(revisions_by_time_.begin());
+}
+
+std::shared_ptr<const DecodedFrame> PreviewState::decoded(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return last_decoded_.is(key) ? last_decoded_.value : decoded_.find(key);
+}
+
+bool PreviewState::has_image(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return found(key) != nullptr;
+}
+
+std::optional<int> PreviewState::next_prefetch(const PreviewSnapshot& snapshot, std::uint64_t state,
+                                               int frame_count) const {
+  const std::lock_guard lock(mutex_);
+  for (const int frame : prefetch_order(*snapshot.wanted, frame_count, limits_.ahead)) {
+    const FrameKey key{state, frame};
+    if (found(key)) continue;
+    if (!images_.would_keep(key, image_bytes_)) break;
+    const bool is_there = !snapshot.opened_footage->video || is_decoded({snapshot.footage.id, frame});
+    return is_there ? std::optional(frame) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void PreviewState::put_scene(std::shared_ptr<const OpenedScene> scene) {
+  put(true, [&] {
+    scene_ = std::move(scene);
+    if (surveys_.size() != scene_->draft.intruder_of_project.size())
+      surveys_.assign(scene_->draft.intruder_of_project.size(), nullptr);
+    rendering_ = true;
+    follow_playhead();
+  });
+}
+
+void PreviewState::put_image(FrameKey key, std::shared_ptr<const PreviewImage> image, double took_ms, bool was_wanted) {
+  put(was_wanted, [&] {
+    rendering_ = true;
+    image_bytes_ = bytes_of(*image);
+    if (was_wanted) {
+      newest_ = {key, image};
+      compose_ms_ = took_ms;
+    }
+    images_.put(key, std::move(image), image_bytes_);
+    follow_playhead();
+  });
+}
+
+void PreviewState::put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr) {
+  put(true, [&] {
+    if (wanted_ && wanted_->footage) untouched_ = {key, std::move(bgr)};
+  });
+}
+
+void PreviewState::put_staged(FrameKey key, std::shared_ptr<const PreviewImage> image) {
+  put(true, [&] {
+    if (wanted_ && wanted_->stages) staged_ = {key, std::move(image)};
+  });
+}
+
+void PreviewState::put_compared(FrameKey key, std::shared_ptr<const PreviewImage> image) {
+  put(true, [&] {
+    if (wanted_ && wanted_->compare_with) compared_ = {key, std::move(image)};
+  });
+}
+
+bool PreviewState::has_untouched(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return untouched_.is(key);
+}
+
+bool PreviewState::has_staged(FrameKey key) const {
+  const std::lock_guard lock(mutex_);
+  return staged_.is(key);
+}
+
+bool PreviewState::has_compared(FrameKey key, MethodChoice method, bool staged) const {
+  const std::lock_guard lock(mutex_);
+  if (!compared_.is(key) || compared_.value->method != method) return false;
+  return !staged || !compared_.value->stages.empty() || !compared_.value->problem.empty();
+}
+
+void PreviewState::put_surveys(std::vector<std::shared_ptr<const Survey>> surveys) {
+  put(true, [&] { surveys_ = std::move(surveys); });
+}
+
+void PreviewState::put_model(std::shared_ptr<const ModelImage> model) {
+  put(true, [&] { model_ = std::move(model); });
+}
+
+}  // namespace sigs::editor

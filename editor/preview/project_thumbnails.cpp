@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/project_thumbnails.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+
+#include "base/guarded.h"
+#include "base/thread.h"
+#include "export/export_project.h"
+#include "frame/compose_frame.h"
+#include "project/json.h"
+#include "scene/scene.h"
+#include "scene/visibility_estimate.h"
+#include "video/frame_source.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFramesLookedAt = 40;
+constexpr double kMaxSize = 0.3;  // of the image's width: beyond it the landscape is hardly seen
+constexpr double kAround = 5;     // times the intruder's size
+
+bool is_whole(const Box& box, cv::Size size_px) {
+  return box.x > 0 && box.y > 0 && box.x + box.width < size_px.width && box.y + box.height < size_px.height;
+}
+
+// The largest view of an intruder that lies in the image as a whole.
+std::optional<VisibilityEstimate> best_view(const Scene& scene) {
+  const VisibilityEstimator points(scene);
+  const cv::Size size_px = scene.footage.size_px;
+  std::optional<VisibilityEstimate> best;
+  for (int i = 0; i < kFramesLookedAt; ++i) {
+    const int frame = scene.first_frame + (scene.last_frame - scene.first_frame) * i / (kFramesLookedAt - 1);
+    for (int intruder = 0; intruder < static_cast<int>(scene.intruders.size()); ++intruder) {
+      const VisibilityEstimate view = points.at(intruder, frame);
+      if (view.visibility_state != VisibilityState::in_view || !view.silhouette || !is_whole(*view.silhouette, size_px))
+        continue;
+      if (view.size_px > kMaxSize * size_px.width || (best && view.size_px <= best->size_px)) continue;
+      best = view;
+    }
+  }
+  return best;
+}
+
+// Of the wanted shape, within the image, as wide as that many pixels.
+cv::Rect window_around(cv::Point2d center, double width, cv::Size image, cv::Size shape) {
+  const double aspect = double(shape.height) / shape.width;
+  const double maximum = std::min<double>(image.width, image.height / aspect);
+  const double w = std::clamp(width, std::min<double>(maximum, shape.width), maximum);
+  const double h = w * aspect;
+  const cv::Rect window(static_cast<int>(std::clamp(center.x - w / 2, 0.0, image.width - w)),
+                        static_cast<int>(std::clamp(center.y - h / 2, 0.0, image.height - h)),
+                        std::max(1, static_cast<int>(w)), std::max(1, static_cast<int>(h)));
+  return window & cv::Rect({0, 0}, image);
+}
+
+cv::Mat scaled_piece(const cv::Mat& bgr, const cv::Rect& window, cv::Size size_px) {
+  cv::Mat image;
+  cv::resize(bgr(window), image, size_px, 0, 0, cv::INTER_AREA);
+  return image;
+}
+
+Result<cv::Mat> untouched_image(FrameSource& source, cv::Size size_px) {
+  const Result<Frame> frame = source.read(source.info().frame_count() / 2);
+  if (!frame) return fail(frame.error());
+  const cv::Mat bgr = bgr_of(*frame);
+  return scaled_piece(bgr, window_around({bgr.cols / 2.0, bgr.rows / 2.0}, bgr.cols, bgr.size(), size_px), size_px);
+}
+
+Result<cv::Mat> composed_image(const Scene& scene, FrameSource& source, cv::Size size_px) {
+  const std::optional<VisibilityEstimate> view = best_view(scene);
+  if (!view) return fail("", "no intruder comes into view");
+  Result<Frame> background = source.read(view->frame);
+  if (!background) return fail(background.error());
+  ComposeContext context;
+  const Result<ComposedFrame> composed = compose_frame(scene, view->frame, std::move(*background), context);
+  if (!composed) return fail(composed.error());
+  const cv::Mat bgr = bgr_of(composed->image);
+  const Box& box = *view->silhouette;
+  const cv::Rect window =
+      window_around({box.x + box.width / 2, box.y + box.height / 2}, kAround * view->size_px, bgr.size(), size_px);
+  return scaled_piece(bgr, window, size_px);
+}
+
+}  // namespace
+
+Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px) {
+  const Result<ReadProject> read = read_project(project_file);
+  if (!read) return fail(read.error());
+  const Project& project = read->project;
+  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  if (!source) return fail(source.error());
+  if (const Result<Scene> scene = open_scene(project, shape_of(source->info())))
+    if (Result<cv::Mat> image = composed_image(*scene, *source, size_px)) return image;
+  return untouched_image(*source, size_px);
+}
+
+ProjectThumbnails::ProjectThumbnails(cv::Size size_px, std::function<void()> wake)
+    : size_px_(size_px), wake_(std::move(wake)) {}
+
+ProjectThumbnails::~ProjectThumbnails() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  asked_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::shared_ptr<const cv::Mat> ProjectThumbnails::of(const fs::path& project) {
+  const std::lock_guard lock(mutex_);
+  const auto [place, is_new] = images_.try_emplace(project);
+  if (!is_new) return place->second;
+  queue_.push_back(project);
+  if (!thread_.joinable())  // without a thread there are no images; the next question tries again
+    if (Result<std::thread> thread = started_thread([this] { work(); })) thread_ = std::move(*thread);
+  asked_.notify_one();
+  return nullptr;
+}
+
+void ProjectThumbnails::work() {
+  for (;;) {
+    fs::path project;
+    {
+      std::unique_lock lock(mutex_);
+      asked_.wait(lock, [this] { return stop_ || !queue_.empty(); });
+      if (stop_) return;
+      project = std::move(queue_.front());
+      queue_.pop_front();
+    }
+    const Result<void> made = guarded([&]() -> Result<void> {
+      Result<cv::Mat> image = project_thumbnail(project, size_px_);
+      if (!image) return fail(image.error());
+      const std::lock_guard lock(mutex_);
+      images_[project] = std::make_shared<const cv::Mat>(std::move(*image));
+      return {};
+    });
+    if (made) wake_();
+  }
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/world/view_presets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A little behind and above the camera.
+OrbitCamera behind_camera(const WorldViewTargets& targets) {
+  const glm::dvec3 axis = targets.world_from_camera.rotation * glm::dvec3(1, 0, 0);
+  OrbitCamera eye{.distance_m = std::clamp(targets.view_depth_m * 0.18, 12.0, 400.0), .elevation_rad = 0.16};
+  eye.bearing_rad = std::atan2(axis.y, axis.x);
+  eye.target_m = targets.world_from_camera.translation_m + axis * (eye.distance_m * 0.4);
+  return eye;
+}
+
+}  // namespace
+
+WorldViewState with_preset(const WorldViewState& look, WorldViewPreset preset, const WorldViewTargets& targets,
+                           const ScreenRect& rect) {
+  WorldViewState result = look;
+  result.preset = preset;
+  result.eye = {};
+  switch (preset) {
+    case WorldViewPreset::orbit:
+      result.eye.bearing_rad = -0.7;
+      result.eye.elevation_rad = 0.5;
+      break;
+    case WorldViewPreset::top:
+      result.eye.elevation_rad = kPi / 2;
+      result.eye.projection = Projection::parallel;
+      break;
+    case WorldViewPreset::side:  // flying to the right
+      result.eye.bearing_rad = -kPi / 2;
+      result.eye.projection = Projection::parallel;
+      break;
+    case WorldViewPreset::camera:
+      result.eye = behind_camera(targets);
+      return result;
+  }
+  result.eye = framing(result.eye, targets.points_m, rect);
+  return result;
+}
+
+WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTargets& targets, const ScreenRect& rect) {
+  if (look.preset == WorldViewPreset::camera) return with_preset(look, look.preset, targets, rect);
+  WorldViewState result = look;
+  result.eye = framing(look.eye, targets.points_m, rect);
+  return result;
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "editor/geometry/image_view.h"
+
+namespace sigs::editor {
+
+// Where things with a name lie on the screen in this update, so that whoever drives the window from outside (a test, a
+// guided tour) finds them. Costs nothing while nobody asks.
+class UiProbe {
+ public:
+  void note(const std::string& name, const ScreenRect& rect) {
+    if (wanted_) ui_probe_[name] = rect;
+  }
+  // The item that ImGui drew last.
+  void note_item(const std::string& name);
+
+  void set_wanted(bool wanted) { wanted_ = wanted; }
+  [[nodiscard]] bool wanted() const { return wanted_; }
+  [[nodiscard]] const std::map<std::string, ScreenRect>& all() const { return ui_probe_; }
+  void clear() { ui_probe_.clear(); }
+
+ private:
+  std::map<std::string, ScreenRect> ui_probe_;
+  bool wanted_ = false;
+};
+
+}  // namespace sigs::editor

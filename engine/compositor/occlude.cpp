@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "compositor/occlude.h"
+
+#include "base/ensure.h"
+
+namespace sigs {
+
+Layer clipped(const Layer& layer, const cv::Rect& bounds) {
+  const cv::Rect rect = layer.rect & bounds;
+  if (rect.empty()) return {};
+  const cv::Rect inside(rect.tl() - layer.rect.tl(), rect.size());
+  return {rect, layer.color(inside), layer.coverage(inside)};
+}
+
+Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body) {
+  if (own_body.empty() || layer.empty()) return layer;
+  ENSURE((layer.rect & cv::Rect({0, 0}, own_body.size())) == layer.rect);
+  Layer out{layer.rect, layer.color.clone(), layer.coverage.clone()};
+  for (int j = 0; j < out.rect.height; ++j)
+    for (int i = 0; i < out.rect.width; ++i) {
+      const float visible = 1.0F - own_body.at<float>(out.rect.y + j, out.rect.x + i);
+      out.color.at<cv::Vec4f>(j, i) *= visible;
+      out.coverage.at<float>(j, i) *= visible;
+    }
+  return out;
+}
+
+void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& nearer) {
+  const cv::Rect common = rect & nearer.rect;
+  for (int y = common.y; y < common.y + common.height; ++y)
+    for (int x = common.x; x < common.x + common.width; ++x)
+      coverage.at<float>(y - rect.y, x - rect.x) *=
+          1.0F - nearer.color.at<cv::Vec4f>(y - nearer.rect.y, x - nearer.rect.x)[3];
+}
+
+}  // namespace sigs

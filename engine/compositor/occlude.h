@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "base/layer.h"
+
+namespace sigs {
+
+// The layer's part inside bounds. Shares its samples with the layer.
+[[nodiscard]] Layer clipped(const Layer& layer, const cv::Rect& bounds);
+
+// The layer without what the own body hides: times (1 - mask).
+//   own_body  CV_32FC1 of the whole image, 0..1, or empty: the layer unchanged. The layer lies within the image.
+[[nodiscard]] Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body);
+
+// coverage (CV_32FC1 over rect) without what a nearer intruder's layer hides: times (1 - its opacity).
+void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& nearer);
+
+}  // namespace sigs

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/dataset_lock.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/file_lock.h"
+#include "base/folder_contents.h"
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kStagingName = ".part";
+constexpr const char* kExtension = ".lock";
+
+std::string name_of(const Shard& shard) {
+  return std::to_string(shard.part) + "-of-" + std::to_string(shard.parts) + kExtension;
+}
+
+std::optional<Shard> shard_of(const std::string& name) {
+  Shard shard;
+  char more = 0;
+  if (std::sscanf(name.c_str(), "%d-of-%d.loc%c", &shard.part, &shard.parts, &more) != 3) return std::nullopt;
+  if (shard.parts < 1 || shard.part < 1 || shard.part > shard.parts || name != name_of(shard)) return std::nullopt;
+  return shard;
+}
+
+Error already_locked(const fs::path& dataset, const Shard& shard) {
+  const std::string what = shard.parts == 1
+                               ? std::string("it")
+                               : "part " + std::to_string(shard.part) + " of " + std::to_string(shard.parts) + " of it";
+  return {dataset.string(), "another run is making " + what + "; wait until it has ended", ErrorKind::cannot_create};
+}
+
+Error not_made(const fs::path& path) {
+  return {path.string(), std::string("cannot be created: ") + std::strerror(errno), ErrorKind::cannot_create};
+}
+
+constexpr std::array<std::string_view, 4> kStagingFolders{"new", "old", "labels", "splits"};
+
+bool is_real_folder(const fs::path& path) {
+  std::error_code code;
+  return fs::symlink_status(path, code).type() == fs::file_type::directory;
+}
+
+// What speaks against the staging folder being a dataset's: a link, a file that no run makes, or folders with something
+// in them and no lock file, which every run has beside them, a killed one too. Empty: nothing.
+std::string foreign_content_of(const fs::path& staging) {
+  if (!is_real_folder(staging)) return "is no folder";
+  const Result<std::vector<fs::path>> paths = folder_contents(staging);
+  if (!paths) return "cannot be looked through";
+  std::string filled;
+  bool has_lock = false;
+  for (const fs::path& path : *paths) {
+    const std::string name = path.filename().string();
+    std::error_code code;
+    const bool is_lock = shard_of(name) && fs::symlink_status(path, code).type() == fs::file_type::regular;
+    const bool is_staging_folder =
+        std::find(kStagingFolders.begin(), kStagingFolders.end(), name) != kStagingFolders.end() &&
+        is_real_folder(path);
+    if (!is_lock && !is_staging_folder) return "holds " + name;
+    has_lock = has_lock || is_lock;
+    if (is_staging_folder && !fs::is_empty(path, code)) filled = name;
+  }
+  return filled.empty() || has_lock ? "" : "holds " + filled;
+}
+
+// Another run may be tidying it at the moment.
+Result<void> check_staging_folder(const fs::path& staging) {
+  constexpr int kTries = 20;
+  std::string foreign;
+  for (int tries = 0; tries < kTries; ++tries) {
+    std::error_code code;
+    if (fs::symlink_status(staging, code).type() == fs::file_type::not_found) return {};
+    foreign = foreign_content_of(staging);
+    if (foreign.empty()) return {};
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return fail(staging.string(), foreign + ", which no dataset made; move it away or choose another --out",
+              ErrorKind::cannot_create);
+}
+
+// The lock file, locked; not open where another process has it. A file that its owner removed in between is made
+// anew.
+Result<Descriptor> locked(const fs::path& file) {
+  const fs::path staging = file.parent_path();
+  for (;;) {
+    if (mkdir(staging.c_str(), 0777) != 0) {
+      if (errno != EEXIST) return fail(not_made(staging));
+      if (const Result<void> ours = check_staging_folder(staging); !ours) return fail(ours.error());
+    }
+    Descriptor descriptor = open_for_lock(file, LockFile::made_where_missing);
+    if (!descriptor.is_open() && errno == ENOENT) continue;  // the staging folder went with another run's lock
+    if (!descriptor.is_open()) return fail(not_made(file));
+    if (try_lock(descriptor) == LockAnswer::taken) return Descriptor();
+    if (is_named(descriptor, file)) return descriptor;
+  }
+}
+
+bool is_held(const fs::path& file) {
+  const Descriptor descriptor = open_for_lock(file, LockFile::must_be_there);
+  return descriptor.is_open() && is_locked_by_another(descriptor);
+}
+
+// Its lock file tells the next run that the staging folder may be cleared.
+bool is_needed(const fs::path& file) {
+  const Result<std::vector<fs::path>> paths = folder_contents(file.parent_path());
+  if (!paths) return false;
+  const auto is_other_lock = [&](const fs::path& path) { return path != file && shard_of(path.filename().string()); };
+  return paths->size() > 1 && std::none_of(paths->begin(), paths->end(), is_other_lock);
+}
+
+}  // namespace
+
+bool overlap(const Shard& a, const Shard& b) {
+  return (a.part - b.part) % std::gcd(a.parts, b.parts) == 0;  // Chinese remainder theorem
+}
+
+fs::path staging_folder_of(const fs::path& dataset) {
+  return dataset / kStagingName;
+}
+
+Result<DatasetLock> DatasetLock::acquire(const fs::path& dataset, const Shard& shard) {
+  const fs::path file = staging_folder_of(dataset) / name_of(shard);
+  Result<Descriptor> lock = locked(file);
+  if (!lock) return fail(lock.error());
+  if (!lock->is_open()) return fail(already_locked(dataset, shard));
+  DatasetLock dataset_lock(file, std::move(*lock));
+  // Each run shows its own lock before it looks at the others': of two at once, one at least sees the other.
+  std::error_code code;
+  for (fs::directory_iterator it(staging_folder_of(dataset), code), end; !code && it != end; it.increment(code)) {
+    const std::optional<Shard> other = shard_of(it->path().filename().string());
+    if (other && it->path() != file && overlap(shard, *other) && is_held(it->path()))
+      return fail(already_locked(dataset, *other));
+  }
+  return dataset_lock;
+}
+
+DatasetLock::DatasetLock(fs::path file, Descriptor lock) : file_(std::move(file)), lock_(std::move(lock)) {}
+
+DatasetLock::~DatasetLock() {
+  if (!lock_.is_open() || is_needed(file_)) return;
+  unlink(file_.c_str());
+  rmdir(file_.parent_path().c_str());  // refused where it is not empty
+}
+
+}  // namespace sigs

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/footage_cache.h"
+
+#include <map>
+
+#include "export/export_project.h"
+#include "scene/attitude_file.h"
+#include "scene/own_body_mask.h"
+#include "scene/scene_parts.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+namespace {
+
+// An error about a file, with the key of the recipe that names it in front.
+tl::unexpected<Error> fail_at(const std::string& where, Error error) {
+  return fail(where, error.text(), error.kind);
+}
+
+class FootageCache {
+ public:
+  explicit FootageCache(const Recipe& recipe) : recipe_(recipe) {}
+
+  // Error: the clip cannot be opened.
+  [[nodiscard]] Result<FootageShape> shape(std::size_t i) {
+    const std::string& path = recipe_.backgrounds[i].footage.video;
+    Result<FootageShape> shape = shape_of_file(path);
+    if (!shape) return fail_at(key_of(i) + "footage.video", shape.error());
+    return shape;
+  }
+
+  [[nodiscard]] Result<OpenedBackground> opened(std::size_t i, const FootageShape& shape) const {
+    const Background& background = recipe_.backgrounds[i];
+    const FootageSettings& settings = background.footage;
+    const std::string where = key_of(i) + "footage.";
+    Result<Camera> lens = read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model));
+    if (!lens) return fail_at(where + "calibration", lens.error());
+    if (const std::string& mask = settings.own_body_mask; !mask.empty())
+      if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
+        return fail_at(where + "own_body_mask", read.error());
+    if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
+      if (const auto read = read_attitude_file(attitude); !read)
+        return fail_at(key_of(i) + "camera.attitude_file", read.error());
+    const int last = static_cast<int>(shape.times_s.size()) - 1;
+    const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};
+    if (frames.last > last || frames.first > frames.last)
+      return fail(where + (frames.last > last ? "last_frame" : "first_frame"),
+                  "the footage has frames 0 to " + std::to_string(last));
+    return OpenedBackground{shape, *std::move(lens), frames};
+  }
+
+ private:
+  [[nodiscard]] std::string key_of(std::size_t i) const {
+    return recipe_.file.string() + ": backgrounds[" + std::to_string(i) + "].";
+  }
+
+  Result<FootageShape> shape_of_file(const std::string& path) {
+    if (const auto known = shapes_.find(path); known != shapes_.end()) return known->second;
+    const Result<FrameSource> source = FrameSource::open(path);
+    if (!source) return fail(source.error());
+    return shapes_.emplace(path, shape_of(source->info())).first->second;
+  }
+
+  const Recipe& recipe_;
+  std::map<std::string, FootageShape> shapes_;
+};
+
+}  // namespace
+
+Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe) {
+  FootageCache cache(recipe);
+  std::vector<Result<OpenedBackground>> backgrounds;
+  bool has_any = false;
+  for (std::size_t i = 0; i < recipe.backgrounds.size(); ++i) {
+    const Result<FootageShape> shape = cache.shape(i);
+    if (!shape) {
+      backgrounds.emplace_back(tl::unexpect, shape.error());
+      continue;
+    }
+    Result<OpenedBackground> opened = cache.opened(i, *shape);
+    if (!opened) return fail(opened.error());
+    backgrounds.push_back(std::move(opened));
+    has_any = true;
+  }
+  if (!has_any && !backgrounds.empty()) return fail(backgrounds.front().error());
+  return backgrounds;
+}
+
+}  // namespace sigs

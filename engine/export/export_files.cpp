@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "export/export_files.h"
+
+#include <algorithm>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "export/label_folder.h"
+#include "scene/opened_project.h"
+#include "scene/project_inputs.h"
+
+namespace sigs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+VideoCodec codec_of(CodecChoice choice) {
+  switch (choice) {
+    case CodecChoice::ffv1:
+      return VideoCodec::ffv1;
+    case CodecChoice::h264:
+      return VideoCodec::h264;
+    case CodecChoice::mjpeg:
+      return VideoCodec::mjpeg;
+    case CodecChoice::png:
+      return VideoCodec::png;
+  }
+  return VideoCodec::ffv1;
+}
+
+Container container_of(const ExportSettings& output) {
+  switch (output.container) {
+    case ContainerChoice::mkv:
+      return Container::mkv;
+    case ContainerChoice::mp4:
+      return Container::mp4;
+    case ContainerChoice::avi:
+      return Container::avi;
+    case ContainerChoice::automatic:
+      break;
+  }
+  switch (output.codec) {
+    case CodecChoice::h264:
+      return Container::mp4;
+    case CodecChoice::mjpeg:
+      return Container::avi;
+    default:
+      return Container::mkv;
+  }
+}
+
+// The bytes do not depend on it.
+int encoder_threads() {
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
+}
+
+VideoFormat video_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
+  return {.codec = codec_of(output.codec),
+          .container = container_of(output),
+          .crf = output.crf,
+          .threads = threads,
+          .size_px = footage.size_px,
+          .layout = footage.layout,
+          .color = footage.color,
+          .frame_rate_num = footage.frame_rate_num,
+          .frame_rate_den = footage.frame_rate_den,
+          .pixel_aspect_num = footage.pixel_aspect_num,
+          .pixel_aspect_den = footage.pixel_aspect_den};
+}
+
+// Masks are full-range gray, lossless, whatever the footage is.
+VideoFormat mask_format(const VideoFormat& image, MasksChoice masks) {
+  VideoFormat format = image;
+  format.codec = masks == MasksChoice::png ? VideoCodec::png : VideoCodec::ffv1;
+  format.container = Container::mkv;
+  format.layout = PixelLayout::gray;
+  format.color = {.range = ColorRange::full, .range_stated = true};
+  return format;
+}
+
+std::string with_extension(const std::string& name, const VideoFormat& format) {
+  return format.codec == VideoCodec::png ? name : name + "." + extension_of(format.container);
+}
+
+Frame frame_of_mask(cv::Mat mask, double time_s) {
+  return {.layout = PixelLayout::gray,
+          .color = {.range = ColorRange::full, .range_stated = true},
+          .planes = {std::move(mask)},
+          .time_s = time_s};
+}
+
+LabelSequence label_sequence(const Project& project, const VideoInfo& footage, const Scene& scene,
+                             const FrameRange& range, const std::string& output) {
+  const bool has_images = project.output.codec == CodecChoice::png;
+  LabelSequence sequence{.name = project.name,
+                         .footage = footage_truth(footage, range),
+                         .categories = categories_of(project),
+                         .video = has_images ? std::string() : output,
+                         .channels = footage.layout == PixelLayout::gray ? 1 : 3,
+                         .images = project.name,
+                         .own_body = scene.own_body,
+                         .camera = scene.camera,
+                         .thresholds = {.min_pixels = project.output.label_least_pixels,
+                                        .min_visible_fraction = project.output.label_least_visible_fraction}};
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i)
+    sequence.intruders.push_back({.id = static_cast<int>(i),
+                                  .name = scene.intruders[i].name,
+                                  .category = project.intruders[i].category,
+                                  .low_m = scene.intruders[i].model->mesh.low_m,
+                                  .high_m = scene.intruders[i].model->mesh.high_m});
+  return sequence;
+}
+
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  return {};
+}
+
+// A folder of images is replaced whole; one that holds anything else is somebody's own.
+Result<void> check_image_folder(const fs::path& folder) {
+  std::error_code code;
+  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
+    const std::string name = it->path().filename().string();
+    if (!name.starts_with("frame_") || it->path().extension() != ".png")
+      return fail(folder.string(), "holds " + name + ", which no export wrote; choose another folder",
+                  ErrorKind::cannot_create);
+  }
+  if (code && code != std::errc::no_such_file_or_directory)
+    return fail(folder.string(), "cannot be looked through: " + code.message(), ErrorKind::cannot_create);
+  return {};
+}
+
+struct OutputPaths {
+  fs::path base;  // FOLDER/NAME
+  fs::path video;
+  fs::path masks;
+  std::vector<fs::path> all;
+};
+
+OutputPaths output_paths(const ExportRequest& request, const VideoFormat& video, const VideoFormat& masks) {
+  const fs::path base = request.folder / request.project.name;
+  OutputPaths paths{.base = base,
+                    .video = with_extension(base.string(), video),
+                    .masks = with_extension(base.string() + ".masks", masks)};
+  paths.all = {paths.video, paths.masks};
+  for (const std::string& label : request.project.output.labels)
+    paths.all.push_back(base.string() + std::string(label_format(label)->suffix));
+  return paths;
+}
+
+}  // namespace
+
+Result<ExportFiles::OpenedVideo> ExportFiles::open_video(const fs::path& path, const VideoFormat& format) {
+  const Result<fs::path> staged =
+      format.codec == VideoCodec::png ? outputs_.add_folder(path, check_image_folder) : outputs_.add_file(path);
+  if (!staged) return fail(staged.error());
+  Result<VideoWriter> writer = VideoWriter::open(*staged, format);
+  if (!writer) return fail(writer.error());
+  return OpenedVideo{*staged, std::make_unique<WriterThread>(std::move(*writer))};
+}
+
+Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const LabelFormat& format,
+                                                     const LabelSequence& sequence) {
+  const auto may_replace = [&format](const fs::path& folder) { return check_label_folder(folder, format); };
+  const Result<fs::path> staged = format.is_folder ? outputs_.add_folder(path, may_replace) : outputs_.add_file(path);
+  if (!staged) return fail(staged.error());
+  Result<std::unique_ptr<LabelWriter>> writer = format.open(*staged, sequence);
+  if (!writer) return fail(writer.error());
+  return Labels{std::move(*writer)};
+}
+
+Result<void> check_output(const Project& project, const VideoInfo& footage) {
+  const cv::Size size = footage.size_px;
+  const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
+  const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
+  if (project.output.codec == CodecChoice::h264 && odd && shares_chroma)
+    return fail(project.file.string() + ": export.video.codec",
+                "h264 needs an even width and height, the footage is " + std::to_string(size.width) + "x" +
+                    std::to_string(size.height) + "; use ffv1, mjpeg or png",
+                ErrorKind::bad_project);
+  return {};
+}
+
+Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                      const FrameRange& range) {
+  if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
+  ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  const Result<void> opened = files.open_all(request, footage, scene, range);
+  if (!opened) return fail(files.outputs_.with_final_names(opened.error()));
+  return files;
+}
+
+Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                   const FrameRange& range) {
+  const ExportSettings& output = request.project.output;
+  const VideoFormat format = video_format(output, footage, encoder_threads());
+  const VideoFormat masks = mask_format(format, output.masks);
+  const OutputPaths paths = output_paths(request, format, masks);
+  if (const Result<void> kept = check_inputs_not_overwritten(request.project, paths.all, "export"); !kept) return kept;
+  Result<OpenedVideo> video = open_video(paths.video, format);
+  if (!video) return fail(video.error());
+  video_ = std::move(video->writer);
+  if (format.codec == VideoCodec::png) image_folder_ = video->staged;
+  if (output.masks != MasksChoice::none) {
+    Result<OpenedVideo> opened = open_video(paths.masks, masks);
+    if (!opened) return fail(opened.error());
+    masks_ = std::move(opened->writer);
+  }
+  const LabelSequence sequence =
+      label_sequence(request.project, footage, scene, range, paths.video.filename().string());
+  for (const std::string& label : output.labels) {
+    const LabelFormat& chosen = *label_format(label);
+    Result<Labels> labels = open_labels(paths.base.string() + std::string(chosen.suffix), chosen, sequence);
+    if (!labels) return fail(labels.error());
+    labels_.push_back(std::move(*labels));
+  }
+  return {};
+}
+
+bool ExportFiles::write_labels(const FrameTruth& truth) {
+  bool goes_on = true;
+  for (Labels& labels : labels_) {
+    if (labels.failure) continue;
+    const Result<void> written = labels.writer->write(truth);
+    if (written) continue;
+    labels.failure = {truth.index, written.error()};
+    goes_on = false;
+  }
+  return goes_on;
+}
+
+Result<void> ExportFiles::write(ComposedFrame frame) {
+  const int number = frame.truth.index;
+  const double time_s = frame.image.time_s;
+  bool goes_on = video_->put(std::move(frame.image), number);
+  if (masks_) {
+    WriterThread& masks = *masks_;
+    goes_on &= frame.mask.empty() ? masks.put_blank(time_s, number)
+                                  : masks.put(frame_of_mask(std::move(frame.mask), time_s), number);
+  }
+  goes_on &= write_labels(frame.truth);
+  return goes_on ? Result<void>() : join();
+}
+
+Result<void> ExportFiles::join() {
+  std::vector<std::optional<FrameFailure>> failures{video_->join()};
+  if (masks_) failures.push_back(masks_->join());
+  for (const Labels& labels : labels_) failures.push_back(labels.failure);
+  std::erase(failures, std::nullopt);
+  if (failures.empty()) return {};
+  const auto first = std::min_element(failures.begin(), failures.end(),
+                                      [](const auto& a, const auto& b) { return a->frame < b->frame; });
+  return fail(outputs_.with_final_names((*first)->error));
+}
+
+double ExportFiles::spent_s() const {
+  return video_->spent_s() + (masks_ ? masks_->spent_s() : 0);
+}
+
+Result<void> ExportFiles::finish() {
+  Result<void> step = join();
+  if (step) step = video_->finish();
+  if (step && masks_) step = masks_->finish();
+  for (Labels& labels : labels_)
+    if (step) step = labels.writer->finish(image_folder_);
+  return step ? step : fail(outputs_.with_final_names(step.error()));
+}
+
+Result<std::vector<fs::path>> ExportFiles::commit() {
+  if (const Result<void> step = finish(); !step) return fail(step.error());
+  if (const Result<void> kept = outputs_.commit(); !kept) return fail(kept.error());
+  return outputs_.final_paths();
+}
+
+}  // namespace sigs

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/staged_outputs.h"
+#include "export/export_project.h"
+#include "export/writer_thread.h"
+#include "frame/compose_frame.h"
+#include "labels/labels.h"
+
+namespace sigs {
+
+// The files of one export, written frame by frame: each video on a thread of its own, the labels on the caller's.
+class ExportFiles {
+ public:
+  [[nodiscard]] static Result<ExportFiles> open(const ExportRequest& request, const VideoInfo& footage,
+                                                const Scene& scene, const FrameRange& range);
+
+  // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
+  [[nodiscard]] Result<void> write(ComposedFrame frame);
+
+  // Waits until everything handed over is written. Error: that of the first frame that could not be.
+  [[nodiscard]] Result<void> join();
+
+  // Completes all of them, then gives them their final names. Returns those.
+  [[nodiscard]] Result<std::vector<std::filesystem::path>> commit();
+
+  // Seconds spent encoding and writing, added up over the outputs. Call it after join() or commit().
+  [[nodiscard]] double spent_s() const;
+
+ private:
+  explicit ExportFiles(StagedOutputs::Existing existing) : outputs_(existing) {}
+
+  struct Labels {
+    std::unique_ptr<LabelWriter> writer;
+    std::optional<FrameFailure> failure{};
+  };
+  struct OpenedVideo {
+    std::filesystem::path staged;
+    std::unique_ptr<WriterThread> writer;
+  };
+  [[nodiscard]] Result<void> open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                      const FrameRange& range);
+  [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format);
+  [[nodiscard]] Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
+                                           const LabelSequence& sequence);
+  [[nodiscard]] bool write_labels(const FrameTruth& truth);
+  [[nodiscard]] Result<void> finish();
+
+  StagedOutputs outputs_;  // outlives the writers: they write into it
+  std::unique_ptr<WriterThread> video_;
+  std::unique_ptr<WriterThread> masks_;  // nullptr: none are asked for
+  std::vector<Labels> labels_;
+  std::filesystem::path image_folder_;  // where numbered images are written to; empty: a video is
+};
+
+}  // namespace sigs

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/frame_range.h"
+#include "base/result.h"
+#include "project/project.h"
+#include "scene/visibility.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+struct ExportRequest {
+  Project project;
+  std::filesystem::path folder;      // made where it is not there
+  std::optional<FrameRange> frames;  // none: the project's own range; numbers are the footage's
+  int jobs = 1;                      // frames composed in parallel; the bytes do not depend on it
+  bool overwrite = false;
+};
+
+// Seconds spent in each stage, added up over frames (stages run in parallel).
+struct StageTimes {
+  double decode_s = 0;
+  double draw_s = 0;
+  double composite_s = 0;
+  double encode_s = 0;
+  double wall_s = 0;
+};
+
+struct ExportReport {
+  std::vector<std::filesystem::path> written;
+  std::vector<Warning> warnings;
+  int frames = 0;
+  int damaged_frames = 0;
+  StageTimes times;
+  std::vector<Visibility> visibilities;  // of each intruder in the frames written, by the truth
+  std::string renderer_description;      // what Renderer::description says; empty: no intruder came into view
+};
+
+struct ExportControl {
+  std::function<void(int done, int total)> progress;  // called from the calling thread after each frame
+  std::function<void(const Warning&)> warn;           // as soon as something is known
+  const std::atomic<bool>* cancel = nullptr;          // set: stop soon, error interrupted, nothing is left behind
+};
+
+// All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of images), NAME.masks.mkv (or
+// a folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
+[[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
+
+// What only the footage shows to be wrong with what a project wants written: h264 of an odd size. Names the field.
+[[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
+
+// What is worth telling of a video before it is used: its own warnings, and a conversion to 8 bits.
+[[nodiscard]] std::vector<Warning> warnings_of(const VideoInfo& video);
+
+// What a scene has to know of a video.
+struct FootageShape;
+[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
+
+}  // namespace sigs

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/bounded_queue.h"
+#include "base/frame_range.h"
+#include "export/reorder_buffer.h"
+#include "frame/compose_frame.h"
+#include "scene/scene.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+// Decoding and composing side by side, and beside whoever takes the frames. They come out in order; the first error in
+// order of frames wins.
+class FramePipeline {
+ public:
+  // Scene and source must outlive it; nobody else may read the source. jobs, 1 or more: frames composed side by side,
+  // fewer where the system gives no more threads.
+  FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs);
+  ~FramePipeline();
+
+  FramePipeline(const FramePipeline&) = delete;
+  FramePipeline& operator=(const FramePipeline&) = delete;
+
+  // The next frame of the range; waits for it. Not to be called after the last one or an error. Errors: those of the
+  // frame; unavailable (no threads, no memory).
+  [[nodiscard]] Result<ComposedFrame> next();
+
+  [[nodiscard]] double decode_s() const { return decode_s_; }
+
+  // What Renderer::description says; empty: nothing was drawn so far.
+  [[nodiscard]] std::string renderer_description();
+
+ private:
+  struct DecodedFrame {
+    int number = 0;
+    Frame image;
+  };
+  void start(void (FramePipeline::*work)());
+  void give_up(const Error& error);
+  void decode();
+  void compose();
+  void remember(std::string description);
+
+  const Scene& scene_;
+  FrameSource& source_;
+  FrameRange range_;
+  BoundedQueue<DecodedFrame> decoded_;
+  ReorderBuffer<Result<ComposedFrame>> finished_;
+  std::atomic<double> decode_s_{0};
+  std::mutex mutex_;
+  std::string renderer_description_;
+  std::optional<Error> failure_;  // of a thread as a whole
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace sigs

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "base/frame_range.h"
+#include "base/result.h"
+#include "project/project.h"
+#include "truth/annotation.h"
+
+namespace sigs {
+
+// One composed frame for those who look at it rather than write it.
+struct StreamFrame {
+  cv::Mat image;  // CV_8UC3, BGR
+  FrameTruth truth;
+};
+
+// The frames that an export of a project would write, in order, without writing them.
+class FrameStream {
+ public:
+  // Checks the project and opens what it names. frames: none: the project's own range; numbers are the footage's.
+  //   cancel  set: opening and showing end soon with the error interrupted; null or longer alive than the film
+  // Errors as export_project's.
+  [[nodiscard]] static Result<FrameStream> open(const Project& project, const std::optional<FrameRange>& frames = {},
+                                                const std::atomic<bool>* cancel = nullptr);
+  FrameStream(FrameStream&&) noexcept;
+  FrameStream& operator=(FrameStream&&) noexcept;
+  ~FrameStream();
+
+  // As a label file of that export has it.
+  [[nodiscard]] const FootageTruth& footage() const;
+  [[nodiscard]] const std::vector<Warning>& warnings() const;
+
+  // Composes `jobs` frames side by side and hands each to `see`, on the calling thread. Ends early where that gives an
+  // error, and gives it back. Returns how many frames of the footage were damaged.
+  [[nodiscard]] Result<int> show(int jobs, const std::function<Result<void>(const StreamFrame&)>& see);
+
+ private:
+  struct Inside;
+  explicit FrameStream(std::unique_ptr<Inside> inside);
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace sigs

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "frame/composite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "base/image.h"
+#include "base/pose.h"
+#include "compositor/blend.h"
+#include "compositor/classic.h"
+#include "compositor/footage_light.h"
+#include "compositor/occlude.h"
+#include "compositor/replace.h"
+
+namespace sigs {
+
+namespace {
+
+// Adds opacity, the last channel of an image of floats over rect, to the mask as one sheet over another. What is
+// touched at all gets at least 1.
+void add_to_mask(cv::Mat& mask, cv::Size image_size_px, const cv::Rect& rect, const cv::Mat& opacity) {
+  if (mask.empty()) mask = cv::Mat::zeros(image_size_px, CV_8UC1);
+  const int stride = opacity.channels();
+  for (int j = 0; j < rect.height; ++j) {
+    const float* above = opacity.ptr<float>(j) + stride - 1;
+    uchar* below = mask.ptr<uchar>(rect.y + j) + rect.x;
+    for (int i = 0; i < rect.width; ++i, above += stride, ++below) {
+      if (!(*above > 0)) continue;
+      const float both = 255.0F - (255.0F - *below) * (1.0F - std::min(*above, 1.0F));
+      *below = static_cast<uchar>(std::max(1.0F, both + 0.5F));
+    }
+  }
+}
+
+// A layer as it looks before black, over the whole image, in code values of the footage.
+cv::Mat shown(const Layer& layer, const ColorInfo& footage, cv::Size image_size_px) {
+  cv::Mat image = cv::Mat::zeros(image_size_px, CV_8UC3);
+  const cv::Mat colors = in_footage_primaries(layer.color, footage);
+  const TransferTable& curve = transfer_table_of(footage);
+  const cv::Rect inside = layer.rect & cv::Rect({0, 0}, image_size_px);
+  for (int y = inside.y; y < inside.y + inside.height; ++y)
+    for (int x = inside.x; x < inside.x + inside.width; ++x) {
+      const cv::Vec4f& color = colors.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x);
+      for (int c = 0; c < 3; ++c)
+        image.at<cv::Vec3b>(y, x)[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.exact_display(color[c]));
+    }
+  return image;
+}
+
+// "1_bent" for the intruder with id 1; plain "bent" where there is only one.
+std::string stage_name(const std::string& name, const IntruderLayers& layers, const Scene& scene) {
+  return scene.intruders.size() == 1 ? name : std::to_string(layers.placed.id) + "_" + name;
+}
+
+void composite_direct(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers) {
+  const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
+  composed.op_counts.pixels_blended += blend_over(composed.image, layers.occluded, space);
+  add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
+}
+
+void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const IntruderLayers& layers,
+                        const ColorInfo& footage) {
+  const cv::Size size = scene.footage.size_px;
+  for (const auto& [view, layer] : layers.views)
+    stages.push_back({stage_name("layer", layers, scene), shown(layer, footage, view.size_px)});
+  stages.push_back({stage_name("bent", layers, scene), shown(layers.warped, footage, size)});
+  stages.push_back({stage_name("blurred", layers, scene), shown(layers.blurred, footage, size)});
+  stages.push_back({stage_name("hidden", layers, scene), shown(layers.occluded, footage, size)});
+}
+
+// What the own body leaves of the pixels of part that the classic methods changed: CV_32FC1, 0 where nothing is to
+// change.
+cv::Mat weight_of(const cv::Mat& changed, const cv::Mat& own_body, const cv::Rect& part) {
+  cv::Mat weight;
+  changed(part).convertTo(weight, CV_32F, 1.0 / 255.0);
+  return own_body.empty() ? weight : cv::Mat(weight.mul(1.0 - own_body(part)));
+}
+
+// The part of a pinhole's image in which the views can show anything: all of it where one reaches beyond 90 degrees.
+cv::Rect visible_rect_of(std::span<const RenderedView> views, const Camera& pinhole) {
+  constexpr int kMargin_px = 3;  // views are read by area
+  const cv::Rect whole({0, 0}, pinhole.size_px);
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high = -low;
+  for (const auto& [view, layer] : views)
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+      const glm::dvec2 at =
+          (corner * glm::dvec2(view.size_px.width, view.size_px.height) - 0.5 - view.center_px) / view.focal_px;
+      const std::optional<glm::dvec2> pixel =
+          pinhole.lens.pixel(inverse(view.view_from_camera) * glm::dvec3(1, at.x, at.y));
+      if (!pixel) return whole;
+      low = glm::min(low, *pixel);
+      high = glm::max(high, *pixel);
+    }
+  return pixels_touched({low.x, low.y, high.x - low.x, high.y - low.y}, kMargin_px, whole);
+}
+
+// The intruder in the undistorted image's plane, where the classic methods key it.
+Layer pinhole_layer(const Scene& scene, const IntruderLayers& layers) {
+  const cv::Rect whole({0, 0}, scene.footage.size_px);
+  if (scene.compositing.method == MethodChoice::plain) return clipped(layers.warped, whole);
+  const LensParameters& lens = scene.camera.lens.parameters();
+  const Camera pinhole{*Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}),
+                       scene.footage.size_px};
+  const cv::Rect visible_rect = visible_rect_of(layers.views, pinhole);
+  return visible_rect.empty() ? Layer{} : warped(layers.views, pinhole, visible_rect);
+}
+
+// The key's own edge, warped and blurred as the image is: how much of each changed pixel of part is the intruder's.
+cv::Mat classic_opacity(const ClassicStages& stages, const DistortMaps& maps, double sigma_px, const cv::Rect& part) {
+  const cv::Rect from = gaussian_blur_source(part, sigma_px, stages.key.size());
+  const cv::Mat edge = gaussian_blurred(distorted(stages.key, maps, cv::Scalar::all(0), from), sigma_px);
+  cv::Mat opacity;
+  edge(part - from.tl()).convertTo(opacity, CV_32F, 1.0 / 255.0);
+  // A pixel that F counts as changed is touched, however little of the key is left in it after rounding.
+  cv::max(opacity, 1.0 / 512.0, opacity);
+  return opacity;
+}
+
+// Beside the conversion: the intruder once more, without the lens, and whole images D and F.
+void count_classic(OpCounts& counts, const Layer& pinhole, const ClassicStages& stages, double sigma_px) {
+  counts.pixels_warped += pinhole.rect.area();
+  if (sigma_px > 0) counts.pixels_blurred += 2 * static_cast<std::int64_t>(stages.d.total());
+}
+
+ClassicStages composite_classic(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers,
+                                ComposeContext& context) {
+  ClassicStages buffers = std::exchange(context.classic_buffers(), {});
+  const cv::Mat input1 = bgr_of(composed.image);
+  composed.op_counts.pixels_converted += static_cast<std::int64_t>(input1.total());
+  const Layer pinhole = pinhole_layer(scene, layers);
+  const cv::Mat input2 = on_green_screen(pinhole, composed.image.color, scene.footage.size_px, buffers.input2);
+  const DistortMaps* maps =
+      scene.compositing.method == MethodChoice::classic ? &context.maps_of(scene.camera) : nullptr;
+  ClassicStages stages = maps ? classic_stages(input1, input2, *maps, layers.sigma_px, std::move(buffers))
+                              : plain_stages(input1, input2, std::move(buffers));
+  if (maps) count_classic(composed.op_counts, pinhole, stages, layers.sigma_px);
+  const cv::Rect part = cv::boundingRect(stages.changed);
+  if (part.empty()) return stages;
+  const cv::Mat weight = weight_of(stages.changed, scene.own_body, part);
+  composed.op_counts.pixels_blended += replace_pixels(composed.image, part, stages.output(part), weight);
+  const cv::Mat opacity = maps ? cv::Mat(classic_opacity(stages, *maps, layers.sigma_px, part).mul(weight)) : weight;
+  add_to_mask(composed.mask, scene.footage.size_px, part, opacity);
+  return stages;
+}
+
+void keep_classic_stages(std::vector<Stage>& kept, const ClassicStages& stages, const Scene& scene,
+                         const IntruderLayers& layers) {
+  const std::pair<const char*, const cv::Mat*> all[] = {
+      {"input1", &stages.input1}, {"input2", &stages.input2}, {"a", &stages.a}, {"b", &stages.b},
+      {"c", &stages.c},           {"d", &stages.d},           {"f", &stages.f}, {"keyed", &stages.output}};
+  for (const auto& [name, image] : all)
+    if (!image->empty()) kept.push_back({stage_name(name, layers, scene), *image});
+}
+
+}  // namespace
+
+ComposedFrame composited(Frame background, const Scene& scene, const std::vector<IntruderLayers>& far_to_near,
+                         ComposeContext& context, Stages stages) {
+  ComposedFrame composed{.image = std::move(background)};
+  const bool keep = stages == Stages::keep;
+  const bool direct = scene.compositing.method == MethodChoice::direct;
+  if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
+  for (const IntruderLayers& layers : far_to_near) {
+    if (layers.views.empty()) continue;
+    if (direct) {
+      if (!layers.occluded.empty()) composite_direct(composed, scene, layers);
+      if (keep) keep_direct_stages(composed.stages, scene, layers, composed.image.color);
+    } else {
+      ClassicStages classic = composite_classic(composed, scene, layers, context);
+      if (keep)
+        keep_classic_stages(composed.stages, classic, scene, layers);
+      else
+        context.classic_buffers() = std::move(classic);
+    }
+  }
+  if (keep) {
+    if (!composed.mask.empty()) composed.stages.push_back({"mask", composed.mask});
+    composed.stages.push_back({"output", bgr_of(composed.image)});
+  }
+  return composed;
+}
+
+}  // namespace sigs

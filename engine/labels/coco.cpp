@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "labels/coco.h"
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/ensure.h"
+#include "labels/label_text.h"
+#include "labels/own_body_parts.h"
+#include "labels/run_length.h"
+#include "labels/text_file.h"
+
+namespace sigs {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVideoId = 1;
+
+// What is no UTF-8 becomes U+FFFD.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+double rounded(double number) {
+  ENSURE(std::isfinite(number));
+  return std::round(number * 1e6) / 1e6 + 0.0;  // no sign on a zero
+}
+
+Json json_of(const cv::Rect& box) {
+  return {box.x, box.y, box.width, box.height};
+}
+
+// Truth counts from the first pixel's centre, COCO from its corner.
+Json json_of(const Box& box) {
+  return {rounded(box.x + 0.5), rounded(box.y + 0.5), rounded(box.width), rounded(box.height)};
+}
+
+Json json_of(const glm::dvec3& point) {
+  return {rounded(point.x), rounded(point.y), rounded(point.z)};
+}
+
+Json json_of(const Attitude& attitude) {
+  return {{"roll", rounded(deg_of_rad(attitude.roll_rad))},
+          {"pitch", rounded(deg_of_rad(attitude.pitch_rad))},
+          {"yaw", rounded(deg_of_rad(attitude.yaw_rad))}};
+}
+
+Json rle_of(const cv::Mat& mask, const cv::Rect& box, cv::Size image) {
+  return {{"size", {image.height, image.width}}, {"counts", coco_counts(column_runs(mask, box, image))}};
+}
+
+Json info_of(const LabelSequence& sequence) {
+  return {{"description", sequence.name},
+          {"version", "1.0"},
+          {"contributor", "SIGS"},
+          {"least_pixels", sequence.thresholds.min_pixels},
+          {"least_visible_fraction", rounded(sequence.thresholds.min_visible_fraction)}};
+}
+
+Json video_of(const LabelSequence& sequence) {
+  const FootageTruth& footage = sequence.footage;
+  Json video{{"id", kVideoId},
+             {"name", sequence.name},
+             {"width", footage.size_px.width},
+             {"height", footage.size_px.height},
+             {"length", footage.last_frame - footage.first_frame + 1},
+             {"fps", rounded(double(footage.frame_rate_num) / footage.frame_rate_den)}};
+  if (!sequence.video.empty()) video["file_name"] = sequence.video;
+  video["footage"] = {
+      {"file_name", footage.video}, {"first_frame", footage.first_frame}, {"last_frame", footage.last_frame}};
+  return video;
+}
+
+Json categories_of(const LabelSequence& sequence) {
+  Json list = Json::array();
+  for (const std::string& category : sequence.categories)
+    list.push_back({{"id", list.size() + 1}, {"name", category}, {"supercategory", "intruder"}});
+  return list;
+}
+
+class CocoLabels : public LabelWriter {
+ public:
+  CocoLabels(TextFile file, const LabelSequence& sequence) : file_(std::move(file)), sequence_(sequence) {
+    sequence_.own_body.release();
+    const cv::Size image = sequence.footage.size_px;
+    for (const OwnBodyPart& part : own_body_parts(sequence.own_body))
+      own_body_.push_back({{"bbox", json_of(part.box)},
+                           {"area", part.pixels},
+                           {"segmentation", rle_of(part.mask, part.box, image)},
+                           {"iscrowd", 1},
+                           {"own_body", true}});
+  }
+
+  Result<void> begin() {
+    return file_.put("{\n\"info\": " + text_of(info_of(sequence_)) + ",\n\"licenses\": [],\n\"videos\": [\n" +
+                     text_of(video_of(sequence_)) + "\n],\n\"categories\": " + text_of(categories_of(sequence_)) +
+                     ",\n\"tracks\": " + text_of(tracks()) + ",\n\"annotations\": [");
+  }
+
+  Result<void> write(const FrameTruth& truth) override {
+    const int frame = truth.index - sequence_.footage.first_frame;
+    const int image_id = frame + 1;
+    images_ += (images_.empty() ? "\n" : ",\n") + text_of(image_of(truth, frame, image_id));
+    for (const IntruderTruth& intruder : truth.intruders)
+      if (is_labelled(intruder, sequence_.thresholds))
+        if (const Result<void> put = put_annotation(annotation_of(intruder, image_id)); !put) return put;
+    for (std::size_t category = 1; category <= sequence_.categories.size(); ++category)
+      for (const Json& part : own_body_)
+        if (const Result<void> put = put_annotation(region_of(part, category, image_id)); !put) return put;
+    return {};
+  }
+
+  // The images come last, since they are known in full only with the last frame.
+  Result<void> finish(const std::filesystem::path&) override {
+    const Result<void> put = file_.put("\n],\n\"images\": [" + images_ + "\n]\n}\n");
+    return put ? file_.close() : put;
+  }
+
+ private:
+  [[nodiscard]] Json tracks() const {
+    Json list = Json::array();
+    for (const LabelledIntruder& intruder : sequence_.intruders)
+      list.push_back({{"id", intruder.id},
+                      {"category_id", category_id_of(intruder.id)},
+                      {"video_id", kVideoId},
+                      {"name", intruder.name}});
+    return list;
+  }
+
+  [[nodiscard]] int category_id_of(int intruder_id) const { return category_index(sequence_, intruder_id) + 1; }
+
+  [[nodiscard]] Json image_of(const FrameTruth& truth, int frame, int image_id) const {
+    return {{"id", image_id},
+            {"file_name", sequence_.images + "/" + image_name(truth.index)},
+            {"width", sequence_.footage.size_px.width},
+            {"height", sequence_.footage.size_px.height},
+            {"video_id", kVideoId},
+            {"frame_id", frame},
+            {"footage_frame", truth.index},
+            {"time_s", rounded(truth.time_s)}};
+  }
+
+  [[nodiscard]] Json annotation_of(const IntruderTruth& intruder, int image_id) const {
+    Json annotation{{"image_id", image_id},
+                    {"category_id", category_id_of(intruder.id)},
+                    {"bbox", json_of(*intruder.visible_box)},
+                    {"area", intruder.visible_pixels}};
+    if (!intruder.visible.empty())
+      annotation["segmentation"] = rle_of(intruder.visible, *intruder.visible_box, sequence_.footage.size_px);
+    annotation["iscrowd"] = 0;
+    annotation["video_id"] = kVideoId;
+    annotation["track_id"] = intruder.id;
+    annotation["visible_fraction"] = rounded(intruder.visible_fraction);
+    annotation["inside_fraction"] = rounded(intruder.inside_fraction);
+    annotation["horizon"] = name_of(intruder.horizon);
+    annotation["distance_m"] = rounded(glm::length(intruder.position_m));
+    annotation["position_m"] = json_of(intruder.position_m);
+    annotation["attitude_deg"] = json_of(intruder.attitude);
+    if (intruder.amodal_box) annotation["amodal_bbox"] = json_of(*intruder.amodal_box);
+    return annotation;
+  }
+
+  [[nodiscard]] static Json region_of(const Json& part, std::size_t category_id, int image_id) {
+    Json annotation{{"image_id", image_id}, {"category_id", category_id}};
+    annotation.update(part);
+    return annotation;
+  }
+
+  Result<void> put_annotation(const Json& annotation) {
+    Json numbered{{"id", ++annotations_}};
+    numbered.update(annotation);
+    return file_.put((annotations_ == 1 ? "\n" : ",\n") + text_of(numbered));
+  }
+
+  TextFile file_;
+  LabelSequence sequence_;
+  std::vector<Json> own_body_;
+  std::string images_;
+  std::int64_t annotations_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LabelWriter>> open_coco(const std::filesystem::path& path, const LabelSequence& sequence) {
+  Result<TextFile> file = TextFile::create(path);
+  if (!file) return fail(file.error());
+  auto writer = std::make_unique<CocoLabels>(std::move(*file), sequence);
+  if (const Result<void> begun = writer->begin(); !begun) return fail(begun.error());
+  return writer;
+}
+
+}  // namespace sigs

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "labels/csv.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/angles.h"
+#include "base/number_text.h"
+#include "labels/label_text.h"
+#include "labels/text_file.h"
+#include "labels/xml_text.h"
+
+namespace sigs {
+
+namespace {
+
+// As in the XML file.
+constexpr int kDecimals = 6;
+constexpr int kPixelDecimals = 4;
+
+constexpr std::string_view kHeader =
+    "frame,time_s,camera_x_m,camera_y_m,camera_z_m,camera_roll_deg,camera_pitch_deg,camera_yaw_deg,"
+    "id,name,category,in_picture,inside_fraction,visible_fraction,horizon,"
+    "x_m,y_m,z_m,distance_m,roll_deg,pitch_deg,yaw_deg,"
+    "box_x_px,box_y_px,box_width_px,box_height_px,visible_pixels,"
+    "silhouette_x_px,silhouette_y_px,silhouette_width_px,silhouette_height_px,"
+    "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted\r\n";
+
+class Row {
+ public:
+  void add(std::string_view text) {
+    if (!text_.empty()) text_ += ',';
+    text_ += csv_field(text);
+  }
+  void add(double number, int decimals = kDecimals) { add(number_text(number, decimals)); }
+  void add(int number) { add(std::to_string(number)); }
+  void add(const glm::dvec3& position_m) {
+    for (int i = 0; i < 3; ++i) add(position_m[i]);
+  }
+  void add(const Attitude& attitude) {
+    for (const double rad : {attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad}) add(deg_of_rad(rad));
+  }
+  void add_empty(int fields) { text_ += std::string(static_cast<std::size_t>(fields), ','); }
+  [[nodiscard]] std::string line() const { return text_ + "\r\n"; }
+
+ private:
+  std::string text_;
+};
+
+void add_boxes(Row& row, const IntruderTruth& truth) {
+  if (truth.visible_box) {
+    for (const int number :
+         {truth.visible_box->x, truth.visible_box->y, truth.visible_box->width, truth.visible_box->height})
+      row.add(number);
+    row.add(truth.visible_pixels);
+  } else {
+    row.add_empty(5);
+  }
+  if (!truth.amodal_box) return row.add_empty(4);
+  const Box& box = *truth.amodal_box;
+  for (const double number : {box.x, box.y, box.width, box.height}) row.add(number, kPixelDecimals);
+}
+
+class CsvLabels : public LabelWriter {
+ public:
+  CsvLabels(TextFile file, LabelSequence sequence) : file_(std::move(file)), sequence_(std::move(sequence)) {}
+
+  Result<void> write(const FrameTruth& truth) override {
+    std::string text;
+    for (const IntruderTruth& intruder : truth.intruders) text += row_of(truth, intruder);
+    return file_.put(text);
+  }
+
+  Result<void> finish(const std::filesystem::path&) override { return file_.close(); }
+
+ private:
+  [[nodiscard]] std::string row_of(const FrameTruth& frame, const IntruderTruth& truth) const {
+    Row row;
+    row.add(frame.index);
+    row.add(frame.time_s);
+    row.add(frame.camera_position_m);
+    row.add(frame.camera_attitude);
+    row.add(truth.id);
+    row.add(xml_text(truth.name));
+    row.add(xml_text(labelled_intruder(sequence_, truth.id).category));
+    row.add(truth.in_image ? "true" : "false");
+    row.add(truth.inside_fraction);
+    row.add(truth.visible_fraction);
+    row.add(name_of(truth.horizon));
+    row.add(truth.position_m);
+    row.add(glm::length(truth.position_m));
+    row.add(truth.attitude);
+    add_boxes(row, truth);
+    add_footage(row);
+    row.add(frame.substituted ? "true" : "false");
+    return row.line();
+  }
+
+  void add_footage(Row& row) const {
+    const FootageTruth& footage = sequence_.footage;
+    row.add(xml_text(sequence_.name));
+    row.add(xml_text(footage.video));
+    row.add(footage.size_px.width);
+    row.add(footage.size_px.height);
+    row.add(rate_text(footage));
+  }
+
+  TextFile file_;
+  LabelSequence sequence_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LabelWriter>> open_csv(const std::filesystem::path& path, const LabelSequence& sequence) {
+  Result<TextFile> file = TextFile::create(path);
+  if (!file) return fail(file.error());
+  if (const Result<void> head = file->put(kHeader); !head) return fail(head.error());
+  return std::make_unique<CsvLabels>(std::move(*file), sequence);
+}
+
+}  // namespace sigs

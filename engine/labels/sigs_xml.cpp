@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "labels/sigs_xml.h"
+
+#include <pugixml.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/number_text.h"
+#include "labels/xml_text.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kMetreDecimals = 6;
+constexpr int kDegreeDecimals = 6;
+constexpr int kPixelDecimals = 4;
+constexpr int kFractionDecimals = 6;
+constexpr int kSecondDecimals = 6;
+
+void set(pugi::xml_node node, const char* name, double number, int decimals) {
+  node.append_attribute(name) = number_text(number, decimals).c_str();
+}
+
+void set_position(pugi::xml_node node, const glm::dvec3& position_m) {
+  set(node, "x_m", position_m.x, kMetreDecimals);
+  set(node, "y_m", position_m.y, kMetreDecimals);
+  set(node, "z_m", position_m.z, kMetreDecimals);
+}
+
+void set_attitude(pugi::xml_node node, const Attitude& attitude) {
+  set(node, "roll_deg", deg_of_rad(attitude.roll_rad), kDegreeDecimals);
+  set(node, "pitch_deg", deg_of_rad(attitude.pitch_rad), kDegreeDecimals);
+  set(node, "yaw_deg", deg_of_rad(attitude.yaw_rad), kDegreeDecimals);
+}
+
+void add_boxes(pugi::xml_node node, const IntruderTruth& truth) {
+  if (truth.visible_box) {
+    pugi::xml_node box = node.append_child("box");
+    box.append_attribute("x") = truth.visible_box->x;
+    box.append_attribute("y") = truth.visible_box->y;
+    box.append_attribute("width") = truth.visible_box->width;
+    box.append_attribute("height") = truth.visible_box->height;
+    box.append_attribute("pixels") = truth.visible_pixels;
+  }
+  if (truth.amodal_box) {
+    pugi::xml_node silhouette = node.append_child("silhouette");
+    set(silhouette, "x", truth.amodal_box->x, kPixelDecimals);
+    set(silhouette, "y", truth.amodal_box->y, kPixelDecimals);
+    set(silhouette, "width", truth.amodal_box->width, kPixelDecimals);
+    set(silhouette, "height", truth.amodal_box->height, kPixelDecimals);
+  }
+}
+
+void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
+  pugi::xml_node node = frame.append_child("intruder");
+  node.append_attribute("id") = truth.id;
+  node.append_attribute("name") = xml_text(truth.name).c_str();
+  node.append_attribute("in_picture") = truth.in_image;
+  set(node, "visible_fraction", truth.visible_fraction, kFractionDecimals);
+  node.append_attribute("horizon") = name_of(truth.horizon).data();
+  set_position(node.append_child("position"), truth.position_m);
+  set(node.append_child("distance"), "m", glm::length(truth.position_m), kMetreDecimals);
+  set_attitude(node.append_child("attitude"), truth.attitude);
+  add_boxes(node, truth);
+}
+
+std::string head_of(const FootageTruth& footage) {
+  pugi::xml_document document;
+  pugi::xml_node node = document.append_child("footage");
+  node.append_attribute("video") = xml_text(footage.video).c_str();
+  node.append_attribute("width") = footage.size_px.width;
+  node.append_attribute("height") = footage.size_px.height;
+  node.append_attribute("first_frame") = footage.first_frame;
+  node.append_attribute("last_frame") = footage.last_frame;
+  node.append_attribute("frame_rate") =
+      (std::to_string(footage.frame_rate_num) + "/" + std::to_string(footage.frame_rate_den)).c_str();
+  std::ostringstream text;
+  text << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<sigs version=\"1\">\n";
+  node.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);
+  return text.str();
+}
+
+}  // namespace
+
+std::string xml_of(const FrameTruth& truth) {
+  pugi::xml_document document;
+  pugi::xml_node frame = document.append_child("frame");
+  frame.append_attribute("index") = truth.index;
+  set(frame, "time_s", truth.time_s, kSecondDecimals);
+  if (truth.substituted) frame.append_attribute("substituted") = true;
+  pugi::xml_node camera = frame.append_child("camera");
+  set_position(camera, truth.camera_position_m);
+  set_attitude(camera, truth.camera_attitude);
+  for (const IntruderTruth& intruder : truth.intruders) add_intruder(frame, intruder);
+  std::ostringstream text;
+  frame.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);
+  return text.str();
+}
+
+Result<SigsXmlWriter> SigsXmlWriter::open(const std::filesystem::path& path, const FootageTruth& footage) {
+  Result<TextFile> file = TextFile::create(path);
+  if (!file) return fail(file.error());
+  if (const Result<void> head = file->put(head_of(footage)); !head) return fail(head.error());
+  return SigsXmlWriter(std::move(*file));
+}
+
+Result<void> SigsXmlWriter::write(const FrameTruth& truth) {
+  return file_.put(xml_of(truth));
+}
+
+Result<void> SigsXmlWriter::finish() {
+  if (const Result<void> end = file_.put("</sigs>\n"); !end) return end;
+  return file_.close();
+}
+
+namespace {
+
+class SigsXmlLabels : public LabelWriter {
+ public:
+  explicit SigsXmlLabels(SigsXmlWriter writer) : writer_(std::move(writer)) {}
+  Result<void> write(const FrameTruth& truth) override { return writer_.write(truth); }
+  Result<void> finish(const std::filesystem::path&) override { return writer_.finish(); }
+
+ private:
+  SigsXmlWriter writer_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path, const LabelSequence& sequence) {
+  Result<SigsXmlWriter> writer = SigsXmlWriter::open(path, sequence.footage);
+  if (!writer) return fail(writer.error());
+  return std::make_unique<SigsXmlLabels>(std::move(*writer));
+}
+
+}  // namespace sigs

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "labels/yolo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/number_text.h"
+#include "labels/hard_link.h"
+#include "labels/label_text.h"
+#include "labels/text_file.h"
+#include "labels/yaml_text.h"
+
+namespace sigs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Readers put labels/ in the place of the path's last images/, so none may follow.
+std::string folder_name_of(const std::string& name) {
+  return name == "images" ? "images-" : name;
+}
+
+// A box along one axis, in units of the last decimal written. What the numbers written say never leaves the image,
+// which some readers check to the last digit.
+struct Span {
+  static constexpr int kDecimals = 8;
+  static constexpr double kUnit = 1e8;
+  std::int64_t centre = 0;
+  std::int64_t length = 0;
+};
+
+Span span_of(int first, int count, int of) {
+  const std::int64_t centre = std::llround((first + 0.5 * count) / of * Span::kUnit);
+  const std::int64_t length = std::llround(double(count) / of * Span::kUnit);
+  const auto whole = static_cast<std::int64_t>(Span::kUnit);
+  return {centre, std::min({length, 2 * centre, 2 * (whole - centre)})};
+}
+
+std::string decimal(std::int64_t units) {
+  return number_text(static_cast<double>(units) / Span::kUnit, Span::kDecimals);
+}
+
+class YoloLabels : public LabelWriter {
+ public:
+  YoloLabels(fs::path root, const LabelSequence& sequence)
+      : root_(std::move(root)), folder_(folder_name_of(sequence.name)), sequence_(sequence) {}
+
+  Result<void> begin() {
+    if (const Result<void> made = make_inner_folder(root_ / "labels" / folder_); !made) return made;
+    const std::vector<std::string>& categories = sequence_.categories;
+    std::string text = "# One video: train and val are the same pictures. Point val elsewhere to measure a detector.\n";
+    for (const char* const part : {"train", "val"})
+      text += std::string(part) + ": " + yaml_text("images/" + folder_) + "\n";
+    text += "nc: " + std::to_string(categories.size()) + "\nnames:" + (categories.empty() ? " {}" : "") + "\n";
+    for (std::size_t i = 0; i < categories.size(); ++i)
+      text += "  " + std::to_string(i) + ": " + yaml_text(categories[i]) + "\n";
+    return write_text_file(root_ / "data.yaml", text);
+  }
+
+  Result<void> write(const FrameTruth& truth) override {
+    std::string text;
+    for (const IntruderTruth& intruder : truth.intruders)
+      if (is_labelled(intruder, sequence_.thresholds)) text += line_of(intruder);
+    images_.push_back(image_name(truth.index));
+    return write_text_file(root_ / "labels" / folder_ / fs::path(images_.back()).replace_extension(".txt"), text);
+  }
+
+  Result<void> finish(const fs::path& images) override {
+    if (images.empty()) return {};
+    const fs::path folder = root_ / "images" / folder_;
+    if (const Result<void> made = make_inner_folder(folder); !made) return made;
+    for (const std::string& image : images_)
+      if (const Result<void> linked = link_or_copy(images / image, folder / image); !linked) return linked;
+    return {};
+  }
+
+ private:
+  [[nodiscard]] std::string line_of(const IntruderTruth& intruder) const {
+    const cv::Size size_px = sequence_.footage.size_px;
+    const Span across = span_of(intruder.visible_box->x, intruder.visible_box->width, size_px.width);
+    const Span down = span_of(intruder.visible_box->y, intruder.visible_box->height, size_px.height);
+    return std::to_string(category_index(sequence_, intruder.id)) + " " + decimal(across.centre) + " " +
+           decimal(down.centre) + " " + decimal(across.length) + " " + decimal(down.length) + "\n";
+  }
+
+  fs::path root_;
+  std::string folder_;
+  LabelSequence sequence_;
+  std::vector<std::string> images_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LabelWriter>> open_yolo(const fs::path& path, const LabelSequence& sequence) {
+  auto writer = std::make_unique<YoloLabels>(path, sequence);
+  if (const Result<void> begun = writer->begin(); !begun) return fail(begun.error());
+  return writer;
+}
+
+}  // namespace sigs

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "occlusion/mean_frame.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/ensure.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kWidest = 640;          // finer means cost time and move no edge
+constexpr int kLargestBox = 4;        // 4 * 4 pixels * 8 frames * 255 still fit 16 bits
+constexpr int kMaxFramesPerMean = 8;  // frames
+constexpr int kMeansAtFirst = 8;      // of one frame each, before they grow
+
+void add_row(const std::uint8_t* luma, std::uint16_t* sums, int count) {
+  for (int x = 0; x < count; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + luma[x]);
+}
+
+void add_row_of_pairs(const std::uint8_t* luma, std::uint16_t* sums, int count) {
+  for (int x = 0; x < count; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + luma[2 * x] + luma[2 * x + 1]);
+}
+
+void add_row_of_boxes(const std::uint8_t* luma, std::uint16_t* sums, int count, int scale, int box) {
+  for (int x = 0; x < count; ++x) {
+    int sum = sums[x];
+    for (int k = 0; k < box; ++k) sum += luma[x * scale + k];
+    sums[x] = static_cast<std::uint16_t>(sum);
+  }
+}
+
+}  // namespace
+
+FrameAverager::FrameAverager(cv::Size size_px)
+    : size_px_(size_px),
+      scale_(std::min({(size_px.width + kWidest - 1) / kWidest, size_px.width, size_px.height})),
+      box_(std::min(scale_, kLargestBox)) {
+  ENSURE(size_px.width > 0 && size_px.height > 0);
+  sum_ = cv::Mat::zeros(size_px.height / scale_, size_px.width / scale_, CV_16UC1);
+}
+
+void FrameAverager::add(const cv::Mat& luma) {
+  ENSURE(luma.type() == CV_8UC1 && luma.size() == size_px_ && !is_full());
+  for (int y = 0; y < sum_.rows; ++y)
+    for (int k = 0; k < box_; ++k) {
+      const auto* from = luma.ptr<std::uint8_t>(y * scale_ + k);
+      auto* to = sum_.ptr<std::uint16_t>(y);
+      if (scale_ == 1) add_row(from, to, sum_.cols);
+      if (scale_ == 2) add_row_of_pairs(from, to, sum_.cols);
+      if (scale_ > 2) add_row_of_boxes(from, to, sum_.cols, scale_, box_);
+    }
+  ++frames_;
+  ++waiting_;
+}
+
+bool FrameAverager::is_full() const {
+  const int before = frames_ - waiting_;
+  return waiting_ >= std::clamp(before / kMeansAtFirst, 1, kMaxFramesPerMean);
+}
+
+MeanFrame FrameAverager::image() const {
+  ENSURE(waiting_ > 0);
+  MeanFrame image{.frames = waiting_};
+  sum_.convertTo(image.luma, CV_32F, 1.0 / (waiting_ * box_ * box_));
+  return image;
+}
+
+void FrameAverager::clear() {
+  sum_.setTo(0);
+  waiting_ = 0;
+}
+
+}  // namespace sigs

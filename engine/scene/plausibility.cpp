@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "scene/plausibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "scene/path_conditioning.h"
+#include "scene/scene_parts.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr float kHides = 0.5F;          // opacity of a mask that hides
+constexpr double kHidesAll = 0.95;      // share of the image
+constexpr int kSamplesOfAll = 200'000;  // of all flights together
+constexpr int kMaxSamples = 6000;       // of each
+constexpr int kMinSamples = 8;
+constexpr double kUnits_m[] = {1e-3, 1e-2, 0.0254};  // that models are drawn in where it is not metres
+constexpr const char* kUnitNames[] = {"millimetres", "centimetres", "inches"};
+constexpr double kUsual_m[] = {1, 100};  // length of most intruders
+
+std::string short_text(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return std::abs(number) >= 1000 && std::abs(number) < 1e7 ? std::to_string(std::llround(number)) : text;
+}
+
+std::string length_text(double length_m) {
+  return length_m >= 1000 ? short_text(length_m / 1000) + " km" : short_text(length_m) + " m";
+}
+
+std::string frame_text(double frame) {
+  return "frame " + std::to_string(std::lround(frame));
+}
+
+void check_mask(const cv::Mat& own_body, std::vector<Problem>& issues) {
+  if (own_body.empty()) return;
+  const double share =
+      static_cast<double>(cv::countNonZero(own_body >= kHides)) / static_cast<double>(own_body.total());
+  const auto add = [&](std::string what) { issues.push_back({"footage.own_body_mask", std::move(what)}); };
+  if (share > kHidesAll)
+    add("is white in " + short_text(100 * share) +
+        " % of the image and hides every intruder there; white is the own body, black is what lies behind it");
+  else if (cv::countNonZero(own_body) == 0)
+    add("is black all over and hides nothing; it can be left out");
+}
+
+// "in millimetres (scale 0.001: 2.9 m)", for each unit in which the model would be an aircraft.
+std::string likely_units(const ModelSettings& model, double length_m) {
+  std::string units;
+  for (std::size_t i = 0; i < std::size(kUnits_m); ++i) {
+    const double other_m = length_m / model.scale * kUnits_m[i];
+    if (other_m < kUsual_m[0] || other_m > kUsual_m[1]) continue;
+    units += std::string(units.empty() ? "" : " or ") + "in " + kUnitNames[i] + " (scale " + short_text(kUnits_m[i]) +
+             ": " + length_text(other_m) + " long)";
+  }
+  return units;
+}
+
+void check_model(const ModelSettings& settings, const Model& model, const std::string& key,
+                 std::vector<Problem>& issues) {
+  const glm::vec3 size_m = model.mesh.high_m - model.mesh.low_m;
+  const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
+  if (largest_m >= kMinAircraft_m && largest_m <= kMaxAircraft_m) return;
+  const std::string what = "makes the model " + length_text(size_m.x) + " long and " + length_text(size_m.y) + " wide";
+  if (settings.length_m > 0) return issues.push_back({key + ".length_m", what});
+  const std::string units = likely_units(settings, size_m.x);
+  issues.push_back({key + ".scale", what + (units.empty() ? "; set it, or length_m, to what the model measures"
+                                                          : "; is the file " + units + "?")});
+}
+
+struct Extremes {
+  double fastest_mps = 0;
+  double fastest_frame = 0;
+  double lowest_z_m = -INFINITY;
+  double lowest_frame = 0;
+};
+
+Extremes extremes_of(const Scene& scene, const SceneIntruder& intruder, int samples) {
+  Extremes extremes;
+  const int last = scene.last_frame - scene.first_frame;
+  const int steps = std::clamp(samples - 1, 1, std::max(1, last));
+  for (int i = 0; i <= steps; ++i) {
+    const double frame = scene.first_frame + std::round(static_cast<double>(last) * i / steps);
+    const double time_s = time_of_frame_s(scene.footage, frame);
+    const double speed_mps = glm::length(intruder.trajectory.velocity_mps(time_s));
+    const double z_m = intruder.trajectory.position_m(time_s).z;
+    if (speed_mps > extremes.fastest_mps) extremes.fastest_mps = speed_mps, extremes.fastest_frame = frame;
+    if (z_m > extremes.lowest_z_m) extremes.lowest_z_m = z_m, extremes.lowest_frame = frame;
+  }
+  return extremes;
+}
+
+void check_flight(const Scene& scene, const SceneIntruder& intruder, const std::string& key,
+                  std::vector<Problem>& issues) {
+  const auto intruders = static_cast<int>(std::min<std::size_t>(kSamplesOfAll, scene.intruders.size()));
+  const int samples = std::clamp(kSamplesOfAll / intruders, kMinSamples, kMaxSamples);
+  const Extremes extremes = extremes_of(scene, intruder, samples);
+  if (extremes.fastest_mps > kFastestAircraft_mps)
+    issues.push_back({key, "\"" + intruder.name + "\" flies at " + short_text(extremes.fastest_mps) + " m/s at " +
+                               frame_text(extremes.fastest_frame) +
+                               ", faster than any aircraft; move its waypoints nearer together or their frames apart"});
+  // Where the camera itself lies below z = 0, the project's world has its ground elsewhere.
+  if (extremes.lowest_z_m > 0 && scene.motion.world_from_camera_at_start.translation_m.z <= 0)
+    issues.push_back({key, "\"" + intruder.name + "\" is " + short_text(extremes.lowest_z_m) +
+                               " m below the ground at " + frame_text(extremes.lowest_frame) +
+                               "; the ground is z = 0, and heights are negative z"});
+}
+
+}  // namespace
+
+std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene,
+                                         const std::vector<int>& intruder_of_project) {
+  std::vector<Problem> issues;
+  for (const Warning& warning : scene.camera.warnings) issues.push_back({"footage.calibration", warning.text()});
+  check_mask(scene.own_body, issues);
+  if (scene.motion.world_from_camera_at_start.translation_m.z > 0)
+    issues.push_back({"camera.position_m", "lies below the ground; the ground is z = 0, and heights are negative z"});
+  for (std::size_t i = 0; i < intruder_of_project.size(); ++i) {
+    if (intruder_of_project[i] < 0) continue;
+    const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(intruder_of_project[i])];
+    const std::string key = key_of_intruder(i);
+    if (intruder.model != nullptr) check_model(project.intruders[i].model, *intruder.model, key + ".model", issues);
+    check_flight(scene, intruder, key + ".trajectory", issues);
+    if (std::optional<Problem> overshoot = overshoot_issue(project, i, scene)) issues.push_back(*std::move(overshoot));
+  }
+  return issues;
+}
+
+std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene) {
+  std::vector<int> in_order;
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i) in_order.push_back(static_cast<int>(i));
+  return plausibility_issues(project, scene, in_order);
+}
+
+}  // namespace sigs

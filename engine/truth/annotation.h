@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/image.h"
+#include "base/pose.h"
+
+namespace sigs {
+
+// Where a body lies against the horizon: the plane through the camera, level in the world (flat ground without end).
+// unknown: nobody has said how the camera is turned, so where the footage's horizon lies cannot be told.
+enum class HorizonSide { below, on, above, unknown };
+
+[[nodiscard]] constexpr std::string_view name_of(HorizonSide side) {
+  switch (side) {
+    case HorizonSide::below:
+      return "below";
+    case HorizonSide::on:
+      return "on";
+    case HorizonSide::above:
+      return "above";
+    case HorizonSide::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+// The truth of one intruder in one frame. docs/annotation-format.md has the formula of each.
+struct IntruderTruth {
+  int id = 0;
+  std::string name;
+  glm::dvec3 position_m{0, 0, 0};       // of the reference point, in the camera frame
+  Attitude attitude;                    // in the world
+  bool in_image = false;                // some of it lies within the image and in front of the lens, hidden or not
+  double visible_fraction = 0;          // of the whole silhouette's area: what lies in the image and is not hidden
+  std::optional<cv::Rect> visible_box;  // visible pixels; none where nothing is visible
+  cv::Mat visible;                // CV_8UC1 over visible_box: 255 where a pixel shows it, else 0; empty: not measured
+  int visible_pixels = 0;         // how many of them there are
+  std::optional<Box> amodal_box;  // the whole of it through the lens; none where no part of it has an image
+  HorizonSide horizon = HorizonSide::unknown;  // above or below: all of it is
+  double inside_fraction = 0;                  // of the whole silhouette's area: what lies in the image, hidden or not
+};
+
+// What the frames are counted in, and which of them a set of labels holds.
+struct FootageTruth {
+  std::string video;  // file name without folder
+  cv::Size size_px;
+  int first_frame = 0;
+  int last_frame = 0;  // included
+  int frame_rate_num = 25;
+  int frame_rate_den = 1;
+};
+
+struct FrameTruth {
+  int index = 0;  // counts the footage's frames from 0
+  double time_s = 0;
+  bool substituted = false;               // the footage's own frame is damaged, another one of it stands in
+  glm::dvec3 camera_position_m{0, 0, 0};  // in the world
+  Attitude camera_attitude;
+  std::vector<IntruderTruth> intruders;  // by id
+};
+
+}  // namespace sigs

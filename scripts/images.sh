@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Makes the images of README.md and docs/ anew: scripts/images.sh [BUILD FOLDER] (after
+# scripts/test.sh; Xvfb and xdotool are needed).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${1:-build/release}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# The head-on encounter at frame 148; below, the intruder and its mask, four times enlarged.
+"$build"/sigs frame projects/head-on/head-on.json --frame 148 --stages --out "$work" >/dev/null
+mkdir -p docs/images
+ffmpeg -v error -y -i "$work/frame_148.png" -i "$work"/frame_148_*_mask.png -filter_complex "
+  [0]split[whole][part];
+  [whole]crop=1280:640:0:240,scale=960:480[top];
+  [part]crop=180:90:575:680,scale=480:240:flags=neighbor[left];
+  [1]format=rgb24,crop=180:90:575:680,scale=480:240:flags=neighbor[right];
+  [left][right]hstack[bottom];
+  [top][bottom]vstack" -q:v 3 docs/images/head-on.jpg
+
+# The paper's figure 4: every stage of the classic method at frame 140.
+"$build"/sigs frame projects/crossing/crossing.json --frame 140 --stages --out "$work" \
+  --set compositing.method=classic >/dev/null
+stages=()
+for stage in input1 input2 a b c d f output; do
+  stages+=(-i "$(ls "$work"/frame_140_*_"$stage".png)")
+done
+ffmpeg -v error -y "${stages[@]}" -filter_complex "
+  [0]scale=400:-1[s0];[1]scale=400:-1[s1];[2]scale=400:-1[s2];[3]scale=400:-1[s3];
+  [4]scale=400:-1[s4];[5]scale=400:-1[s5];[6]scale=400:-1[s6];[7]scale=400:-1[s7];
+  [s0][s1][s2][s3]hstack=4[upper];[s4][s5][s6][s7]hstack=4[lower];[upper][lower]vstack" \
+  -q:v 4 docs/images/classic-stages.jpg
+
+# The editor, as a test drives it.
+"$build"/test_editor_walk --test-case='a person authors*,a person finds the own body*,a person loads what trackers*' >"$work/ui_test.log" || {
+  cat "$work/ui_test.log"
+  exit 1
+}
+editor_picture() {  # NAME SCREENSHOT
+  ffmpeg -v error -y -i "$build/screenshots/$2.png" -vf scale=1200:-1:flags=lanczos -q:v 5 \
+    "docs/images/editor-$1.jpg"
+}
+editor_picture open ui_test-open
+editor_picture footage ui_test-footage
+editor_picture world ui_test-world
+editor_picture light ui_test-light
+editor_picture stages ui_test-stages-classic
+editor_picture own-body own-body-found
+editor_picture results results-loaded

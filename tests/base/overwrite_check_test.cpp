@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "base/overwrite_check.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "base/file_name.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+namespace fs = std::filesystem;
+
+TEST_CASE("an input is known again under any of its names, and what is none is not") {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "out/deep");
+  std::ofstream(folder / "out/deep/input") << "x";
+  std::ofstream(folder / "outside") << "x";
+  fs::create_symlink(folder / "out/deep/input", folder / "link");
+  fs::create_hard_link(folder / "out/deep/input", folder / "second");
+  fs::create_directory_symlink(folder / "out", folder / "out-link");
+  fs::create_symlink(folder / "outside", folder / "out/link-in");
+  const auto is_kept = [&](const fs::path& output, const fs::path& input) {
+    return check_inputs_not_overwritten({folder / output}, {folder / input}).has_value();
+  };
+  for (const char* const input :
+       {"out/deep/input", "link", "second", "out-link/deep/input", "out/../link", "out/link-in"})
+    for (const char* const output : {"out", "out/", "out-link", "out/deep/.."}) CHECK_FALSE(is_kept(output, input));
+  CHECK_FALSE(is_kept("out/deep/input", "second"));
+  CHECK_FALSE(is_kept("second", "link"));
+  CHECK_FALSE(is_kept("outside", "out/link-in"));
+  CHECK(is_kept("outside", "link"));
+  CHECK(is_kept("out", ""));
+  CHECK(is_kept("out", "none"));
+  CHECK(is_kept("none", "outside"));
+  CHECK(is_kept("out-lin", "out-link/deep/input"));
+}
+
+TEST_CASE("names that are no file's are told from those that are") {
+  for (const std::string& name :
+       {std::string("a"), std::string("flight 7"), std::string("\xc3\xa4"), std::string(200, 'n')})
+    CHECK(wrong_with_file_name(name).empty());
+  for (const std::string& name :
+       {std::string(), std::string("."), std::string(".."), std::string(".a"), std::string("a/b"),
+        std::string("a\0b", 3), std::string("a\nb"), std::string("a\x7f"), std::string(201, 'n')})
+    CHECK_FALSE(wrong_with_file_name(name).empty());
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/project_thumbnails.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <opencv2/core.hpp>
+
+#include "cli/tiny_project.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::editor;
+using sigs::test::TinyProject;
+
+TEST_CASE("a project's image shows its intruder") {
+  const TinyProject tiny;
+  const Result<cv::Mat> image = project_thumbnail(tiny.project(), {40, 30});
+  REQUIRE(image);
+  CHECK(image->size() == cv::Size(40, 30));
+  // The footage is grey; the cube is red.
+  double maximum = 0;
+  cv::Mat red;
+  cv::Mat blue;
+  cv::extractChannel(*image, red, 2);
+  cv::extractChannel(*image, blue, 0);
+  cv::minMaxLoc(red - blue, nullptr, &maximum);
+  CHECK(maximum > 40);
+}
+
+TEST_CASE("without a model the footage is shown, without footage there is no image") {
+  TinyProject tiny;
+  tiny.change("cube.obj", "nowhere.obj");
+  const Result<cv::Mat> footage = project_thumbnail(tiny.project(), {40, 30});
+  REQUIRE(footage);
+  CHECK(cv::norm(footage->row(0), footage->row(29), cv::NORM_INF) == 0);
+  tiny.change("clip.mkv", "nowhere.mkv");
+  CHECK_FALSE(project_thumbnail(tiny.project(), {40, 30}));
+  CHECK_FALSE(project_thumbnail(tiny.file("nowhere.json"), {40, 30}));
+}
+
+TEST_CASE("images come later, once, and are kept") {
+  const TinyProject tiny;
+  std::atomic<int> wakes = 0;
+  ProjectThumbnails images({40, 30}, [&] { ++wakes; });
+  CHECK_FALSE(images.of(tiny.project()));
+  CHECK_FALSE(images.of(tiny.file("nowhere.json")));
+  for (int i = 0; i < 3000 && wakes == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const auto image = images.of(tiny.project());
+  REQUIRE(image);
+  CHECK(images.of(tiny.project()) == image);
+  CHECK_FALSE(images.of(tiny.file("nowhere.json")));
+  CHECK(wakes == 1);
+}

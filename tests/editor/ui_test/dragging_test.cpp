@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "editor/ui_test/ui_test.h"
+
+namespace sigs::test {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr int kFrame = 150;  // of the waypoint that is dragged: the second of three
+
+// Where the mouse takes hold of it: over the footage, in the world, on the timeline.
+struct Handle {
+  const char* place;
+  double by_x;
+  double by_y;
+};
+const std::vector<Handle> kHandles{
+    {"viewport/waypoint/0/1", 34, 22}, {"world/waypoint/0/1", 34, 22}, {"timeline/row/0/key/1", -60, 0}};
+
+// To the second waypoint by keys, which a busy machine does not miss. It is selected then.
+void go_to_waypoint(UiTest& ui_test) {
+  ui_test.editor().key("Home");
+  ui_test.editor().wait_for("the first frame", [](const Json& now) { return now.value("frame", -1) == 0; });
+  ui_test.editor().key("Down");
+  ui_test.editor().wait_for("the waypoint", [](const Json& now) { return now.value("frame", -1) == kFrame; });
+  ui_test.editor().wait_for_image();
+}
+
+fs::path open_at_waypoint(UiTest& ui_test) {
+  const fs::path project = put(sample_project("head-on"), ui_test.folder() / "mine.json");
+  ui_test.editor().start({project.string()});
+  ui_test.editor().wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  ui_test.editor().wait_for_image();
+  go_to_waypoint(ui_test);
+  return project;
+}
+
+struct Waypoints {
+  std::vector<glm::dvec3> at_m;
+  std::vector<double> frames;
+  [[nodiscard]] bool operator==(const Waypoints&) const = default;
+};
+
+Waypoints waypoints_of(const Json& project) {
+  return {waypoints_m(project), waypoint_frames(project)};
+}
+Waypoints saved(UiTest& ui_test, const fs::path& project) {
+  ui_test.editor().settle();
+  return waypoints_of(ui_test.saved(project));
+}
+
+void press_keys(EditorDriver& editor, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) editor.key(key);
+}
+
+// The one that was dragged has moved, the others are where they were.
+void check_only_it_moved(const Waypoints& before, const Waypoints& after) {
+  REQUIRE(after.at_m.size() == before.at_m.size());
+  const bool has_moved = after.at_m[1] != before.at_m[1] || after.frames[1] != before.frames[1];
+  CHECK(has_moved);
+  for (const std::size_t other : {0, 2}) {
+    CHECK(after.at_m[other] == before.at_m[other]);
+    CHECK(after.frames[other] == before.frames[other]);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a key pressed in a drag of a waypoint touches neither it nor its neighbours") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("keys-in-drag");
+  EditorDriver& editor = ui_test.editor();
+  const fs::path project = open_at_waypoint(ui_test);
+  const Waypoints before = waypoints_of(json_of(project));
+  REQUIRE(before.at_m.size() == 3);
+  const std::vector<std::string> keys{"Delete", "BackSpace", "ctrl+z", "ctrl+d", "Insert", "ctrl+y", "Delete"};
+  for (const Handle& handle : kHandles) {
+    INFO(handle.place);
+    for (const bool has_moved : {false, true}) {
+      INFO("has moved: " << has_moved);
+      const ScreenPlace there = editor.place(handle.place);
+      editor.hold(there.center_x(), there.center_y());
+      if (has_moved) editor.move(there.center_x() + handle.by_x / 2, there.center_y() + handle.by_y / 2);
+      press_keys(editor, keys);
+      editor.move(there.center_x() + handle.by_x / 2, there.center_y() + handle.by_y / 2);
+      editor.move(there.center_x() + handle.by_x, there.center_y() + handle.by_y);
+      editor.settle();
+      editor.release();
+      check_only_it_moved(before, saved(ui_test, project));
+      ui_test.edit([&] { editor.key("ctrl+z"); });  // all of the drag at once
+      CHECK(saved(ui_test, project) == before);
+      go_to_waypoint(ui_test);
+    }
+  }
+}
+
+TEST_CASE("escape in a drag puts everything back, and what was undone before it can still be redone") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("escape-in-drag");
+  EditorDriver& editor = ui_test.editor();
+  const fs::path project = open_at_waypoint(ui_test);
+  const Waypoints before = waypoints_of(json_of(project));
+  editor.key("shift+Left");
+  ui_test.edit([&] { editor.key("Return"); });  // a waypoint in frame 140
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  go_to_waypoint(ui_test);
+  for (const Handle& handle : kHandles) {
+    INFO(handle.place);
+    const int revision = revision_of(editor.state());
+    const ScreenPlace there = editor.place(handle.place);
+    editor.hold(there.center_x(), there.center_y());
+    editor.move(there.center_x() + handle.by_x / 2, there.center_y() + handle.by_y / 2);
+    editor.move(there.center_x() + handle.by_x, there.center_y() + handle.by_y);
+    editor.settle();
+    CHECK(revision_of(editor.state()) != revision);
+    editor.key("Escape");
+    editor.move(there.center_x() + handle.by_x / 3, there.center_y() + handle.by_y / 3);  // it is over
+    editor.release();
+    editor.settle();
+    CHECK(revision_of(editor.state()) == revision);
+    CHECK_FALSE(is_unsaved(editor.state()));
+
+    ui_test.edit([&] { editor.key("ctrl+y"); });
+    CHECK(saved(ui_test, project).frames == std::vector<double>{0, kFrame - 10, kFrame, 199});
+    ui_test.edit([&] { editor.key("ctrl+z"); });
+    CHECK(saved(ui_test, project) == before);
+    go_to_waypoint(ui_test);
+  }
+}
+
+TEST_CASE("a project that begins later opens at its first frame") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("first-frame");
+  EditorDriver& editor = ui_test.editor();
+  Json project = sample_project("head-on");
+  project["footage"]["first_frame"] = 100;
+  editor.start({put(project, ui_test.folder() / "late.json").string()});
+  editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  editor.wait_for_image();
+  CHECK(editor.state()["frame"] == 100);
+  ui_test.image("opened");
+  const ScreenPlace ruler = editor.place("timeline/ruler");
+  editor.click(ruler.x + 20, ruler.y + ruler.height / 3);
+  editor.settle();
+  CHECK(editor.state()["frame"] == 100);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace sigs::test {
+
+// A place on the screen as the editor tells it.
+struct ScreenPlace {
+  double x = 0;
+  double y = 0;
+  double width = 0;
+  double height = 0;
+  [[nodiscard]] double center_x() const { return x + width / 2; }
+  [[nodiscard]] double center_y() const { return y + height / 2; }
+};
+
+// True where Xvfb and xdotool are there; else says SKIPPED.
+[[nodiscard]] bool can_drive_windows();
+
+// A screen without hardware and the editor on it, driven with real mouse and key events. Throws std::runtime_error
+// where something does not come about in time.
+class EditorDriver {
+ public:
+  //   home  an empty folder for settings and recovery files
+  EditorDriver(const std::filesystem::path& home, int width_px, int height_px);
+  ~EditorDriver();
+  EditorDriver(const EditorDriver&) = delete;
+  EditorDriver& operator=(const EditorDriver&) = delete;
+
+  void start(const std::vector<std::string>& arguments);
+  void kill();                      // as a crash does
+  [[nodiscard]] bool running();     // false once the program has ended
+  [[nodiscard]] int exit_status();  // waits for the end
+
+  // What the editor tells (editor/app/probe_writer.h), as of now.
+  [[nodiscard]] nlohmann::json state() const;
+  [[nodiscard]] bool has_place(const std::string& name) const;
+  [[nodiscard]] ScreenPlace place(const std::string& name);  // waits for it
+  void wait_for(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so, double seconds = 20);
+  // The image of the present revision and frame is shown, and nothing else is under way.
+  void wait_for_image();
+  void settle();  // some updates of the window's loop
+  // Mouse and keys from here on with pauses so many times as long; below 1 the window may miss some.
+  void set_pace(double pace) { pace_ = pace; }
+
+  void move(double x, double y);
+  void click(double x, double y, int button = 1);
+  void click(const std::string& place, int button = 1);
+  void double_click(double x, double y);
+  // In steps, with the button held; keys ("ctrl") are held meanwhile.
+  void drag(double x, double y, double to_x, double to_y, int button = 1, const std::string& held_key = {});
+  void drag(const std::string& place, double by_x, double by_y, int button = 1, const std::string& held_key = {});
+  // The parts of a drag, for what happens in its middle.
+  void hold(double x, double y, int button = 1);
+  void release(int button = 1);
+  void wheel(double x, double y, int clicks);  // positive: away from the hand
+  void key(const std::string& keys);           // "ctrl+z"
+  void type(const std::string& text);
+
+  void screenshot(const std::filesystem::path& file) const;  // PNG
+
+ private:
+  [[nodiscard]] std::string paused(double seconds) const;  // for xdotool
+  void wait_one_update() const;
+  void xdotool(const std::vector<std::string>& arguments) const;
+
+  std::filesystem::path home_;
+  std::filesystem::path probe_;
+  std::string display_;
+  int width_px_;
+  int height_px_;
+  pid_t screen_ = -1;
+  pid_t editor_ = -1;
+  int exit_status_ = 0;
+  double pace_ = 1;
+};
+
+}  // namespace sigs::test

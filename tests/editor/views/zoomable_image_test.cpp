@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "editor/widgets/zoomable_image.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace sigs;
+using namespace sigs::editor;
+
+namespace {
+
+const cv::Size kImage(1280, 960);
+const glm::dvec2 kRoom(780, 611);
+
+ZoomableImage laid_out() {
+  ZoomableImage look;
+  look.lay_out(kImage, kRoom);
+  return look;
+}
+
+double apart(const glm::dvec2& a, const glm::dvec2& b) {
+  return glm::distance(a, b);
+}
+
+}  // namespace
+
+TEST_CASE("a fitted image fills its room one way, in the middle, and follows the room") {
+  ZoomableImage look = laid_out();
+  for (const glm::dvec2 room : {kRoom, glm::dvec2(300, 900), glm::dvec2(2000, 1500)}) {
+    look.lay_out(kImage, room);
+    CHECK(look.is_fitted());
+    CHECK(look.zoom() == doctest::Approx(std::min(room.x / 1280, room.y / 960)));
+    // Whole pixels from 1:1 on.
+    CHECK(apart(look.view({0, 0}).screen_of({639.5, 479.5}), room / 2.0) < 1);
+  }
+}
+
+TEST_CASE("zooming keeps what is under the cursor under it") {
+  ZoomableImage look = laid_out();
+  const glm::dvec2 at(400, 300);
+  for (int notch = 0; notch < 12; ++notch) {
+    const glm::dvec2 before = look.view({0, 0}).image_of(at);
+    look.zoom_by(1.25, at);
+    // Whole screen pixels: at most half of one to every side.
+    CHECK(apart(look.view({0, 0}).screen_of(before), at) < 0.75);
+  }
+  CHECK_FALSE(look.is_fitted());
+}
+
+TEST_CASE("at 1:1 and above, image pixels begin at whole screen pixels") {
+  ZoomableImage look = laid_out();
+  for (const double zoom : {1.0, 2.0, 4.0, 37.0}) {
+    look.zoom_to(zoom, {123, 77});
+    CHECK(look.zoom() == zoom);
+    const glm::dvec2 corner = look.view({17, 40}).screen_of({-0.5, -0.5});
+    CHECK(apart(corner, glm::round(corner)) < 1e-9);
+    look.begin_pan();
+    look.pan({13, -8});
+    const glm::dvec2 moved = look.view({17, 40}).screen_of({-0.5, -0.5});
+    CHECK(apart(moved, glm::round(moved)) < 1e-9);
+  }
+}
+
+TEST_CASE("panning goes with the mouse from where it began, not update by update") {
+  ZoomableImage look = laid_out();
+  look.zoom_to(3, kRoom / 2.0);
+  const glm::dvec2 before = look.view({0, 0}).screen_of({640, 480});
+  look.begin_pan();
+  for (int step = 1; step <= 50; ++step) look.pan(glm::dvec2(1, -2) * static_cast<double>(step));
+  CHECK(apart(look.view({0, 0}).screen_of({640, 480}), before + glm::dvec2(50, -100)) < 1e-9);
+}
+
+TEST_CASE("however far it is panned, some of the image stays in sight") {
+  ZoomableImage look = laid_out();
+  for (const glm::dvec2 by : {glm::dvec2(1e6, 1e6), glm::dvec2(-1e6, -1e6), glm::dvec2(1e6, -1e6)}) {
+    look.begin_pan();
+    look.pan(by);
+    CHECK_FALSE(pixels_in_sight(look.view({0, 0}), kImage, {{0, 0}, kRoom}).empty());
+  }
+}
+
+TEST_CASE("a room that grows keeps what is in its middle there") {
+  ZoomableImage look = laid_out();
+  look.zoom_to(4, {200, 500});
+  const glm::dvec2 middle = look.view({0, 0}).image_of(kRoom / 2.0);
+  const glm::dvec2 larger(1000, 801);
+  look.lay_out(kImage, larger);
+  CHECK(look.zoom() == 4);
+  CHECK(apart(look.view({0, 0}).screen_of(middle), larger / 2.0) <= 1);
+}
+
+TEST_CASE("another image size is fitted again") {
+  ZoomableImage look = laid_out();
+  look.zoom_to(4, {200, 500});
+  look.lay_out({640, 480}, kRoom);
+  CHECK(look.is_fitted());
+}
+
+TEST_CASE("a part that is shown lies in the middle with room around it") {
+  ZoomableImage look = laid_out();
+  for (const Box part : {Box{600, 400, 40, 10}, Box{500, 300, 400, 300}, Box{640, 480, 0.2, 0.1}}) {
+    look.show(part);
+    const ImageView view = look.view({0, 0});
+    CHECK(apart(view.screen_of({part.x + part.width / 2, part.y + part.height / 2}), kRoom / 2.0) <= 1);
+    // A whole zoom less than 3 % away is taken instead.
+    CHECK(part.width * look.zoom() <= 1.03 * kRoom.x / 2);
+    CHECK(part.height * look.zoom() <= 1.03 * kRoom.y / 2);
+  }
+}
+
+TEST_CASE("the pixels in sight are those whose squares meet the rect") {
+  const ScreenRect rect{{10, 20}, {110, 90}};
+  for (const ImageView view : {ImageView{1, {30, 40}}, ImageView{7, {-200, -333}}, ImageView{0.3, {11, 15.5}}}) {
+    cv::Rect expected;
+    for (int y = 0; y < 200; ++y)
+      for (int x = 0; x < 300; ++x) {
+        const glm::dvec2 low = view.screen_of(glm::dvec2(x, y) - 0.5);
+        const glm::dvec2 high = view.screen_of(glm::dvec2(x, y) + 0.5);
+        const bool meets = high.x > rect.low.x && high.y > rect.low.y && low.x < rect.high.x && low.y < rect.high.y;
+        if (meets) expected = expected.empty() ? cv::Rect(x, y, 1, 1) : expected | cv::Rect(x, y, 1, 1);
+      }
+    const cv::Rect found = pixels_in_sight(view, {300, 200}, rect);
+    CHECK((found & expected) == expected);
+    CHECK(found.width <= expected.width + 1);  // a pixel that only touches the rect
+    CHECK(found.height <= expected.height + 1);
+  }
+}
+
+TEST_CASE("from afar an image is averaged, so that a single bright pixel leaves a trace") {
+  cv::Mat image(12, 12, CV_8UC1, cv::Scalar(0));
+  image.at<uchar>(4, 7) = 160;
+  const auto from = [&image](double zoom) { return reduced_copy(image, divisor_at(zoom)); };
+  CHECK(from(1).data == image.data);
+  CHECK(from(0.51).data == image.data);
+  const cv::Mat quarter = from(0.25);
+  CHECK(quarter.size() == cv::Size(3, 3));
+  CHECK(quarter.at<uchar>(1, 1) == 10);  // 160 / 16
+  CHECK(cv::countNonZero(quarter) == 1);
+  CHECK(from(1e-6).size() == cv::Size(1, 1));
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "export/export_project.h"
+#include "frame/synthetic_scenes.h"
+
+namespace sigs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFrames = 8;
+const cv::Size kSize(160, 120);
+
+void prepare(Scenario& scenario) {
+  write_footage(scenario.path("footage.mkv"), kSize, kFrames, PixelLayout::yuv420);
+  write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
+  scenario.add("aircraft.obj", {60, 0, -150});
+}
+
+std::string text_in(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void put(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+// Files below a folder, also those with names of parts.
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> files;
+  if (!fs::exists(folder)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    files.push_back(fs::relative(entry.path(), folder).string());
+  return files;
+}
+
+// Within its life no file can grow beyond a size; writing more fails as on a full disk, but with another error number.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+constexpr CodecChoice kCodecs[] = {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png};
+
+void set_codec(Project& project, CodecChoice codec) {
+  project.output.codec = codec;
+  project.output.masks = codec == CodecChoice::png ? MasksChoice::png : MasksChoice::video;
+}
+
+}  // namespace
+
+TEST_CASE("progress is told once for every frame and in order") {
+  Scenario scenario(kSize, kFrames);
+  prepare(scenario);
+  std::vector<int> done;
+  std::vector<int> totals;
+  const ExportControl control{.progress = [&](int n, int total) {
+    done.push_back(n);
+    totals.push_back(total);
+  }};
+  const Result<ExportReport> report = export_project(
+      {.project = scenario.project, .folder = scenario.path("out"), .frames = FrameRange{1, 5}, .jobs = 2}, control);
+  REQUIRE(report.has_value());
+  CHECK(done == std::vector<int>{1, 2, 3, 4, 5});
+  CHECK(totals == std::vector<int>(5, 5));
+  CHECK(report->frames == 5);
+  CHECK(!report->renderer_description.empty());
+}
+
+TEST_CASE("a cancelled export says so and leaves no file") {
+  for (const CodecChoice codec : kCodecs)
+    for (const int at : {0, 1, kFrames - 1})
+      for (const int jobs : {1, 2}) {
+        CAPTURE(static_cast<int>(codec));
+        CAPTURE(at);
+        Scenario scenario(kSize, kFrames);
+        prepare(scenario);
+        set_codec(scenario.project, codec);
+        std::atomic<bool> cancel{at == 0};
+        const ExportControl control{.progress = [&](int n, int) { cancel = n >= at; }, .cancel = &cancel};
+        const Result<ExportReport> report =
+            export_project({.project = scenario.project, .folder = scenario.path("out"), .jobs = jobs}, control);
+        REQUIRE(!report.has_value());
+        CHECK(report.error().kind == ErrorKind::interrupted);
+        CHECK(files_below(scenario.path("out")).empty());
+      }
+}
+
+TEST_CASE("a cancelled export leaves the results of the one before") {
+  Scenario scenario(kSize, kFrames);
+  prepare(scenario);
+  REQUIRE(export_project({.project = scenario.project, .folder = scenario.path("out")}, {}).has_value());
+  const std::string before = text_in(scenario.path("out/lot.mkv"));
+  const std::vector<std::string> files = files_below(scenario.path("out"));
+  std::atomic<bool> cancel{false};
+  const ExportControl control{.progress = [&](int n, int) { cancel = n >= 3; }, .cancel = &cancel};
+  scenario.project.light.ambient = 1;
+  REQUIRE(!export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, control)
+               .has_value());
+  CHECK(text_in(scenario.path("out/lot.mkv")) == before);
+  CHECK(files_below(scenario.path("out")) == files);
+}
+
+TEST_CASE("what is there already is not overwritten unasked and no other file appears") {
+  for (const char* const name : {"lot.mkv", "lot.masks.mkv", "lot.xml"}) {
+    CAPTURE(name);
+    Scenario scenario(kSize, kFrames);
+    prepare(scenario);
+    put(scenario.path("out") / name, "mine");
+    const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
+    const Result<ExportReport> report = export_project(request, {});
+    REQUIRE(!report.has_value());
+    CHECK(report.error().kind == ErrorKind::cannot_create);
+    CHECK(report.error().text().find(name) != std::string::npos);
+    CHECK(text_in(scenario.path("out") / name) == "mine");
+    CHECK(files_below(scenario.path("out")) == std::vector<std::string>{name});
+  }
+}
+
+TEST_CASE("what is there already is overwritten when asked to") {
+  for (const CodecChoice codec : kCodecs) {
+    CAPTURE(static_cast<int>(codec));
+    Scenario scenario(kSize, kFrames);
+    prepare(scenario);
+    set_codec(scenario.project, codec);
+    ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
+    REQUIRE(export_project(request, {}).has_value());
+    const std::vector<std::string> files = files_below(scenario.path("out"));
+    CHECK(!export_project(request, {}).has_value());
+    request.overwrite = true;
+    request.frames = FrameRange{0, 3};
+    const Result<ExportReport> again = export_project(request, {});
+    if (!again) FAIL(again.error().text());
+    // Images of the longer export do not stay among those of the shorter one.
+    CHECK(files_below(scenario.path("out")).size() ==
+          files.size() - (codec == CodecChoice::png ? 2 * (kFrames - 4) : 0));
+  }
+}
+
+TEST_CASE("an export never replaces a folder that holds anything but its own images") {
+  Scenario scenario(kSize, kFrames);
+  prepare(scenario);
+  set_codec(scenario.project, CodecChoice::png);
+  put(scenario.path("out/lot/diary.txt"), "mine");
+  const Result<ExportReport> report =
+      export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, {});
+  REQUIRE(!report.has_value());
+  CHECK(report.error().kind == ErrorKind::cannot_create);
+  CHECK(text_in(scenario.path("out/lot/diary.txt")) == "mine");
+}
+
+TEST_CASE("an export never overwrites what it reads") {
+  Scenario scenario(kSize, kFrames);
+  prepare(scenario);
+  const std::string footage = text_in(scenario.path("footage.mkv"));
+  scenario.project.name = "footage";
+  const Result<ExportReport> over_footage =
+      export_project({.project = scenario.project, .folder = scenario.path("."), .overwrite = true}, {});
+  REQUIRE(!over_footage.has_value());
+  CHECK(over_footage.error().kind == ErrorKind::cannot_create);
+  CHECK(text_in(scenario.path("footage.mkv")) == footage);
+
+  const std::string lens = text_in(scenario.path("pinhole.xml"));
+  scenario.project.name = "pinhole";
+  CHECK(
+      !export_project({.project = scenario.project, .folder = scenario.path("."), .overwrite = true}, {}).has_value());
+  CHECK(text_in(scenario.path("pinhole.xml")) == lens);
+}
+
+TEST_CASE("a disk that is full is said and nothing is left behind") {
+  for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png}) {
+    CAPTURE(static_cast<int>(codec));
+    Scenario scenario(kSize, kFrames);
+    prepare(scenario);
+    set_codec(scenario.project, codec);
+    scenario.project.output.crf = 0;  // large
+    Result<ExportReport> report = fail("", "not run");
+    {
+      const FileSizeLimit limit(6000);
+      report = export_project({.project = scenario.project, .folder = scenario.path("out"), .jobs = 2}, {});
+    }
+    REQUIRE(!report.has_value());
+    CHECK(report.error().kind == ErrorKind::write_failed);
+    CHECK(files_below(scenario.path("out")).empty());
+  }
+}
+
+TEST_CASE("labels that cannot be written to their end fail the export") {
+  Scenario scenario(kSize, 60);
+  write_footage(scenario.path("footage.mkv"), {16, 16}, 60, PixelLayout::gray);
+  write_calibration(scenario.path("pinhole.xml"), {20, 0, 8, 0, 20, 8, 0, 0, 1}, {0, 0, 0, 0}, {16, 16});
+  write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
+  for (int i = 0; i < 4; ++i) scenario.add("aircraft.obj", {-100, 0, -150});
+  scenario.project.output.masks = MasksChoice::none;
+  scenario.project.output.codec = CodecChoice::png;
+  Result<ExportReport> report = fail("", "not run");
+  {
+    const FileSizeLimit limit(20000);  // an image of 16 by 16 is far smaller, the labels of 60 frames are larger
+    report = export_project({.project = scenario.project, .folder = scenario.path("out")}, {});
+  }
+  REQUIRE(!report.has_value());
+  CHECK(report.error().kind == ErrorKind::write_failed);
+  CHECK(files_below(scenario.path("out")).empty());
+}
+
+TEST_CASE("frames that the project does not have are a usage error and make nothing") {
+  for (const FrameRange range : {FrameRange{0, kFrames}, FrameRange{5, 4}, FrameRange{-1, 3}}) {
+    Scenario scenario(kSize, kFrames);
+    prepare(scenario);
+    const Result<ExportReport> report =
+        export_project({.project = scenario.project, .folder = scenario.path("out"), .frames = range}, {});
+    REQUIRE(!report.has_value());
+    CHECK(report.error().kind == ErrorKind::usage);
+    CHECK(!fs::exists(scenario.path("out")));
+  }
+}
+
+TEST_CASE("a folder that cannot be made is said") {
+  Scenario scenario(kSize, kFrames);
+  prepare(scenario);
+  put(scenario.path("wall"), "a file");
+  const Result<ExportReport> report =
+      export_project({.project = scenario.project, .folder = scenario.path("wall/out")}, {});
+  REQUIRE(!report.has_value());
+  CHECK(report.error().kind == ErrorKind::cannot_create);
+}
+
+}  // namespace sigs::test

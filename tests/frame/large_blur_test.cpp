@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "camera/virtual_camera.h"
+#include "compositor/blend.h"
+#include "compositor/coarse_blur.h"
+#include "frame/render_intruder.h"
+#include "frame/render_item.h"
+#include "frame/synthetic_scenes.h"
+#include "project/json.h"
+
+namespace sigs::test {
+namespace {
+
+// How much of each of `in` samples from first_in reaches each of `out` samples from first_out: the Gaussian of whole
+// pixels, cut at three sigmas.
+cv::Mat kernel(int first_out, int out, int first_in, int in, double sigma_px) {
+  const int reach = static_cast<int>(std::ceil(3 * sigma_px));
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i) sum += std::exp(-0.5 * i * i / (sigma_px * sigma_px));
+  cv::Mat weights = cv::Mat::zeros(out, in, CV_64FC1);
+  for (int o = 0; o < out; ++o)
+    for (int i = 0; i < in; ++i) {
+      const double apart = first_out + o - first_in - i;
+      if (std::abs(apart) <= reach)
+        weights.at<double>(o, i) = std::exp(-0.5 * apart * apart / (sigma_px * sigma_px)) / sum;
+    }
+  return weights;
+}
+
+// The blur by its definition, in doubles: every pixel of the sharp layer to every pixel of the image.
+Layer blurred_in_full(const Layer& sharp, double sigma_px, cv::Size image_size_px) {
+  const cv::Mat down = kernel(0, image_size_px.height, sharp.rect.y, sharp.rect.height, sigma_px);
+  const cv::Mat across = kernel(0, image_size_px.width, sharp.rect.x, sharp.rect.width, sigma_px);
+  std::vector<cv::Mat> channels;
+  cv::split(sharp.color, channels);
+  for (cv::Mat& channel : channels) {
+    channel.convertTo(channel, CV_64F);
+    channel = down * channel * across.t();
+    channel.convertTo(channel, CV_32F);
+  }
+  Layer out{{{0, 0}, image_size_px}, {}, cv::Mat::zeros(image_size_px, CV_32FC1)};
+  cv::merge(channels, out.color);
+  return out;
+}
+
+struct Looked {
+  Scene scene;
+  SceneMoment moment;
+  Camera camera;
+};
+
+Looked looked(Scene scene, int frame) {
+  SceneMoment moment = scene_at(scene, frame);
+  Camera camera = compositing_camera(scene);
+  return {std::move(scene), std::move(moment), std::move(camera)};
+}
+
+// Drawn and warped at full resolution over all that blur carries into the image.
+Layer sharp_in_full(const Looked& look, const PlacedIntruder& placed, double sigma_px, ComposeContext& context) {
+  const int reach = static_cast<int>(std::ceil(3 * sigma_px));
+  const cv::Size size = look.scene.footage.size_px;
+  const cv::Rect grown(-reach, -reach, size.width + 2 * reach, size.height + 2 * reach);
+  const Model& model = *look.scene.intruders[static_cast<std::size_t>(placed.id)].model;
+  const auto silhouette = silhouette_of(model.points_m, placed.camera_from_body, look.camera.lens);
+  REQUIRE(silhouette);
+  REQUIRE(silhouette->all_have_image);
+  const cv::Rect target = pixels_touched(silhouette->box, 1, grown);
+  const Light light{look.moment.light_in_camera, look.scene.light.color, look.scene.light.ambient};
+  const RenderItem item{model.mesh, placed, light, corners_in_camera(model.mesh, placed.camera_from_body)};
+  const auto views = virtual_cameras(look.camera, item.corners, target, look.scene.compositing.supersampling, 4096);
+  const auto drawn = rendered_views(views, item, *context.renderer().value());
+  REQUIRE(drawn.has_value());
+  return warped(*drawn, look.camera, target);
+}
+
+Project sample_project(const std::string& name) {
+  Result<ReadProject> read = read_project(source_dir() / "projects" / name / (name + ".json"));
+  if (!read) FAIL(read.error().text());
+  return std::move(read->project);
+}
+
+Scene sample_scene(const std::string& name) {
+  FootageShape shape{.size_px = {1280, 960}};
+  for (int n = 0; n < 200; ++n) shape.times_s.push_back(n / 25.0);
+  Result<Scene> scene = open_scene(sample_project(name), shape);
+  if (!scene) FAIL(scene.error().text());
+  scene->own_body = cv::Mat();
+  return std::move(*scene);
+}
+
+double rmse(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_L2) / std::sqrt(static_cast<double>(a.total()));
+}
+
+// How far the frame is from the one made by the definition, in code values of its first plane.
+void check_against_full(Looked look, const PlacedIntruder& placed, double sigma_px, const Frame& background) {
+  ComposeContext context;
+  look.scene.compositing.blur_px_per_m = sigma_px / placed.distance_m();
+  const Result<IntruderLayers> layers = render_intruder(look.scene, look.moment, placed, context);
+  REQUIRE(layers.has_value());
+  const Layer full = blurred_in_full(sharp_in_full(look, placed, sigma_px, context), sigma_px, background.size_px());
+  Frame wanted = cloned(background);
+  blend_over(wanted, full, BlendSpace::linear);
+  Frame got = cloned(background);
+  if (!layers->occluded.empty()) blend_over(got, layers->occluded, BlendSpace::linear);
+  const double off = rmse(got.planes[0], wanted.planes[0]);
+  const double most = cv::norm(got.planes[0], wanted.planes[0], cv::NORM_INF);
+  MESSAGE("sigma " << sigma_px << ": off by " << off << " code values (root of mean square), at most " << most
+                   << "; the blurred intruder moves them by "
+                   << cv::norm(background.planes[0], wanted.planes[0], cv::NORM_INF));
+  CHECK(off <= 0.5);
+  CHECK(most <= 2);
+  if (layers->occluded.empty()) CHECK(most <= 1);
+}
+
+double seconds_for(const Scenario& scenario, ComposedFrame& frame) {
+  const Scene scene = scenario.opened();
+  ComposeContext context;
+  REQUIRE(context.renderer().has_value());
+  const Frame background = even_frame(scenario.size_px(), 100);
+  const auto start = std::chrono::steady_clock::now();
+  Result<ComposedFrame> made = compose_frame(scene, 1, background, context);
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!made) FAIL(made.error().text());
+  frame = std::move(*made);
+  return s;
+}
+
+void add_aircraft(Scenario& scenario, const glm::dvec3& position_m) {
+  write_obj(scenario.path("aircraft.obj"), aircraft(), 2);
+  scenario.add("aircraft.obj", position_m);
+}
+
+}  // namespace
+
+TEST_CASE("a body of a kilometre before a blur of thousands of pixels is drawn in bounded memory") {
+  const Camera camera{Lens::make({.fx = 700, .fy = 700, .cx = 479.5, .cy = 269.5}).value(), {960, 540}};
+  Mesh mesh;
+  mesh.low_m = glm::vec3(-500);
+  mesh.high_m = glm::vec3(500);
+  PlacedIntruder placed;
+  placed.camera_from_body.translation_m = {20, 0, 0};
+  const Light light;
+  const RenderItem item{mesh, placed, light, corners_in_camera(mesh, placed.camera_from_body)};
+  for (const double sigma_px : {20.0, 200.0, 2e3, 1e4, 1e5}) {
+    const auto grid = coarse_grid(std::nullopt, camera, {{0, 0}, camera.size_px}, sigma_px);
+    REQUIRE(grid.has_value());
+    LensTable lens(coarse_camera(camera, grid->step_px));
+    double drawn_px = 0;
+    for (const VirtualCamera& view : coarse_views(*grid, lens, item, 3, 16384))
+      drawn_px += static_cast<double>(view.size_px.width) * view.size_px.height;
+    CAPTURE(sigma_px);
+    CHECK(drawn_px > 0);
+    CHECK(drawn_px < 8.1e6);  // 20 bytes each
+  }
+}
+
+TEST_CASE("far blur of the sample projects is that of the full resolution") {
+  const struct {
+    const char* project;
+    int frame;
+  } all[] = {{"crossing", 90}, {"head-on", 120}, {"two-intruders", 60}};
+  for (const auto& [project, frame] : all)
+    for (const double sigma_px : {16.0, 16.01, 50.0, 150.0}) {
+      CAPTURE(project);
+      const Looked look = looked(sample_scene(project), frame);
+      for (const uchar luma : {uchar(20), uchar(180)})
+        check_against_full(look, look.moment.intruders.back(), sigma_px, even_frame({1280, 960}, luma));
+    }
+}
+
+TEST_CASE("far blur of a near aircraft, also one across the edge or beside it, is that of the full resolution") {
+  for (const double right_m : {3.0, 14.0, 22.0}) {
+    CAPTURE(right_m);
+    Scenario scenario;
+    add_aircraft(scenario, {26, right_m, -152});
+    for (const double sigma_px : {16.0, 16.01, 33.0, 50.0, 150.0}) {
+      const Looked look = looked(scenario.opened(), 1);
+      for (const uchar luma : {uchar(0), uchar(100)})
+        check_against_full(look, look.moment.intruders[0], sigma_px, even_frame({320, 240}, luma));
+    }
+  }
+}
+
+TEST_CASE("far blur keeps the energy within a thousandth") {
+  for (const double sigma_px : {16.01, 20.0, 33.3, 60.0, 100.0}) {
+    CAPTURE(sigma_px);
+    Scenario scenario({960, 720});
+    add_aircraft(scenario, {40, 1.3, -149.2});
+    scenario.project.compositing.blur_px_per_m = sigma_px / std::hypot(40, 1.3, 0.8);
+    const Looked look = looked(scenario.opened(), 1);
+    ComposeContext context;
+    const Result<IntruderLayers> layers = render_intruder(look.scene, look.moment, look.moment.intruders[0], context);
+    REQUIRE(layers.has_value());
+    const cv::Scalar before = cv::sum(layers->warped.color);
+    const cv::Scalar after = cv::sum(layers->occluded.color);
+    for (int c = 0; c < 4; ++c) CHECK(after[c] == doctest::Approx(before[c]).epsilon(0.001));
+    CHECK(cv::sum(layers->occluded.coverage)[0] == doctest::Approx(cv::sum(layers->warped.coverage)[0]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the truth does not depend on how far the light is blurred") {
+  std::vector<IntruderTruth> truths;
+  for (const double sigma_px : {15.0, 17.0, 40.0}) {
+    Scenario scenario;
+    add_aircraft(scenario, {26, 12, -152});
+    scenario.project.compositing.blur_px_per_m = sigma_px / std::hypot(26, 12, 2);
+    truths.push_back(composed(scenario.opened(), 1, even_frame(scenario.size_px(), 100)).truth.intruders[0]);
+    CHECK(truths.back().in_image);
+    REQUIRE(truths.back().visible_box);
+    CHECK(truths.back().visible_box == truths.front().visible_box);
+    CHECK(truths.back().amodal_box == truths.front().amodal_box);
+    CHECK(truths.back().visible_fraction == doctest::Approx(truths.front().visible_fraction).epsilon(0.01));
+  }
+}
+
+TEST_CASE("whatever the blur and the distance, a frame takes no more than moments") {
+  for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic})
+    for (const double blur_px_per_m : {0.5, 10.0})
+      for (const double ahead_m : {20.0, 60.0, 550.0, 1e5, 1e7, 1e8}) {
+        CAPTURE(static_cast<int>(method));
+        CAPTURE(blur_px_per_m);
+        CAPTURE(ahead_m);
+        Scenario scenario;
+        scenario.project.compositing = {.method = method, .blur_px_per_m = blur_px_per_m};
+        add_aircraft(scenario, {ahead_m, 0, -150});
+        ComposedFrame frame;
+        CHECK(seconds_for(scenario, frame) < 5);  // milliseconds; but the machine may have much else to do
+        CHECK(frame.truth.intruders[0].in_image);
+      }
+}
+
+TEST_CASE("what is blurred until no sample can change is left out, and only that") {
+  for (const double sigma_px : {100.0, 200.0, 400.0, 800.0, 1e4, 1e6, 1e9}) {
+    CAPTURE(sigma_px);
+    Scenario scenario;
+    write_obj(scenario.path("plate.obj"), {{{-0.01, -3, -3}, {0.01, 3, 3}, {1, 1, 1}}}, 1);
+    scenario.add("plate.obj", {90, 0, -150});  // 20 by 20 px
+    Scene scene = scenario.opened();
+    scene.compositing.blur_px_per_m = sigma_px / 90;
+    scene.light.ambient = 1;
+    const Frame black = even_frame(scenario.size_px(), 16);  // where samples are most sensitive
+    const ComposedFrame frame = composed(scene, 1, black);
+    const double change = 400 / (2 * 3.14159265 * sigma_px * sigma_px) * 12.92 * 255;  // of opaque white
+    if (change < 0.45) CHECK(frame.mask.empty());
+    if (change < 0.45) CHECK(same_planes(frame.image, black));
+    if (change > 1.2) CHECK(!same_planes(frame.image, black));
+    const IntruderTruth& truth = frame.truth.intruders[0];
+    CHECK(truth.in_image);
+    CHECK(truth.visible_fraction == doctest::Approx(frame.mask.empty() ? 0 : 1).epsilon(0.01));
+  }
+}
+
+TEST_CASE("around the camera a sphere stays opaque however far it is blurred") {
+  for (const double sigma_px : {100.0, 1000.0}) {
+    CAPTURE(sigma_px);
+    Scenario scenario;
+    write_sphere_obj(scenario.path("sphere.obj"), 8);
+    scenario.add("sphere.obj", {4, 0, -150});
+    scenario.project.compositing.supersampling = 1;
+    Scene scene = scenario.opened();
+    scene.compositing.blur_px_per_m = sigma_px / 4;
+    const ComposedFrame frame = composed(scene, 1, even_frame(scenario.size_px(), 100));
+    double least = 0;
+    cv::minMaxIdx(frame.mask, &least);
+    CHECK(least >= (sigma_px < 300 ? 254 : 240));  // coarse pixels of four degrees miss light where two views meet
+    CHECK(frame.truth.intruders[0].in_image);
+  }
+}
+
+}  // namespace sigs::test

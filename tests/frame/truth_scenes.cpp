@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "frame/truth_scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "frame/synthetic_scenes.h"
+#include "scene/scene_at.h"
+
+namespace sigs::test {
+namespace {
+
+const cv::Scalar kSky(122, 151, 190);  // red, green, blue
+
+Frame sky(cv::Size size_px) {
+  Frame frame{.layout = PixelLayout::rgb};
+  for (int plane = 0; plane < 3; ++plane)
+    frame.planes[static_cast<std::size_t>(plane)] = cv::Mat(size_px, CV_8UC1, cv::Scalar(kSky[plane]));
+  return frame;
+}
+
+Trajectory straight_flight(const glm::dvec3& p_in_world_m, const glm::dvec3& heading) {
+  Result<Trajectory> flight =
+      Trajectory::make({TimedWaypoint{0, p_in_world_m - heading}, TimedWaypoint{0.08, p_in_world_m + heading}}, {});
+  REQUIRE(flight.has_value());
+  return *flight;
+}
+
+cv::Mat right_half(const Sight& sight, const Lens& lens) {
+  const std::optional<glm::dvec2> middle_px = lens.pixel(sight.direction);
+  REQUIRE(middle_px.has_value());
+  const int first = static_cast<int>(std::lround(middle_px->x));
+  cv::Mat mask = cv::Mat::zeros(sight.size_px, CV_32FC1);
+  mask.colRange(first, mask.cols).setTo(1);
+  return mask;
+}
+
+Scene scene_of(const Sight& sight, Scenario& scenario) {
+  const LensParameters& lens = sight.lens;
+  write_calibration(scenario.path("lens.xml"), {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1}, lens.coefficients,
+                    sight.size_px, lens.model == LensModel::kannala_brandt);
+  scenario.project.footage.calibration = "lens.xml";
+  scenario.project.light = {.position_m = sight.light_m, .ambient = sight.ambient};
+  scenario.project.compositing.supersampling = sight.supersampling;
+  IntruderSettings& intruder = scenario.add((source_dir() / "assets/models" / sight.model).string(), {500, 0, -150});
+  intruder.model.up = "+z";
+  Scene scene = scenario.opened();
+  const double distance_m = 2 * double{scene.models.front()->mesh.radius_m} * lens.fx / sight.extent_px;
+  const glm::dvec3 camera_m = scene.motion.world_from_camera_at_start.translation_m;
+  scene.intruders.front().trajectory =
+      straight_flight(camera_m + glm::normalize(sight.direction) * distance_m, glm::normalize(sight.heading));
+  scene.compositing.blur_px_per_m = sight.sigma_px / distance_m;
+  if (sight.half_hidden) scene.own_body = right_half(sight, scene.camera.lens);
+  return scene;
+}
+
+truth::Setup setup_of(const Scene& scene, const Sight& sight) {
+  const SceneMoment moment = scene_at(scene, 1);
+  return {.mesh = &scene.models.front()->mesh,
+          .camera_from_body = moment.intruders.front().camera_from_body,
+          .light_in_camera = moment.light_in_camera,
+          .light_color = scene.light.color,
+          .ambient = scene.light.ambient,
+          .lens = sight.lens,
+          .size_px = sight.size_px,
+          .sigma_px = sight.sigma_px,
+          .own_body = scene.own_body};
+}
+
+cv::Mat codes_of(const Frame& frame, const cv::Rect& rect) {
+  cv::Mat codes;
+  cv::merge(std::vector<cv::Mat>{frame.planes[0](rect), frame.planes[1](rect), frame.planes[2](rect)}, codes);
+  codes.convertTo(codes, CV_64FC3);
+  return codes;
+}
+
+cv::Mat reached(const cv::Mat& color) {
+  cv::Mat opacity;
+  cv::extractChannel(color, opacity, 3);
+  cv::Mat near;
+  cv::dilate(opacity > 1e-4, near, cv::Mat::ones(5, 5, CV_8UC1));
+  return near;
+}
+
+}  // namespace
+
+Compared compared(const Sight& sight, const truth::Settings& settings) {
+  Scenario scenario(sight.size_px);
+  const Scene scene = scene_of(sight, scenario);
+  const Frame background = sky(sight.size_px);
+  ComposeContext context(ComposeSettings{.samples_per_pixel = sight.samples_per_pixel});
+  const Result<ComposedFrame> composed = compose_frame(scene, 1, background, context);
+  REQUIRE(composed.has_value());
+  const ComposedFrame& frame = *composed;
+  Compared result{.reference = truth::reference_image(setup_of(scene, sight), settings),
+                  .annotation = frame.truth.intruders.front()};
+  REQUIRE_FALSE(result.reference.rect.empty());
+  const cv::Mat below(sight.size_px, CV_8UC3, kSky);
+  result.truth = truth::over_background(result.reference, below);
+  result.engine = codes_of(frame.image, result.reference.rect);
+  result.near = reached(result.reference.color);
+  return result;
+}
+
+double Compared::rmse() const {
+  return cv::norm(engine, truth, cv::NORM_L2, near) / std::sqrt(3.0 * cv::countNonZero(near));
+}
+
+double Compared::worst() const {
+  return cv::norm(engine, truth, cv::NORM_INF, near);
+}
+
+double Compared::percentile(double p) const {
+  std::vector<double> apart;
+  for (int y = 0; y < near.rows; ++y)
+    for (int x = 0; x < near.cols; ++x) {
+      if (near.at<uchar>(y, x) == 0) continue;
+      const cv::Vec3d difference = engine.at<cv::Vec3d>(y, x) - truth.at<cv::Vec3d>(y, x);
+      for (int c = 0; c < 3; ++c) apart.push_back(std::abs(difference[c]));
+    }
+  if (apart.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(p * double(apart.size() - 1));
+  std::nth_element(apart.begin(), apart.begin() + at, apart.end());
+  return apart[static_cast<std::size_t>(at)];
+}
+
+double Compared::bias() const {
+  const cv::Scalar mean = cv::mean(engine - truth, near);
+  return (mean[0] + mean[1] + mean[2]) / 3;
+}
+
+LensParameters pinhole_lens() {
+  return {.fx = 535, .fy = 535, .cx = 319.5, .cy = 239.5, .coefficients = {0, 0, 0, 0}};
+}
+
+LensParameters tangential_lens() {
+  return {.fx = 535, .fy = 535, .cx = 319.5, .cy = 239.5, .coefficients = {-0.1, 0.02, 0.05, -0.08}};
+}
+
+LensParameters fisheye_lens() {
+  return {.model = LensModel::kannala_brandt,
+          .fx = 215,
+          .fy = 215,
+          .cx = 319.5,
+          .cy = 319.5,
+          .coefficients = {-0.01, 0.002, -0.0003, 0.00001}};
+}
+
+}  // namespace sigs::test

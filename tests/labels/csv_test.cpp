@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "labels/csv.h"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <pugixml.hpp>
+#include <string>
+
+#include "base/angles.h"
+#include "labels/label_writing.h"
+#include "support/comma_locale.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+
+using namespace labels;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Row = std::vector<std::string>;
+
+// RFC 4180, letter by letter.
+std::vector<Row> rows_of(const std::string& text) {
+  std::vector<Row> rows{{""}};
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"')
+      rows.back().back() += text[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && c == ',')
+      rows.back().emplace_back();
+    else if (!quoted && c == '\r' && text.at(i + 1) == '\n')
+      ++i, rows.push_back({""});
+    else
+      rows.back().back() += c;
+  }
+  REQUIRE(rows.back() == Row{""});
+  rows.pop_back();
+  return rows;
+}
+
+std::vector<std::map<std::string, std::string>> table_of(const fs::path& path) {
+  const std::vector<Row> rows = rows_of(text_of(path));
+  std::vector<std::map<std::string, std::string>> table;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    REQUIRE(rows[i].size() == rows[0].size());
+    table.emplace_back();
+    for (std::size_t k = 0; k < rows[0].size(); ++k) table.back()[rows[0][k]] = rows[i][k];
+  }
+  return table;
+}
+
+IntruderTruth full(int id) {
+  IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
+  truth.position_m = {899.2345678, -250.1, -20.00000049};
+  truth.attitude = {rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)};
+  truth.visible_fraction = 2.0 / 3;
+  truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
+  return truth;
+}
+
+FrameTruth full_frame() {
+  FrameTruth frame = frame_of(117, {full(0), invisible_intruder(1)});
+  frame.camera_position_m = {39.123456789, -0.0, -150};
+  frame.camera_attitude = {rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)};
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("every number of the XML file stands in the CSV file, letter for letter") {
+  const TemporaryFolder folder;
+  const LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
+  write_labels("xml", folder / "l.xml", clip, {full_frame()});
+  write_labels("csv", folder / "l.csv", clip, {full_frame()});
+  pugi::xml_document document;
+  REQUIRE(document.load_file((folder / "l.xml").c_str()));
+  const pugi::xml_node frame = document.child("sigs").child("frame");
+  const auto table = table_of(folder / "l.csv");
+  REQUIRE(table.size() == 2);
+  std::size_t i = 0;
+  int compared = 0;
+  for (const pugi::xml_node& intruder : frame.children("intruder")) {
+    auto row = table[i++];
+    const auto compare = [&](const pugi::xml_node& node, const char* attribute, const std::string& column) {
+      REQUIRE_MESSAGE(row.count(column) == 1, column);
+      CHECK_MESSAGE(row[column] == node.attribute(attribute).value(), column);
+      ++compared;
+    };
+    compare(frame, "index", "frame");
+    compare(frame, "time_s", "time_s");
+    for (const char* name : {"x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"})
+      compare(frame.child("camera"), name, std::string("camera_") + name);
+    for (const char* name : {"id", "name", "in_picture", "visible_fraction", "horizon"}) compare(intruder, name, name);
+    for (const char* name : {"x_m", "y_m", "z_m"}) compare(intruder.child("position"), name, name);
+    for (const char* name : {"roll_deg", "pitch_deg", "yaw_deg"}) compare(intruder.child("attitude"), name, name);
+    compare(intruder.child("distance"), "m", "distance_m");
+    compare(intruder.child("box"), "pixels", "visible_pixels");
+    for (const std::string name : {"x", "y", "width", "height"}) {
+      compare(intruder.child("box"), name.c_str(), "box_" + name + "_px");
+      compare(intruder.child("silhouette"), name.c_str(), "silhouette_" + name + "_px");
+    }
+  }
+  CHECK(compared == 2 * 29);
+}
+
+TEST_CASE("a CSV row stands for itself: it says whose clip it is of") {
+  const TemporaryFolder folder;
+  LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
+  clip.name = "my clip";
+  clip.footage.frame_rate_num = 30000;
+  clip.footage.frame_rate_den = 1001;
+  write_labels("csv", folder / "l.csv", clip, {full_frame()});
+  auto row = table_of(folder / "l.csv").at(1);
+  CHECK(row["sequence"] == "my clip");
+  CHECK(row["video"] == "flight.mp4");
+  CHECK(row["picture_width_px"] == "640");
+  CHECK(row["picture_height_px"] == "480");
+  CHECK(row["frame_rate"] == "30000/1001");
+  CHECK(row["category"] == "drone");
+}
+
+TEST_CASE("boxes that there are not are empty fields, and thresholds leave nothing out") {
+  const TemporaryFolder folder;
+  LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
+  clip.thresholds = {.min_pixels = 1000, .min_visible_fraction = 1};
+  write_labels("csv", folder / "l.csv", clip,
+               {frame_of(0, {invisible_intruder(0)}), frame_of(1, {visible_intruder(0, {1, 1, 1, 1})})});
+  auto table = table_of(folder / "l.csv");
+  REQUIRE(table.size() == 2);
+  for (const char* name : {"box_x_px", "box_y_px", "box_width_px", "box_height_px", "visible_pixels", "silhouette_x_px",
+                           "silhouette_height_px"})
+    CHECK_MESSAGE(table[0][name] == "", name);
+  CHECK(table[0]["in_picture"] == "false");
+  CHECK(table[1]["box_width_px"] == "1");
+  CHECK(table[1]["visible_pixels"] == "1");
+}
+
+TEST_CASE("names with what CSV is made of come back") {
+  for (const std::string name : {"a,b", "say \"hello\"", "two\nlines", "cr\r\nlf", "\"", ",", "", "M\xC3\xBCller;x"}) {
+    const TemporaryFolder folder;
+    FrameTruth frame = frame_of(0, {visible_intruder(0, {1, 1, 1, 1})});
+    frame.intruders[0].name = name;
+    write_labels("csv", folder / "l.csv", synthetic_sequence(0, 0, {"airplane"}), {frame});
+    CHECK(table_of(folder / "l.csv").at(0)["name"] == name);
+  }
+}
+
+TEST_CASE("a clip without intruders is a CSV header alone") {
+  const TemporaryFolder folder;
+  write_labels("csv", folder / "l.csv", synthetic_sequence(0, 1, {}), {frame_of(0, {}), frame_of(1, {})});
+  CHECK(rows_of(text_of(folder / "l.csv")).size() == 1);
+}
+
+TEST_CASE("CSV labels do not depend on the country") {
+  const TemporaryFolder folder;
+  const LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
+  write_labels("csv", folder / "a.csv", clip, {full_frame()});
+  const CommaLocale comma;
+  write_labels("csv", folder / "b.csv", clip, {full_frame()});
+  CHECK(text_of(folder / "a.csv") == text_of(folder / "b.csv"));
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "labels/label_writing.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace sigs::test::labels {
+
+namespace fs = std::filesystem;
+
+LabelSequence synthetic_sequence(int first, int last, const std::vector<std::string>& categories) {
+  LabelSequence clip{
+      .name = "clip",
+      .footage = {.video = "flight.mp4", .size_px = {640, 480}, .first_frame = first, .last_frame = last},
+      .video = "clip.mkv",
+      .images = "clip"};
+  for (std::size_t i = 0; i < categories.size(); ++i) {
+    clip.intruders.push_back({.id = static_cast<int>(i),
+                              .name = "intruder " + std::to_string(i),
+                              .category = categories[i],
+                              .low_m = {-4, -5, -1},
+                              .high_m = {4, 5, 1}});
+    if (std::find(clip.categories.begin(), clip.categories.end(), categories[i]) == clip.categories.end())
+      clip.categories.push_back(categories[i]);
+  }
+  return clip;
+}
+
+IntruderTruth visible_intruder(int id, const cv::Rect& box) {
+  return {.id = id,
+          .name = "intruder " + std::to_string(id),
+          .position_m = {100, 0, 0},
+          .in_image = true,
+          .visible_fraction = 1,
+          .visible_box = box,
+          .visible = cv::Mat(box.size(), CV_8UC1, cv::Scalar(255)),
+          .visible_pixels = box.area(),
+          .amodal_box = Box{box.x - 0.5, box.y - 0.5, double(box.width), double(box.height)},
+          .horizon = HorizonSide::above,
+          .inside_fraction = 1};
+}
+
+IntruderTruth invisible_intruder(int id) {
+  return {.id = id, .name = "intruder " + std::to_string(id), .position_m = {-100, 0, 0}};
+}
+
+FrameTruth frame_of(int index, std::vector<IntruderTruth> intruders) {
+  return {.index = index, .time_s = index / 25.0, .intruders = std::move(intruders)};
+}
+
+void write_labels(const std::string& format, const fs::path& path, const LabelSequence& clip,
+                  const std::vector<FrameTruth>& frames, const fs::path& images) {
+  const LabelFormat* chosen = label_format(format);
+  REQUIRE(chosen != nullptr);
+  if (chosen->is_folder)
+    REQUIRE(fs::create_directory(path));
+  else
+    std::ofstream(path).close();
+  Result<std::unique_ptr<LabelWriter>> writer = chosen->open(path, clip);
+  REQUIRE_MESSAGE(writer.has_value(), (writer ? "" : writer.error().text()));
+  for (const FrameTruth& frame : frames) REQUIRE((*writer)->write(frame).has_value());
+  const Result<void> finished = (*writer)->finish(images);
+  REQUIRE_MESSAGE(finished.has_value(), (finished ? "" : finished.error().text()));
+}
+
+void write_synthetic_images(const fs::path& folder, const LabelSequence& clip) {
+  REQUIRE(fs::create_directory(folder));
+  for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame; ++frame)
+    std::ofstream(folder / image_name(frame)) << frame;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  REQUIRE_MESSAGE(in.good(), path.string());
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines_of(const fs::path& path) {
+  std::vector<std::string> lines = parts_of(text_of(path), '\n');
+  REQUIRE_MESSAGE(lines.back().empty(), path.string());
+  lines.pop_back();
+  return lines;
+}
+
+std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder).string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace sigs::test::labels

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "labels/labels.h"
+
+namespace sigs::test::labels {
+
+// A clip of 640x480, frames first to last of its footage at 25 a second, with intruders 0, 1, ... of the categories
+// given.
+[[nodiscard]] LabelSequence synthetic_sequence(int first, int last, const std::vector<std::string>& categories);
+
+// An intruder that shows in a box, the whole of it visible, 100 m ahead.
+[[nodiscard]] IntruderTruth visible_intruder(int id, const cv::Rect& box);
+
+// One that does not.
+[[nodiscard]] IntruderTruth invisible_intruder(int id);
+
+[[nodiscard]] FrameTruth frame_of(int index, std::vector<IntruderTruth> intruders);
+
+// Writes labels as an export does: at an empty file or folder, all frames, then the end.
+//   images  as LabelWriter::finish takes it
+void write_labels(const std::string& format, const std::filesystem::path& path, const LabelSequence& clip,
+                  const std::vector<FrameTruth>& frames, const std::filesystem::path& images = {});
+
+// Makes a folder with an image of each frame of the clip, called as an export calls them. Each holds its number.
+void write_synthetic_images(const std::filesystem::path& folder, const LabelSequence& clip);
+
+// The whole of a file, which must be there.
+[[nodiscard]] std::string text_of(const std::filesystem::path& path);
+
+// Its lines, without their ends; the last must have one.
+[[nodiscard]] std::vector<std::string> lines_of(const std::filesystem::path& path);
+
+// The parts between separators, as many as there are plus one.
+[[nodiscard]] std::vector<std::string> parts_of(const std::string& text, char separator);
+
+// Every file below a folder, by its path from there, in order.
+[[nodiscard]] std::vector<std::string> files_below(const std::filesystem::path& folder);
+
+}  // namespace sigs::test::labels

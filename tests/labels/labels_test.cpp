@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "labels/labels.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "base/temporary_file.h"
+#include "labels/label_text.h"
+#include "labels/label_writing.h"
+#include "project/project.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+
+using namespace labels;
+
+TEST_CASE("what a project may ask for is what can be written, in one order") {
+  std::vector<std::string_view> names;
+  for (const LabelFormat& format : label_formats()) names.push_back(format.name);
+  CHECK(names == std::vector<std::string_view>(kLabelNames.begin(), kLabelNames.end()));
+}
+
+TEST_CASE("a format is found by its name alone") {
+  for (const LabelFormat& format : label_formats()) CHECK(label_format(format.name) == &format);
+  CHECK(label_format("") == nullptr);
+  CHECK(label_format("XML") == nullptr);
+  CHECK(label_format("xml,mot") == nullptr);
+}
+
+TEST_CASE("no two formats, and no format and a video or its masks, are called alike") {
+  std::set<std::string_view> suffixes{"", ".mkv", ".mp4", ".avi", ".masks", ".masks.mkv"};
+  for (const LabelFormat& format : label_formats()) CHECK_MESSAGE(suffixes.insert(format.suffix).second, format.name);
+}
+
+TEST_CASE("an intruder is labelled where it reaches both thresholds") {
+  const IntruderTruth truth = visible_intruder(0, {1, 1, 3, 2});
+  CHECK(is_labelled(truth, {}));
+  CHECK(is_labelled(truth, {.min_pixels = 6, .min_visible_fraction = 1}));
+  CHECK_FALSE(is_labelled(truth, {.min_pixels = 7}));
+  IntruderTruth half = truth;
+  half.visible_fraction = 0.5;
+  CHECK(is_labelled(half, {.min_visible_fraction = 0.5}));
+  CHECK_FALSE(is_labelled(half, {.min_visible_fraction = 0.500001}));
+  CHECK_FALSE(is_labelled(invisible_intruder(0), {.min_pixels = 0}));
+}
+
+TEST_CASE("images are numbered as the footage is, in six digits or more") {
+  CHECK(image_name(0) == "frame_000000.png");
+  CHECK(image_name(123) == "frame_000123.png");
+  CHECK(image_name(std::numeric_limits<int>::max()) == "frame_2147483647.png");
+}
+
+TEST_CASE("every format writes a clip without any intruder and one of a single frame") {
+  for (const LabelFormat& format : label_formats()) {
+    const TemporaryFolder folder;
+    write_labels(std::string(format.name), folder / "none", synthetic_sequence(0, 1, {}),
+                 {frame_of(0, {}), frame_of(1, {})});
+    write_labels(std::string(format.name), folder / "one", synthetic_sequence(5, 5, {"airplane"}),
+                 {frame_of(5, {invisible_intruder(0)})});
+    CHECK(std::filesystem::exists(folder / "one"));
+  }
+}
+
+TEST_CASE("every format says which file it cannot make") {
+  const TemporaryFolder folder;
+  REQUIRE(write_text(folder / "file", "x", false).has_value());
+  for (const LabelFormat& format : label_formats()) {
+    const std::filesystem::path path = folder / "file" / ("l" + std::string(format.suffix));
+    const Result<std::unique_ptr<LabelWriter>> writer = format.open(path, synthetic_sequence(0, 1, {"airplane"}));
+    REQUIRE_MESSAGE(!writer.has_value(), format.name);
+    CHECK(writer.error().kind == ErrorKind::cannot_create);
+    CHECK_MESSAGE(writer.error().where.starts_with((folder / "file").string()), format.name);
+  }
+}
+
+TEST_CASE("every format with images says which of them is missing") {
+  for (const LabelFormat& format : label_formats()) {
+    if (!format.is_folder) continue;
+    const TemporaryFolder folder;
+    const LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
+    std::filesystem::create_directory(folder / "l");
+    std::filesystem::create_directory(folder / "images");
+    Result<std::unique_ptr<LabelWriter>> writer = format.open(folder / "l", clip);
+    REQUIRE(writer.has_value());
+    for (const int frame : {0, 1})
+      REQUIRE((*writer)->write(frame_of(frame, {visible_intruder(0, {1, 1, 2, 2})})).has_value());
+    const Result<void> finished = (*writer)->finish(folder / "images");
+    REQUIRE_MESSAGE(!finished.has_value(), format.name);
+    CHECK(finished.error().kind == ErrorKind::write_failed);
+    CHECK(finished.error().text().find("frame_000000.png") != std::string::npos);
+  }
+}
+
+TEST_CASE("names for lines, columns and CSV fields") {
+  CHECK(line_name("a b") == "a b");
+  CHECK(line_name("  a\tb\r\nc ") == "a b  c");
+  CHECK(line_name("") == "unnamed");
+  CHECK(line_name(" \n") == "unnamed");
+  CHECK(line_name("\xFF") == "\xEF\xBF\xBD");
+  CHECK(word_name("light aircraft") == "light_aircraft");
+  CHECK(csv_field("plain") == "plain");
+  CHECK(csv_field("a\"b") == "\"a\"\"b\"");
+  CHECK(joined({1, -2, 3}, ", ") == "1, -2, 3");
+  CHECK(joined({}, ",").empty());
+}
+
+TEST_CASE("frame rates as ratios and as whole numbers above 0") {
+  FootageTruth footage{.frame_rate_num = 30000, .frame_rate_den = 1001};
+  CHECK(rate_text(footage) == "30000/1001");
+  CHECK(whole_rate_hz(footage) == 30);
+  footage.frame_rate_num = 1;
+  CHECK(whole_rate_hz(footage) == 1);
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "base/image.h"
+#include "base/pose.h"
+#include "camera/lens.h"
+#include "mesh/mesh.h"
+
+// An independent truth for tests and benches: rays through the real lens, many a pixel, traced with Embree in linear
+// light. It shares data with the engine (meshes, poses, parameters), and no code that makes an image.
+namespace sigs::truth {
+
+// What stands before the camera: one intruder.
+struct Setup {
+  const Mesh* mesh = nullptr;
+  Pose<frame::Camera, frame::Body> camera_from_body;
+  glm::dvec3 light_in_camera{0, 0, 0};  // metres
+  glm::dvec3 light_color{1, 1, 1};
+  double ambient = 0.35;
+  LensParameters lens;
+  cv::Size size_px;     // of the image
+  double sigma_px = 0;  // of the lens' blur
+  cv::Mat own_body;     // CV_32FC1 of the image's size, 1 where the body hides; empty: none
+};
+
+struct Settings {
+  int samples_per_side = 16;  // of a pixel: 16 -> 256 rays; more where the image is less than 256 rays across
+};
+
+// The truth over rect, the part of the image that light from the intruder can reach.
+struct ReferenceImage {
+  cv::Rect rect;       // empty: nothing of it reaches the image
+  cv::Mat color;       // CV_64FC4: red, green, blue, opacity; premultiplied, linear light, blurred, own body taken off
+  cv::Mat coverage;    // CV_64FC1: share of the pixel that the silhouette covers; sharp, nothing taken off
+  double area_px = 0;  // of the coverage, whole silhouette within the image
+  glm::dvec2 centroid_px{0, 0};  // of the coverage
+  Box silhouette;                // around all rays within the image that hit, to a subpixel's width
+};
+
+[[nodiscard]] ReferenceImage reference_image(const Setup& setup, const Settings& settings = {});
+
+// The image over a background of 8-bit R'G'B' codes (CV_8UC3, red first, of the image's size), mixed in linear
+// light: CV_64FC3 codes 0..255 over truth.rect, not rounded.
+[[nodiscard]] cv::Mat over_background(const ReferenceImage& truth, const cv::Mat& background_rgb);
+
+}  // namespace sigs::truth

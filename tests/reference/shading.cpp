@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "reference/shading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reference/transfer.h"
+
+namespace sigs::truth {
+namespace {
+
+constexpr double kSolid = 0.999F;      // a material's opacity from which it is solid
+constexpr double kSeen = 1.0 / 255.0;  // opacity below which light passes
+constexpr double kGloss = 0.25;        // share of the specular colour that is used
+
+cv::Mat premultiplied_light(const cv::Mat& rgba) {
+  std::array<double, 256> light{};
+  for (int i = 0; i < 256; ++i) light[static_cast<std::size_t>(i)] = light_of_code(i / 255.0);
+  cv::Mat out(rgba.size(), CV_32FC4);
+  for (int y = 0; y < rgba.rows; ++y)
+    for (int x = 0; x < rgba.cols; ++x) {
+      const cv::Vec4b& texel = rgba.at<cv::Vec4b>(y, x);
+      const double opacity = texel[3] / 255.0;
+      cv::Vec4f& target = out.at<cv::Vec4f>(y, x);
+      for (int c = 0; c < 3; ++c) target[c] = float(light[texel[c]] * opacity);
+      target[3] = float(opacity);
+    }
+  return out;
+}
+
+int wrapped(double i, int count) {
+  const double rest = i - std::floor(i / count) * count;
+  return std::min(static_cast<int>(rest), count - 1);
+}
+
+glm::dvec4 texel(const cv::Mat& texture, double column, double row) {
+  const cv::Vec4f& t = texture.at<cv::Vec4f>(wrapped(row, texture.rows), wrapped(column, texture.cols));
+  return {t[0], t[1], t[2], t[3]};
+}
+
+// Texel centres lie at (i + 0.5) / size; v runs up from the last row; the texture repeats.
+glm::dvec4 texture_at(const cv::Mat& texture, const glm::dvec2& uv) {
+  const double column = uv.x * texture.cols - 0.5;
+  const double row = (1 - uv.y) * texture.rows - 0.5;
+  const double left = std::floor(column);
+  const double top = std::floor(row);
+  const double right_share = column - left;
+  const glm::dvec4 upper = glm::mix(texel(texture, left, top), texel(texture, left + 1, top), right_share);
+  const glm::dvec4 lower = glm::mix(texel(texture, left, top + 1), texel(texture, left + 1, top + 1), right_share);
+  return glm::mix(upper, lower, row - top);
+}
+
+// Of any length that a double holds.
+glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 1e-12)) return fallback;
+  return glm::normalize(largest < 1e100 ? v : v / largest);
+}
+
+glm::dvec3 light_of(const glm::vec3& code) {
+  return {light_of_code(code.x), light_of_code(code.y), light_of_code(code.z)};
+}
+
+}  // namespace
+
+bool lets_no_light_through(const Material& material) {
+  if (!(material.opacity >= kSolid)) return false;
+  if (material.texture.empty()) return true;
+  cv::Mat opacity;
+  cv::extractChannel(material.texture, opacity, 3);
+  return cv::countNonZero(opacity != 255) == 0;
+}
+
+Shader::Shader(const Mesh& mesh, const Lighting& lighting) : lighting_(lighting) {
+  std::map<const uchar*, cv::Mat> textures;
+  for (const Material& m : mesh.materials) {
+    cv::Mat& texture = textures[m.texture.data];
+    if (texture.empty() && !m.texture.empty()) texture = premultiplied_light(m.texture);
+    materials_.push_back({light_of(m.diffuse), m.specular, std::clamp(double{m.shininess}, 1.0, 200.0),
+                          m.opacity >= kSolid ? 1.0 : std::max(double{m.opacity}, 0.0), texture});
+  }
+}
+
+glm::dvec4 Shader::shade(const SurfacePoint& point) const {
+  const ShadedMaterial& paint = materials_[static_cast<std::size_t>(point.material)];
+  const glm::dvec4 texture = paint.texture.empty() ? glm::dvec4(1) : texture_at(paint.texture, point.uv);
+  const double opacity = texture.a * paint.opacity;
+  if (opacity < kSeen) return glm::dvec4(0);
+
+  const glm::dvec3 to_eye = unit_or(lighting_.eye_m - point.p_m, {0, 0, -1});
+  const glm::dvec3 outside = unit_or(point.normal, point.is_front ? to_eye : -to_eye);
+  const glm::dvec3 n = point.is_front ? outside : -outside;
+  const glm::dvec3 to_lamp = unit_or(lighting_.lamp_m - point.p_m, n);
+  const glm::dvec3 between = unit_or(to_lamp + to_eye, n);
+  const double facing = std::max(glm::dot(n, to_lamp), 0.0);
+  const double direct = 1 - lighting_.ambient;
+  const double highlight = std::pow(std::max(glm::dot(n, between), 0.0), paint.shininess);
+  const double gloss = facing > 0 ? kGloss * direct * highlight : 0.0;
+  const glm::dvec3 matt = paint.diffuse * glm::dvec3(texture) * (lighting_.ambient + direct * facing);
+  return {lighting_.color * paint.opacity * (matt + paint.specular * (gloss * texture.a)), opacity};
+}
+
+}  // namespace sigs::truth
