@@ -55,17 +55,40 @@ function(sigs_module name)
   endif()
 endfunction()
 
-# sigs_test(NAME [SERIAL] [SOURCES a_test.cpp ...] [ALSO files of other folders] LINKS libraries): one doctest program
-# of the sources given or of all .cpp of this folder; ctest knows each test case by its name. A case that prints
-# "SKIPPED" counts as skipped. SERIAL: nothing else runs beside its cases.
+# sigs_test(NAME [SOURCES a_test.cpp ...] [ALSO files of other folders] LINKS libraries [LONG a_test ...]
+# [TIMEOUT seconds]): one doctest program of the sources given, or of all .cpp of this folder. ctest runs it once for each
+# source with test cases, as "NAME: a": with a process for each case the start would take longer than the test. What
+# fails is named by its test case. Sources named LONG begin first, so that none runs on alone at the end. A source whose
+# cases have to be left out counts as skipped (tests/support/test_data.h).
 function(sigs_test name)
-  cmake_parse_arguments(TEST "SERIAL" "" "SOURCES;ALSO;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;ALSO;LINKS;LONG" ${ARGN})
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 600)
+  endif()
   if(NOT TEST_SOURCES)
     file(GLOB TEST_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   endif()
   add_executable(test_${name} ${TEST_SOURCES} ${TEST_ALSO})
   target_link_libraries(test_${name} PRIVATE sigs_test_support ${TEST_LINKS})
   sigs_compile(test_${name} test)
-  doctest_discover_tests(test_${name} TEST_PREFIX "${name}: "
-    PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED" TIMEOUT 600 RUN_SERIAL ${TEST_SERIAL})
+  foreach(source ${TEST_SOURCES})
+    cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE file)
+    cmake_path(GET file STEM stem)
+    if(NOT stem MATCHES "_test$")
+      # Some files of test cases are called otherwise.
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+      file(STRINGS "${file}" cases REGEX "^(TEST_CASE|SCENARIO)" LIMIT_COUNT 1)
+      if(NOT cases)
+        continue()
+      endif()
+    endif()
+    cmake_path(GET file PARENT_PATH folder)
+    cmake_path(GET folder FILENAME folder)
+    string(REGEX REPLACE "_test$" "" short "${stem}")
+    add_test(NAME "${name}: ${short}" COMMAND test_${name} "--source-file=*/${folder}/${stem}.cpp")
+    set_tests_properties("${name}: ${short}" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT ${TEST_TIMEOUT})
+    if(stem IN_LIST TEST_LONG)
+      set_tests_properties("${name}: ${short}" PROPERTIES COST 100)
+    endif()
+  endforeach()
 endfunction()

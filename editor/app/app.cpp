@@ -229,7 +229,11 @@ void App::update(double now_s, bool something_happened) {
   window_.end();
   textures_.end_update(PreviewLimits().texture_bytes());
   previewer_.set_texture_bytes(textures_.bytes());
-  probe_writer_.write(document_, shown, ui_probe_, {shell_.has_project() ? "project" : "start", updates_per_second_});
+  probe_writer_.write(document_, shown, ui_probe_,
+                      {.page = shell_.has_project() ? "project" : "start",
+                       .updates_per_second = updates_per_second_,
+                       .released_keys = window_.released_keys(),
+                       .has_input_left = window_.has_input_left()});
   take_edits();
   for (const std::filesystem::path& path : window_.take_dropped()) shell_.handle_dropped(path, edits_);
   take_edits();

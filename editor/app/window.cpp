@@ -27,6 +27,7 @@ struct Incoming {
   std::vector<std::filesystem::path> dropped;
   KeyQueue keys;
   ButtonQueue buttons;
+  int released_keys = 0;
   bool needs_all = false;  // to be drawn
 };
 
@@ -83,7 +84,9 @@ void note_character(GLFWwindow* window, unsigned character) {
 }
 
 void hand_on_keys(GLFWwindow* window) {
-  for (const KeyEvent& event : incoming_of(window).keys.take_for_update(ImGui::GetIO().WantTextInput)) {
+  Incoming& incoming = incoming_of(window);
+  for (const KeyEvent& event : incoming.keys.take_for_update(ImGui::GetIO().WantTextInput)) {
+    if (event.character == 0 && !event.down && event.kind != KeyKind::modifier) ++incoming.released_keys;
     if (event.character != 0)
       ImGui_ImplGlfw_CharCallback(window, event.character);
     else
@@ -186,14 +189,13 @@ Window::~Window() {
 }
 
 bool Window::wait(double timeout_s) {
-  const Incoming& incoming = state_->incoming;
-  if (!incoming.keys.empty() || !incoming.buttons.empty()) timeout_s = 0;
+  if (has_input_left()) timeout_s = 0;
   const double start_s = glfwGetTime();
   if (timeout_s > 0)
     glfwWaitEventsTimeout(timeout_s);
   else
     glfwPollEvents();
-  return !incoming.keys.empty() || !incoming.buttons.empty() || glfwGetTime() - start_s < timeout_s;
+  return has_input_left() || glfwGetTime() - start_s < timeout_s;
 }
 
 void Window::wake() {
@@ -224,6 +226,14 @@ void Window::end() {
   glfwGetFramebufferSize(state_->window, &width, &height);
   if (std::exchange(state_->incoming.needs_all, false)) state_->canvas->forget();
   if (state_->canvas->draw(*ImGui::GetDrawData(), width, height)) glfwSwapBuffers(state_->window);
+}
+
+int Window::released_keys() const {
+  return state_->incoming.released_keys;
+}
+
+bool Window::has_input_left() const {
+  return !state_->incoming.keys.empty() || !state_->incoming.buttons.empty();
 }
 
 bool Window::wants_to_close() const {

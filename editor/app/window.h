@@ -39,6 +39,11 @@ class Window {
 
   void toggle_full_screen();
 
+  // Keys that went up, modifiers aside, as far as ImGui has been told of them.
+  [[nodiscard]] int released_keys() const;
+  // Keys or buttons wait for a later turn.
+  [[nodiscard]] bool has_input_left() const;
+
  private:
   struct State;
   explicit Window(std::unique_ptr<State> state);

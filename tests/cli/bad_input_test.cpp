@@ -12,6 +12,7 @@
 #include "base/temporary_file.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 #include "video/clips.h"
 
 using namespace sigs;
@@ -179,7 +180,7 @@ TEST_CASE("h264 of an odd size is named by its field before anything is written"
 
 TEST_CASE("an answer that cannot be given is no success") {
   if (!std::filesystem::exists("/dev/full")) {
-    std::printf("SKIPPED: there is no /dev/full\n");
+    say_skipped("no /dev/full");
     return;
   }
   const TinyProject tiny;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ namespace {
 
 bool has_xmllint() {
   static const bool there = run("xmllint --version").status == 0;
-  if (!there) std::printf("SKIPPED: xmllint (libxml2-utils) is absent\n");
+  if (!there) say_skipped("xmllint (libxml2-utils) is absent");
   return there;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -12,12 +13,15 @@
 namespace sigs::test {
 namespace {
 
-std::string help_of(const std::string& verb) {
+// Each asked for once.
+const std::string& help_of(const std::string& verb) {
+  static std::map<std::string, std::string> known;
+  if (const auto found = known.find(verb); found != known.end()) return found->second;
   std::string command = "'";
   command.append(build_dir() / "sigs").append("' ").append(verb).append(" --help");
   const Finished finished = run(command);
   REQUIRE_MESSAGE(finished.status == 0, finished.output);
-  return finished.output;
+  return known[verb] = finished.output;
 }
 
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {

@@ -26,7 +26,7 @@ TEST_CASE("on another file system an image is copied") {
   const fs::path there = "/dev/shm/" + folder.path().filename().string() + ".png";
   std::ofstream(there) << "image";
   if (!fs::exists(there)) {
-    MESSAGE("SKIPPED: no /dev/shm");
+    say_skipped("no /dev/shm");
     return;
   }
   const Result<void> copied = link_or_copy(there, folder / "b.png");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/test_data.h"
 
+#include <doctest/doctest.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -10,13 +12,29 @@ namespace sigs::test {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+int skipped = 0;
+
+}  // namespace
+
+void say_skipped(const std::string& why) {
+  ++skipped;
+  const auto* const test = doctest::getContextOptions()->currentTest;
+  std::printf("SKIPPED: %s: %s\n", test != nullptr ? test->m_name : "", why.c_str());
+}
+
+int skipped_tests() {
+  return skipped;
+}
+
 fs::path real_data() {
   return SIGS_TEST_DATA;
 }
 
 bool has_real_data() {
   if (fs::is_directory(real_data())) return true;
-  std::printf("SKIPPED: %s is absent\n", real_data().c_str());
+  say_skipped(real_data().string() + " is absent");
   return false;
 }
 

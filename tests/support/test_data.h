@@ -2,11 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace sigs::test {
 
+// What a test says that cannot do its work here, before it returns: "SKIPPED: " and why, with the test's name. The
+// program then ends with kSkipped, unless a case fails, and ctest reports the file as skipped.
+void say_skipped(const std::string& why);
+constexpr int kSkipped = 77;
+[[nodiscard]] int skipped_tests();  // so far
+
 // The folder with real clips, calibrations and models. Tests that need it begin with
-//   if (!has_real_data()) return;   // prints SKIPPED, which ctest reports as skipped
+//   if (!has_real_data()) return;   // says skipped
 [[nodiscard]] std::filesystem::path real_data();
 [[nodiscard]] bool has_real_data();
 

@@ -10,11 +10,12 @@ extern "C" {
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <numeric>
+
+#include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
@@ -113,7 +114,7 @@ std::vector<PacketPlace> packets_of(const std::filesystem::path& path) {
 bool run_ffmpeg(const std::string& arguments) {
   const std::string command = "ffmpeg -nostdin -hide_banner -loglevel quiet -y " + arguments;
   if (std::system(command.c_str()) == 0) return true;
-  std::printf("SKIPPED: the ffmpeg program is missing or cannot do: %s\n", arguments.c_str());
+  say_skipped("the ffmpeg program is missing or cannot do: " + arguments);
   return false;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <cstdio>
 #include <string>
 
 #include "support/test_data.h"
@@ -75,7 +74,7 @@ TEST_CASE("a folder that is not there cannot be written into") {
 
 TEST_CASE("a full disk is an error for every codec and container") {
   if (!std::filesystem::exists("/dev/full")) {
-    std::printf("SKIPPED: no /dev/full here\n");
+    say_skipped("no /dev/full");
     return;
   }
   for (const auto& [codec, container] :

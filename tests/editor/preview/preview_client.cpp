@@ -20,7 +20,7 @@ PreviewClient::PreviewClient(editor::PreviewLimits limits)
 
 // By being woken alone: what was put down without a call is never observed.
 editor::PreviewOutput PreviewClient::wait(const std::function<bool(const editor::PreviewOutput&)>& is_there) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   std::unique_lock lock(mutex_);
   while (true) {
     const unsigned long observed = calls_;

@@ -20,7 +20,7 @@ class PreviewClient {
   [[nodiscard]] editor::PreviewOutput shown() const { return previewer_.shown(); }
   void set_prefetch_paused(bool paused) { previewer_.set_prefetch_paused(paused); }
 
-  // Sleeps until there is something of that kind to show. Fails the test after a minute.
+  // Sleeps until there is something of that kind to show. Fails the test after five minutes.
   editor::PreviewOutput wait(const std::function<bool(const editor::PreviewOutput&)>& is_there);
 
   // Asks and waits for the image that was asked for.

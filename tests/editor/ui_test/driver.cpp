@@ -7,12 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -25,6 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+constexpr double kLook_s = 0.004;  // between two looks at what the editor tells
 
 void rest(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -53,6 +58,15 @@ int status_of(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+Clock::time_point after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+}
+
 bool is_installed(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
@@ -64,35 +78,66 @@ std::string read(const fs::path& file) {
   return text.str();
 }
 
-// Not below zero: a minus would look like an option.
-std::string whole(double x) {
-  return std::to_string(std::max(0L, std::lround(x)));
-}
-
-// Xvfb on a free display; its number is what it writes once it is ready.
+// Xvfb on a free display; its number is what it writes once it is ready. A key that is held does not repeat: on a busy
+// machine every key is held long.
 pid_t start_screen(const fs::path& home, int width_px, int height_px, std::string& display) {
   const fs::path log = home / "screen.log";
   const fs::path number = home / "display";
-  const std::string command = "exec Xvfb -displayfd 3 -screen 0 " + std::to_string(width_px) + "x" +
+  const std::string command = "exec Xvfb -r -displayfd 3 -screen 0 " + std::to_string(width_px) + "x" +
                               std::to_string(height_px) + "x24 -nolisten tcp 3>" + number.string();
   const pid_t screen = started({"sh", "-c", command}, {}, log);
-  for (int i = 0; i < 200; ++i) {
+  const Clock::time_point end = after(kPatience_s);
+  while (!display.ends_with('\n')) {
+    if (has_ended(screen) || Clock::now() > end) throw std::runtime_error("Xvfb did not start: " + read(log));
+    rest(kLook_s);
     display = read(number);
-    if (!display.empty() && display.back() == '\n') break;
-    rest(0.05);
   }
-  if (display.empty()) throw std::runtime_error("Xvfb did not start: " + read(log));
   display = std::string(":").append(display, 0, display.size() - 1);
   return screen;
+}
+
+bool shows(const nlohmann::json& state, const std::string& place) {
+  return state.contains("places") && state["places"].contains(place);
 }
 
 }  // namespace
 
 bool can_drive_windows() {
   if (is_installed("Xvfb") && is_installed("xdotool")) return true;
-  std::printf("SKIPPED: Xvfb or xdotool is absent\n");
+  say_skipped("Xvfb or xdotool is absent");
   return false;
 }
+
+namespace {
+
+// A key without meaning to the editor. What was done before it has come when it has.
+constexpr const char* kMeaningless = "Pause";
+
+constexpr double kDoubleClick_s = 0.4;  // between its clicks at most: editor/app/window.cpp
+
+bool is_down(const nlohmann::json& state, int button) {
+  constexpr std::array kBits{0U, 2U, 1U};  // left, middle, right: X counts 1 2 3, the editor 0 2 1
+  return (state.value("buttons", 0U) >> kBits.at(static_cast<std::size_t>(button - 1)) & 1U) != 0;
+}
+
+// In which no key comes twice: GLFW takes two presses in one millisecond for one, and a busy screen has any number of
+// them in one.
+std::vector<std::string> pieces_of(const std::string& text) {
+  std::vector<std::string> pieces;
+  std::set<int> keys;
+  for (const char c : text) {
+    const auto sign = static_cast<unsigned char>(c);
+    const bool may_shift = std::isupper(sign) != 0 || (std::ispunct(sign) != 0 && c != '/' && c != '.' && c != '-');
+    if (pieces.empty() || may_shift || !keys.insert(std::tolower(sign)).second) {
+      pieces.emplace_back();
+      keys = {std::tolower(sign)};
+    }
+    pieces.back() += c;
+  }
+  return pieces;
+}
+
+}  // namespace
 
 EditorDriver::EditorDriver(const fs::path& home, int width_px, int height_px)
     : home_(home), probe_(home / "probe.json"), width_px_(width_px), height_px_(height_px) {
@@ -115,8 +160,8 @@ void EditorDriver::start(const std::vector<std::string>& arguments) {
                                                        {"XDG_STATE_HOME", (home_ / "state").string()},
                                                        {"LIBGL_ALWAYS_SOFTWARE", "1"}};
   editor_ = started(words, environment, home_ / "editor.log");
-  wait_for(
-      "the first update", [](const nlohmann::json& now) { return now.contains("frame"); }, 60);
+  released_keys_ = 0;
+  wait_for("the first update", [](const nlohmann::json& now) { return now.contains("frame"); });
 }
 
 void EditorDriver::kill() {
@@ -136,7 +181,8 @@ bool EditorDriver::running() {
 }
 
 int EditorDriver::exit_status() {
-  for (int i = 0; i < 400 && running(); ++i) rest(0.05);
+  const Clock::time_point end = after(kPatience_s);
+  while (running() && Clock::now() < end) rest(kLook_s);
   if (editor_ >= 0) throw std::runtime_error("the editor does not end");
   return exit_status_;
 }
@@ -147,39 +193,51 @@ nlohmann::json EditorDriver::state() const {
 }
 
 bool EditorDriver::has_place(const std::string& name) const {
-  const nlohmann::json now = state();
-  return now.contains("places") && now["places"].contains(name);
+  return shows(state(), name);
 }
 
 ScreenPlace EditorDriver::place(const std::string& name) {
-  wait_for("the place " + name,
-           [&](const nlohmann::json& now) { return now.contains("places") && now["places"].contains(name); });
-  const nlohmann::json rect = state()["places"][name];
+  nlohmann::json rect;
+  wait_for("the place " + name, [&](const nlohmann::json& now) {
+    if (!shows(now, name) || !now.value("at_rest", false)) return false;
+    rect = now["places"][name];
+    return true;
+  });
   return {rect[0], rect[1], rect[2], rect[3]};
 }
 
-void EditorDriver::wait_for(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so,
-                            double seconds) {
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+void EditorDriver::wait_for(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so) {
+  const Clock::time_point end = after(kPatience_s);
   while (!is_so(state())) {
     if (!running())
       throw std::runtime_error("the editor ended with " + std::to_string(exit_status_) + " while waiting for " + what +
                                ": " + read(home_ / "editor.log"));
     if (Clock::now() > end) throw std::runtime_error("waited in vain for " + what + "; " + state().dump());
-    rest(0.02);
+    rest(kLook_s);
   }
 }
 
 void EditorDriver::wait_for_image() {
-  settle();
-  wait_for(
-      "the image", [](const nlohmann::json& now) { return now.value("current", false); }, 60);
-  settle();
+  wait_for("the image",
+           [](const nlohmann::json& now) { return now.value("current", false) && now.value("at_rest", false); });
 }
 
 void EditorDriver::settle() {
-  rest(0.25);
+  key(kMeaningless);
+}
+
+void EditorDriver::wait_until_seen(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so) {
+  const Clock::time_point end = after(kPatience_s);
+  while (!is_so(state()) && running()) {
+    if (Clock::now() > end) throw std::runtime_error("the editor does not see " + what + "; " + state().dump());
+    rest(kLook_s);
+  }
+}
+
+void EditorDriver::wait_until_at_rest() {
+  wait_until_seen("all keys, and come to rest", [&](const nlohmann::json& now) {
+    return now.value("released_keys", 0) >= released_keys_ && (hurried_ || now.value("at_rest", false));
+  });
 }
 
 void EditorDriver::xdotool(const std::vector<std::string>& arguments) const {
@@ -189,31 +247,35 @@ void EditorDriver::xdotool(const std::vector<std::string>& arguments) const {
   if (status != 0) throw std::runtime_error("xdotool failed: " + read(home_ / "xdotool.log"));
 }
 
-namespace {
-
-// ImGui looks at the mouse once per update: a press and release between two updates would go by unseen.
-constexpr double kTurn_s = 0.08;
-
-}  // namespace
-
-std::string EditorDriver::paused(double seconds) const {
-  return std::to_string(seconds * pace_);
+void EditorDriver::point_at(double x, double y) {
+  const long there_x = std::clamp(std::lround(x), 0L, width_px_ - 1L);
+  const long there_y = std::clamp(std::lround(y), 0L, height_px_ - 1L);
+  xdotool({"mousemove", std::to_string(there_x), std::to_string(there_y)});
+  wait_until_seen("the mouse", [&](const nlohmann::json& now) {
+    return now.contains("mouse") && now["mouse"][0] == there_x && now["mouse"][1] == there_y;
+  });
 }
 
-void EditorDriver::wait_one_update() const {
-  rest(kTurn_s * pace_);
+void EditorDriver::press(int button) {
+  xdotool({"mousedown", std::to_string(button)});
+  wait_until_seen("the press", [&](const nlohmann::json& now) { return is_down(now, button); });
+}
+
+void EditorDriver::release(int button) {
+  xdotool({"mouseup", std::to_string(button)});
+  wait_until_seen("the release", [&](const nlohmann::json& now) { return !is_down(now, button); });
 }
 
 void EditorDriver::move(double x, double y) {
-  xdotool({"mousemove", whole(x), whole(y)});
-  wait_one_update();
+  point_at(x, y);
+  wait_until_at_rest();
 }
 
 void EditorDriver::click(double x, double y, int button) {
-  const std::string number = std::to_string(button);
-  xdotool({"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s), "mousedown", number, "sleep", paused(kTurn_s),
-           "mouseup", number});
-  wait_one_update();
+  point_at(x, y);
+  press(button);
+  release(button);
+  wait_until_at_rest();
 }
 
 void EditorDriver::click(const std::string& name, int button) {
@@ -221,28 +283,29 @@ void EditorDriver::click(const std::string& name, int button) {
   click(there.center_x(), there.center_y(), button);
 }
 
-void EditorDriver::double_click(double x, double y) {
-  xdotool({"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s), "mousedown", "1", "sleep", paused(0.05),
-           "mouseup", "1",  //
-           "sleep", paused(0.05), "mousedown", "1", "sleep", paused(0.05), "mouseup", "1"});
-  wait_one_update();
+bool EditorDriver::double_click(double x, double y) {
+  move(x, y);
+  const Clock::time_point start = Clock::now();
+  xdotool({"mousedown", "1", "mouseup", "1", "mousedown", "1", "mouseup", "1"});
+  settle();  // all four have come
+  return Clock::now() - start < std::chrono::duration<double>(kDoubleClick_s);
 }
 
 void EditorDriver::drag(double x, double y, double to_x, double to_y, int button, const std::string& held_key) {
-  const std::string number = std::to_string(button);
-  std::vector<std::string> words{"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s)};
-  const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
-  if (!held_key.empty()) add({"keydown", held_key});
-  add({"mousedown", number, "sleep", paused(kTurn_s)});
+  move(x, y);
+  if (!held_key.empty()) xdotool({"keydown", held_key});
+  press(button);
   constexpr int kSteps = 8;
   for (int i = 1; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;
-    add({"mousemove", whole(x + share * (to_x - x)), whole(y + share * (to_y - y)), "sleep", paused(0.04)});
+    point_at(x + share * (to_x - x), y + share * (to_y - y));
   }
-  add({"sleep", paused(kTurn_s), "mouseup", number});
-  if (!held_key.empty()) add({"keyup", held_key});
-  xdotool(words);
-  wait_one_update();
+  release(button);
+  if (!held_key.empty()) {
+    xdotool({"keyup", held_key});
+    settle();
+  }
+  wait_until_at_rest();
 }
 
 void EditorDriver::drag(const std::string& name, double by_x, double by_y, int button, const std::string& held_key) {
@@ -251,31 +314,34 @@ void EditorDriver::drag(const std::string& name, double by_x, double by_y, int b
 }
 
 void EditorDriver::hold(double x, double y, int button) {
-  xdotool({"mousemove", whole(x), whole(y), "sleep", paused(kTurn_s), "mousedown", std::to_string(button)});
-  wait_one_update();
+  move(x, y);
+  press(button);
+  wait_until_at_rest();
 }
 
 void EditorDriver::release(int button) {
-  xdotool({"mouseup", std::to_string(button)});
-  wait_one_update();
+  release(button);
+  wait_until_at_rest();
 }
 
 void EditorDriver::wheel(double x, double y, int clicks) {
   move(x, y);
-  for (int i = 0; i < std::abs(clicks); ++i) {
-    xdotool({"click", clicks > 0 ? "4" : "5"});
-    wait_one_update();
-  }
+  xdotool({"click", "--repeat", std::to_string(std::abs(clicks)), "--delay", "0", clicks > 0 ? "4" : "5"});
+  settle();  // a key comes after what the wheel did
 }
 
 void EditorDriver::key(const std::string& keys) {
-  xdotool({"key", "--delay", whole(60 * pace_), keys});
-  wait_one_update();
+  xdotool({"key", "--delay", "0", keys});
+  ++released_keys_;
+  wait_until_at_rest();
 }
 
 void EditorDriver::type(const std::string& text) {
-  xdotool({"type", "--delay", whole(30 * pace_), "--", text});
-  wait_one_update();
+  for (const std::string& piece : pieces_of(text)) {
+    xdotool({"type", "--delay", "0", "--", piece});
+    released_keys_ += static_cast<int>(piece.size());
+    wait_until_at_rest();
+  }
 }
 
 void EditorDriver::screenshot(const fs::path& file) const {

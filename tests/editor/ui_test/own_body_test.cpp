@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
+#include <string>
 
 #include "editor/ui_test/ui_test.h"
 
@@ -21,14 +23,6 @@ bool shows(const Json& state, const std::string& place) {
   return state.contains("places") && state["places"].contains(place);
 }
 
-// A tab takes a press only where the mouse was in the update before, and a busy machine takes its time for a turn.
-void click_own_body_tab(UiTest& ui_test) {
-  const ScreenPlace tab = ui_test.editor().place("tab/own body");
-  ui_test.editor().move(tab.center_x(), tab.center_y());
-  ui_test.editor().settle();
-  ui_test.editor().click("tab/own body");
-}
-
 fs::path open_without_mask(UiTest& ui_test) {
   Json project = sample_project("head-on");
   project["footage"].erase("own_body_mask");
@@ -36,7 +30,7 @@ fs::path open_without_mask(UiTest& ui_test) {
   ui_test.editor().start({file.string()});
   ui_test.editor().wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   ui_test.editor().wait_for_image();
-  click_own_body_tab(ui_test);
+  ui_test.editor().click("tab/own body");
   // The world's panel makes room an update later.
   ui_test.editor().wait_for("room", [](const Json& now) {
     return shows(now, "own body/canvas") && now["places"]["own body/canvas"][2].get<double>() > 800;
@@ -56,9 +50,8 @@ void stroke(UiTest& ui_test, const glm::dvec2& from_px, const glm::dvec2& to_px,
   ui_test.editor().drag(from.x, from.y, to.x, to.y, 1, held_key);
 }
 
-void wait_for_place(UiTest& ui_test, const std::string& place, double seconds = 60) {
-  ui_test.editor().wait_for(
-      place, [&](const Json& now) { return shows(now, place); }, seconds);
+void wait_for_place(UiTest& ui_test, const std::string& place) {
+  ui_test.editor().wait_for(place, [&](const Json& now) { return shows(now, place); });
 }
 
 void detect_in(UiTest& ui_test, int frames) {
@@ -67,7 +60,16 @@ void detect_in(UiTest& ui_test, int frames) {
     ui_test.editor().key("Return");
   });
   ui_test.editor().click("own body/detect");
-  wait_for_place(ui_test, "own body/found", 120);
+  wait_for_place(ui_test, "own body/found");
+}
+
+// The mask comes first, then the project that names it.
+bool keeps_mask(const fs::path& home) {
+  std::error_code code;
+  const fs::directory_iterator files(home / "state/sigs/recovery", code);
+  std::set<std::string> kinds;
+  for (const auto& entry : files) kinds.insert(entry.path().extension());
+  return kinds.contains(".json") && kinds.contains(".png");
 }
 
 int value_at(const fs::path& mask, int x, int y) {
@@ -95,7 +97,7 @@ TEST_CASE("strokes that were not saved outlive a crash") {
   }
   editor.release();
   wait_for_place(ui_test, "own body/unsaved");
-  for (int i = 0; i < 12; ++i) editor.settle();  // autosave_s, and a turn that sees it
+  editor.wait_for("the recovery files", [&](const Json&) { return keeps_mask(ui_test.folder()); });
   editor.kill();
   CHECK(bytes_of(project) == original);
 
@@ -105,7 +107,7 @@ TEST_CASE("strokes that were not saved outlive a crash") {
   editor.click("start/recover.0");
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   editor.wait_for_image();
-  click_own_body_tab(ui_test);
+  editor.click("tab/own body");
   wait_for_place(ui_test, "own body/unsaved");
   editor.settle();
   ui_test.image("recovered");

@@ -92,7 +92,7 @@ TEST_CASE("no sequence of keys and mouse ends the editor, and it still saves") {
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   editor.wait_for_image();
   RandomInput random_input(editor, 2024);
-  editor.set_pace(0.5);
+  editor.set_hurried(true);
   int revision = 0;
   for (int i = 0; i < kEvents; ++i) {
     random_input.send_event();
@@ -100,7 +100,7 @@ TEST_CASE("no sequence of keys and mouse ends the editor, and it still saves") {
     if (i % 8 == 0) editor.key("Escape");  // a dialog swallows what comes
     REQUIRE_MESSAGE(editor.running(), "it ended after event " << i << " with " << editor.exit_status());
   }
-  editor.set_pace(1);
+  editor.set_hurried(false);
   ui_test.image("after");
   CHECK(revision > kEvents / 20);  // enough of it changed the project
   wait_until_idle(editor);

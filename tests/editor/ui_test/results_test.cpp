@@ -18,9 +18,8 @@ bool shows(const Json& state, const std::string& place) {
   return state.contains("places") && state["places"].contains(place);
 }
 
-void wait_for_place(UiTest& ui_test, const std::string& place, double seconds = 60) {
-  ui_test.editor().wait_for(
-      place, [&](const Json& now) { return shows(now, place); }, seconds);
+void wait_for_place(UiTest& ui_test, const std::string& place) {
+  ui_test.editor().wait_for(place, [&](const Json& now) { return shows(now, place); });
 }
 
 // As a person measures trackers of OpenCV; where their boxes lie then.
@@ -75,7 +74,7 @@ TEST_CASE("a person loads what trackers said and sees them beside the truth") {
   load(ui_test, ui_test.folder() / "csrt.csv");
   load(ui_test, ui_test.folder() / "medianflow.csv");
   load(ui_test, ui_test.folder() / "kcf.csv");
-  wait_for_place(ui_test, "results/measured", 180);
+  wait_for_place(ui_test, "results/measured");
   CHECK(shows(editor.state(), "timeline/lane/Centre error"));
   CHECK(shows(editor.state(), "viewport/legend"));
   ui_test.scrub_to(140);

@@ -82,8 +82,7 @@ TEST_CASE("a sound project has no warnings in the inspector") {
   editor.start({put(sample_project("head-on"), ui_test.folder() / "mine.json").string()});
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   editor.wait_for_image();
-  editor.wait_for(
-      "rest", [](const Json& now) { return !now.value("busy", true); }, 60);
+  editor.wait_for("rest", [](const Json& now) { return !now.value("busy", true); });
   CHECK_FALSE(editor.has_place("inspector/warnings"));
   CHECK_FALSE(editor.has_place("inspector/problems"));
 }
