@@ -13,7 +13,7 @@
 #include "accuracy/errors.h"
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
-#include "compositor/transfer_table.h"
+#include "compositor/footage_light.h"
 #include "frame/render_intruder.h"
 
 namespace sigs::accuracy {
@@ -71,7 +71,7 @@ Planes planes_of_rgb(const cv::Mat& rgb, const ColorInfo& color) {
 // wherever it lies.
 void blend_by_blocks(Frame& frame, const Layer& layer) {
   const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
-  const TransferTable& curve = transfer_table(TransferFunction::srgb);
+  const TransferCurve curve(TransferFunction::srgb);
   const Frame before = cloned(frame);
   cv::Mat moved(frame.planes[1].size(), CV_32FC2, cv::Scalar::all(0));
   for (int y = layer.rect.y; y < layer.rect.br().y; ++y)

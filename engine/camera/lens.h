@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <variant>
@@ -27,18 +26,6 @@ struct LensParameters {
   [[nodiscard]] bool operator==(const LensParameters&) const = default;
 };
 
-// What a lens makes of a ball, as far as can be told of all its points at once. Neither may be known.
-struct BallImage {
-  bool none_has_image = false;
-  bool all_have_image = false;
-
-  // Where all have, the pixel of a point p in the ball (camera frame) is dot(across[i], p) / dot(along, p), i = 0 for
-  // x, to error_px, which is a bound that counts rounding in; and dot(along, p) is positive.
-  glm::dvec3 along{0};
-  std::array<glm::dvec3, 2> across{};
-  double error_px = 0;
-};
-
 // Maps directions to pixels and back, as OpenCV's projectPoints and fisheye::projectPoints do, but only within the
 // field in which the map is one to one. A direction or pixel beyond it has no image, and nothing is extrapolated.
 class Lens {
@@ -59,9 +46,6 @@ class Lens {
   // Local magnification: how far the pixel moves, at most, when a direction (camera frame, any length) turns by a small
   // angle; px per radian. The largest singular value of d pixel / d angle. 0 where the direction has no image.
   [[nodiscard]] double pixels_per_radian(const glm::dvec3& direction_in_camera) const;
-
-  // Of the ball around a point, in the camera frame.
-  [[nodiscard]] BallImage ball_image(const glm::dvec3& center_in_camera, double radius) const;
 
   // Largest angle from the optical axis that has an image, radians. The field is round in undistorted coordinates.
   [[nodiscard]] double valid_angle_rad() const;

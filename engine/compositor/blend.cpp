@@ -9,7 +9,7 @@ namespace sigs {
 
 namespace {
 
-cv::Vec3f over_in_linear_light(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferTable& curve) {
+cv::Vec3f over_in_linear_light(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferCurve& curve) {
   const float through = 1 - layer[3];
   cv::Vec3f out;
   for (int c = 0; c < 3; ++c) out[c] = curve.display_of_linear(layer[c] + through * curve.linear_of_display(below[c]));
@@ -17,7 +17,7 @@ cv::Vec3f over_in_linear_light(const cv::Vec4f& layer, const cv::Vec3f& below, c
 }
 
 // The layer's own colour is made a display value first, then mixed by opacity.
-cv::Vec3f over_in_display_values(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferTable& curve) {
+cv::Vec3f over_in_display_values(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferCurve& curve) {
   const float opacity = layer[3];
   cv::Vec3f out;
   for (int c = 0; c < 3; ++c) out[c] = opacity * curve.display_of_linear(layer[c] / opacity) + (1 - opacity) * below[c];
@@ -28,7 +28,7 @@ template <BlendSpace space>
 struct LayerRow {
   const cv::Vec4f* colors;
   int left;
-  const TransferTable& curve;
+  const TransferCurve& curve;
 
   [[nodiscard]] float opacity(int x) const { return colors[x - left][3]; }
 
@@ -43,7 +43,7 @@ template <BlendSpace space>
 struct LayerPixels {
   const cv::Mat& color;  // in the footage's primaries
   const cv::Rect& rect;
-  const TransferTable& curve;
+  const TransferCurve& curve;
 
   [[nodiscard]] LayerRow<space> row(int y) const { return {color.ptr<cv::Vec4f>(y - rect.y), rect.x, curve}; }
 };
@@ -55,7 +55,7 @@ std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
   PlaneWriter planes(frame);
   const cv::Mat color = in_footage_primaries(layer.color, frame.color);
-  const TransferTable& curve = transfer_table_of(frame.color);
+  const TransferCurve curve = transfer_curve_of(frame.color);
   return space == BlendSpace::linear
              ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{color, layer.rect, curve})
              : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{color, layer.rect, curve});

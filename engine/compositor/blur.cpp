@@ -13,17 +13,18 @@ namespace sigs {
 
 namespace {
 
-constexpr double kCoarseStepsPerSigma = 8;
 constexpr double kSamplesPerSigma = 4;
 
-// Coarse pixels by their middles, in the image's pixels.
-UniformGrid middles(int first, int count, double step_px) {
-  return {.first = (first + 0.5) * step_px - 0.5, .step = step_px, .count = count};
+UniformGrid pixels_of(int first, int count) {
+  return {.first = static_cast<double>(first), .step = 1, .count = count};
 }
 
-// The number of the coarse pixel that holds a pixel, also left of the image.
-int coarse_index(int pixel, int step_px) {
-  return pixel >= 0 ? pixel / step_px : -((step_px - 1 - pixel) / step_px);
+// What lies within target keeps its place, beyond the layer there is nothing.
+cv::Mat coverage_over(const cv::Rect& target, const Layer& layer) {
+  cv::Mat coverage = cv::Mat::zeros(target.size(), CV_32FC1);
+  const cv::Rect both = target & layer.rect;
+  if (!both.empty()) layer.coverage(both - layer.rect.tl()).copyTo(coverage(both - target.tl()));
+  return coverage;
 }
 
 // Variance of weights exp(-n^2 log_ratio) on all whole numbers n; up to 1, a dozen of them say it all.
@@ -94,49 +95,28 @@ Layer blurred(const Layer& layer, double sigma_px) {
   return out;
 }
 
-double max_coarse_step_px(double sigma_px) {
-  return std::max(1.0, sigma_px / kCoarseStepsPerSigma);
-}
-
-Layer blurred_from_coarse(const Layer& coarse_layer, double step_px, double sigma_px, const cv::Rect& target) {
-  ENSURE(sigma_px >= kCoarseBlurSigma_px && step_px >= 1 && step_px <= max_coarse_step_px(sigma_px));
-  if (coarse_layer.empty() || target.empty()) return {};
+Layer widely_blurred(const Layer& layer, double sigma_px, const cv::Rect& target) {
+  ENSURE(sigma_px >= kWideSigma_px);
+  if (layer.empty() || target.empty()) return {};
   const double sample_step_px = sigma_px / kSamplesPerSigma;
-  // A coarse pixel moves its pixels to its middle, and the spline spreads: the kernel between them gives way by that
-  // much.
-  const double moved = (step_px * step_px - 1) / 12;
-  const double kernel_px = std::sqrt(sigma_px * sigma_px - moved - splined_variance(sample_step_px));
+  const double kernel_px = std::sqrt(sigma_px * sigma_px - splined_variance(sample_step_px));  // the spline spreads too
   const double radius_px = std::ceil(3 * sigma_px) + 0.5;  // as far as blurred() reaches, in whole pixels
   const UniformGrid down = uniform_grid_for(target.y, target.height, sample_step_px);
   const UniformGrid across = uniform_grid_for(target.x, target.width, sample_step_px);
-  const cv::Mat samples = resampled(
-      coarse_layer.color,
-      gaussian_taps(down, middles(coarse_layer.rect.y, coarse_layer.rect.height, step_px), kernel_px, radius_px),
-      gaussian_taps(across, middles(coarse_layer.rect.x, coarse_layer.rect.width, step_px), kernel_px, radius_px));
+  const cv::Mat samples =
+      resampled(layer.color, gaussian_taps(down, pixels_of(layer.rect.y, layer.rect.height), kernel_px, radius_px),
+                gaussian_taps(across, pixels_of(layer.rect.x, layer.rect.width), kernel_px, radius_px));
   return {target,
           resampled(samples, spline_taps(target.y, target.height, down), spline_taps(target.x, target.width, across)),
-          cv::Mat::zeros(target.size(), CV_32FC1)};
+          coverage_over(target, layer)};
 }
 
-Layer downsampled(const Layer& layer, int step_px) {
-  if (layer.empty()) return {};
-  const cv::Point first(coarse_index(layer.rect.x, step_px), coarse_index(layer.rect.y, step_px));
-  const cv::Point last(coarse_index(layer.rect.br().x - 1, step_px), coarse_index(layer.rect.br().y - 1, step_px));
-  const cv::Rect coarse_layer(first, last + cv::Point(1, 1));
-  const cv::Rect pixels(coarse_layer.tl() * step_px, coarse_layer.size() * step_px);
-  cv::Mat color = cv::Mat::zeros(pixels.size(), CV_32FC4);
-  layer.color.copyTo(color(layer.rect - pixels.tl()));
-  cv::resize(color, color, coarse_layer.size(), 0, 0, cv::INTER_AREA);
-  return {coarse_layer, color, cv::Mat::zeros(coarse_layer.size(), CV_32FC1)};
-}
-
-double max_after_blur(const Layer& coarse_layer, double step_px, double sigma_px) {
-  if (coarse_layer.empty()) return 0;
-  const cv::Scalar sum = cv::sum(coarse_layer.color);
-  const double most = std::max({sum[0], sum[1], sum[2], sum[3]}) * step_px * step_px;
-  constexpr double kCut =
-      1.03;  // the cut kernel is higher by 1 / 0.9973^2, and by 1 / 48 as it gives way to the spline
-  return kCut * most / (2 * std::numbers::pi * sigma_px * sigma_px);
+double max_after_blur(const Layer& layer, double sigma_px) {
+  if (layer.empty()) return 0;
+  const cv::Scalar sum = cv::sum(layer.color);
+  // The cut kernel is higher by 1 / 0.9973^2, and by 1 / 48 as it gives way to the spline.
+  constexpr double kCut = 1.03;
+  return kCut * std::max({sum[0], sum[1], sum[2], sum[3]}) / (2 * std::numbers::pi * sigma_px * sigma_px);
 }
 
 }  // namespace sigs

@@ -22,11 +22,11 @@ namespace {
 const cv::Scalar kGreenBorder(0, 255, 0);
 
 // An intruder that is pure green itself gives way by one code value, so that the key stays the backdrop's alone.
-cv::Vec3b keyed_color(const cv::Vec4f& premultiplied, const TransferTable& curve) {
+cv::Vec3b keyed_color(const cv::Vec4f& premultiplied, const TransferCurve& curve) {
   const float opacity = std::max(premultiplied[3], 1e-6F);
   cv::Vec3b bgr;
   for (int c = 0; c < 3; ++c)
-    bgr[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.exact_display(std::max(premultiplied[c] / opacity, 0.0F)));
+    bgr[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.display_of_linear(std::max(premultiplied[c] / opacity, 0.0F)));
   return bgr == kKeyGreen ? cv::Vec3b(0, 254, 0) : bgr;
 }
 
@@ -114,7 +114,7 @@ cv::Mat coarse_gaussian_blurred(const cv::Mat& image, double sigma_px) {
 
 cv::Mat on_green_screen(const Layer& layer, const ColorInfo& color, cv::Size image_size_px, cv::Mat buffer) {
   const cv::Mat layer_color = in_footage_primaries(layer.color, color);
-  const TransferTable& curve = transfer_table_of(color);
+  const TransferCurve curve = transfer_curve_of(color);
   buffer.create(image_size_px, CV_8UC3);
   buffer.setTo(kGreenBorder);
   const cv::Rect inside = layer.rect & cv::Rect({0, 0}, image_size_px);
@@ -148,7 +148,7 @@ cv::Mat distorted(const cv::Mat& image, const DistortMaps& maps, const cv::Scala
 cv::Mat gaussian_blurred(const cv::Mat& image, double sigma_px, cv::Mat buffer) {
   ENSURE(sigma_px >= 0 && std::isfinite(sigma_px));
   if (sigma_px == 0) return image;
-  if (sigma_px > kCoarseBlurSigma_px) return coarse_gaussian_blurred(image, sigma_px);
+  if (sigma_px > kWideSigma_px) return coarse_gaussian_blurred(image, sigma_px);
   cv::GaussianBlur(image, buffer, {0, 0}, sigma_px);
   return buffer;
 }
@@ -156,7 +156,7 @@ cv::Mat gaussian_blurred(const cv::Mat& image, double sigma_px, cv::Mat buffer) 
 cv::Rect gaussian_blur_source(const cv::Rect& part, double sigma_px, cv::Size image_size_px) {
   const cv::Rect whole({0, 0}, image_size_px);
   if (sigma_px == 0) return part;
-  if (sigma_px > kCoarseBlurSigma_px) return whole;
+  if (sigma_px > kWideSigma_px) return whole;
   const int radius_px = static_cast<int>(std::ceil(3 * sigma_px)) + 1;  // of OpenCV's kernel for 8 bits
   return cv::Rect(part.x - radius_px, part.y - radius_px, part.width + 2 * radius_px, part.height + 2 * radius_px) &
          whole;

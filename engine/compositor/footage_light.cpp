@@ -5,8 +5,8 @@
 
 namespace sigs {
 
-const TransferTable& transfer_table_of(const ColorInfo& color) {
-  return transfer_table(transfer_function_of(color.transfer).value_or(TransferFunction::srgb));
+TransferCurve transfer_curve_of(const ColorInfo& color) {
+  return TransferCurve(transfer_function_of(color.transfer).value_or(TransferFunction::srgb));
 }
 
 cv::Mat in_footage_primaries(const cv::Mat& layer_color, const ColorInfo& color) {

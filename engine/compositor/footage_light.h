@@ -3,8 +3,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "compositor/transfer_table.h"
+#include "base/transfer.h"
 #include "video/frame.h"
+#include "video/transfer_function.h"
 
 namespace sigs {
 
@@ -12,8 +13,26 @@ namespace sigs {
 // stand for. What the footage states and SIGS does not follow is taken for sRGB's curve and BT.709's primaries; opening
 // it warns of that.
 
-// Of the footage's transfer function.
-[[nodiscard]] const TransferTable& transfer_table_of(const ColorInfo& color);
+// A footage's transfer function, both ways; display values are 0 to 1.
+class TransferCurve {
+ public:
+  explicit TransferCurve(TransferFunction function) : function_(function) {}
+
+  [[nodiscard]] float linear_of_display(float display) const {
+    if (function_ == TransferFunction::srgb) return sigs::linear_of_display(display);
+    return static_cast<float>(sigs::linear_of_display(function_, display));
+  }
+
+  [[nodiscard]] float display_of_linear(float linear) const {
+    if (function_ == TransferFunction::srgb) return sigs::display_of_linear(linear);
+    return static_cast<float>(sigs::display_of_linear(function_, linear));
+  }
+
+ private:
+  TransferFunction function_;
+};
+
+[[nodiscard]] TransferCurve transfer_curve_of(const ColorInfo& color);
 
 // A layer's colour (CV_32FC4, premultiplied) in the footage's primaries. Shares its samples where they are BT.709's.
 [[nodiscard]] cv::Mat in_footage_primaries(const cv::Mat& layer_color, const ColorInfo& color);

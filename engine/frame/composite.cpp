@@ -43,13 +43,13 @@ void add_to_mask(cv::Mat& mask, cv::Size image_size_px, const cv::Rect& rect, co
 cv::Mat shown(const Layer& layer, const ColorInfo& footage, cv::Size image_size_px) {
   cv::Mat image = cv::Mat::zeros(image_size_px, CV_8UC3);
   const cv::Mat colors = in_footage_primaries(layer.color, footage);
-  const TransferTable& curve = transfer_table_of(footage);
+  const TransferCurve curve = transfer_curve_of(footage);
   const cv::Rect inside = layer.rect & cv::Rect({0, 0}, image_size_px);
   for (int y = inside.y; y < inside.y + inside.height; ++y)
     for (int x = inside.x; x < inside.x + inside.width; ++x) {
       const cv::Vec4f& color = colors.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x);
       for (int c = 0; c < 3; ++c)
-        image.at<cv::Vec3b>(y, x)[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.exact_display(color[c]));
+        image.at<cv::Vec3b>(y, x)[2 - c] = cv::saturate_cast<uchar>(255.0F * curve.display_of_linear(color[c]));
     }
   return image;
 }

@@ -10,10 +10,9 @@
 #include "camera/lens_table.h"
 #include "camera/virtual_camera.h"
 #include "compositor/blur.h"
-#include "compositor/coarse_blur.h"
 #include "compositor/occlude.h"
 #include "frame/render_item.h"
-#include "truth/quick_silhouette.h"
+#include "truth/measure.h"
 #include "video/transfer_function.h"
 
 namespace sigs {
@@ -40,6 +39,14 @@ std::optional<Box> bounds_of(const IntruderLayers& layers, double radius_m) {
 bool may_span_several_views(const RenderItem& item) {
   constexpr double kRadii = 2.3;  // sqrt(3) / sin(50 degrees)
   return item.placed.distance_m() < kRadii * item.mesh.radius_m;
+}
+
+// How far beyond the image's edge light is looked for that blur carries into it: all that a sigma of 100 px carries.
+// From farther off only a near intruder has any, before a blur in which nothing of it can be recognised.
+constexpr int kFarthestLight_px = 300;
+
+int reach_px(double sigma_px) {
+  return sigma_px > kFarthestLight_px ? kFarthestLight_px : std::min(blur_margin_px(sigma_px), kFarthestLight_px);
 }
 
 // Pixels that the intruder can reach, blur counted in.
@@ -85,30 +92,19 @@ Result<double> whole_area_px(IntruderLayers& layers, const LensTable& lens, cons
 
 // What is to be rendered of an intruder, and where it goes.
 struct RenderPlan {
-  cv::Rect sharp_rect;                    // of its warped layer
-  std::optional<CoarseGrid> coarse_grid;  // of its blurred one, where that is made on a coarse grid
-  std::optional<LensTable> coarse_lens_table;
+  cv::Rect sharp_rect;  // of its warped layer
   std::vector<VirtualCamera> views;
-  std::vector<VirtualCamera> coarse_views;  // empty: the warped layer holds all that they need
 };
 
 RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const RenderItem& item, const Scene& scene) {
-  const bool is_coarse_blurred = layers.sigma_px > kCoarseBlurSigma_px;
-  const double supersampling = scene.compositing.supersampling;
   const std::optional<Box> bounds = bounds_of(layers, item.mesh.radius_m);
-  const cv::Rect image = image_rect(scene);
-  RenderPlan plan{.sharp_rect = sharp_rect_of(bounds, is_coarse_blurred ? 0 : blur_margin_px(layers.sigma_px), image)};
-  if (is_coarse_blurred) plan.coarse_grid = coarse_grid(bounds, lens.camera(), image, layers.sigma_px);
+  RenderPlan plan{.sharp_rect = sharp_rect_of(bounds, reach_px(layers.sigma_px), image_rect(scene))};
   const bool is_within = bounds && pixels_touched(*bounds, 1, kEverywhere) == plan.sharp_rect;
   // Of a body that lies within there is nothing to cut off.
   const std::optional<cv::Rect> target =
       is_within && !may_span_several_views(item) ? std::nullopt : std::optional(plan.sharp_rect);
   if (!plan.sharp_rect.empty())
-    plan.views = virtual_cameras(lens, item.corners, target, supersampling, kLargestView_px);
-  if (!plan.coarse_grid) return plan;
-  plan.coarse_lens_table.emplace(coarse_lens(lens, plan.coarse_grid->step_px));
-  if (plan.views.empty() || !is_within)
-    plan.coarse_views = coarse_views(*plan.coarse_grid, *plan.coarse_lens_table, item, supersampling, kLargestView_px);
+    plan.views = virtual_cameras(lens, item.corners, target, scene.compositing.supersampling, kLargestView_px);
   return plan;
 }
 
@@ -118,14 +114,24 @@ bool needs_blur(const Scene& scene) {
   return scene.compositing.method != MethodChoice::classic || scene.intruders.size() > 1;
 }
 
-void count_warping(OpCounts& counts, const IntruderLayers& layers, const RenderPlan& plan, const Scene& scene) {
+// The warped layer, blurred, within the image. Empty where it is too faint to change any 8-bit sample.
+Layer blurred_in_image(const IntruderLayers& layers, const Scene& scene, const ColorInfo& footage) {
+  const cv::Rect image = image_rect(scene);
+  const bool is_wide = layers.sigma_px > kWideSigma_px;
+  const TransferFunction function = transfer_function_of(footage.transfer).value_or(TransferFunction::srgb);
+  if (is_wide && max_after_blur(layers.warped, layers.sigma_px) < min_light(function)) return {};
+  if (!needs_blur(scene)) return clipped(layers.warped, image);
+  if (!is_wide) return clipped(blurred(layers.warped, layers.sigma_px), image);
+  constexpr double kEverywhere_px = 1e6;
+  const int grown_px = static_cast<int>(std::min(std::ceil(3 * layers.sigma_px), kEverywhere_px));
+  const cv::Rect& rect = layers.warped.rect;
+  const cv::Rect grown(rect.x - grown_px, rect.y - grown_px, rect.width + 2 * grown_px, rect.height + 2 * grown_px);
+  return widely_blurred(layers.warped, layers.sigma_px, grown & image);
+}
+
+void count_warping(OpCounts& counts, const IntruderLayers& layers, const Scene& scene) {
   counts.pixels_warped += layers.warped.rect.area();
-  if (plan.coarse_grid) {
-    counts.lens_evaluations += plan.coarse_lens_table->evaluations();
-    if (!plan.coarse_views.empty()) counts.pixels_warped += plan.coarse_grid->rect.area();
-  }
-  if (layers.sigma_px > 0 && (plan.coarse_grid || needs_blur(scene)))
-    counts.pixels_blurred += layers.blurred.rect.area();
+  if (layers.sigma_px > 0 && needs_blur(scene)) counts.pixels_blurred += layers.blurred.rect.area();
 }
 
 // Draws the views and makes the layers of them.
@@ -133,19 +139,11 @@ Result<void> render_layers(IntruderLayers& layers, RenderPlan& plan, LensTable& 
                            const Scene& scene, const ColorInfo& footage, Renderer& renderer) {
   Result<std::vector<RenderedView>> rendered = rendered_in_time(layers.draw_s, plan.views, item, renderer);
   if (!rendered) return fail(rendered.error());
-  Result<std::vector<RenderedView>> rendered_coarse =
-      rendered_in_time(layers.draw_s, plan.coarse_views, item, renderer);
-  if (!rendered_coarse) return fail(rendered_coarse.error());
-  if (!rendered->empty()) layers.warped = warped(*rendered, lens, plan.sharp_rect);
-  if (plan.coarse_grid)
-    layers.blurred =
-        coarse_blurred(*plan.coarse_grid, layers.warped, *rendered_coarse, *plan.coarse_lens_table, layers.sigma_px,
-                       min_light(transfer_function_of(footage.transfer).value_or(TransferFunction::srgb)));
-  else
-    layers.blurred = clipped(blurred(layers.warped, needs_blur(scene) ? layers.sigma_px : 0), image_rect(scene));
+  layers.warped = warped(*rendered, lens, plan.sharp_rect);
+  layers.blurred = blurred_in_image(layers, scene, footage);
   layers.occluded = occluded_by_body(layers.blurred, scene.own_body);
-  layers.views = std::move(rendered->empty() ? *rendered_coarse : *rendered);
-  count_warping(layers.op_counts, layers, plan, scene);
+  layers.views = std::move(*rendered);
+  count_warping(layers.op_counts, layers, scene);
   return {};
 }
 
@@ -180,10 +178,9 @@ Result<IntruderLayers> render_intruder(const Scene& scene, const SceneMoment& mo
   const std::int64_t evaluations_before = lens.evaluations();
   const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
   IntruderLayers layers{.placed = placed};
-  const QuickSilhouette silhouette =
-      silhouette_of(model.points_m, model.tree, placed.camera_from_body, lens.camera().lens);
-  layers.silhouette = silhouette.silhouette;
-  if (!lens.camera().lens.is_pinhole()) layers.op_counts.lens_evaluations = silhouette.lens_evaluations;
+  layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, lens.camera().lens);
+  if (!lens.camera().lens.is_pinhole())
+    layers.op_counts.lens_evaluations = static_cast<std::int64_t>(model.points_m.size());
   if (scene.compositing.method != MethodChoice::plain)
     layers.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
 
@@ -191,7 +188,7 @@ Result<IntruderLayers> render_intruder(const Scene& scene, const SceneMoment& mo
   const Light light{moment.light_in_camera, scene.light.color, scene.light.ambient};
   const RenderItem item{model.mesh, layers.placed, light, corners_in_camera(model.mesh, placed.camera_from_body)};
   RenderPlan plan = render_plan_for(layers, lens, item, scene);
-  if (plan.views.empty() && plan.coarse_views.empty()) {
+  if (plan.views.empty()) {
     layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
     return layers;
   }

@@ -18,10 +18,9 @@ struct IntruderLayers {
   std::optional<Silhouette> silhouette;
   double sigma_px = 0;
   std::vector<RenderedView> views;  // empty: no part of it can reach the image, nothing was drawn
-  Layer warped;    // through the lens, over all pixels it can reach within the image; grown by the blur where that is
-                   // made from it
-  Layer blurred;   // the same, blurred, clipped to the image; empty where too faint to change any sample
-  Layer occluded;  // the same, hidden by the own body; shares its samples where there is none
+  Layer warped;              // through the lens, over all pixels from which it can reach the image, blur counted in
+  Layer blurred;             // the same, blurred, clipped to the image; empty where too faint to change any sample
+  Layer occluded;            // the same, hidden by the own body; shares its samples where there is none
   double draw_s = 0;         // what OpenGL took
   OpCounts op_counts;        // that this intruder took up to here
   double whole_area_px = 0;  // of the silhouette, also where it lies outside the image

@@ -124,16 +124,17 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
 
 }  // namespace
 
-GpuMesh::GpuMesh(const Mesh& mesh)
-    : fingerprint_(fingerprint_of(mesh)), texture_of_material_(texture_numbers(mesh)), radius_m_(mesh.radius_m) {
-  Mesh split = split_by_material(mesh);
+GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)), texture_of_material_(texture_numbers(mesh)) {
+  const Mesh split = split_by_material(mesh);
   const std::vector<Surface> surfaces = surfaces_of(split);
-  whole_ = solid_list(split, surfaces, texture_of_material_);
+  const DrawList solid = solid_list(split, surfaces, texture_of_material_);
+  solid_ = solid.runs;
   transparent_triangles_ = sigs::transparent_triangles(split, surfaces);
 
   glGenVertexArrays(1, &vertex_array_);
   glGenBuffers(1, &vertex_buffer_);
   glGenBuffers(1, &material_buffer_);
+  glGenBuffers(1, &solid_indices_);
   glGenBuffers(1, &sorted_indices_);
   glBindVertexArray(vertex_array_);
   bytes_uploaded_ += upload(GL_ARRAY_BUFFER, vertex_buffer_, split.vertices, GL_STATIC_DRAW);
@@ -143,9 +144,8 @@ GpuMesh::GpuMesh(const Mesh& mesh)
   bytes_uploaded_ += upload(GL_ARRAY_BUFFER, material_buffer_, vertex_materials(split), GL_STATIC_DRAW);
   set_attribute<VertexMaterial>(3, 4, offsetof(VertexMaterial, color));
   set_attribute<VertexMaterial>(4, 4, offsetof(VertexMaterial, gloss));
-  whole_level_ = uploaded_level(whole_);
+  bytes_uploaded_ += upload(GL_ELEMENT_ARRAY_BUFFER, solid_indices_, solid.indices, GL_STATIC_DRAW);
   upload_textures(mesh);
-  vertices_ = std::move(split.vertices);
 }
 
 void GpuMesh::upload_textures(const Mesh& mesh) {
@@ -157,20 +157,12 @@ void GpuMesh::upload_textures(const Mesh& mesh) {
   }
 }
 
-GpuMesh::Level GpuMesh::uploaded_level(const DrawList& list) {
-  Level level{.runs = list.runs};
-  glGenBuffers(1, &level.indices);
-  bytes_uploaded_ += upload(GL_ELEMENT_ARRAY_BUFFER, level.indices, list.indices, GL_STATIC_DRAW);
-  return level;
-}
-
 bool GpuMesh::is_copy_of(const Mesh& mesh) const {
   return fingerprint_ == fingerprint_of(mesh);
 }
 
 void GpuMesh::release() {
-  std::vector<GLuint> buffers{vertex_buffer_, material_buffer_, sorted_indices_, whole_level_.indices};
-  for (const auto& [step, level] : levels_) buffers.push_back(level.indices);
+  const std::array<GLuint, 4> buffers{vertex_buffer_, material_buffer_, solid_indices_, sorted_indices_};
   glDeleteBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   glDeleteVertexArrays(1, &vertex_array_);
   glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
@@ -180,22 +172,10 @@ DrawList GpuMesh::sorted_for(const glm::dvec3& eye_m) const {
   return sorted_list(transparent_triangles_, texture_of_material_, eye_m);
 }
 
-std::optional<int> GpuMesh::worthwhile_step(double error_m) const {
-  constexpr std::size_t kFewTriangles = 1000;  // are drawn as fast whole
-  constexpr double kMinError = 1.0 / 4096;     // of the radius: in so large a view it is pixels that cost
-  constexpr double kMaxError = 1.0 / 64;       // of the radius: what is coarser is not worth its memory
-  if (whole_.indices.size() < 3 * kFewTriangles || !(error_m > kMinError * radius_m_)) return std::nullopt;
-  return step_for(std::min(error_m, kMaxError * radius_m_));
-}
-
-const std::vector<Run>& GpuMesh::bind_solid(double error_m) {
+const std::vector<Run>& GpuMesh::bind_solid() const {
   glBindVertexArray(vertex_array_);
-  const std::optional<int> step = worthwhile_step(error_m);
-  if (step && !levels_.contains(*step))
-    levels_.emplace(*step, uploaded_level(simplified_list(vertices_, whole_, *step)));
-  const Level& level = step ? levels_.at(*step) : whole_level_;
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, level.indices);
-  return level.runs;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, solid_indices_);
+  return solid_;
 }
 
 void GpuMesh::bind_sorted(const DrawList& list) const {

@@ -2,14 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
 #include "render/draw_list.h"
-#include "render/level_of_detail.h"
 
 namespace sigs {
 
@@ -28,9 +25,9 @@ class GpuMesh {
   // What is seen through, far to near as the eye (body axes) sees it.
   [[nodiscard]] DrawList sorted_for(const glm::dvec3& eye_m) const;
 
-  // Makes the following calls of draw() take their triangles from the solid ones, off by error_m at most, whose runs it
-  // returns; or from a list of this moment. Fewer triangles are made where first wanted, and kept.
-  const std::vector<Run>& bind_solid(double error_m);
+  // Makes the following calls of draw() take their triangles from the solid ones, whose runs it returns; or from a list
+  // of this moment.
+  const std::vector<Run>& bind_solid() const;
   void bind_sorted(const DrawList& list) const;
   void draw(const Run& run) const;
 
@@ -41,28 +38,17 @@ class GpuMesh {
   [[nodiscard]] std::int64_t take_bytes_uploaded() { return std::exchange(bytes_uploaded_, 0); }
 
  private:
-  struct Level {
-    std::vector<Run> runs;
-    unsigned int indices = 0;
-  };
-
-  // Nothing: the whole mesh.
-  [[nodiscard]] std::optional<int> worthwhile_step(double error_m) const;
   void upload_textures(const Mesh& mesh);
-  [[nodiscard]] Level uploaded_level(const DrawList& list);
 
   std::uint64_t fingerprint_;
-  std::vector<Vertex> vertices_;
   std::vector<int> texture_of_material_;
   std::vector<TransparentTriangle> transparent_triangles_;
-  DrawList whole_;
-  Level whole_level_;
-  std::map<int, Level> levels_;  // by step, detail.h
+  std::vector<Run> solid_;
   std::int64_t bytes_uploaded_ = 0;
-  double radius_m_;
   unsigned int vertex_array_ = 0;
   unsigned int vertex_buffer_ = 0;
   unsigned int material_buffer_ = 0;
+  unsigned int solid_indices_ = 0;
   unsigned int sorted_indices_ = 0;
   std::vector<unsigned int> textures_;
 };

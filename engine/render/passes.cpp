@@ -56,10 +56,10 @@ Result<Programs> Programs::create() {
   return Programs{{std::move(*plain), std::move(*pictured), std::move(*layered)}};
 }
 
-PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, double error_m, bool from_outside) {
+PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, bool from_outside) {
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
-  const std::vector<Run>& runs = gpu.bind_solid(error_m);
+  const std::vector<Run>& runs = gpu.bind_solid();
   return draw_runs(programs, gpu, runs, true, from_outside);
 }
 

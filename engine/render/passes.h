@@ -26,9 +26,9 @@ struct PassCounts {
   std::int64_t draw_calls = 0;
 };
 
-// Solid parts and the opaque texels of cutouts, by the depth buffer, off by error_m at most.
+// Solid parts and the opaque texels of cutouts, by the depth buffer.
 //   from_outside  nothing of the body is at or behind the eye: sides that face inwards need not be drawn
-PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, double error_m, bool from_outside);
+PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, bool from_outside);
 
 // Glass and the other texels of cutouts, blended in the order of the list.
 PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted);

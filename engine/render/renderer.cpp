@@ -32,8 +32,6 @@ struct Renderer::State {
 namespace {
 
 constexpr int kLargestView_px = 16384;
-constexpr double kDetail_px =
-    1.0 / 16;  // of a view: solid parts may be drawn so far off, below the step of its samples
 using ViewFromBody = Pose<frame::View, frame::Body>;
 
 bool is_finite(const glm::dvec3& v) {
@@ -70,12 +68,6 @@ void set_light(const Program& program, const Light& light, const ViewFromBody& v
 // Outside the body with all of it beyond the near plane.
 bool sees_from_outside(const ViewFromBody& view_from_body, const Mesh& mesh) {
   return view_from_body.translation_m.x > 1.01 * mesh.radius_m;
-}
-
-// What solid parts may be off by, where the body is nearest. 0 around the eye.
-double allowed_error_m(const ViewFromBody& view_from_body, const Mesh& mesh, const VirtualCamera& view) {
-  const double nearest_m = view_from_body.translation_m.x - mesh.radius_m;
-  return std::max(0.0, kDetail_px * nearest_m / view.focal_px);
 }
 
 void set_fixed_state() {
@@ -165,7 +157,6 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   if (mesh.indices.empty()) return layer;
   GpuMesh& gpu = uploaded(state_->meshes, mesh);
   const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
-  const double error_m = allowed_error_m(view_from_body, mesh, view);
   const bool from_outside = sees_from_outside(view_from_body, mesh);
   set_fixed_state();
   for (const Program& program : state_->programs.all) set_light(program, light, view_from_body, view.view_from_camera);
@@ -177,7 +168,7 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
       program.use();
       program.set("clip_from_body", glm::mat4(*clip));
     }
-    count(draw_solid(state_->programs, gpu, error_m, from_outside), state_->counts);
+    count(draw_solid(state_->programs, gpu, from_outside), state_->counts);
     count(draw_transparent(state_->programs, gpu, sorted), state_->counts);
     state_->target.read(layer.color(piece), layer.coverage(piece));
     state_->counts.pixels_drawn += piece.area();

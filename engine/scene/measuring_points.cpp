@@ -94,7 +94,6 @@ Model model_of(Mesh mesh) {
   Model model{.mesh = std::move(mesh)};
   model.points_m = measuring_points(model.mesh);
   model.outermost_m = outermost_points(model.points_m);
-  model.tree = tree_of(model.points_m);
   return model;
 }
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/point_tree.h"
 #include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
@@ -34,8 +33,7 @@ struct SceneLight {
 // An aircraft to draw, and the points to measure it by (scene/measuring_points.h).
 struct Model {
   Mesh mesh;
-  std::vector<glm::vec3> points_m;     // body axes, in the tree's order
-  PointTree tree;                      // of points_m
+  std::vector<glm::vec3> points_m;     // body axes
   std::vector<glm::vec3> outermost_m;  // the few of them that bound it
 };
 

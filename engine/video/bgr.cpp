@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
-#include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
 #include "base/ensure.h"
@@ -93,44 +92,9 @@ uchar converted(const cv::Matx33f& m, int row, float y, float u, float v) {
   return code_of(m(row, 0) * y + m(row, 1) * u + m(row, 2) * v);
 }
 
-#if CV_SIMD128
-// The same sums in the same order for four pixels, not rounded.
-cv::v_float32x4 codes_of(const cv::Matx33f& m, int row, const cv::v_float32x4& y, const cv::v_float32x4& u,
-                         const cv::v_float32x4& v) {
-  const cv::v_float32x4 sum =
-      cv::v_setall_f32(m(row, 0)) * y + cv::v_setall_f32(m(row, 1)) * u + cv::v_setall_f32(m(row, 2)) * v;
-  return cv::v_min(cv::v_max(sum, cv::v_setzero_f32()), cv::v_setall_f32(255)) + cv::v_setall_f32(0.5F);
-}
-
-// Sixteen pixels of one row, from x on: B, G, R.
-void convert_sixteen(const uchar* luma, const float* cb, const float* cr, const cv::Matx33f& m, const cv::Vec3f& offset,
-                     uchar* bgr) {
-  cv::v_uint16x8 low, high;
-  cv::v_expand(cv::v_load(luma), low, high);
-  cv::v_uint32x4 codes[4];
-  cv::v_expand(low, codes[0], codes[1]);
-  cv::v_expand(high, codes[2], codes[3]);
-  cv::v_int32x4 out[3][4];
-  for (int i = 0; i < 4; ++i) {
-    const auto y = cv::v_cvt_f32(cv::v_reinterpret_as_s32(codes[i])) - cv::v_setall_f32(offset[0]);
-    const auto u = cv::v_load(cb + 4 * i) - cv::v_setall_f32(offset[1]);
-    const auto v = cv::v_load(cr + 4 * i) - cv::v_setall_f32(offset[2]);
-    for (int c = 0; c < 3; ++c) out[c][i] = cv::v_trunc(codes_of(m, 2 - c, y, u, v));
-  }
-  cv::v_uint8x16 bytes[3];
-  for (int c = 0; c < 3; ++c)
-    bytes[c] = cv::v_pack_u(cv::v_pack(out[c][0], out[c][1]), cv::v_pack(out[c][2], out[c][3]));
-  cv::v_store_interleave(bgr, bytes[0], bytes[1], bytes[2]);
-}
-#endif
-
 void convert_row(const uchar* luma, const float* cb, const float* cr, int width, const CodeToRgb& map, uchar* bgr) {
   const cv::Matx33f m = map.to_rgb * 255.0F;
-  int x = 0;
-#if CV_SIMD128
-  for (; x + 16 <= width; x += 16) convert_sixteen(luma + x, cb + x, cr + x, m, map.offset, bgr + 3 * x);
-#endif
-  for (; x < width; ++x) {
+  for (int x = 0; x < width; ++x) {
     const float y = static_cast<float>(luma[x]) - map.offset[0];
     const float u = cb[x] - map.offset[1];
     const float v = cr[x] - map.offset[2];

@@ -46,7 +46,7 @@ const Curve kCurves[] = {
     {8, [](double v) { return v; }, [](double l) { return l; }},
 };
 
-// How far a code value may be off: rounding, and the tables' hundredth.
+// How far a code value may be off: rounding, and the floats between.
 constexpr double kRounding = 0.51;
 
 }  // namespace

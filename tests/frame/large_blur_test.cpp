@@ -10,7 +10,6 @@
 
 #include "camera/virtual_camera.h"
 #include "compositor/blend.h"
-#include "compositor/coarse_blur.h"
 #include "frame/render_intruder.h"
 #include "frame/render_item.h"
 #include "frame/synthetic_scenes.h"
@@ -148,28 +147,6 @@ void add_aircraft(Scenario& scenario, const glm::dvec3& position_m) {
 
 }  // namespace
 
-TEST_CASE("a body of a kilometre before a blur of thousands of pixels is drawn in bounded memory") {
-  const Camera camera{Lens::make({.fx = 700, .fy = 700, .cx = 479.5, .cy = 269.5}).value(), {960, 540}};
-  Mesh mesh;
-  mesh.low_m = glm::vec3(-500);
-  mesh.high_m = glm::vec3(500);
-  PlacedIntruder placed;
-  placed.camera_from_body.translation_m = {20, 0, 0};
-  const Light light;
-  const RenderItem item{mesh, placed, light, corners_in_camera(mesh, placed.camera_from_body)};
-  for (const double sigma_px : {20.0, 200.0, 2e3, 1e4, 1e5}) {
-    const auto grid = coarse_grid(std::nullopt, camera, {{0, 0}, camera.size_px}, sigma_px);
-    REQUIRE(grid.has_value());
-    LensTable lens(coarse_camera(camera, grid->step_px));
-    double drawn_px = 0;
-    for (const VirtualCamera& view : coarse_views(*grid, lens, item, 3, 16384))
-      drawn_px += static_cast<double>(view.size_px.width) * view.size_px.height;
-    CAPTURE(sigma_px);
-    CHECK(drawn_px > 0);
-    CHECK(drawn_px < 8.1e6);  // 20 bytes each
-  }
-}
-
 TEST_CASE("far blur of the sample projects is that of the full resolution") {
   const struct {
     const char* project;
@@ -264,21 +241,18 @@ TEST_CASE("what is blurred until no sample can change is left out, and only that
   }
 }
 
-TEST_CASE("around the camera a sphere stays opaque however far it is blurred") {
-  for (const double sigma_px : {100.0, 1000.0}) {
-    CAPTURE(sigma_px);
-    Scenario scenario;
-    write_sphere_obj(scenario.path("sphere.obj"), 8);
-    scenario.add("sphere.obj", {4, 0, -150});
-    scenario.project.compositing.supersampling = 1;
-    Scene scene = scenario.opened();
-    scene.compositing.blur_px_per_m = sigma_px / 4;
-    const ComposedFrame frame = composed(scene, 1, even_frame(scenario.size_px(), 100));
-    double least = 0;
-    cv::minMaxIdx(frame.mask, &least);
-    CHECK(least >= (sigma_px < 300 ? 254 : 240));  // coarse pixels of four degrees miss light where two views meet
-    CHECK(frame.truth.intruders[0].in_image);
-  }
+TEST_CASE("around the camera a sphere stays opaque before a wide blur") {
+  Scenario scenario;
+  write_sphere_obj(scenario.path("sphere.obj"), 8);
+  scenario.add("sphere.obj", {4, 0, -150});
+  scenario.project.compositing.supersampling = 1;
+  Scene scene = scenario.opened();
+  scene.compositing.blur_px_per_m = 100.0 / 4;
+  const ComposedFrame frame = composed(scene, 1, even_frame(scenario.size_px(), 100));
+  double least = 0;
+  cv::minMaxIdx(frame.mask, &least);
+  CHECK(least >= 254);
+  CHECK(frame.truth.intruders[0].in_image);
 }
 
 }  // namespace sigs::test

@@ -261,7 +261,7 @@ void EditorDriver::press(int button) {
   wait_until_seen("the press", [&](const nlohmann::json& now) { return is_down(now, button); });
 }
 
-void EditorDriver::release(int button) {
+void EditorDriver::lift(int button) {
   xdotool({"mouseup", std::to_string(button)});
   wait_until_seen("the release", [&](const nlohmann::json& now) { return !is_down(now, button); });
 }
@@ -274,7 +274,7 @@ void EditorDriver::move(double x, double y) {
 void EditorDriver::click(double x, double y, int button) {
   point_at(x, y);
   press(button);
-  release(button);
+  lift(button);
   wait_until_at_rest();
 }
 
@@ -300,7 +300,7 @@ void EditorDriver::drag(double x, double y, double to_x, double to_y, int button
     const double share = static_cast<double>(i) / kSteps;
     point_at(x + share * (to_x - x), y + share * (to_y - y));
   }
-  release(button);
+  lift(button);
   if (!held_key.empty()) {
     xdotool({"keyup", held_key});
     settle();
@@ -320,7 +320,7 @@ void EditorDriver::hold(double x, double y, int button) {
 }
 
 void EditorDriver::release(int button) {
-  release(button);
+  lift(button);
   wait_until_at_rest();
 }
 

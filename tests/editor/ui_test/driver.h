@@ -72,10 +72,10 @@ class EditorDriver {
   void screenshot(const std::filesystem::path& file) const;  // PNG
 
  private:
-  // Those that do not wait for the rest: one turn has seen it.
+  // Those that do not wait for the rest: one update has seen it.
   void point_at(double x, double y);
   void press(int button);
-  void release(int button);
+  void lift(int button);
   void wait_until_seen(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so);
   void wait_until_at_rest();
   void xdotool(const std::vector<std::string>& arguments) const;

@@ -38,7 +38,7 @@ cv::Mat softened_in_full(const cv::Mat& image, double sigma_px) {
 
 }  // namespace
 
-TEST_CASE("a layer blurred from coarse pixels is the layer blurred in full") {
+TEST_CASE("a layer blurred widely is the layer blurred in full") {
   for (const cv::Rect& rect : {cv::Rect(10, -20, 150, 90), cv::Rect(-71, 33, 7, 5), cv::Rect(3, 4, 1, 1)})
     for (const double sigma_px : {16.0, 23.7, 61.0}) {
       CAPTURE(rect.width);
@@ -47,32 +47,23 @@ TEST_CASE("a layer blurred from coarse pixels is the layer blurred in full") {
       const Layer full = blurred(layer, sigma_px);
       double highest = 0;
       cv::minMaxIdx(full.color.reshape(1), nullptr, &highest);
-      // Small ones keep their place in the coarse pixels only where they span several of them.
-      const int max_step_px = std::min(static_cast<int>(max_coarse_step_px(sigma_px)), std::max(1, rect.width / 16));
-      for (const int step_px : {1, max_step_px}) {
-        const Layer coarse_layer = downsampled(layer, step_px);
-        const Layer out = blurred_from_coarse(coarse_layer, step_px, sigma_px, full.rect);
-        CHECK(out.rect == full.rect);
-        CHECK(is_valid(out));
-        CHECK(cv::countNonZero(out.coverage) == 0);
-        for (int c = 0; c < 4; ++c) {
-          CHECK(cv::sum(coarse_layer.color)[c] * step_px * step_px ==
-                doctest::Approx(cv::sum(layer.color)[c]).epsilon(1e-5));
-          CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
-        }
-        // Each way the cut is a step of exp(-4.5) = 1.1 %, which the spline makes soft: half of it at most, both ways.
-        CHECK(cv::norm(out.color, full.color, cv::NORM_INF) < 0.012 * highest);
-        CHECK(cv::norm(out.color, full.color, cv::NORM_L2) < 0.005 * cv::norm(full.color, cv::NORM_L2));
-        CHECK(max_after_blur(coarse_layer, step_px, sigma_px) >= 0.999 * highest);
-      }
+      const Layer out = widely_blurred(layer, sigma_px, full.rect);
+      CHECK(out.rect == full.rect);
+      CHECK(is_valid(out));
+      CHECK(cv::norm(out.coverage, full.coverage, cv::NORM_INF) == 0);
+      for (int c = 0; c < 4; ++c)
+        CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
+      // Each way the cut is a step of exp(-4.5) = 1.1 %, which the spline makes soft: half of it at most, both ways.
+      CHECK(cv::norm(out.color, full.color, cv::NORM_INF) < 0.012 * highest);
+      CHECK(cv::norm(out.color, full.color, cv::NORM_L2) < 0.005 * cv::norm(full.color, cv::NORM_L2));
+      CHECK(max_after_blur(layer, sigma_px) >= 0.999 * highest);
     }
 }
 
 TEST_CASE("a surface without end keeps its colour whatever the blur") {
-  for (const double sigma_px : {16.0, 100.0, 1e4}) {
-    const int step_px = static_cast<int>(max_coarse_step_px(sigma_px));
-    const Layer coarse_layer = even_layer({-40, -40, 200, 200}, {0.25F, 0.5F, 0.75F, 1});
-    const Layer out = blurred_from_coarse(coarse_layer, step_px, sigma_px, {0, 0, 64, 48});
+  for (const double sigma_px : {16.0, 40.0, 100.0}) {
+    const Layer layer = even_layer({-400, -400, 900, 900}, {0.25F, 0.5F, 0.75F, 1});
+    const Layer out = widely_blurred(layer, sigma_px, {0, 0, 64, 48});
     double low = 0;
     double high = 0;
     cv::minMaxIdx(out.color.reshape(1), &low, &high);
@@ -85,16 +76,16 @@ TEST_CASE("any sigma is blurred, to nothing in the end") {
   const Layer layer = cloudy_layer({5, 5, 40, 30}, 2);
   double before = 1;
   for (const double sigma_px : {20.0, 500.0, 1e6, 1e9, 1e30}) {
-    const double most = max_after_blur(layer, 1, sigma_px);
+    const double most = max_after_blur(layer, sigma_px);
     CHECK(most < before);
     before = most;
-    const Layer out = blurred_from_coarse(layer, 1, sigma_px, {0, 0, 320, 240});
+    const Layer out = widely_blurred(layer, sigma_px, {0, 0, 320, 240});
     CHECK(is_valid(out));
     CHECK(cv::norm(out.color, cv::NORM_INF) <= most * 1.000001);
   }
 }
 
-TEST_CASE("from coarse pixels a point spreads as Gauss says, up to a million pixels") {
+TEST_CASE("a point spreads as Gauss says, up to a million pixels") {
   const Layer point = even_layer({0, 0, 1, 1}, {0.25F, 0.5F, 0.75F, 1});
   for (const double sigma_px : {16.0, 40.0, 500.0, 1e4, 1e6}) {
     CAPTURE(sigma_px);
@@ -103,24 +94,24 @@ TEST_CASE("from coarse pixels a point spreads as Gauss says, up to a million pix
         1 / (2 * std::numbers::pi * sigma_px * sigma_px * std::pow(std::erf(3 / std::numbers::sqrt2), 2));
     for (const double away : {0.0, 0.7, 1.5, 2.2, 2.7}) {
       const int x = static_cast<int>(away * sigma_px);
-      const Layer out = blurred_from_coarse(point, 1, sigma_px, {x, 0, 3, 2});
+      const Layer out = widely_blurred(point, sigma_px, {x, 0, 3, 2});
       const double wanted = peak * std::exp(-0.5 * std::pow(x / sigma_px, 2));
       // The spline between places a quarter of sigma apart: to half a percent of the peak.
       CHECK(std::abs(out.color.at<cv::Vec4f>(0, 0)[3] - wanted) < 0.005 * peak);
     }
     for (const int x : {static_cast<int>(3.6 * sigma_px), static_cast<int>(-4 * sigma_px)})
-      CHECK(cv::norm(blurred_from_coarse(point, 1, sigma_px, {x, 0, 3, 2}).color, cv::NORM_INF) == 0);
+      CHECK(cv::norm(widely_blurred(point, sigma_px, {x, 0, 3, 2}).color, cv::NORM_INF) == 0);
   }
 }
 
 TEST_CASE("energy stays within a thousandth on both sides of sigma 16, and nothing jumps there") {
   const Layer layer = cloudy_layer({10, -20, 50, 40}, 4);
-  const Layer below = blurred(layer, kCoarseBlurSigma_px);
+  const Layer below = blurred(layer, kWideSigma_px);
   for (const double sigma_px : {16.0, 16.0001, 17.0, 60.0, 200.0}) {
     CAPTURE(sigma_px);
     const int reach = static_cast<int>(4 * sigma_px);
     const cv::Rect all(10 - reach, -20 - reach, 50 + 2 * reach, 40 + 2 * reach);
-    const Layer out = blurred_from_coarse(layer, 1, sigma_px, all);
+    const Layer out = widely_blurred(layer, sigma_px, all);
     for (int c = 0; c < 4; ++c) CHECK(cv::sum(out.color)[c] == doctest::Approx(cv::sum(layer.color)[c]).epsilon(0.001));
     if (sigma_px > 16.5) continue;
     const cv::Mat inside = out.color(cv::Rect(below.rect.tl() - all.tl(), below.rect.size()));
@@ -131,7 +122,7 @@ TEST_CASE("energy stays within a thousandth on both sides of sigma 16, and nothi
   }
 }
 
-TEST_CASE("a whole image is blurred within a code value of the kernel in full") {
+TEST_CASE("a whole image is softened within a code value of the kernel in full") {
   for (const int type : {CV_8UC3, CV_8UC1})
     for (const cv::Size size : {cv::Size(203, 151), cv::Size(40, 97), cv::Size(1, 30), cv::Size(1, 1)})
       for (const double sigma_px : {16.01, 24.0, 50.0, 150.0, 700.0}) {
@@ -144,7 +135,7 @@ TEST_CASE("a whole image is blurred within a code value of the kernel in full") 
       }
 }
 
-TEST_CASE("an image gaussian_blurred beyond its size is its mean") {
+TEST_CASE("an image softened beyond its size is its mean") {
   const cv::Mat image = patches({160, 120}, CV_8UC3);
   // Mirrored without its border twice: the mean in which border samples count half.
   const cv::Mat wanted = softened_in_full(image, 500);
@@ -152,7 +143,7 @@ TEST_CASE("an image gaussian_blurred beyond its size is its mean") {
     CHECK(cv::norm(gaussian_blurred(image, sigma_px), wanted, cv::NORM_INF) <= 1);
 }
 
-TEST_CASE("pure green stays pure green however far it is blurred") {
+TEST_CASE("pure green stays pure green however far it is softened") {
   const cv::Mat green(90, 120, CV_8UC3, cv::Scalar(0, 255, 0));
   for (const double sigma_px : {17.0, 80.0, 1e5}) CHECK(same_bytes(gaussian_blurred(green, sigma_px), green));
 }
