@@ -38,6 +38,9 @@ function(sigs_compile target kind)
   if(SIGS_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM sigs_precompiled_${kind})
   endif()
+  if(SIGS_UNITY STREQUAL "ON" OR target IN_LIST SIGS_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  endif()
 endfunction()
 
 # sigs_module(NAME [LIGHT] LINKS other libraries [PRIVATE_LINKS ...] [SOURCES made by the build]): the static library
