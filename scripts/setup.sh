@@ -7,7 +7,7 @@ sigs_packages=(
   g++ cmake ninja-build pkg-config
   libopencv-dev libopencv-contrib-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libglm-dev libtinyobjloader-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
-  nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev
+  nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
   doctest-dev libembree-dev ffmpeg libxml2-utils xvfb xdotool gnuplot-nox
   slurmctld slurmd slurm-client munge
