@@ -8,7 +8,7 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/timing.h"
-#include "frame/render_intruder.h"
+#include "frame/compose_frame.h"
 
 namespace sigs::accuracy {
 
@@ -69,7 +69,7 @@ Moments shown(const Scene& scene, int frame, const ComposedFrame& composed, Comp
     return moments_of(coverage, {{0, 0}, composed.mask.size()});
   }
   const SceneMoment moment = scene_at(scene, frame);
-  const Result<IntruderLayers> layers = render_intruder(scene, moment, moment.intruders[0], context);
+  const Result<IntruderLayers> layers = intruder_layers(scene, moment, moment.intruders[0], context);
   if (!layers) stop(layers.error().text());
   if (layers->occluded.empty()) return moments_of({}, {});
   layers->occluded.coverage.convertTo(coverage, CV_64F);

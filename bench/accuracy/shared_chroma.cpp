@@ -14,7 +14,7 @@
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
 #include "compositor/footage_light.h"
-#include "frame/render_intruder.h"
+#include "frame/compose_frame.h"
 
 namespace sigs::accuracy {
 
@@ -130,7 +130,7 @@ Frame rounded(const Planes& truth, const Frame& like) {
 
 Layer layer_of(const Scene& scene, ComposeContext& context) {
   const SceneMoment moment = scene_at(scene, kFrame);
-  const Result<IntruderLayers> layers = render_intruder(scene, moment, moment.intruders[0], context);
+  const Result<IntruderLayers> layers = intruder_layers(scene, moment, moment.intruders[0], context);
   if (!layers) stop(layers.error().text());
   return layers->occluded;
 }

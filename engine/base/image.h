@@ -20,6 +20,9 @@ struct Box {
   [[nodiscard]] bool operator==(const Box&) const = default;
 };
 
+// As bounds: a rectangle larger than anything that is measured in pixels.
+inline const cv::Rect kUnboundedRect{-1'000'000, -1'000'000, 2'000'000, 2'000'000};
+
 // Smallest rectangle of whole pixels that touches all of the box, grown by margin_px and clipped to bounds.
 [[nodiscard]] cv::Rect pixels_touched(const Box& box, int margin_px, const cv::Rect& bounds);
 

@@ -1,13 +1,110 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/blend.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <opencv2/core.hpp>
+
 #include "base/ensure.h"
 #include "compositor/footage_light.h"
-#include "compositor/plane_writer.h"
+#include "compositor/shared_chroma.h"
+#include "video/frame.h"
 
 namespace sigs {
 
 namespace {
+
+// Reads and rewrites single pixels of a frame as R'G'B', in the frame's own planes. Where pixels share chroma, each is
+// read with the chroma that lies between its neighbours' samples, and adds its own to the samples that average it.
+class PlaneWriter {
+ public:
+  explicit PlaneWriter(Frame& frame) : frame_(frame), map_(code_to_rgb(frame.layout, frame.color)) {}
+
+  // Rewrites the pixels (x, y) of rect that have an opacity above 0; gives back how many. For each row y of rect,
+  // pixels.row(y) gives an object with
+  //   float opacity(int x)                         how much of what was there goes; 0: the pixel stays as it is
+  //   cv::Vec3f over(int x, const cv::Vec3f& rgb)  its colour where rgb was: R'G'B' in 0..1; beyond, the planes clip
+  template <class Pixels>
+  std::int64_t rewrite(const cv::Rect& rect, const Pixels& pixels) {
+    if (rect.empty()) return 0;
+    return chroma_step(frame_.layout).area() == 1 ? rewrite_own(rect, pixels) : rewrite_shared(rect, pixels);
+  }
+
+ private:
+  // Every pixel has samples of its own, or luma alone.
+  template <class Pixels>
+  std::int64_t rewrite_own(const cv::Rect& rect, const Pixels& pixels) {
+    std::int64_t count = 0;
+    for (int y = rect.y; y < rect.br().y; ++y) {
+      const auto row = pixels.row(y);
+      for (int x = rect.x; x < rect.br().x; ++x) {
+        if (!(row.opacity(x) > 0)) continue;
+        const cv::Vec3f old_code = own_code({x, y});
+        set_own_code({x, y}, map_.from_rgb * row.over(x, rgb_of(old_code)) + map_.offset);
+        ++count;
+      }
+    }
+    return count;
+  }
+
+  template <class Pixels>
+  std::int64_t rewrite_shared(const cv::Rect& rect, const Pixels& pixels) {
+    SharedChroma chroma(frame_, rect);
+    std::int64_t count = 0;
+    for (int y = rect.y; y < rect.br().y; ++y) {
+      const auto row = pixels.row(y);
+      const cv::Range covered = covered_part(row, {rect.x, rect.br().x});
+      if (covered.empty()) continue;
+      chroma.start_row(y, covered.start, covered.end);
+      count += rewrite_row(frame_.planes[0].ptr<uchar>(y), covered, row, chroma);
+      chroma.finish_row();
+    }
+    chroma.write();
+    return count;
+  }
+
+  template <class Row>
+  std::int64_t rewrite_row(uchar* luma, const cv::Range& columns, const Row& row, SharedChroma& chroma) const {
+    std::int64_t count = 0;
+    for (int x = columns.start; x < columns.end; ++x) {
+      const float opacity = row.opacity(x);
+      if (!(opacity > 0)) continue;
+      const cv::Vec3f old_code(luma[x], chroma.cb_at(x), chroma.cr_at(x));
+      const cv::Vec3f code = map_.from_rgb * row.over(x, rgb_of(old_code)) + map_.offset;
+      luma[x] = clipped(code[0]);
+      chroma.add(x, code[1] - old_code[1], code[2] - old_code[2], opacity);
+      ++count;
+    }
+    return count;
+  }
+
+  // From the first covered column to the last.
+  template <class Row>
+  [[nodiscard]] static cv::Range covered_part(const Row& row, cv::Range columns) {
+    while (columns.start < columns.end && !(row.opacity(columns.start) > 0)) ++columns.start;
+    while (columns.start < columns.end && !(row.opacity(columns.end - 1) > 0)) --columns.end;
+    return columns;
+  }
+
+  [[nodiscard]] cv::Vec3f rgb_of(const cv::Vec3f& code) const { return map_.to_rgb * (code - map_.offset); }
+
+  [[nodiscard]] cv::Vec3f own_code(const cv::Point& pixel) const {
+    const float luma = frame_.planes[0].at<uchar>(pixel);
+    if (frame_.plane_count() == 1) return {luma, map_.offset[1], map_.offset[2]};
+    return {luma, static_cast<float>(frame_.planes[1].at<uchar>(pixel)),
+            static_cast<float>(frame_.planes[2].at<uchar>(pixel))};
+  }
+
+  void set_own_code(const cv::Point& pixel, const cv::Vec3f& code) {
+    for (int plane = 0; plane < frame_.plane_count(); ++plane)
+      frame_.planes[static_cast<std::size_t>(plane)].at<uchar>(pixel) = clipped(code[plane]);
+  }
+
+  [[nodiscard]] static uchar clipped(float code) { return static_cast<uchar>(std::clamp(code, 0.0F, 255.0F) + 0.5F); }
+
+  Frame& frame_;
+  CodeToRgb map_;
+};
 
 cv::Vec3f over_in_linear_light(const cv::Vec4f& layer, const cv::Vec3f& below, const TransferCurve& curve) {
   const float through = 1 - layer[3];
@@ -59,6 +156,46 @@ std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   return space == BlendSpace::linear
              ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{color, layer.rect, curve})
              : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{color, layer.rect, curve});
+}
+
+namespace {
+
+struct MixedRow {
+  const cv::Vec3b* bgr;
+  const float* weights;
+  int left;
+
+  [[nodiscard]] float opacity(int x) const { return weights[x - left]; }
+
+  [[nodiscard]] cv::Vec3f over(int x, const cv::Vec3f& below) const {
+    const cv::Vec3b& pixel = bgr[x - left];
+    const cv::Vec3f rgb(pixel[2] / 255.0F, pixel[1] / 255.0F, pixel[0] / 255.0F);
+    const float share = weights[x - left];
+    return rgb * share + below * (1 - share);
+  }
+};
+
+struct MixedPixels {
+  const cv::Rect& rect;
+  const cv::Mat& bgr;
+  const cv::Mat& weight;
+
+  [[nodiscard]] MixedRow row(int y) const {
+    return {bgr.ptr<cv::Vec3b>(y - rect.y), weight.ptr<float>(y - rect.y), rect.x};
+  }
+};
+
+}  // namespace
+
+std::int64_t replace_pixels(Frame& frame, const cv::Rect& rect, const cv::Mat& bgr, const cv::Mat& weight) {
+  ENSURE((rect & cv::Rect({0, 0}, frame.size_px())) == rect);
+  ENSURE(bgr.type() == CV_8UC3 && bgr.size() == rect.size());
+  ENSURE(weight.type() == CV_32FC1 && weight.size() == rect.size());
+  return PlaneWriter(frame).rewrite(rect, MixedPixels{rect, bgr, weight});
+}
+
+std::int64_t replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight) {
+  return replace_pixels(frame, {{0, 0}, frame.size_px()}, bgr, weight);
 }
 
 }  // namespace sigs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <opencv2/core.hpp>
 
 #include "base/layer.h"
 #include "video/frame.h"
@@ -20,5 +21,14 @@ enum class BlendSpace {
 // Light is taken from code values and back by the footage's transfer function and primaries (footage_light.h).
 // The layer lies within the image. Gives back how many pixels were rewritten.
 std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space);
+
+// Puts pixels of an 8-bit BGR image into the frame's own planes, in the part of it that rect names. Gives back how
+// many were rewritten.
+//   bgr     of rect's size
+//   weight  CV_32FC1 of rect's size: 0 leaves the pixel's samples as they are, 1 replaces them, between mixes
+std::int64_t replace_pixels(Frame& frame, const cv::Rect& rect, const cv::Mat& bgr, const cv::Mat& weight);
+
+// The same over the whole image.
+std::int64_t replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight);
 
 }  // namespace sigs

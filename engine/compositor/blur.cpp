@@ -7,7 +7,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
+#include "compositor/occlude.h"
 #include "compositor/resample.h"
+#include "video/transfer_function.h"
 
 namespace sigs {
 
@@ -117,6 +119,19 @@ double max_after_blur(const Layer& layer, double sigma_px) {
   // The cut kernel is higher by 1 / 0.9973^2, and by 1 / 48 as it gives way to the spline.
   constexpr double kCut = 1.03;
   return kCut * std::max({sum[0], sum[1], sum[2], sum[3]}) / (2 * std::numbers::pi * sigma_px * sigma_px);
+}
+
+Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image) {
+  if (sigma_px <= kWideSigma_px) return clipped(blurred(layer, sigma_px), image);
+  constexpr double kUnbounded_px = 1e6;
+  const int margin_px = static_cast<int>(std::min(std::ceil(3 * sigma_px), kUnbounded_px));
+  return widely_blurred(layer, sigma_px, grown(layer.rect, margin_px) & image);
+}
+
+bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage) {
+  if (sigma_px <= kWideSigma_px) return true;
+  const TransferFunction function = transfer_function_of(footage.transfer).value_or(TransferFunction::srgb);
+  return max_after_blur(layer, sigma_px) >= min_light(function);
 }
 
 }  // namespace sigs

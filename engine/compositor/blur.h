@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/layer.h"
+#include "video/frame.h"
 
 namespace sigs {
 
@@ -24,7 +25,13 @@ inline constexpr double kWideSigma_px = 16;
 // 0.5 % in the root of the mean square.
 [[nodiscard]] Layer widely_blurred(const Layer& layer, double sigma_px, const cv::Rect& target);
 
-// Upper bound of any channel of any pixel after that blur.
+// The blur of any sigma, over the pixels of `image` alone: blurred() or, above kWideSigma_px, widely_blurred().
+[[nodiscard]] Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image);
+
+// Upper bound of any channel of any pixel after a blur above kWideSigma_px.
 [[nodiscard]] double max_after_blur(const Layer& layer, double sigma_px);
+
+// False where a wide blur leaves the layer too faint to change any 8-bit sample of a footage with these colours.
+[[nodiscard]] bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage);
 
 }  // namespace sigs

@@ -25,12 +25,4 @@ Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body) {
   return out;
 }
 
-void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& nearer) {
-  const cv::Rect common = rect & nearer.rect;
-  for (int y = common.y; y < common.y + common.height; ++y)
-    for (int x = common.x; x < common.x + common.width; ++x)
-      coverage.at<float>(y - rect.y, x - rect.x) *=
-          1.0F - nearer.color.at<cv::Vec4f>(y - nearer.rect.y, x - nearer.rect.x)[3];
-}
-
 }  // namespace sigs

@@ -14,7 +14,4 @@ namespace sigs {
 //   own_body  CV_32FC1 of the whole image, 0..1, or empty: the layer unchanged. The layer lies within the image.
 [[nodiscard]] Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body);
 
-// coverage (CV_32FC1 over rect) without what a nearer intruder's layer hides: times (1 - its opacity).
-void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& nearer);
-
 }  // namespace sigs

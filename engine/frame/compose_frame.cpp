@@ -1,83 +1,115 @@
 // SPDX-License-Identifier: MIT
 #include "frame/compose_frame.h"
 
-#include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/ensure.h"
 #include "base/stopwatch.h"
+#include "compositor/blur.h"
+#include "compositor/occlude.h"
+#include "compositor/warp.h"
 #include "frame/composite.h"
-#include "frame/render_intruder.h"
+#include "frame/render_plan.h"
+#include "scene/scene_at.h"
+#include "truth/measure.h"
 
 namespace sigs {
 
 namespace {
 
-bool is_same(const Camera& a, const Camera& b) {
-  return a.size_px == b.size_px && a.lens.parameters() == b.lens.parameters();
+// The classic method blurs whole images of its own. Of a single intruder's layer it needs the coverage alone, which
+// blur does not change; with several, the blurred opacity tells what a nearer one hides of a farther one.
+bool needs_blurred_layers(const Scene& scene) {
+  return scene.compositing.method != MethodChoice::classic || scene.intruders.size() > 1;
 }
 
-FrameTruth truth_of(const SceneMoment& moment, int frame, std::vector<IntruderTruth> intruders) {
-  std::sort(intruders.begin(), intruders.end(),
-            [](const IntruderTruth& a, const IntruderTruth& b) { return a.id < b.id; });
+// Unit vector away from the ground.
+glm::dvec3 up_in_camera(const SceneMoment& moment) {
+  return glm::conjugate(moment.world_from_camera.rotation) * glm::dvec3(0, 0, -1);
+}
+
+// What measuring needs of the intruders.
+std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vector<IntruderLayers>& far_to_near) {
+  std::vector<MeasuredLayers> all;
+  for (const IntruderLayers& layers : far_to_near) {
+    const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
+    all.push_back({.id = layers.placed.id,
+                   .name = intruder.name,
+                   .camera_from_body = layers.placed.camera_from_body,
+                   .attitude = layers.placed.attitude,
+                   .silhouette = layers.silhouette,
+                   .outermost_m = intruder.model->outermost_m,
+                   .whole_area_px = layers.whole_area_px,
+                   .inside = clipped(layers.warped, {{0, 0}, scene.footage.size_px}),
+                   .max_coverage = max_coverage(layers.warped.coverage),
+                   .occluded = layers.occluded});
+  }
+  return all;
+}
+
+FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, const ComposedFrame& composed,
+                    const std::vector<IntruderLayers>& far_to_near) {
   return {.index = frame,
           .time_s = moment.time_s,
+          .substituted = composed.image.damaged,
           .camera_position_m = moment.world_from_camera.translation_m,
           .camera_attitude = attitude_of(moment.world_from_camera.rotation),
-          .intruders = std::move(intruders)};
+          .intruders = measured(measured_layers(scene, far_to_near), composed.mask,
+                                scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt)};
 }
 
 }  // namespace
 
-Result<Renderer*> ComposeContext::renderer() {
-  if (!renderer_) {
-    Result<Renderer> made = Renderer::create(settings_.samples_per_pixel);
-    if (!made) return fail(made.error());
-    renderer_.emplace(std::move(*made));
+Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                                       ComposeContext& context, const ColorInfo& footage) {
+  LensTable& lens = context.lens_of(compositing_camera(scene));
+  const std::int64_t evaluations_before = lens.evaluations();
+  IntruderLayers layers = placed_layers(scene, placed, lens.camera());
+  const RenderPlan plan = render_plan_for(layers, lens, scene, moment);
+  if (!plan.views.empty()) {
+    const Result<Renderer*> renderer = context.renderer();
+    if (!renderer) return fail(renderer.error());
+    Result<std::vector<RenderedView>> views = rendered_views(plan.views, plan, scene, layers, **renderer);
+    if (!views) return fail(views.error());
+    layers.views = std::move(*views);
+    layers.warped = warped(layers.views, lens, plan.warp_rect);
+    const cv::Rect image({0, 0}, scene.footage.size_px);
+    if (is_visible_after_blur(layers.warped, layers.sigma_px, footage))
+      layers.blurred = needs_blurred_layers(scene) ? blurred_within(layers.warped, layers.sigma_px, image)
+                                                   : clipped(layers.warped, image);
+    layers.occluded = occluded_by_body(layers.blurred, scene.own_body);
+    const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
+    if (!area) return fail(area.error());
+    layers.whole_area_px = *area;
+    layers.op_counts.pixels_warped += layers.warped.rect.area();
+    if (layers.sigma_px > 0 && needs_blurred_layers(scene))
+      layers.op_counts.pixels_blurred += layers.blurred.rect.area();
   }
-  return &*renderer_;
-}
-
-const DistortMaps& ComposeContext::maps_of(const Camera& camera) {
-  if (!camera_of_maps_ || !is_same(*camera_of_maps_, camera)) {
-    maps_ = distort_maps(camera);
-    camera_of_maps_ = camera;
-  }
-  return *maps_;
-}
-
-LensTable& ComposeContext::lens_of(const Camera& camera) {
-  if (!lens_ || !is_same(lens_->camera(), camera)) lens_.emplace(camera, settings_.lens_tolerance_px);
-  return *lens_;
-}
-
-void ComposeContext::forget(const Mesh& mesh) {
-  if (renderer_) renderer_->forget(mesh);
-}
-
-std::string ComposeContext::renderer_description() const {
-  return renderer_ ? renderer_->description() : std::string();
+  layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
+  return layers;
 }
 
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, ComposeContext& context,
                                     Stages stages) {
   ENSURE(background.size_px() == scene.footage.size_px);
-  const SceneMoment moment = scene_at(scene, frame);
-
   const Stopwatch watch;
-  std::vector<IntruderLayers> layers;
-  double draw_s = 0;
+  const SceneMoment moment = scene_at(scene, frame);
+  std::vector<IntruderLayers> far_to_near;
   for (const PlacedIntruder& placed : moment.intruders) {
-    Result<IntruderLayers> intruder = render_intruder(scene, moment, placed, context, background.color);
-    if (!intruder) return fail(intruder.error());
-    draw_s += intruder->draw_s;
-    layers.push_back(std::move(*intruder));
+    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context, background.color);
+    if (!layers) return fail(layers.error());
+    far_to_near.push_back(std::move(*layers));
   }
-  ComposedFrame composed = composited(std::move(background), scene, layers, context, stages);
-  for (const IntruderLayers& intruder : layers) composed.op_counts += intruder.op_counts;
-  composed.truth = truth_of(moment, frame, measured(scene, moment, layers, composed.mask));
-  composed.truth.substituted = composed.image.damaged;
-  composed.times = {draw_s, watch.elapsed_s() - draw_s};
+  ComposedFrame composed = composited(std::move(background), scene, far_to_near, context, stages);
+  composed.truth = truth_of(scene, moment, frame, composed, far_to_near);
+  for (const IntruderLayers& layers : far_to_near) {
+    composed.op_counts += layers.op_counts;
+    composed.times.draw_s += layers.draw_s;
+  }
+  composed.times.composite_s = watch.elapsed_s() - composed.times.draw_s;
   return composed;
 }
 

@@ -17,7 +17,6 @@
 #include "compositor/classic.h"
 #include "compositor/footage_light.h"
 #include "compositor/occlude.h"
-#include "compositor/replace.h"
 
 namespace sigs {
 

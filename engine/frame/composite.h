@@ -3,13 +3,16 @@
 
 #include <vector>
 
-#include "frame/compose_frame.h"
-#include "frame/render_intruder.h"
+#include "frame/compose_context.h"
+#include "frame/composed_frame.h"
+#include "frame/intruder_layers.h"
+#include "scene/scene.h"
 
 namespace sigs {
 
-// Composites the intruders onto the background by the scene's method, far to near. Fills image, mask, stages and work.
-//   background  nobody else shares its samples: they are written over
+// Composites the intruders onto the background by the scene's method, far to near. Fills image, mask, stages and
+// op_counts.
+//   background  its samples are rewritten in place, so nobody else may share them
 [[nodiscard]] ComposedFrame composited(Frame background, const Scene& scene,
                                        const std::vector<IntruderLayers>& far_to_near, ComposeContext& context,
                                        Stages stages);

@@ -10,7 +10,7 @@
 #include "labels/text_file.h"
 #include "labels/xml_elements.h"
 #include "labels/xml_text.h"
-#include "truth/occluded_part.h"
+#include "truth/measure.h"
 
 namespace sigs {
 

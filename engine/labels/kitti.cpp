@@ -12,7 +12,7 @@
 #include "labels/numbered_images.h"
 #include "labels/own_body_boxes.h"
 #include "labels/text_file.h"
-#include "truth/occluded_part.h"
+#include "truth/measure.h"
 
 namespace sigs {
 

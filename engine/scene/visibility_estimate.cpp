@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "frame/render_intruder.h"
+#include "frame/render_plan.h"
 #include "truth/measure.h"
 
 namespace sigs {

@@ -6,6 +6,67 @@
 
 namespace sigs {
 
+namespace {
+
+constexpr double kRounding = 1e-6;  // of sums of floats: a visible share below it is none
+
+// Pixels that the silhouette reaches. Drawn pixels lie across their edges and spill a little into the next ones.
+cv::Rect outline_of(const std::optional<Silhouette>& silhouette) {
+  if (!silhouette || !silhouette->all_have_image) return kUnboundedRect;
+  return pixels_touched(silhouette->box, 0, kUnboundedRect);
+}
+
+std::optional<cv::Rect> common(const std::optional<cv::Rect>& box, const cv::Rect& outline) {
+  const cv::Rect both = box ? *box & outline : cv::Rect();
+  return both.empty() ? std::nullopt : std::optional<cv::Rect>(both);
+}
+
+// Coverage of what is left of an intruder behind the own body and the nearer intruders, over layers.occluded.rect.
+cv::Mat visible_coverage(const MeasuredLayers& layers, std::span<const MeasuredLayers> nearer, const cv::Mat& mask) {
+  const cv::Rect& rect = layers.occluded.rect;
+  cv::Mat visible = layers.occluded.coverage.clone();
+  visible.setTo(0, mask(rect) == 0);
+  for (const MeasuredLayers& other : nearer) occlude_coverage(visible, rect, other.occluded);
+  return visible;
+}
+
+void measure_visible(IntruderTruth& truth, const MeasuredLayers& layers, const cv::Mat& visible, float min_coverage,
+                     double inside_px) {
+  const cv::Rect& rect = layers.occluded.rect;
+  const float min_visible = std::max(min_coverage, kMinVisibleCoverage);
+  truth.visible_box = common(covered_box(visible, rect, min_visible), outline_of(layers.silhouette));
+  if (truth.visible_box) {
+    truth.visible = covered_pixels(visible, rect, min_visible, *truth.visible_box);
+    truth.visible_pixels = cv::countNonZero(truth.visible);
+  }
+  const double visible_px = area_px(visible);
+  const double whole_px = std::max(layers.whole_area_px, inside_px);
+  truth.visible_fraction = visible_px < kRounding * inside_px ? 0.0 : std::min(visible_px / whole_px, 1.0);
+}
+
+IntruderTruth measured_one(const MeasuredLayers& layers, std::span<const MeasuredLayers> nearer, const cv::Mat& mask,
+                           const std::optional<glm::dvec3>& up_in_camera) {
+  IntruderTruth truth{.id = layers.id,
+                      .name = layers.name,
+                      .position_m = layers.camera_from_body.translation_m,
+                      .attitude = layers.attitude};
+  if (layers.silhouette) truth.amodal_box = layers.silhouette->box;
+  if (up_in_camera) truth.horizon = horizon_side_of(layers.outermost_m, layers.camera_from_body, *up_in_camera);
+  const double inside_px = area_px(layers.inside.coverage);
+  // By its own measure: a distant one may cover no pixel by more than a hundredth.
+  const float min_coverage = kMinCoverageShare * layers.max_coverage;
+  truth.in_image =
+      common(covered_box(layers.inside.coverage, layers.inside.rect, min_coverage), outline_of(layers.silhouette))
+          .has_value();
+  if (!truth.in_image) return truth;
+  truth.inside_fraction = std::min(inside_px / std::max(layers.whole_area_px, inside_px), 1.0);
+  if (!layers.occluded.empty() && !mask.empty())
+    measure_visible(truth, layers, visible_coverage(layers, nearer, mask), min_coverage, inside_px);
+  return truth;
+}
+
+}  // namespace
+
 std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body,
                                         const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -68,6 +129,33 @@ HorizonSide horizon_side_of(std::span<const glm::vec3> points_in_body,
 
 double area_px(const cv::Mat& coverage) {
   return coverage.empty() ? 0.0 : cv::sum(coverage)[0];
+}
+
+double occluded_fraction(const IntruderTruth& truth) {
+  if (truth.inside_fraction <= 0) return 0;
+  return std::clamp(1 - truth.visible_fraction / truth.inside_fraction, 0.0, 1.0);
+}
+
+bool is_occluded(const IntruderTruth& truth) {
+  constexpr double kOccluded = 0.05;
+  return occluded_fraction(truth) > kOccluded;
+}
+
+void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& nearer) {
+  const cv::Rect common = rect & nearer.rect;
+  for (int y = common.y; y < common.y + common.height; ++y)
+    for (int x = common.x; x < common.x + common.width; ++x)
+      coverage.at<float>(y - rect.y, x - rect.x) *=
+          1.0F - nearer.color.at<cv::Vec4f>(y - nearer.rect.y, x - nearer.rect.x)[3];
+}
+
+std::vector<IntruderTruth> measured(std::span<const MeasuredLayers> far_to_near, const cv::Mat& mask,
+                                    const std::optional<glm::dvec3>& up_in_camera) {
+  std::vector<IntruderTruth> truths;
+  for (std::size_t i = 0; i < far_to_near.size(); ++i)
+    truths.push_back(measured_one(far_to_near[i], far_to_near.subspan(i + 1), mask, up_in_camera));
+  std::sort(truths.begin(), truths.end(), [](const IntruderTruth& a, const IntruderTruth& b) { return a.id < b.id; });
+  return truths;
 }
 
 }  // namespace sigs

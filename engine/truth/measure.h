@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "base/image.h"
 #include "base/layer.h"
@@ -53,5 +55,37 @@ inline constexpr float kMinVisibleCoverage = 0.5F / 255.0F;
 
 // Sum of the coverage, in pixels.
 [[nodiscard]] double area_px(const cv::Mat& coverage);
+
+// coverage (CV_32FC1 over rect) without what a nearer intruder's layer hides: times (1 - its opacity).
+void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& nearer);
+
+// One intruder as it was composited, for measuring. Layers share their samples with those that were composited.
+struct MeasuredLayers {
+  int id = 0;
+  std::string name;
+  Pose<frame::Camera, frame::Body> camera_from_body;
+  Attitude attitude;                       // in the world
+  std::optional<Silhouette> silhouette;    // none where no point of the model has an image
+  std::span<const glm::vec3> outermost_m;  // vertices that bound the model, body axes
+  double whole_area_px = 0;                // of the silhouette, the part outside the image included
+  Layer inside;                            // warped, not blurred, clipped to the image
+  float max_coverage = 0;                  // of the warped layer, the part outside the image included
+  Layer occluded;                          // as it was blended: blurred, without what the own body hides
+};
+
+// The truth of every intruder, by id. Nearer intruders hide farther ones.
+//   mask          ComposedFrame::mask; what was not composited is not visible in it (the classic method cannot show
+//                 what lies beyond the edge of its undistorted image). Empty: nothing is visible
+//   up_in_camera  unit vector away from the ground, camera frame; none: where the horizon lies is not known
+[[nodiscard]] std::vector<IntruderTruth> measured(std::span<const MeasuredLayers> far_to_near, const cv::Mat& mask,
+                                                  const std::optional<glm::dvec3>& up_in_camera);
+
+// Of what lies in the image of an intruder, the share that the own body or nearer intruders hide: 0 to 1. 0 where
+// nothing of it lies there.
+[[nodiscard]] double occluded_fraction(const IntruderTruth& truth);
+
+// Hidden by more than a twentieth, as Pascal VOC's guidelines (2008 and later) draw the line: softer than that are the
+// edges of masks.
+[[nodiscard]] bool is_occluded(const IntruderTruth& truth);
 
 }  // namespace sigs

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compositor/blend.h"
-#include "compositor/replace.h"
 #include "compositor/synthetic_frames.h"
 #include "compositor/synthetic_layers.h"
 

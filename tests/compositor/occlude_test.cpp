@@ -41,18 +41,4 @@ TEST_CASE("without an own body nothing is hidden and nothing copied") {
   CHECK(occluded_by_body(Layer{}, cv::Mat::zeros(5, 5, CV_32FC1)).empty());
 }
 
-TEST_CASE("a nearer layer hides by its opacity where it lies over the farther one") {
-  cv::Mat coverage(10, 10, CV_32FC1, cv::Scalar(0.5));
-  const cv::Rect rect(20, 20, 10, 10);
-  occlude_coverage(coverage, rect, even_layer({25, 18, 10, 6}, {0, 0, 0, 0.75F}));
-  for (int y = 20; y < 30; ++y)
-    for (int x = 20; x < 30; ++x) {
-      const bool under = x >= 25 && y < 24;
-      REQUIRE(coverage.at<float>(y - 20, x - 20) == (under ? 0.125F : 0.5F));
-    }
-  occlude_coverage(coverage, rect, Layer{});
-  occlude_coverage(coverage, rect, even_layer({100, 100, 5, 5}, {1, 1, 1, 1}));
-  CHECK(coverage.at<float>(9, 9) == 0.5F);
-}
-
 }  // namespace sigs::test

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/temporary_file.h"
+#include "export/export_files.h"
 #include "export/export_project.h"
-#include "export/label_folder.h"
 #include "frame/synthetic_scenes.h"
-#include "truth/occluded_part.h"
+#include "truth/measure.h"
 
 namespace sigs::test {
 namespace {

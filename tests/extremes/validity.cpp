@@ -163,7 +163,7 @@ ValidFrame valid_frame(const Scene& scene, int frame, const Frame& background) {
   check_valid(valid.composed.truth, background.size_px());
   const SceneMoment moment = scene_at(scene, frame);
   for (const PlacedIntruder& placed : moment.intruders) {
-    Result<IntruderLayers> layers = render_intruder(scene, moment, placed, context);
+    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context);
     if (!layers) FAIL(layers.error().text());
     for (const RenderedView& drawn : layers->views) check_valid(drawn.layer, brightest_of(scene));
     for (const Layer* layer : {&layers->warped, &layers->blurred, &layers->occluded})

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "frame/compose_frame.h"
-#include "frame/render_intruder.h"
 #include "frame/synthetic_scenes.h"
 
 namespace sigs::test {

@@ -10,8 +10,7 @@
 
 #include "camera/virtual_camera.h"
 #include "compositor/blend.h"
-#include "frame/render_intruder.h"
-#include "frame/render_item.h"
+#include "frame/render_plan.h"
 #include "frame/synthetic_scenes.h"
 #include "project/json.h"
 
@@ -72,10 +71,11 @@ Layer sharp_in_full(const Looked& look, const PlacedIntruder& placed, double sig
   REQUIRE(silhouette);
   REQUIRE(silhouette->all_have_image);
   const cv::Rect target = pixels_touched(silhouette->box, 1, grown);
-  const Light light{look.moment.light_in_camera, look.scene.light.color, look.scene.light.ambient};
-  const RenderItem item{model.mesh, placed, light, corners_in_camera(model.mesh, placed.camera_from_body)};
-  const auto views = virtual_cameras(look.camera, item.corners, target, look.scene.compositing.supersampling, 4096);
-  const auto drawn = rendered_views(views, item, *context.renderer().value());
+  IntruderLayers layers = placed_layers(look.scene, placed, look.camera);
+  LensTable lens(look.camera);
+  const RenderPlan plan = render_plan_for(layers, lens, look.scene, look.moment);
+  const auto views = virtual_cameras(look.camera, plan.corners, target, look.scene.compositing.supersampling, 4096);
+  const auto drawn = rendered_views(views, plan, look.scene, layers, *context.renderer().value());
   REQUIRE(drawn.has_value());
   return warped(*drawn, look.camera, target);
 }
@@ -121,7 +121,7 @@ void check_against_full(Looked look, const PlacedIntruder& placed, double sigma_
   const cv::Size size_px = look.scene.footage.size_px;
   ComposeContext context;
   look.scene.compositing.blur_px_per_m = sigma_px / placed.distance_m();
-  const Result<IntruderLayers> layers = render_intruder(look.scene, look.moment, placed, context);
+  const Result<IntruderLayers> layers = intruder_layers(look.scene, look.moment, placed, context);
   REQUIRE(layers.has_value());
   const Layer full = blurred_in_full(sharp_in_full(look, placed, sigma_px, context), sigma_px, size_px);
   for (const uchar luma : lumas) check_against_full(layers->occluded, full, sigma_px, even_frame(size_px, luma));
@@ -180,7 +180,7 @@ TEST_CASE("far blur keeps the energy within a thousandth") {
     scenario.project.compositing.blur_px_per_m = sigma_px / std::hypot(40, 1.3, 0.8);
     const Looked look = looked(scenario.opened(), 1);
     ComposeContext context;
-    const Result<IntruderLayers> layers = render_intruder(look.scene, look.moment, look.moment.intruders[0], context);
+    const Result<IntruderLayers> layers = intruder_layers(look.scene, look.moment, look.moment.intruders[0], context);
     REQUIRE(layers.has_value());
     const cv::Scalar before = cv::sum(layers->warped.color);
     const cv::Scalar after = cv::sum(layers->occluded.color);

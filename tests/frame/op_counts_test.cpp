@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/op_counts.h"
+#include "frame/composed_frame.h"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/render_intruder.h"
+#include "frame/render_plan.h"
 #include "frame/synthetic_scenes.h"
 #include "scene/sample_scenes.h"
 #include "scene/scene_at.h"

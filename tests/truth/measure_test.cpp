@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "truth/measure.h"
 
 #include <doctest/doctest.h>
-
 #include <cmath>
 #include <numbers>
 #include <opencv2/calib3d.hpp>
@@ -11,6 +9,8 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "compositor/synthetic_layers.h"
+#include "truth/measure.h"
 
 namespace sigs::test {
 namespace {
@@ -250,6 +250,41 @@ TEST_CASE("the area is the sum of the shares covered") {
   CHECK(area_px(cv::Mat(4, 10, CV_32FC1, cv::Scalar(0.25))) == 10);
   // A million small shares: OpenCV adds up in doubles, so nothing is lost but the floats' own 6e-8.
   CHECK(area_px(cv::Mat(1000, 1000, CV_32FC1, cv::Scalar(0.001))) == doctest::Approx(1000).epsilon(1e-7));
+}
+
+TEST_CASE("what the image's border cuts off is not hidden") {
+  CHECK(occluded_fraction({.visible_fraction = 0.3, .inside_fraction = 0.3}) == 0);
+  CHECK(occluded_fraction({.visible_fraction = 1, .inside_fraction = 1}) == 0);
+}
+
+TEST_CASE("the hidden share is one of what lies in the image") {
+  CHECK(occluded_fraction({.visible_fraction = 0.25, .inside_fraction = 0.5}) == 0.5);
+  CHECK(occluded_fraction({.visible_fraction = 0, .inside_fraction = 0.5}) == 1);
+}
+
+TEST_CASE("nothing in the image hides nothing, and rounding never leaves 0 to 1") {
+  CHECK(occluded_fraction({.visible_fraction = 0, .inside_fraction = 0}) == 0);
+  CHECK(occluded_fraction({.visible_fraction = 0.5000001, .inside_fraction = 0.5}) == 0);
+}
+
+TEST_CASE("a twentieth hidden is not yet occluded") {
+  CHECK_FALSE(is_occluded({.visible_fraction = 0.96, .inside_fraction = 1}));
+  CHECK(is_occluded({.visible_fraction = 0.94, .inside_fraction = 1}));
+  CHECK_FALSE(is_occluded({.visible_fraction = 0.1, .inside_fraction = 0.1}));
+}
+
+TEST_CASE("a nearer layer hides by its opacity where it lies over the farther one") {
+  cv::Mat coverage(10, 10, CV_32FC1, cv::Scalar(0.5));
+  const cv::Rect rect(20, 20, 10, 10);
+  occlude_coverage(coverage, rect, even_layer({25, 18, 10, 6}, {0, 0, 0, 0.75F}));
+  for (int y = 20; y < 30; ++y)
+    for (int x = 20; x < 30; ++x) {
+      const bool under = x >= 25 && y < 24;
+      REQUIRE(coverage.at<float>(y - 20, x - 20) == (under ? 0.125F : 0.5F));
+    }
+  occlude_coverage(coverage, rect, Layer{});
+  occlude_coverage(coverage, rect, even_layer({100, 100, 5, 5}, {1, 1, 1, 1}));
+  CHECK(coverage.at<float>(9, 9) == 0.5F);
 }
 
 }  // namespace sigs::test

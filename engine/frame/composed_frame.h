@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "truth/annotation.h"
+#include "video/frame.h"
+
+namespace sigs {
+
+// One intermediate image of a frame, for inspection: CV_8UC3 BGR or, for masks, CV_8UC1. The name is also that of the
+// file that `sigs frame --stages` writes: "input1", "a", "bent", ...; with several intruders "1_bent" for the one with
+// id 1.
+struct Stage {
+  std::string name;
+  cv::Mat image;
+};
+
+// Whether the intermediate images of a frame are kept.
+enum class Stages { leave_out, keep };
+
+// Operations that composing a frame took, counted where they happen. Unlike seconds they are the same on every machine.
+struct OpCounts {
+  std::int64_t lens_evaluations = 0;  // of the lens model: directions to pixels and pixels to directions
+  std::int64_t pixels_drawn = 0;      // by OpenGL, of all virtual cameras
+  std::int64_t triangles_drawn = 0;
+  std::int64_t bytes_uploaded = 0;    // to OpenGL: meshes and textures
+  std::int64_t pixels_warped = 0;     // of layers, sampled through the lens
+  std::int64_t pixels_blurred = 0;    // of layers; with the classic method of whole images too
+  std::int64_t pixels_blended = 0;    // of the frame, rewritten
+  std::int64_t pixels_converted = 0;  // of whole images, between code values and BGR
+
+  [[nodiscard]] bool operator==(const OpCounts&) const = default;
+
+  OpCounts& operator+=(const OpCounts& more) {
+    lens_evaluations += more.lens_evaluations;
+    pixels_drawn += more.pixels_drawn;
+    triangles_drawn += more.triangles_drawn;
+    bytes_uploaded += more.bytes_uploaded;
+    pixels_warped += more.pixels_warped;
+    pixels_blurred += more.pixels_blurred;
+    pixels_blended += more.pixels_blended;
+    pixels_converted += more.pixels_converted;
+    return *this;
+  }
+};
+
+// Seconds that the two parts of composing took.
+struct FrameTimes {
+  double draw_s = 0;       // OpenGL, with reading its images back
+  double composite_s = 0;  // warp, blur, occlude, blend, measure
+};
+
+// A frame of the footage with the intruders in it, and the truth about them.
+struct ComposedFrame {
+  Frame image;
+  // Opacity with which the intruders were composited: CV_8UC1 of the image's size, 255 opaque. At least 1 where a pixel
+  // was rewritten at all; 0 where its luma has the bits of the footage (a chroma sample shared with a rewritten
+  // neighbour may differ). Empty where no pixel was rewritten.
+  cv::Mat mask;
+  FrameTruth truth;
+  std::vector<Stage> stages;  // empty unless asked for
+  FrameTimes times;
+  OpCounts op_counts;
+};
+
+}  // namespace sigs

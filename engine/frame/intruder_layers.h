@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/layer.h"
+#include "compositor/warp.h"
+#include "frame/composed_frame.h"
+#include "scene/scene_at.h"
+#include "truth/measure.h"
+
+namespace sigs {
+
+// One intruder of one frame on its way from the mesh to the image. Each member is filled by one stage, in this order.
+struct IntruderLayers {
+  PlacedIntruder placed;
+  std::optional<Silhouette> silhouette;  // of the model's points through the lens
+  double sigma_px = 0;                   // of the blur at this distance
+  std::vector<RenderedView> views;       // empty where no part of it can reach the image
+  Layer warped;                          // through the lens, with the margin beyond the image that the blur needs
+  Layer blurred;                         // clipped to the image; empty where too faint to change any sample
+  Layer occluded;                        // without what the own body hides; shares its samples where it hides nothing
+  double whole_area_px = 0;              // of the silhouette, the part outside the image included
+  double draw_s = 0;                     // seconds of OpenGL
+  OpCounts op_counts;
+};
+
+}  // namespace sigs

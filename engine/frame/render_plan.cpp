@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "frame/render_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "compositor/blur.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kMaxViewSize_px = 4096;  // some 300 MB; the image of a nearer intruder is rendered coarser
+constexpr int kWholeAreaSteps = 128;   // pixels across in which a silhouette beyond the image's edge is measured
+
+const Mesh& mesh_of(const Scene& scene, const PlacedIntruder& placed) {
+  return scene.intruders[static_cast<std::size_t>(placed.id)].model->mesh;
+}
+
+std::array<glm::dvec3, 8> corners_in_camera(const Mesh& mesh,
+                                            const Pose<frame::Camera, frame::Body>& camera_from_body) {
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1) ? mesh.high_m.x : mesh.low_m.x, (i & 2) ? mesh.high_m.y : mesh.low_m.y,
+                            (i & 4) ? mesh.high_m.z : mesh.low_m.z);
+    corners[i] = camera_from_body * corner;
+  }
+  return corners;
+}
+
+// A box around the intruder's image. None where some points have no image: its faces may still span the image.
+std::optional<Box> bounds_of(const IntruderLayers& layers, double radius_m) {
+  if (!layers.silhouette || !layers.silhouette->all_have_image || layers.placed.distance_m() <= radius_m)
+    return std::nullopt;
+  return layers.silhouette->box;
+}
+
+// Whether the box around a body may look so wide that it takes more than one view: what no pixel looks at is then worth
+// being cut off. The box lies within sqrt(3) radii of its middle, and a view holds 50 degrees either way.
+bool may_span_several_views(double distance_m, double radius_m) {
+  constexpr double kRadii = 2.3;  // sqrt(3) / sin(50 degrees)
+  return distance_m < kRadii * radius_m;
+}
+
+// How far beyond the image's edge light is rendered that the blur carries into it: all that a sigma of 100 px carries.
+// From farther off only a near intruder has any, before a blur in which nothing of it can be recognised.
+int margin_px(double sigma_px) {
+  constexpr int kMaxMargin_px = 300;
+  return sigma_px > kMaxMargin_px ? kMaxMargin_px : std::min(blur_margin_px(sigma_px), kMaxMargin_px);
+}
+
+// Pixels from which the intruder can reach the image.
+cv::Rect warp_rect_of(const std::optional<Box>& bounds, int blur_px, cv::Size image_size_px) {
+  const cv::Rect grown(-blur_px, -blur_px, image_size_px.width + 2 * blur_px, image_size_px.height + 2 * blur_px);
+  return bounds ? pixels_touched(*bounds, 1, grown) : grown;
+}
+
+// The same lens with coarse pixels of step by step pixels: coarse pixel (i, j) covers the square [i, i + 1) x [j, j +
+// 1) times step, from the upper left corner of the image.
+Camera coarse_camera(const Camera& camera, double step) {
+  LensParameters coarse = camera.lens.parameters();
+  coarse.fx /= step;
+  coarse.fy /= step;
+  coarse.cx = (coarse.cx + 0.5) / step - 0.5;
+  coarse.cy = (coarse.cy + 0.5) / step - 0.5;
+  return {*Lens::make(coarse), camera.size_px};
+}
+
+Box coarse_box(const Box& box_px, double step) {
+  return {(box_px.x + 0.5) / step - 0.5, (box_px.y + 0.5) / step - 0.5, box_px.width / step, box_px.height / step};
+}
+
+void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderCounts& after) {
+  counts.pixels_drawn += after.pixels_drawn - before.pixels_drawn;
+  counts.triangles_drawn += after.triangles_drawn - before.triangles_drawn;
+  counts.bytes_uploaded += after.bytes_uploaded - before.bytes_uploaded;
+}
+
+}  // namespace
+
+Camera compositing_camera(const Scene& scene) {
+  if (scene.compositing.method != MethodChoice::plain) return scene.camera;
+  const LensParameters& lens = scene.camera.lens.parameters();
+  return {*Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}), scene.camera.size_px};
+}
+
+IntruderLayers placed_layers(const Scene& scene, const PlacedIntruder& placed, const Camera& camera) {
+  const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
+  IntruderLayers layers{.placed = placed};
+  layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
+  if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations = static_cast<std::int64_t>(model.points_m.size());
+  if (scene.compositing.method != MethodChoice::plain)
+    layers.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
+  return layers;
+}
+
+RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const Scene& scene,
+                           const SceneMoment& moment) {
+  const Mesh& mesh = mesh_of(scene, layers.placed);
+  const double distance_m = layers.placed.distance_m();
+  if (!layers.silhouette && distance_m > mesh.radius_m) return {};
+  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body),
+                  .light = {moment.light_in_camera, scene.light.color, scene.light.ambient}};
+  const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
+  plan.warp_rect = warp_rect_of(bounds, margin_px(layers.sigma_px), scene.footage.size_px);
+  const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;
+  // Of a body that lies within there is nothing to cut off.
+  const std::optional<cv::Rect> target =
+      is_within && !may_span_several_views(distance_m, mesh.radius_m) ? std::nullopt : std::optional(plan.warp_rect);
+  if (!plan.warp_rect.empty())
+    plan.views = virtual_cameras(lens, plan.corners, target, scene.compositing.supersampling, kMaxViewSize_px);
+  return plan;
+}
+
+Result<std::vector<RenderedView>> rendered_views(const std::vector<VirtualCamera>& views, const RenderPlan& plan,
+                                                 const Scene& scene, IntruderLayers& layers, Renderer& renderer) {
+  const Stopwatch watch;
+  const RenderCounts before = renderer.counts();
+  std::vector<RenderedView> rendered;
+  for (const VirtualCamera& view : views) {
+    Result<Layer> layer =
+        renderer.draw(mesh_of(scene, layers.placed), layers.placed.camera_from_body, plan.light, view);
+    if (!layer) return fail(layer.error());
+    rendered.push_back({view, std::move(*layer)});
+  }
+  count_rendering(layers.op_counts, before, renderer.counts());
+  layers.draw_s += watch.elapsed_s();
+  return rendered;
+}
+
+Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens, const Scene& scene,
+                             Renderer& renderer) {
+  if (!layers.silhouette || layers.warped.empty()) return 0;
+  const Box& box = layers.silhouette->box;
+  const cv::Rect whole = pixels_touched(box, 1, kUnboundedRect);
+  if ((whole & layers.warped.rect) == whole) return area_px(layers.warped.coverage);
+  // By the box itself, not by its clamped pixels: near the plane of a pinhole's lens it can be 1e9 px wide. Means by
+  // area keep the sum, however coarse they are.
+  const double step = std::max({1.0, box.width / kWholeAreaSteps, box.height / kWholeAreaSteps});
+  LensTable coarse(coarse_camera(lens.camera(), step), lens.tolerance_px());
+  const cv::Rect coarse_rect = pixels_touched(coarse_box(box, step), 1, kUnboundedRect);
+  const std::vector<VirtualCamera> views = virtual_cameras(coarse, plan.corners, coarse_rect, 1, 4 * kWholeAreaSteps);
+  const Result<std::vector<RenderedView>> rendered = rendered_views(views, plan, scene, layers, renderer);
+  if (!rendered) return fail(rendered.error());
+  if (rendered->empty()) return 0;
+  const double coarse_area = area_px(warped(*rendered, coarse, coarse_rect).coverage);
+  layers.op_counts.pixels_warped += coarse_rect.area();
+  layers.op_counts.lens_evaluations += coarse.evaluations();
+  return coarse_area * step * step;
+}
+
+}  // namespace sigs
