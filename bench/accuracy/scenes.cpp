@@ -85,8 +85,8 @@ LensParameters fisheye_170_lens() {
   const double theta = 85 * std::numbers::pi / 180;
   const std::vector<double> k{-0.015, 0.003, -0.0012, 0.0001};
   const double square = theta * theta;
-  const double bent = theta * (1 + square * (k[0] + square * (k[1] + square * (k[2] + square * k[3]))));
-  const double focal_px = 640 / bent;
+  const double distorted = theta * (1 + square * (k[0] + square * (k[1] + square * (k[2] + square * k[3]))));
+  const double focal_px = 640 / distorted;
   return {LensModel::kannala_brandt, focal_px, focal_px, 639.5, 479.5, k};
 }
 

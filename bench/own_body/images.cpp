@@ -85,7 +85,7 @@ void draw_real_masks(const accuracy::Call& call) {
 
 }  // namespace
 
-void draw_pictures(const accuracy::Call& call) {
+void draw_images(const accuracy::Call& call) {
   const flights::FlightSettings making{.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480),
                                        .frames = call.quick ? 80 : 300};
   draw_flights(making, call);

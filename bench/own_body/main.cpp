@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       {"flights", bench::measure_flights}, {"limits", bench::measure_limits},
       {"time", bench::measure_time},       {"early", bench::measure_early_stop},
       {"real", bench::measure_real_clips}, {"reliability", bench::measure_reliability},
-      {"images", bench::draw_pictures}};
+      {"images", bench::draw_images}};
   const auto measure = measures.find(argc > 1 ? argv[1] : "");
   if (argc < 3 || measure == measures.end())
     accuracy::stop("flights|limits|time|early|real|reliability|images FOLDER [quick]");

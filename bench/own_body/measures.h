@@ -26,6 +26,6 @@ void measure_reliability(const accuracy::Call& call);
 
 // What the page shows: flights.jpg of what measure_flights left, stages-paper.jpg, stages-stable.jpg, real-masks.png of
 // what measure_real_clips left.
-void draw_pictures(const accuracy::Call& call);
+void draw_images(const accuracy::Call& call);
 
 }  // namespace sigs::bench

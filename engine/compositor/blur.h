@@ -14,7 +14,7 @@ namespace sigs {
 // pixels average it.
 [[nodiscard]] Layer blurred(const Layer& layer, double sigma_px);
 
-// How far blur carries a pixel: ceil(3 sigma_px).
+// Pixels over which the blur carries a pixel: ceil(3 sigma_px).
 [[nodiscard]] int blur_margin_px(double sigma_px);
 
 // Above this sigma a blur is computed at places a quarter of sigma apart, and the cost no longer grows with sigma.

@@ -21,8 +21,8 @@ struct GoneWord {
 };
 
 const std::vector<GoneWord>& gone_words() {
-  static const std::vector<std::string> kStageName = {"\"bent\"", "1_bent", "_bent\"",
-                                                      "bent.png", "`bent`", "\"Bent\""};
+  static const std::vector<std::string> kStageName = {"\"bent\"", "1_bent", "_bent\"", "bent.png",
+                                                      "_bent`",   "`bent`", "\"Bent\""};
   static const std::vector<std::string> kWritten = {
       "in_picture",    "in the picture", "same pictures",      "AV_PICTURE",        "picture_width",   "picture_height",
       "picture order", "\"pictures\"",   "groups of pictures", "group of pictures", "hidden pictures", "whole picture"};
@@ -54,9 +54,11 @@ const std::vector<GoneWord>& gone_words() {
       {"file desk", "project session"},
       {"front desk", "app shell"},
       {"studio", "view context"},
-      {"least pixels", "--min-pixels", {"label_least_pixels", "\"least_pixels\""}},
+      {"least pixels",
+       "--min-pixels",
+       {"label_least_pixels", "least_pixels`", "export least pixels", "\"least_pixels\""}},
       {"least score", "--min-score", {"\"least_score\""}},
-      {"least visible", "--min-visible", {"least_visible_fraction", "at least visible"}},
+      {"least visible", "--min-visible", {"least_visible", "export least visible"}},
       {"longest range", "--max-range", {"\"longest_range_m\""}},
       {"longest gap", "--max-gap", {"\"longest_gap_s\""}},
   };
@@ -96,6 +98,12 @@ bool is_searched(const fs::path& path) {
          extension == ".cmake";
 }
 
+// What H.264 codes is a picture; the decoder's own files speak of it so.
+bool is_coded_picture(const fs::path& file, const std::string& line) {
+  const bool is_decoder = file.generic_string().find("/video/") != std::string::npos;
+  return is_decoder && line.find("icture") != std::string::npos;
+}
+
 std::vector<fs::path> searched_files() {
   std::vector<fs::path> files;
   const fs::path root = sigs::test::source_dir();
@@ -118,6 +126,7 @@ TEST_CASE("the words that are gone stand nowhere") {
     int number = 0;
     for (std::string line; std::getline(in, line);) {
       ++number;
+      if (is_coded_picture(file, line)) continue;
       if (const GoneWord* const gone = gone_word_in(line))
         FAIL_CHECK(file.lexically_relative(root).generic_string()
                    << ":" << number << ": \"" << std::string(gone->words) << "\"; say " << std::string(gone->say));
