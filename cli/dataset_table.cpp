@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "base/text_pieces.h"
+#include "base/text.h"
 #include "dataset/run.h"
 #include "dataset/short_text.h"
 #include "video/frame_source.h"

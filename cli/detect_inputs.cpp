@@ -6,9 +6,9 @@
 #include <set>
 #include <system_error>
 
-#include "base/folder_contents.h"
 #include "base/nesting.h"
-#include "base/temporary_file.h"
+#include "base/paths.h"
+#include "base/staged_outputs.h"
 #include "cli/options.h"
 
 namespace sigs::cli {

@@ -6,8 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "base/folder_contents.h"
-#include "base/overwrite_check.h"
+#include "base/paths.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "created_folders.h"
 
 namespace sigs::cli {

@@ -15,7 +15,7 @@
 #include "cli/progress.h"
 #include "export/export_project.h"
 #include "labels/labels.h"
-#include "project/set_field.h"
+#include "project/fields.h"
 #include "project/validate.h"
 
 namespace sigs::cli {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "camera/camera.h"
 #include "cli/options.h"
 #include "mesh/mesh.h"

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <vector>
 
-#include "base/folder_contents.h"
-#include "base/guarded.h"
 #include "base/input_file.h"
+#include "base/paths.h"
+#include "base/threads.h"
 #include "interrupt.h"
 #include "labels/labels.h"
 

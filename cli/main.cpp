@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "cli/check_command.h"
 #include "cli/dataset_command.h"
 #include "cli/evaluate_command.h"

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/overwrite_check.h"
+#include "base/paths.h"
 #include "cli/overlay.h"
 
 namespace sigs::cli {

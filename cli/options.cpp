@@ -8,10 +8,9 @@
 #include <optional>
 
 #include "base/ensure.h"
-#include "base/number_text.h"
+#include "base/text.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/set_field.h"
 
 namespace sigs::cli {
 

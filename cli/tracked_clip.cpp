@@ -3,9 +3,8 @@
 #include <cctype>
 #include <sstream>
 
-#include "base/number_text.h"
-#include "base/temporary_file.h"
-#include "base/text_pieces.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
 #include "evaluation/tracker_group.h"
 #include "export/frame_stream.h"
 #include "interrupt.h"

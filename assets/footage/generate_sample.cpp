@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "flight.h"
 #include "sensor.h"
 

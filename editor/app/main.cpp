@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "editor/app/app.h"
 
 namespace {

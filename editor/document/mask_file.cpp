@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 
 namespace sigs::editor {
 

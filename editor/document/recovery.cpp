@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/file_lock.h"
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "editor/document/mask_file.h"
 #include "project/json_reading.h"
 

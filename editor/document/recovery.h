@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/descriptor.h"
+#include "base/file_lock.h"
 #include "base/result.h"
 #include "editor/document/document.h"
 #include "project/json.h"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "project/json_reading.h"
 
 namespace sigs::editor {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/frame_range.h"
+#include "project/project.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
 

@@ -4,8 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/guarded.h"
-#include "base/thread.h"
+#include "base/threads.h"
 #include "editor/preview/thread_priority.h"
 
 namespace sigs::editor {

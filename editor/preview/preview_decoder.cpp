@@ -5,8 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/guarded.h"
-#include "base/thread.h"
+#include "base/threads.h"
 
 namespace sigs::editor {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "editor/preview/thread_priority.h"
 
 namespace sigs::editor {

@@ -6,8 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/guarded.h"
-#include "base/thread.h"
+#include "base/threads.h"
 #include "export/export_project.h"
 #include "frame/compose_frame.h"
 #include "project/json.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "editor/preview/turntable.h"
 #include "scene/placeholders.h"
 #include "scene/scene_parts.h"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "editor/preview/outline_truth.h"
 #include "editor/preview/thread_priority.h"
 #include "evaluation/track_start.h"

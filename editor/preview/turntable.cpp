@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "base/transfer.h"
 
 namespace sigs::editor {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "editor/document/dropped_file.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/elided.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "editor/document/waypoint_edits.h"
 #include "scene/scene_at.h"
 #include "scene/waypoint_times.h"

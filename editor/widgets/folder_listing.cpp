@@ -13,8 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/guarded.h"
-#include "base/thread.h"
+#include "base/threads.h"
 
 namespace sigs::editor {
 

@@ -10,13 +10,14 @@
 
 namespace sigs {
 
-// Hands items from threads to threads; put() waits while it is full, take() while it is empty. Once closed, put() is
-// refused and take() gives what is left, then nothing.
+// A first-in, first-out queue of at most `capacity` items between any number of threads.
 template <class T>
 class BoundedQueue {
  public:
+  // capacity: at least 1.
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
+  // Appends an item; waits while the queue is full. False, and the item is dropped, where the queue is closed.
   bool put(T item) {
     std::unique_lock lock(mutex_);
     not_full_.wait(lock, [this] { return items_.size() < capacity_ || closed_; });
@@ -26,6 +27,7 @@ class BoundedQueue {
     return true;
   }
 
+  // Removes the first item; waits while the queue is empty. After close() returns the items that are left, then none.
   std::optional<T> take() {
     std::unique_lock lock(mutex_);
     not_empty_.wait(lock, [this] { return !items_.empty() || closed_; });
@@ -36,6 +38,7 @@ class BoundedQueue {
     return item;
   }
 
+  // Ends the exchange: wakes all threads that wait, and lets put() fail from here on.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -3,10 +3,12 @@
 
 namespace sigs {
 
-// Prints the broken condition with its place and aborts.
+// Prints the condition that does not hold, with its file and line, and aborts the program.
 [[noreturn]] void ensure_failed(const char* condition, const char* file, int line);
 
 }  // namespace sigs
 
-// A promise between parts of the program. Nobody outside can break it; where it is broken, stop here.
+// States a condition that holds between parts of the program, whatever the input is. Where it does not hold, that is
+// our own mistake, and the program stops.
+// Example: ENSURE(sigma_px >= 0);
 #define ENSURE(condition) ((condition) ? void(0) : ::sigs::ensure_failed(#condition, __FILE__, __LINE__))

@@ -1,34 +1,67 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
+#include <unistd.h>
 
-#include "base/descriptor.h"
+#include <cerrno>
+#include <filesystem>
+#include <utility>
 
 namespace sigs {
 
-// Locks on whole files by flock(2): they end with the process, however that ends. Not every file system has them
-// (NFS without lockd, Lustre without -o flock); there nobody can be kept out, and that is no error.
-enum class LockAnswer {
-  held,         // from here on by this open file
-  taken,        // another open file, most likely another process, holds it
-  unavailable,  // nobody can tell: there are no locks here
+// A file descriptor that is closed at the end of its life. -1: no open file.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    if (this == &other) return *this;
+    reset();
+    number_ = std::exchange(other.number_, -1);
+    return *this;
+  }
+  ~Descriptor() { reset(); }
+
+  [[nodiscard]] int number() const { return number_; }
+  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+
+  // Closes the file. Leaves errno as it was.
+  void reset() noexcept {
+    if (number_ < 0) return;
+    const int error = errno;
+    close(std::exchange(number_, -1));
+    errno = error;
+  }
+
+ private:
+  int number_ = -1;
 };
 
-// What an errno of flock(LOCK_NB) means; 0: it succeeded. Only EWOULDBLOCK says that somebody holds the lock.
+// Locks on whole files by flock(2). A lock belongs to the open file and ends with its process, however that ends. Some
+// file systems have no locks (NFS without lockd, Lustre without -o flock). There nobody can be kept out; that is not
+// treated as an error.
+enum class LockAnswer {
+  held,         // this open file has the lock
+  taken,        // another open file has it, most likely that of another process
+  unavailable,  // there are no locks here, so nobody can tell
+};
+
+// The meaning of errno after flock() with LOCK_NB; 0 stands for success. EWOULDBLOCK alone means `taken`.
 [[nodiscard]] LockAnswer lock_answer(int error);
 
-// Takes the lock for one holder alone. Does not wait. The file must be open for writing: NFS asks for it.
+// Tries to take the exclusive lock, without waiting. The file must be open for writing: NFS requires it.
 [[nodiscard]] LockAnswer try_lock(const Descriptor& file);
 
-// Whether another one holds the lock. Where there are no locks: no.
+// Whether another open file has the lock. False where there are no locks.
 [[nodiscard]] bool is_locked_by_another(const Descriptor& file);
 
-// Whether the path still names the open file, which may have been removed or renamed since.
+// Whether the path still names the open file, which may have been removed or renamed meanwhile.
 [[nodiscard]] bool is_named(const Descriptor& file, const std::filesystem::path& path);
 
-// Opens, or where asked for makes, a regular file for locking; nothing is written to it, no symbolic link followed, and
-// a FIFO not waited for. Not open: errno says why; EINVAL for what is no regular file.
+// Opens a regular file for locking, and creates it where `which` allows it. Writes nothing to it, follows no symbolic
+// link and does not wait for the other end of a FIFO. On failure the descriptor is not open and errno says why; EINVAL:
+// not a regular file.
 enum class LockFile { must_be_there, made_where_missing };
 [[nodiscard]] Descriptor open_for_lock(const std::filesystem::path& path, LockFile which);
 

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The pixel convention, stated once for the whole program: OpenCV's. The centre of the first pixel is (0, 0), x runs
-// right, y runs down; pixel (i, j) covers the square [i - 0.5, i + 0.5) x [j - 0.5, j + 0.5). Integer boxes (cv::Rect)
-// name the first covered column and row and how many are covered.
-
-#include <cmath>
+#include <filesystem>
 #include <opencv2/core.hpp>
+#include <optional>
 
 namespace sigs {
 
-// Continuous box in pixel coordinates: edges, not pixels. Pixel (i, j) alone is {i - 0.5, j - 0.5, 1, 1}.
+// The pixel convention of the whole program, which is OpenCV's: the centre of the first pixel is (0, 0), x runs right,
+// y runs down. Pixel (i, j) covers the square [i - 0.5, i + 0.5) x [j - 0.5, j + 0.5). Integer rectangles (cv::Rect)
+// name the first covered column and row and the number of covered columns and rows.
+
+// A rectangle in continuous pixel coordinates. It is given by its edges: pixel (i, j) is {i - 0.5, j - 0.5, 1, 1}.
 struct Box {
-  double x = 0;  // left edge
-  double y = 0;  // upper edge
+  double x = 0;  // left edge, px
+  double y = 0;  // upper edge, px
   double width = 0;
   double height = 0;
 
@@ -25,5 +26,24 @@ inline const cv::Rect kUnboundedRect{-1'000'000, -1'000'000, 2'000'000, 2'000'00
 
 // Smallest rectangle of whole pixels that touches all of the box, grown by margin_px and clipped to bounds.
 [[nodiscard]] cv::Rect pixels_touched(const Box& box, int margin_px, const cv::Rect& bounds);
+
+// What one intruder adds to an image, in linear light, over a small rectangle of that image.
+//   rect      position of the layer in the image; empty: nothing is rendered
+//   color     CV_32FC4: red, green, blue, opacity; premultiplied (red <= opacity for a surface no brighter than white)
+//   coverage  CV_32FC1: share of the pixel that the silhouette covers, 0..1. The truth is measured in it: the lens
+//             warps it and the own body occludes it, but blur does not change it, and glass covers although it lets
+//             light through.
+struct Layer {
+  cv::Rect rect;
+  cv::Mat color;
+  cv::Mat coverage;
+
+  // Whether nothing is rendered.
+  [[nodiscard]] bool empty() const { return rect.empty(); }
+};
+
+// Width and height in pixels as the header of a PNG, JPEG, BMP, TIFF, WebP or PNM file states them, read without
+// decoding: a file of some hundred kilobytes can contain a billion pixels. None for other files and incomplete headers.
+[[nodiscard]] std::optional<cv::Size> image_size_px(const std::filesystem::path& path);
 
 }  // namespace sigs

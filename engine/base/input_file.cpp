@@ -2,6 +2,7 @@
 #include "base/input_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,28 +11,15 @@
 #include <cstddef>
 #include <cstring>
 
+#include "base/file_lock.h"
+
 namespace sigs {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kPiece_bytes = 64 << 10;  // beyond the size that the file system tells
-
-// A file descriptor, closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
+constexpr std::size_t kPiece_bytes = 64 << 10;  // by which the text grows beyond the size that the file system reports
 
 tl::unexpected<Error> cannot_read(const fs::path& path, int error) {
   if (error == ENOENT || error == ENOTDIR) return fail(path.string(), "no such file", ErrorKind::cannot_read);
@@ -48,13 +36,13 @@ const char* name_of(mode_t mode) {
 Result<void> check_mode(const fs::path& path, mode_t mode, const std::string& thing) {
   if (S_ISREG(mode)) return {};
   if (S_ISDIR(mode)) return fail(path.string(), "is a folder, not a " + thing, ErrorKind::cannot_read);
-  return fail(path.string(), std::string("is a ") + name_of(mode) + ", not a " + thing + "; a regular file is needed",
+  return fail(path.string(), fmt::format("is a {}, not a {}; a regular file is needed", name_of(mode), thing),
               ErrorKind::cannot_read);
 }
 
 tl::unexpected<Error> too_large(const fs::path& path, std::uint64_t limit_bytes) {
-  return fail(path.string(), "is larger than " + std::to_string(limit_bytes / kMebibyte) +
-                                 " MiB, the most that is read of such a file");
+  return fail(path.string(),
+              fmt::format("is larger than {} MiB, the most that is read of such a file", limit_bytes / kMebibyte));
 }
 
 }  // namespace
@@ -67,10 +55,10 @@ Result<void> check_input_file(const fs::path& path, const std::string& thing) {
 
 Result<std::string> read_text(const fs::path& path, std::uint64_t limit_bytes) {
   if (const Result<void> file = check_input_file(path); !file) return fail(file.error());
-  // What took its place since then: opening a pipe does not wait for a writer.
+  // A pipe may have taken its place meanwhile: opening it does not wait for a writer.
   const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat found {};
-  if (file.number() < 0 || fstat(file.number(), &found) != 0) return cannot_read(path, errno);
+  if (!file.is_open() || fstat(file.number(), &found) != 0) return cannot_read(path, errno);
   if (const Result<void> regular = check_mode(path, found.st_mode, "file"); !regular) return fail(regular.error());
   if (static_cast<std::uint64_t>(found.st_size) > limit_bytes) return too_large(path, limit_bytes);
   std::string text;
@@ -85,7 +73,8 @@ Result<std::string> read_text(const fs::path& path, std::uint64_t limit_bytes) {
       text.resize(filled);
       return text;
     }
-    if (filled == text.size()) text.resize(filled + std::max(filled / 2, kPiece_bytes));  // it says 0, or grows
+    if (filled == text.size())
+      text.resize(filled + std::max(filled / 2, kPiece_bytes));  // files of /proc report the size 0; others may grow
   }
 }
 

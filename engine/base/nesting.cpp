@@ -9,8 +9,8 @@ namespace sigs {
 
 namespace {
 
-// The rules of OpenCV 4's parser (modules/core/src/persistence_yml.cpp): quotes and brackets mean something only where
-// a value begins, a key is all that stands before a colon, and texts end with their line.
+// Follows the rules of OpenCV 4's parser (modules/core/src/persistence_yml.cpp): quotes and brackets have a meaning
+// only where a value begins, a key is everything before a colon, and strings end with their line.
 class OpencvYaml {
  public:
   explicit OpencvYaml(std::string_view text) : text_(text) {}
@@ -37,7 +37,7 @@ class OpencvYaml {
   void skip_blanks() {
     while (here() == ' ' || here() == '\t' || here() == '\r') ++at_;
   }
-  void skip_until(std::string_view stops) { at_ = std::min(text_.find_first_of(stops, at_), text_.size()); }
+  void skip_until(std::string_view ends) { at_ = std::min(text_.find_first_of(ends, at_), text_.size()); }
   void next_line() {
     skip_until("\n");
     line_begin_ = ++at_;
@@ -48,7 +48,7 @@ class OpencvYaml {
     deepest_ = std::max(deepest_, static_cast<int>(columns_.size()) + static_cast<int>(brackets_.size()));
   }
 
-  // A block list or map that begins in a column holds those that begin further right.
+  // A block list or map that begins in a column contains those that begin further right.
   void enter_column() {
     const std::size_t column = at_ - line_begin_;
     while (!columns_.empty() && columns_.back() > column) columns_.pop_back();

@@ -5,21 +5,21 @@
 
 namespace sigs {
 
-// How deep lists, objects or elements may lie in one another in a file that is read: far deeper than any file of ours,
-// and far from where parsers and functions that call themselves for each level run out of stack (docs/limits.md).
+// The greatest depth to which lists, objects or elements may be nested in a file that is read. It is far more than any
+// file of ours has, and far less than exhausts the stack of parsers and other recursive functions (docs/limits.md).
 inline constexpr int kMaxNesting = 100;
 
-// How deep a text nests at most, found in one pass without calling itself. What the parser would stop at as wrong is
-// not looked into further; up to there the depth is at least that which the parser goes down to.
+// The functions below return the greatest depth to which a text is nested. They need one pass and no recursion. Text
+// behind a syntax error is not examined further; up to there the result is at least the depth that a parser reaches.
 
-// JSON: brackets [ and {; those in quotes do not count.
+// JSON: brackets [ and {, except in quoted strings.
 [[nodiscard]] int json_depth(std::string_view text);
 
-// XML: elements. Comments and processing instructions do not count.
+// XML: elements; comments and processing instructions are ignored.
 [[nodiscard]] int xml_depth(std::string_view text);
 
-// YAML as cv::FileStorage reads it: brackets, and block lists and maps by the columns in which they begin. May count a
-// level more than there is.
+// YAML as cv::FileStorage reads it: brackets, and block lists and maps by the columns in which they begin. The result
+// may be one level too high.
 [[nodiscard]] int opencv_yaml_depth(std::string_view text);
 
 }  // namespace sigs

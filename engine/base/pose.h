@@ -1,22 +1,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <numbers>
 
 namespace sigs {
+
+// Angles, reference frames and rigid motions.
+
+// Degrees exist only in files and on screen; these two functions convert.
+[[nodiscard]] constexpr double rad_of_deg(double deg) {
+  return deg * (std::numbers::pi / 180.0);
+}
+[[nodiscard]] constexpr double deg_of_rad(double rad) {
+  return rad * (180.0 / std::numbers::pi);
+}
+
+// The angle between two vectors of any length, 0..pi rad; accurate for the smallest angles too. 0 where one of them is
+// zero.
+[[nodiscard]] inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
 
 // The reference frames of docs/frames-and-units.md, as types. All are right-handed, in metres.
 namespace frame {
 struct World;   // X: the camera's heading at the first frame, Y: right, Z: down
 struct Camera;  // X: optical axis, Y: right, Z: down
-struct Body;    // X: out of the nose, Y: right wing, Z: down (of an aircraft)
-struct View;    // the virtual camera that draws one intruder: X: its axis, Y: right, Z: down
+struct Body;    // of an aircraft; X: out of the nose, Y: right wing, Z: down
+struct View;    // the virtual camera that renders one intruder; X: its axis, Y: right, Z: down
 }  // namespace frame
 
 // Rigid motion that takes coordinates in From to coordinates in To:
 //   p_in_to = pose * p_in_from = rotation * p_in_from + translation_m
-// Poses<A, B> and <B, C> multiply to <A, C>; any other product does not compile.
+// Pose<A, B> times Pose<B, C> is Pose<A, C>; any other product does not compile.
 template <class To, class From>
 struct Pose {
   glm::dquat rotation{1, 0, 0, 0};    // unit, (w, x, y, z)
@@ -30,27 +48,29 @@ struct Pose {
   }
 };
 
+// The motion back, from To to From.
 template <class To, class From>
 [[nodiscard]] Pose<From, To> inverse(const Pose<To, From>& pose) {
   const glm::dquat back = glm::conjugate(pose.rotation);
   return {back, -(back * pose.translation_m)};
 }
 
-// Aerospace angles (yaw about Z, then pitch about the new Y, then roll about the new X; ISO 1151), radians.
-// Yaw is positive to the right, pitch nose up, roll right wing down.
+// Aerospace angles, radians: yaw about Z, then pitch about the rotated Y, then roll about the rotated X (ISO 1151). Yaw
+// is positive to the right, pitch with the nose up, roll with the right wing down.
 struct Attitude {
   double roll_rad = 0;
   double pitch_rad = 0;
   double yaw_rad = 0;
 };
 
-// Rotation that takes body (or camera) coordinates to the frame in which the attitude is given.
+// The rotation that takes body (or camera) coordinates to the frame in which the attitude is given. Unit quaternion.
 [[nodiscard]] glm::dquat rotation_of(const Attitude& attitude);
 
-// The other way round. Roll and yaw lie in (-pi, pi], pitch in [-pi/2, pi/2]; straight up or down, roll is 0.
+// The inverse of rotation_of(). Roll and yaw lie in (-pi, pi], pitch in [-pi/2, pi/2]; straight up or down, roll is 0.
 [[nodiscard]] Attitude attitude_of(const glm::dquat& rotation);
 
-// The only turn into OpenCV's optical frame (x right, y down, z forward), and back.
+// The change of axes from our camera frame (X forward, Y right, Z down) to OpenCV's optical frame (x right, y down, z
+// forward), and back. Nothing else in the program changes between the two.
 [[nodiscard]] inline glm::dvec3 optical_of(const glm::dvec3& p_in_camera) {
   return {p_in_camera.y, p_in_camera.z, p_in_camera.x};
 }

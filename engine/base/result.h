@@ -7,7 +7,7 @@
 
 namespace sigs {
 
-// What went wrong, as the exit status of the program says it (sysexits.h).
+// The kind of an error. The number is the exit status of the program (sysexits.h).
 enum class ErrorKind {
   usage = 64,          // the command line makes no sense
   bad_data = 65,       // an input could be read but is not what it should be
@@ -19,16 +19,19 @@ enum class ErrorKind {
   interrupted = 130,   // the user stopped it
 };
 
-// One mistake of the outside world: where ("gopro.xml: camera_matrix"), and what to do about it in one line.
+// A mistake in what comes from outside: files, settings, the machine.
+//   where  the file and the place in it, or the setting: "gopro.xml: camera_matrix"; may be empty
+//   what   one line that says what is wrong and, where possible, what to do about it
 struct Error {
   std::string where;
   std::string what;
   ErrorKind kind = ErrorKind::bad_data;
 
+  // "where: what", as it is printed.
   [[nodiscard]] std::string text() const { return where.empty() ? what : where + ": " + what; }
 };
 
-// Something worth telling that stops nothing: a missing texture, an unknown key.
+// Something that the user should know but that stops nothing: a missing texture, an unknown key.
 struct Warning {
   std::string where;
   std::string what;
@@ -36,16 +39,17 @@ struct Warning {
   [[nodiscard]] std::string text() const { return where.empty() ? what : where + ": " + what; }
 };
 
+// A value, or the error that prevented it. Functions that can fail for reasons outside the program return it.
 template <class T>
 using Result = tl::expected<T, Error>;
 
-// return fail("gopro.xml: camera_matrix", "expected 9 numbers, found 8");
+// The failure to return: return fail("gopro.xml: camera_matrix", "expected 9 numbers, found 8");
 [[nodiscard]] inline tl::unexpected<Error> fail(std::string where, std::string what,
                                                 ErrorKind kind = ErrorKind::bad_data) {
   return tl::unexpected<Error>(Error{std::move(where), std::move(what), kind});
 }
 
-// Hands an error on to the caller: if (!camera) return fail(camera.error());
+// Passes an error on to the caller: if (!camera) return fail(camera.error());
 [[nodiscard]] inline tl::unexpected<Error> fail(Error error) {
   return tl::unexpected<Error>(std::move(error));
 }

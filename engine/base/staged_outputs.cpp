@@ -5,23 +5,69 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <fstream>
+#include <mutex>
 #include <ranges>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include "base/descriptor.h"
-#include "base/flush.h"
+#include "base/file_lock.h"
 #include "base/renaming.h"
-#include "base/signal_blocker.h"
 
 namespace sigs {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::array<int, 3> kBlockedSignals{SIGHUP, SIGINT, SIGTERM};
+
+// A signal handler can use only global data. Blocking the signals of one thread would not do: a signal to the process
+// goes to any thread that does not block it.
+struct BlockedSignals {
+  std::mutex mutex;
+  int blockers = 0;
+  std::array<struct sigaction, kBlockedSignals.size()> before{};
+  std::array<std::atomic<bool>, kBlockedSignals.size()> pending{};
+};
+BlockedSignals blocked_signals;
+
+void note_signal(int signal) {
+  for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
+    if (kBlockedSignals[i] == signal) blocked_signals.pending[i] = true;
+}
+
+// Holds SIGHUP, SIGINT and SIGTERM back during its life, whichever thread they are delivered to; afterwards they act as
+// they would have. Several may live at once, also in several threads.
+class SignalBlocker {
+ public:
+  SignalBlocker() {
+    const std::lock_guard lock(blocked_signals.mutex);
+    if (blocked_signals.blockers++ > 0) return;
+    struct sigaction action {};
+    action.sa_handler = note_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
+      sigaction(kBlockedSignals[i], &action, &blocked_signals.before[i]);
+  }
+  ~SignalBlocker() {
+    const std::lock_guard lock(blocked_signals.mutex);
+    if (--blocked_signals.blockers > 0) return;
+    for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
+      sigaction(kBlockedSignals[i], &blocked_signals.before[i], nullptr);
+    for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
+      if (blocked_signals.pending[i].exchange(false)) raise(kBlockedSignals[i]);
+  }
+  SignalBlocker(const SignalBlocker&) = delete;
+  SignalBlocker& operator=(const SignalBlocker&) = delete;
+};
 
 constexpr const char* kTaken = "exists already; --force overwrites it";
 
@@ -48,7 +94,7 @@ bool make_empty_file(const fs::path& path) {
   return Descriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)).is_open();
 }
 
-// A name may change its owner between two looks at it.
+// Number of attempts: other processes may take or free a name between two steps of ours.
 constexpr int kTries = 3;
 
 }  // namespace
@@ -61,7 +107,7 @@ Result<fs::path> StagedOutputs::add_folder(const fs::path& final_path, MayReplac
   return add({.final_path = final_path, .kind = Kind::folder, .may_replace = std::move(may_replace)});
 }
 
-// What a symbolic link names is never replaced, but the link itself may be.
+// A symbolic link itself may be replaced, the file that it points to is not.
 Result<void> StagedOutputs::check_free(const Output& output) const {
   const fs::path& path = output.final_path;
   const fs::file_type type = type_of(path);
@@ -85,9 +131,9 @@ Result<StagingFolder*> StagedOutputs::staging_beside(const fs::path& final_path)
     if (staging->folder() == folder) return staging.get();
   std::error_code code;
   if (!fs::is_directory(folder, code)) return fail(refused(folder, "no such folder to write into"));
-  Result<StagingFolder> made = StagingFolder::create(folder);
-  if (!made) return fail(made.error());
-  return stagings_.emplace_back(std::make_unique<StagingFolder>(std::move(*made))).get();
+  Result<StagingFolder> created = StagingFolder::create(folder);
+  if (!created) return fail(created.error());
+  return stagings_.emplace_back(std::make_unique<StagingFolder>(std::move(*created))).get();
 }
 
 Result<fs::path> StagedOutputs::add(Output output) {
@@ -96,26 +142,26 @@ Result<fs::path> StagedOutputs::add(Output output) {
   if (!staging) return fail(staging.error());
   output.staging = *staging;
   const fs::path staged = output.staged();
-  const bool made = output.kind == Kind::file ? make_empty_file(staged) : mkdir(staged.c_str(), 0777) == 0;
-  if (!made && errno == EEXIST) return fail(refused(output.final_path, "is the name of two outputs"));
-  if (!made) return fail(refused(output.final_path, std::string("cannot be created: ") + std::strerror(errno)));
+  const bool created = output.kind == Kind::file ? make_empty_file(staged) : mkdir(staged.c_str(), 0777) == 0;
+  if (!created && errno == EEXIST) return fail(refused(output.final_path, "is the name of two outputs"));
+  if (!created) return fail(refused(output.final_path, std::string("cannot be created: ") + std::strerror(errno)));
   if (output.staging->is_staged_elsewhere(output.final_path.filename()))
     return fail(refused(output.final_path, "is being written by another process"));
   outputs_.push_back(std::move(output));
   return staged;
 }
 
-// What is replaced is looked at where nobody else reaches it.
+// The older output is examined at its backup place, where no other process changes it.
 Result<void> StagedOutputs::replace(Output& output) const {
-  const std::error_code code = replace_with_backup(output.staged(), output.final_path, output.aside());
+  const std::error_code code = replace_with_backup(output.staged(), output.final_path, output.backup());
   if (code == std::errc::state_not_recoverable) output.placed = Placed::instead;
   if (code) return fail(output.final_path.string(), "cannot be replaced: " + code.message(), ErrorKind::write_failed);
   output.placed = Placed::instead;
-  const fs::file_type type = type_of(output.aside());
+  const fs::file_type type = type_of(output.backup());
   if (type == fs::file_type::symlink) return {};
   if (output.kind == Kind::file && type == fs::file_type::regular) return {};
   if (output.kind == Kind::folder && type == fs::file_type::directory)
-    return output.may_replace ? output.may_replace(output.aside()) : Result<void>();
+    return output.may_replace ? output.may_replace(output.backup()) : Result<void>();
   return fail(refused(output.final_path, "is no longer what it was when the work began; choose another name"));
 }
 
@@ -134,19 +180,19 @@ Result<void> StagedOutputs::place(Output& output) const {
   return fail(output.final_path.string(), "cannot be given its final name: " + code.message(), ErrorKind::write_failed);
 }
 
-// What cannot be undone is told, and stays on the disk.
+// An older output that cannot be put back is named in the error and stays on the disk.
 Error StagedOutputs::undo_all(Error error) {
   error = with_final_names(std::move(error));
   for (Output& output : outputs_ | std::views::reverse) {
     std::error_code code;
     if (output.placed == Placed::as_new) code = rename_new(output.final_path, output.staged());
     if (output.placed == Placed::instead && type_of(output.final_path) == fs::file_type::not_found)
-      code = rename_new(output.aside(), output.final_path);
+      code = rename_new(output.backup(), output.final_path);
     else if (output.placed == Placed::instead)
-      code = replace_with_backup(output.aside(), output.final_path, output.staged());
+      code = replace_with_backup(output.backup(), output.final_path, output.staged());
     if (code && output.placed == Placed::instead) {
       output.staging->leave_on_disk();
-      error.what += "; the older " + output.final_path.filename().string() + " lies at " + output.aside().string();
+      error.what += "; the older " + output.final_path.filename().string() + " lies at " + output.backup().string();
     }
     output.placed = Placed::no;
   }
@@ -165,7 +211,7 @@ Result<void> StagedOutputs::commit() {
     if (!step) return fail(with_final_names(step.error()));
   }
   {
-    const SignalBlocker held;
+    const SignalBlocker blocker;
     for (Output& output : outputs_)
       if (const Result<void> step = place(output); !step) return fail(undo_all(step.error()));
   }
@@ -184,12 +230,51 @@ std::vector<fs::path> StagedOutputs::final_paths() const {
 Error StagedOutputs::with_final_names(Error error) const {
   for (const Output& output : outputs_) {
     if (output.staging == nullptr) continue;
-    for (const fs::path& place : {output.staged(), output.aside()}) {
+    for (const fs::path& place : {output.staged(), output.backup()}) {
       error.where = replaced(std::move(error.where), place.string(), output.final_path.string());
       error.what = replaced(std::move(error.what), place.string(), output.final_path.string());
     }
   }
   return error;
+}
+
+namespace {
+
+StagedOutputs::Existing existing(bool overwrite) {
+  return overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse;
+}
+
+}  // namespace
+
+Result<TemporaryFile> TemporaryFile::create(fs::path final_path, bool overwrite) {
+  StagedOutputs outputs(existing(overwrite));
+  Result<fs::path> temporary_path = outputs.add_file(final_path);
+  if (!temporary_path) return fail(temporary_path.error());
+  return TemporaryFile(std::move(final_path), std::move(*temporary_path), std::move(outputs));
+}
+
+Result<TemporaryFile> TemporaryFile::create_folder(fs::path final_path, bool overwrite,
+                                                   StagedOutputs::MayReplace may_replace) {
+  StagedOutputs outputs(existing(overwrite));
+  Result<fs::path> temporary_path = outputs.add_folder(final_path, std::move(may_replace));
+  if (!temporary_path) return fail(temporary_path.error());
+  return TemporaryFile(std::move(final_path), std::move(*temporary_path), std::move(outputs));
+}
+
+TemporaryFile::TemporaryFile(fs::path final_path, fs::path temporary_path, StagedOutputs outputs)
+    : final_(std::move(final_path)), temporary_path_(std::move(temporary_path)), outputs_(std::move(outputs)) {}
+
+Result<void> write_text(const fs::path& path, std::string_view text, bool overwrite) {
+  Result<TemporaryFile> file = TemporaryFile::create(path, overwrite);
+  if (!file) return fail(file.error());
+  std::ofstream out(file->temporary_path(), std::ios::binary);
+  if (!out)
+    return fail(path.string(), std::string("cannot be created: ") + std::strerror(errno), ErrorKind::cannot_create);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out)
+    return fail(path.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
+  return file->commit();
 }
 
 }  // namespace sigs

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/file_lock.h"
-#include "base/folder_contents.h"
+#include "base/paths.h"
 #include "base/renaming.h"
 
 namespace sigs {
@@ -34,7 +34,7 @@ Error not_created(const fs::path& folder) {
           is_full ? ErrorKind::write_failed : ErrorKind::cannot_create};
 }
 
-// A lock says nothing of runs on other machines where the file system keeps locks to each machine.
+// The text of the lock file. It names the machine, because some file systems keep locks to each machine alone.
 std::string lock_text() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
@@ -59,7 +59,7 @@ bool is_private_folder(const fs::path& path) {
          (state.st_mode & 0777) == 0700;
 }
 
-// Not open: it is no staging folder of this user and machine.
+// The lock file of a staging folder; not open where it is not a staging folder of this user and machine.
 Descriptor opened_lock(const fs::path& staging) {
   if (!is_private_folder(staging)) return {};
   Descriptor lock = open_for_lock(staging / "lock", LockFile::must_be_there);
@@ -71,7 +71,7 @@ Descriptor opened_lock(const fs::path& staging) {
   return lock;
 }
 
-// Opens one folder at a time, however deep they lie.
+// Removes a file, or a folder with its contents. Has one folder open at a time, at any depth.
 void remove_tree(const fs::path& path) {
   if (unlink(path.c_str()) == 0) return;
   struct stat state {};
@@ -81,7 +81,7 @@ void remove_tree(const fs::path& path) {
   rmdir(path.c_str());
 }
 
-// The lock goes last: a removal that is killed can be gone on with.
+// Removes the lock last, so that the next run can complete a removal that was killed.
 void remove_staging(const fs::path& staging) {
   remove_tree(staging / "new");
   remove_tree(staging / "old");
@@ -89,7 +89,8 @@ void remove_staging(const fs::path& staging) {
   rmdir(staging.c_str());
 }
 
-// Where a run was killed between moving the older one aside and giving its name to the newer one.
+// Gives the outputs in old/ their names back, where the run was killed before the newer ones took those names. False:
+// some could not be put back.
 bool put_back_older(const fs::path& staging) {
   std::error_code code;
   if (!fs::exists(fs::symlink_status(staging / "old", code))) return true;
@@ -136,12 +137,12 @@ StagingFolder::~StagingFolder() {
   remove();
 }
 
-// Until the lock file has its text nobody takes the folder for an abandoned one.
+// Without its text in the lock file the folder cannot be mistaken for an abandoned one.
 Result<void> StagingFolder::begin() {
   constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
   lock_ = Descriptor(open((path_ / "lock").c_str(), kFlags, 0600));
   if (!lock_.is_open()) return fail(not_created(folder_));
-  static_cast<void>(try_lock(lock_));  // without locks, others leave it alone
+  static_cast<void>(try_lock(lock_));  // where there are no locks, other runs leave the folder alone
   const std::string text = lock_text();
   if (write(lock_.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
       mkdir((path_ / "new").c_str(), 0700) != 0 || mkdir((path_ / "old").c_str(), 0700) != 0)
@@ -170,7 +171,7 @@ void StagingFolder::remove() noexcept {
   spare_.reset();
   try {
     remove_staging(path_);
-  } catch (const std::exception&) {  // no memory even for its names: the next run removes it
+  } catch (const std::exception&) {  // no memory for the names in it: the next run removes the folder
   }
 }
 

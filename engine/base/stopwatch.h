@@ -5,9 +5,10 @@
 
 namespace sigs {
 
-// Runs from when it is made. For reports of time spent alone: no result may depend on it.
+// Measures the seconds since its construction. For reports of durations only: no result may depend on it.
 class Stopwatch {
  public:
+  // Seconds since the construction, by the monotonic clock.
   [[nodiscard]] double elapsed_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }

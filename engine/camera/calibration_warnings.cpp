@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "base/angles.h"
+#include "base/pose.h"
 
 namespace sigs::calibration {
 namespace {

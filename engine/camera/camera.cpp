@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "camera/calibration_fields.h"
 #include "camera/gyroflow.h"
 #include "camera/opencv_storage.h"

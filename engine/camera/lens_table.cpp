@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/pose.h"
 
 namespace sigs {
 
@@ -18,10 +19,6 @@ constexpr int kWidestStep_px = 16;  // five nodes across a tile; four are needed
 
 int floor_div(int a, int b) {
   return a / b - (a % b < 0 ? 1 : 0);
-}
-
-double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 bool is_ray(const glm::dvec3& ray) {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/nesting.h"
-#include "base/text_pieces.h"
+#include "base/text.h"
 
 namespace sigs::calibration {
 namespace {

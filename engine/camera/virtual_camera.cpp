@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/ensure.h"
+#include "base/pose.h"
 
 namespace sigs {
 
@@ -80,10 +81,6 @@ TargetRays rays_over(const cv::Rect& target, LensTable& lens) {
       grid.rays.push_back(row[static_cast<std::size_t>(std::int64_t{target.width} * i / TargetRays::kSteps)]);
   }
   return grid;
-}
-
-double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 // Whether any pixel can look to within half_angle_rad of a direction: the nearest of the grid's rays may miss it by

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "base/layer.h"
+#include "base/image.h"
 
 namespace sigs {
 

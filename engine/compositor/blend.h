@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "video/frame.h"
 
 namespace sigs {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "video/frame.h"
 
 namespace sigs {

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "base/layer.h"
+#include "base/image.h"
 
 namespace sigs {
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <span>
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "camera/camera.h"
 #include "camera/lens_table.h"
 #include "camera/pinhole_view.h"

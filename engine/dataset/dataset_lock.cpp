@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "base/file_lock.h"
-#include "base/folder_contents.h"
+#include "base/paths.h"
 
 namespace sigs {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/descriptor.h"
+#include "base/file_lock.h"
 #include "base/result.h"
 
 namespace sigs {

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/checksum.h"
 #include "dataset/json_text.h"
 #include "project/json_reading.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dataset/checksum.h"
-#include "mesh/model_files.h"
+#include "mesh/textures.h"
 #include "project/fields.h"
 #include "project/json.h"
 

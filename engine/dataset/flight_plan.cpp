@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
 #include "base/pose.h"
 #include "dataset/encounter.h"
 #include "dataset/image_flight.h"

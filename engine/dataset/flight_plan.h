@@ -7,7 +7,6 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "base/frame_range.h"
 #include "camera/camera.h"
 #include "dataset/flight_quantities.h"
 #include "dataset/sample.h"

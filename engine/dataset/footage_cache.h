@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "base/frame_range.h"
 #include "base/result.h"
 #include "camera/camera.h"
 #include "dataset/recipe.h"
+#include "project/project.h"
 #include "scene/scene.h"
 
 namespace sigs {

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <system_error>
 
-#include "base/flush.h"
 #include "base/renaming.h"
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/checksum.h"
 #include "dataset/dataset_lock.h"
 #include "dataset/json_text.h"

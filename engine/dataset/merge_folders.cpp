@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "base/folder_contents.h"
-#include "base/temporary_file.h"
+#include "base/paths.h"
+#include "base/staged_outputs.h"
 #include "dataset/merge_formats.h"
 #include "labels/hard_link.h"
 #include "labels/label_text.h"

@@ -5,7 +5,7 @@
 #include <tl/expected.hpp>
 
 #include "dataset/sample.h"
-#include "project/field_json.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 

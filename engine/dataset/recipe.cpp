@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/quantity_json.h"
 #include "dataset/recipe_node.h"
 #include "dataset/recipe_sections.h"

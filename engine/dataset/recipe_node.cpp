@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "project/fields.h"
 #include "project/json_reading.h"
-#include "project/near_key.h"
 
 namespace sigs {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "project/field_json.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "project/fields.h"
-#include "project/set_field.h"
 #include "project/validate.h"
 
 namespace sigs {

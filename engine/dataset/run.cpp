@@ -9,10 +9,9 @@
 #include <thread>
 #include <utility>
 
-#include "base/guarded.h"
-#include "base/parallel_for.h"
 #include "base/staging_folder.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "dataset/fingerprint.h"
 #include "dataset/merge_labels.h"
 #include "dataset/shared_files.h"

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <vector>
 
-#include "base/temporary_file.h"
-#include "base/text_pieces.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
 #include "dataset/checksum.h"
 #include "dataset/entry.h"
 #include "dataset/json_text.h"

@@ -6,9 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include "base/flush.h"
 #include "base/renaming.h"
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/dataset_lock.h"
 #include "export/export_project.h"
 #include "project/fields.h"

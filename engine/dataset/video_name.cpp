@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/file_name.h"
+#include "base/paths.h"
 
 namespace sigs {
 

@@ -5,8 +5,8 @@
 #include <pugixml.hpp>
 #include <utility>
 
-#include "base/temporary_file.h"
-#include "base/text_pieces.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
 #include "evaluation/clip_truth.h"
 #include "evaluation/numbers.h"
 

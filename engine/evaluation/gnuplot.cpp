@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 
 namespace sigs {
 

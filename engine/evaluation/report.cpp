@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/report_files.h"
 

@@ -2,35 +2,11 @@
 #include "evaluation/report_numbers.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "labels/xml_text.h"
 
 namespace sigs {
-
-std::string exact_text(double number) {
-  if (!std::isfinite(number)) return "";
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number == 0 ? 0.0 : number);
-  return {buffer.data(), end.ptr};
-}
-
-std::string exact_text(const std::optional<double>& number) {
-  return number ? exact_text(*number) : std::string();
-}
-
-std::string fixed_text(double number, int decimals) {
-  if (!std::isfinite(number)) return "-";
-  std::array<char, 400> buffer{};  // 309 digits before the point at most
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::fixed, decimals);
-  std::string text(buffer.data(), end.ptr);
-  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
-  if (is_zero && text.starts_with('-')) text.erase(0, 1);
-  return text;
-}
 
 std::string line_text(const std::string& text) {
   std::string line = xml_text(text);

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "base/text.h"  // exact_text(), fixed_text()
 
 namespace sigs {
 
 // Numbers and names in reports; a point separates whatever the locale.
-
-// The shortest text that reads back as the same number; "" for NaN and infinity.
-[[nodiscard]] std::string exact_text(double number);
-[[nodiscard]] std::string exact_text(const std::optional<double>& number);  // none: ""
-
-// As many decimals as asked for, zeros included, as columns of a table want them; "-" for NaN and infinity.
-[[nodiscard]] std::string fixed_text(double number, int decimals);
 
 // A name on one line of valid UTF-8: control characters become spaces, what is no UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string line_text(const std::string& text);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/ensure.h"
-#include "base/text_pieces.h"
+#include "base/text.h"
 #include "evaluation/report_numbers.h"
 
 namespace sigs {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cctype>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "evaluation/numbers.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_lines.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "evaluation/results_formats.h"
 
 namespace sigs {

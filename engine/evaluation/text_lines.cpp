@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/text_lines.h"
 
-#include "base/text_pieces.h"
+#include "base/text.h"
 
 namespace sigs {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "base/guarded.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "export/export_files.h"
 #include "export/frame_pipeline.h"
 #include "frame/compose_frame.h"

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "base/frame_range.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "scene/visibility.h"

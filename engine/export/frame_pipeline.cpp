@@ -4,9 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/guarded.h"
 #include "base/stopwatch.h"
-#include "base/thread.h"
+#include "base/threads.h"
 #include "scene/visibility_estimate.h"
 
 namespace sigs {

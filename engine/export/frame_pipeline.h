@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/bounded_queue.h"
-#include "base/frame_range.h"
 #include "frame/compose_frame.h"
+#include "project/project.h"
 #include "scene/scene.h"
 #include "video/frame_source.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "export/frame_pipeline.h"
 #include "scene/opened_project.h"
 

@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/frame_range.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "truth/annotation.h"

@@ -4,9 +4,8 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/guarded.h"
 #include "base/stopwatch.h"
-#include "base/thread.h"
+#include "base/threads.h"
 
 namespace sigs {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "compositor/warp.h"
 #include "frame/composed_frame.h"
 #include "scene/scene_at.h"

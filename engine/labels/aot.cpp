@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "labels/label_text.h"
 #include "labels/text_file.h"
 

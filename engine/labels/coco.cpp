@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/angles.h"
 #include "base/ensure.h"
+#include "base/pose.h"
 #include "labels/label_text.h"
 #include "labels/own_body_parts.h"
 #include "labels/run_length.h"

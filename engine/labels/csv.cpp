@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/angles.h"
-#include "base/number_text.h"
+#include "base/pose.h"
+#include "base/text.h"
 #include "labels/label_text.h"
 #include "labels/text_file.h"
 #include "labels/xml_text.h"

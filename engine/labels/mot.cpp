@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/number_text.h"
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
 #include "labels/label_text.h"
 #include "labels/numbered_images.h"
 #include "labels/own_body_boxes.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "base/angles.h"
-#include "base/number_text.h"
+#include "base/pose.h"
+#include "base/text.h"
 #include "labels/xml_text.h"
 
 namespace sigs {

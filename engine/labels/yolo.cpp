@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "labels/hard_link.h"
 #include "labels/label_text.h"
 #include "labels/text_file.h"

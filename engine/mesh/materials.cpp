@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/guarded.h"
 #include "base/input_file.h"
-#include "base/text_pieces.h"
+#include "base/text.h"
+#include "base/threads.h"
 #include "mesh/textures.h"
 
 namespace sigs {
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What tinyobj does not tell of a material.
-struct Aside {
+// What tinyobj does not report of a material.
+struct OpacityHints {
   bool has_diffuse = false;
   bool has_dissolve = false;
   std::optional<float> fourth_of_diffuse;
@@ -31,7 +31,7 @@ struct Aside {
 
 struct MtlMaterial {
   tinyobj::material_t material;
-  Aside aside;
+  OpacityHints hints;
   fs::path folder;  // paths of textures start here
 };
 
@@ -46,20 +46,20 @@ std::optional<float> fourth_number(std::string_view numbers) {
   return value;
 }
 
-std::map<std::string, Aside> asides_of(std::string_view text) {
-  std::map<std::string, Aside> asides;
-  Aside* current = nullptr;
+std::map<std::string, OpacityHints> opacity_hints_of(std::string_view text) {
+  std::map<std::string, OpacityHints> hints_of_name;
+  OpacityHints* current = nullptr;
   while (!text.empty()) {
     std::string_view line = next_line(text);
     const std::string_view key = next_token(line);
-    if (key == "newmtl") current = &asides[std::string(trimmed(line))];
+    if (key == "newmtl") current = &hints_of_name[std::string(trimmed(line))];
     if (current == nullptr) continue;
     if (key == "d" || key == "Tr") current->has_dissolve = true;
     if (key != "Kd") continue;
     current->has_diffuse = true;
     current->fourth_of_diffuse = fourth_number(line);
   }
-  return asides;
+  return hints_of_name;
 }
 
 void read_library(const fs::path& path, MtlMaterials& found) {
@@ -73,17 +73,17 @@ void read_library(const fs::path& path, MtlMaterials& found) {
     std::string error;
     tinyobj::LoadMtl(&index_of_name, &materials, &stream, &warning, &error);
   } catch (const std::exception&) {
-    if (is_out_of_memory()) throw;  // a model without its materials would be a wrong texture
+    if (is_out_of_memory()) throw;  // a model without its materials would be wrong
     return;
   }
-  std::map<std::string, Aside> asides = asides_of(*text);
+  std::map<std::string, OpacityHints> hints_of_name = opacity_hints_of(*text);
   for (const tinyobj::material_t& material : materials) {
     const std::string name(trimmed(material.name));
-    found.emplace(name, MtlMaterial{material, asides[name], path.parent_path()});
+    found.emplace(name, MtlMaterial{material, hints_of_name[name], path.parent_path()});
   }
 }
 
-// A line names one file whose name may hold blanks, or several files.
+// The files that an mtllib line names: one whose name may contain blanks, or several.
 std::vector<std::string> names_in(const std::string& line, const fs::path& folder) {
   if (!found_file(folder, line).empty()) return {line};
   std::vector<std::string> names;
@@ -108,7 +108,7 @@ MtlMaterials read_libraries(const std::vector<std::string>& libraries, const fs:
 
 float opacity_of(const MtlMaterial& source) {
   const float written =
-      source.aside.has_dissolve ? source.material.dissolve : source.aside.fourth_of_diffuse.value_or(1.0F);
+      source.hints.has_dissolve ? source.material.dissolve : source.hints.fourth_of_diffuse.value_or(1.0F);
   return written >= 0 ? std::min(written, 1.0F) : 0.0F;
 }
 
@@ -116,21 +116,21 @@ glm::vec3 color_of(const float (&numbers)[3]) {
   return glm::clamp(glm::vec3(numbers[0], numbers[1], numbers[2]), 0.0F, 1.0F);
 }
 
-class Painter {
+class MaterialReader {
  public:
-  Painter(const fs::path& obj_path, std::vector<Warning>& warnings)
+  MaterialReader(const fs::path& obj_path, std::vector<Warning>& warnings)
       : obj_name_(obj_path.filename().string()), warnings_(warnings) {}
 
-  Material painted(const MtlMaterial& source) {
+  Material material_of(const MtlMaterial& source) {
     Material result{.name = source.material.name,
                     .specular = color_of(source.material.specular),
                     .shininess = source.material.shininess,
                     .opacity = opacity_of(source)};
     result.texture = texture_of(source, source.material.diffuse_texname);
     const bool is_grey =
-        result.texture.empty() && (!source.aside.has_diffuse || !source.material.diffuse_texname.empty());
-    if (!is_grey) result.diffuse = source.aside.has_diffuse ? color_of(source.material.diffuse) : glm::vec3(1.0F);
-    thin_out(result, source);
+        result.texture.empty() && (!source.hints.has_diffuse || !source.material.diffuse_texname.empty());
+    if (!is_grey) result.diffuse = source.hints.has_diffuse ? color_of(source.material.diffuse) : glm::vec3(1.0F);
+    apply_opacity_map(result, source);
     return result;
   }
 
@@ -148,8 +148,8 @@ class Painter {
     return texture;
   }
 
-  // Exporters name the colour texture again where its own opacity is meant; that is in the texture already.
-  void thin_out(Material& material, const MtlMaterial& source) {
+  // Some exporters name the colour texture here, too, and mean its own opacity, which the texture has already.
+  void apply_opacity_map(Material& material, const MtlMaterial& source) {
     const std::string& written = source.material.alpha_texname;
     if (written.empty() || written == source.material.diffuse_texname) return;
     const cv::Mat opacity_map = texture_of(source, written);
@@ -187,11 +187,11 @@ MaterialSet read_materials(const std::vector<std::string>& names, const std::vec
   MaterialSet set;
   const MtlMaterials found = read_libraries(libraries, obj_path, set.warnings);
   const bool has_library = !found.empty();
-  Painter painter(obj_path, set.warnings);
+  MaterialReader reader(obj_path, set.warnings);
   for (const std::string& name : names) {
     const auto source = found.find(name);
     if (source != found.end()) {
-      set.materials.push_back(painter.painted(source->second));
+      set.materials.push_back(reader.material_of(source->second));
       set.placements.push_back(placement_of(source->second.material.diffuse_texopt));
       continue;
     }

@@ -13,16 +13,17 @@
 
 namespace sigs {
 
+// The appearance of a surface, as an MTL file describes it.
 struct Material {
   std::string name;
-  glm::vec3 diffuse{0.5F, 0.5F, 0.5F};  // display code values 0..1 (sRGB), as modellers pick them
+  glm::vec3 diffuse{0.5F, 0.5F, 0.5F};  // display code values 0..1 (sRGB), as modelling programs write them
   glm::vec3 specular{0, 0, 0};
   float shininess = 1;
   float opacity = 1;  // 1: solid
   cv::Mat texture{};  // CV_8UC4, RGBA, first row is the top of the image (v = 1); empty: none
 };
 
-// Vertices of one triangle soup corner; float is enough for a body of some 100 m (0.01 mm).
+// One corner of the triangles that share it; float is enough for a body of some 100 m (0.01 mm).
 struct Vertex {
   glm::vec3 position_m;
   glm::vec3 normal;  // unit
@@ -39,32 +40,33 @@ struct MeshPart {
 // A model in body axes: X out of the nose, Y right wing, Z down; metres; origin at the model's reference point.
 struct Mesh {
   std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
+  std::vector<std::uint32_t> indices;  // three for each triangle, counter-clockwise from outside
   std::vector<MeshPart> parts;
   std::vector<Material> materials;
   std::vector<Warning> warnings;  // missing MTL or texture, faces left out
 
   glm::vec3 low_m{0, 0, 0};  // corners of the bounds
   glm::vec3 high_m{0, 0, 0};
-  float radius_m = 0;  // of the smallest sphere around the origin that holds every vertex
+  float radius_m = 0;  // of the smallest sphere around the origin that contains every vertex
 };
 
-// How a model file lies: which of its axes point out of the nose and up, and how large it is.
+// Axes and unit of a model file: which of its axes point out of the nose and up, and how large it is.
 struct ModelAxes {
   std::string forward = "+x";     // one of +x -x +y -y +z -z
   std::string up = "+z";          // the same, not along forward
-  double scale = 1.0;             // metres a unit; ignored where length_m is set
+  double scale = 1.0;             // metres for each unit of the file; ignored where length_m is set
   double length_m = 0;            // wanted extent along forward; 0: use scale
   bool anchor_at_bounds = false;  // false: the file's origin is the reference point; true: the centre of its bounds
 };
 
-// Reads Wavefront OBJ with its MTL and textures. Normals are made (averaged over the faces around a vertex, weighted by
-// corner angle, across edges of less than 60 degrees) where the file has none or none of any length. Forward and up
-// make a right-handed turn, so nothing is ever mirrored. A missing MTL or texture is drawn grey, with a warning. Faces
-// without area are left out; so are those of a wholly transparent material, with a warning (how opacity is read:
-// materials.h). Errors: cannot_read; bad_data (no faces, indices out of range, coordinates not finite, no extent for
-// length_m); bad_project with the setting as its place ("forward", "up", "scale", "length_m") where the axes make no
-// sense.
+// Reads a Wavefront OBJ file with its MTL files and textures.
+// Normals that the file lacks, or that have no length, are computed (averaged_normals() in geometry.h). Forward and up
+// define a right-handed rotation, so the model is never mirrored. Materials and textures that are missing are rendered
+// grey, with a warning. Faces without area are left out; so are faces of a wholly transparent material, with a warning
+// (materials.h says how opacity is read).
+// Errors: cannot_read; bad_data (no faces, indices out of range, coordinates that are not finite, no extent for
+// length_m); bad_project where the axes make no sense, with the setting as its place ("forward", "up", "scale",
+// "length_m").
 [[nodiscard]] Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes = {});
 
 }  // namespace sigs

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,11 +12,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/temporary_file.h"
-#include "mesh/axes.h"
+#include "base/staged_outputs.h"
+#include "mesh/geometry.h"
 #include "mesh/materials.h"
 #include "mesh/mesh.h"
-#include "mesh/normals.h"
 #include "mesh/obj_file.h"
 
 namespace sigs {
@@ -37,7 +39,7 @@ bool has_area(const Triangle& triangle) {
   return glm::length(doubled_area(triangle)) > 1e-9 * longest * longest;
 }
 
-// Leaves out faces that nobody can see: without area, or of a wholly transparent material.
+// Removes faces that are invisible: without area, or of a wholly transparent material.
 void leave_out_invisible(ObjFile& file, MaterialSet& set, const std::string& name) {
   std::vector<int> left_out(set.materials.size(), 0);
   std::erase_if(file.triangles, [&](const ObjTriangle& triangle) {
@@ -46,8 +48,8 @@ void leave_out_invisible(ObjFile& file, MaterialSet& set, const std::string& nam
   });
   for (std::size_t i = 0; i < left_out.size(); ++i)
     if (left_out[i] > 0)
-      set.warnings.push_back({name, "left out " + std::to_string(left_out[i]) + " triangles of material " +
-                                        set.materials[i].name + ", which is wholly transparent"});
+      set.warnings.push_back({name, fmt::format("left out {} triangles of material {}, which is wholly transparent",
+                                                left_out[i], set.materials[i].name)});
 }
 
 std::vector<Triangle> triangles_in_body(const ObjFile& file, const glm::dmat3& rotation) {
@@ -95,7 +97,7 @@ std::array<glm::dvec3, 3> written_normals(const ObjTriangle& triangle, const Obj
   return normals;
 }
 
-// The file's own normals say where outside is. Where the winding says otherwise, it is turned round.
+// The file's own normals point outward. Reverses the winding of triangles whose winding says otherwise.
 void turn_outside_out(ObjFile& file, std::vector<Triangle>& triangles, const glm::dmat3& rotation) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto [a, b, c] = written_normals(file.triangles[i], file, rotation);
@@ -208,8 +210,9 @@ Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) 
 
   MaterialSet set = read_materials(file->material_names, file->libraries, path);
   if (file->colored_vertices > 0)
-    set.warnings.push_back({name, "the colours of " + std::to_string(file->colored_vertices) +
-                                      " vertices are not used; materials (MTL, textures) give the colours"});
+    set.warnings.push_back(
+        {name, fmt::format("the colours of {} vertices are not used; materials (MTL, textures) give the colours",
+                           file->colored_vertices)});
   leave_out_invisible(*file, set, name);
   if (file->triangles.empty()) return fail(name, "has no faces with an area");
   std::vector<Triangle> triangles = triangles_in_body(*file, *rotation);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/obj_file.h"
 
+#include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
 #include <charconv>
@@ -13,9 +14,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/guarded.h"
-#include "base/text_pieces.h"
-#include "mesh/triangulate.h"
+#include "base/text.h"
+#include "base/threads.h"
 
 namespace sigs {
 namespace {
@@ -25,7 +25,7 @@ struct Polygon {
   int material = 0;
 };
 
-// What tinyobj's callbacks fill.
+// The state that tinyobj's callbacks fill.
 struct Reading {
   ObjFile file;
   std::vector<Polygon> polygons;
@@ -115,7 +115,7 @@ bool is_finite_number(std::string_view token) {
   return code == std::errc{} && end == token.data() + token.size() && std::isfinite(value);
 }
 
-// How many numbers the line begins with, as far as `most`.
+// Number of finite numbers at the beginning of the line, counted up to `most`.
 int count_numbers(std::string_view line, int most) {
   int count = 0;
   while (count < most && is_finite_number(next_token(line))) ++count;
@@ -132,14 +132,14 @@ Result<int> check_positions(const std::string& text, const std::string& name) {
     if (next_token(line) != "v") continue;
     const int numbers = count_numbers(line, 6);
     if (numbers < 3)
-      return fail(name + ": line " + std::to_string(line_number),
-                  "expected three finite coordinates, found \"" + std::string(trimmed(line)) + "\"");
+      return fail(fmt::format("{}: line {}", name, line_number),
+                  fmt::format("expected three finite coordinates, found \"{}\"", trimmed(line)));
     if (numbers == 6) ++colored;
   }
   return colored;
 }
 
-// What a file is that begins so and is no OBJ; empty: nothing is known against it.
+// The format of a file that is not OBJ, recognized by its beginning; empty: the file may be OBJ.
 std::string_view other_format(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16 text; save it as UTF-8";
   if (text.starts_with("glTF")) return "binary glTF";
@@ -149,7 +149,7 @@ std::string_view other_format(std::string_view text) {
   if (text.starts_with("\x1F\x8B") || text.starts_with("PK")) return "a packed file; unpack it first";
   if (text.starts_with("<?xml") || text.starts_with("<COLLADA")) return "XML (COLLADA?)";
   if (text.starts_with("solid") && text.find("facet") != std::string_view::npos) return "STL";
-  // Binary STL: 80 bytes of anything, how many triangles, 50 bytes for each.
+  // Binary STL: 80 bytes of anything, the number of triangles, 50 bytes for each.
   constexpr std::size_t kHeader = 84;
   constexpr std::size_t kTriangle = 50;
   if (text.size() < kHeader) return "";
@@ -208,7 +208,7 @@ bool append_triangles(ObjFile& file, const Polygon& polygon) {
 
 Result<ObjFile> parse_obj(std::string text, const std::string& name) {
   if (const auto checked = check_is_obj(text, name); !checked) return fail(checked.error());
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // the mark of UTF-8
+  text.erase(0, text.size() - without_bom(text).size());
   join_continued_lines(text);
   const Result<int> colored = check_positions(text, name);
   if (!colored) return fail(colored.error());
@@ -216,14 +216,14 @@ Result<ObjFile> parse_obj(std::string text, const std::string& name) {
   if (!reading) return fail(reading.error());
   if (reading->polygons.empty()) return fail(name, "has no faces");
   if (const int bad = count_out_of_range(*reading); bad > 0)
-    return fail(name, std::to_string(bad) + " of " + std::to_string(reading->polygons.size()) +
-                          " faces name vertices that the file does not have");
+    return fail(name,
+                fmt::format("{} of {} faces name vertices that the file does not have", bad, reading->polygons.size()));
   for (const glm::vec3& position : reading->file.positions)
     if (!std::isfinite(position.x + position.y + position.z)) return fail(name, "a coordinate is too large");
   for (const Polygon& polygon : reading->polygons)
     if (!append_triangles(reading->file, polygon))
-      return fail(name, "a face of " + std::to_string(polygon.corners.size()) +
-                            " corners is too intricate; cut it into triangles where it was made");
+      return fail(name, fmt::format("a face of {} corners is too intricate; cut it into triangles where it was made",
+                                    polygon.corners.size()));
   reading->file.libraries = libraries_of(text);
   reading->file.colored_vertices = *colored;
   return std::move(reading->file);

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "base/guarded.h"
-#include "base/image_size.h"
+#include "base/image.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "base/threads.h"
 
 namespace sigs {
 
@@ -38,7 +44,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, code);
 }
 
-// 16-bit textures hold 257 steps for each of 8 bits; floating-point ones run from 0 to 1.
+// One step of 8 bits is 257 steps of 16 bits; floating-point textures run from 0 to 1.
 cv::Mat as_8_bit(const cv::Mat& texture) {
   cv::Mat result = texture;
   if (texture.depth() == CV_16U) texture.convertTo(result, CV_8U, 1.0 / 257.0);
@@ -60,7 +66,7 @@ cv::Mat as_rgba(const cv::Mat& texture) {
   return rgba;
 }
 
-constexpr int kMaxSide_px = 16384;                  // what OpenGL takes nearly everywhere
+constexpr int kMaxSide_px = 16384;                  // supported by OpenGL nearly everywhere
 constexpr std::int64_t kMaxPixels = 8192LL * 8192;  // a quarter of a gigabyte in RGBA
 
 cv::Mat read_image(const fs::path& path) {
@@ -69,7 +75,7 @@ cv::Mat read_image(const fs::path& path) {
     const cv::Mat texture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
     return texture.empty() ? cv::Mat() : as_rgba(as_8_bit(texture));
   } catch (const cv::Exception&) {
-    if (is_out_of_memory()) throw;  // a model without its texture would be a wrong texture
+    if (is_out_of_memory()) throw;  // a model without its texture would be wrong
     return {};
   }
 }
@@ -92,8 +98,7 @@ std::string texture_problem(const fs::path& path) {
   const bool is_large =
       std::max(size->width, size->height) > kMaxSide_px || std::int64_t{size->width} * size->height > kMaxPixels;
   if (!is_large) return "";
-  return "is " + std::to_string(size->width) + "x" + std::to_string(size->height) +
-         "; at most 8192x8192 pixels are read, and 16384 a side";
+  return fmt::format("is {}x{}; at most 8192x8192 pixels are read, and 16384 a side", size->width, size->height);
 }
 
 cv::Mat TextureCache::texture(const fs::path& path) {
@@ -112,6 +117,59 @@ cv::Mat with_opacity_map(const cv::Mat& texture, const cv::Mat& opacity_map) {
   cv::Mat result;
   cv::merge(planes, result);
   return result;
+}
+
+namespace {
+
+// The files that the rest of a line may name. Options and other names may come first, so each word, and everything from
+// each word on, is tried.
+std::vector<fs::path> files_named(std::string_view rest, const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (std::string_view end = trimmed(rest); !end.empty(); end = trimmed(end)) {
+    const std::string_view whole = end;
+    const std::string_view word = next_token(end);
+    for (const std::string_view name : {whole, word})
+      if (const fs::path file = found_file(folder, std::string(name)); !file.empty()) files.push_back(file);
+  }
+  return files;
+}
+
+bool names_texture(std::string_view key) {
+  return key.starts_with("map_") || key == "bump" || key == "disp" || key == "decal" || key == "refl" || key == "norm";
+}
+
+// The files named in those lines of a text file whose first word is_asked_for() accepts.
+template <class IsAskedFor>
+Result<std::vector<fs::path>> files_named_in(const fs::path& file, const IsAskedFor& is_asked_for) {
+  const Result<std::string> text = read_text(file);
+  if (!text) return fail(text.error());
+  std::vector<fs::path> files;
+  std::string_view rest = *text;
+  while (!rest.empty()) {
+    std::string_view line = next_line(rest);
+    if (!is_asked_for(next_token(line))) continue;
+    const std::vector<fs::path> named = files_named(line, file.parent_path());
+    files.insert(files.end(), named.begin(), named.end());
+  }
+  return files;
+}
+
+bool names_library(std::string_view key) {
+  return key == "mtllib";
+}
+
+}  // namespace
+
+Result<std::vector<fs::path>> files_of_model(const fs::path& file) {
+  const Result<std::vector<fs::path>> libraries = files_named_in(file, names_library);
+  if (!libraries) return fail(libraries.error());
+  std::vector<fs::path> files{file};
+  for (const fs::path& library : *libraries) {
+    files.push_back(library);
+    const Result<std::vector<fs::path>> images = files_named_in(library, names_texture);
+    if (images) files.insert(files.end(), images->begin(), images->end());
+  }
+  return files;
 }
 
 }  // namespace sigs

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+
+#include "mesh/obj_file.h"
 
 namespace sigs {
 namespace {
@@ -21,7 +22,7 @@ glm::dvec3 normal_of(std::span<const glm::vec3> corners) {
   return normal;
 }
 
-// The polygon seen along the axis in which its normal is longest, so that it runs counter-clockwise.
+// The polygon projected along the longest component of its normal, so that it runs counter-clockwise.
 std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
   const glm::dvec3 normal = normal_of(corners);
   const glm::dvec3 size = glm::abs(normal);
@@ -144,7 +145,7 @@ class Clipper {
     for (int i = 0; i < count; ++i) update(i);
   }
 
-  // Nothing: it would take more looks than that.
+  // nullopt: more tests than that would be needed.
   std::optional<std::vector<std::array<int, 3>>> clipped(std::int64_t max_looks) {
     std::vector<std::array<int, 3>> triangles;
     triangles.reserve(flat_.size());

@@ -3,8 +3,7 @@
 
 #include <utility>
 
-#include "base/guarded.h"
-#include "base/thread.h"
+#include "base/threads.h"
 #include "occlusion/luma.h"
 
 namespace sigs {

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "project/fields.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
 #include <utility>
+#include <vector>
+
+#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -156,7 +163,7 @@ std::vector<Field> fields_of(Project& project) {
   add_light(FieldList(fields, "light."), project.light);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     IntruderSettings& intruder = project.intruders[i];
-    const std::string prefix = "intruders[" + std::to_string(i) + "].";
+    const std::string prefix = fmt::format("intruders[{}].", i);
     FieldList(fields, prefix).add("name", &intruder.name, "", "what the annotations call it");
     FieldList(fields, prefix).add("category", &intruder.category, "", "what kind of thing labels call it").required =
         true;
@@ -164,7 +171,7 @@ std::vector<Field> fields_of(Project& project) {
     add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {
       WaypointSettings& waypoint = intruder.trajectory.waypoints[j];
-      FieldList list(fields, prefix + "trajectory.waypoints[" + std::to_string(j) + "].");
+      FieldList list(fields, fmt::format("{}trajectory.waypoints[{}].", prefix, j));
       list.number("frame", &waypoint.frame, "frame", -1e9, 1e9, "frame at which it is passed; none: spread evenly");
       list.number("position_m", &waypoint.position_m, "m", -kFarthest_m, kFarthest_m, "where, in the world");
     }
@@ -172,6 +179,80 @@ std::vector<Field> fields_of(Project& project) {
   add_compositing(FieldList(fields, "compositing."), project.compositing);
   add_output(FieldList(fields, "export."), project.output);
   return fields;
+}
+
+namespace {
+
+// Levenshtein's distance: the number of letters to change, add or leave out.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string> near_key(std::span<const std::string> keys, const std::string& key) {
+  std::optional<std::string> nearest;
+  std::size_t min_distance = 0;
+  for (const std::string& known : keys) {
+    const std::size_t distance = edit_distance(known, key);
+    if (2 * distance > std::max(known.size(), key.size())) continue;
+    if (nearest && distance >= min_distance) continue;
+    nearest = known;
+    min_distance = distance;
+  }
+  return nearest;
+}
+
+std::string suggestion(std::span<const std::string> keys, const std::string& key) {
+  const std::optional<std::string> near = near_key(keys, key);
+  return near ? fmt::format("; did you mean {}?", *near) : "";
+}
+
+namespace {
+
+std::vector<std::string> keys_of(const std::vector<Field>& fields) {
+  std::vector<std::string> keys;
+  for (const Field& field : fields) keys.push_back(field.key);
+  return keys;
+}
+
+Json json_or_text(const std::string& text) {
+  if (json_depth(text) > kMaxJsonNesting) return text;
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_discarded() ? Json(text) : json;
+}
+
+}  // namespace
+
+Result<void> set_field(Project& project, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::string where = "--set " + assignment;
+  if (equals == std::string::npos || equals == 0)
+    return fail(where, "expected key=value, as in camera.speed_mps=30", ErrorKind::usage);
+  const std::string key = assignment.substr(0, equals);
+  const std::string text = assignment.substr(equals + 1);
+  const std::vector<Field> fields = fields_of(project);
+  const auto field = std::find_if(fields.begin(), fields.end(), [&key](const Field& f) { return f.key == key; });
+  const bool is_group = std::any_of(fields.begin(), fields.end(), [&key](const Field& f) {
+    return f.key.starts_with(key + ".") || f.key.starts_with(key + "[");
+  });
+  if (is_group) return fail(where, "is a group of settings; set one of its members by its key", ErrorKind::usage);
+  if (field == fields.end()) return fail(where, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
+  const bool takes_text = std::holds_alternative<std::string*>(field->value) && !(field->is_path && text == "null");
+  const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
+  if (!wrong.empty()) return fail(where, wrong, ErrorKind::usage);
+  return {};
 }
 
 }  // namespace sigs

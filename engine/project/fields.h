@@ -5,43 +5,59 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "base/result.h"
 #include "project/project.h"
 
 namespace sigs {
 
-// One of several names; get and set count them from 0.
+// A setting whose value is one of several names. get and set use the name's index, counted from 0.
 struct Choice {
-  std::vector<std::string_view> names;
+  std::vector<std::string_view> names;  // as the file has them
   std::function<int()> get;
   std::function<void(int)> set;
 };
 
-// Where the value of a field lies. optional<...>: null in the file is allowed and means "none".
+// Points to the value of a field. optional<...>: the file may say null, which means "none".
 using FieldValue = std::variant<double*, int*, std::optional<double>*, std::optional<int>*, std::string*, glm::dvec3*,
                                 std::vector<std::string>*, Choice>;
 
-// One setting, described once for the file, --set, the inspector and docs/project-format.md.
+// One setting. This description serves the project file, --set, the editor's inspector and docs/project-format.md.
 struct Field {
   std::string key;  // "intruders[0].model.scale"
   FieldValue value;
   std::string_view unit;                                      // "" where it has none
   std::string_view help;                                      // one line
-  double minimum = -std::numeric_limits<double>::infinity();  // of numbers, and of each part of a vector
+  double minimum = -std::numeric_limits<double>::infinity();  // of numbers, and of each component of a vector
   double maximum = std::numeric_limits<double>::infinity();
   bool is_path = false;
   bool required = false;  // may not be empty
 };
 
-// All fields of a project, with those of each intruder and waypoint that it has. The values point into the project,
-// which must outlive the list and keep its intruders and waypoints where they are.
+// All fields of a project, including those of each intruder and waypoint that it has. They point into the project,
+// which must outlive the list and must not move its intruders and waypoints meanwhile. The keys of the format ("sigs")
+// and of lists ("intruders", "...waypoints") are not fields.
 [[nodiscard]] std::vector<Field> fields_of(Project& project);
 
-// Keys that hold the file's format and lists, and are no fields: "sigs", "intruders", "...waypoints".
+// The version of the project file's format, the value of its key "sigs".
 inline constexpr int kProjectVersion = 1;
+
+// Sets one field from a text "key=value": "camera.speed_mps=30", "light.position_m=[0,0,-500]",
+// "export.video.codec=h264". The value is JSON; what is not JSON is taken as a string. Paths are relative to the
+// project file, like those in it. Does not check ranges; validate() does. Errors of the kind usage: no "=", no such key
+// (a similar one is suggested), a value of the wrong type.
+[[nodiscard]] Result<void> set_field(Project& project, const std::string& assignment);
+
+// The key that was probably meant by an unknown one: the key with the smallest edit distance (Levenshtein), which must
+// be at most half of the longer one's length. None: no key is similar.
+[[nodiscard]] std::optional<std::string> near_key(std::span<const std::string> keys, const std::string& key);
+
+// near_key() for the end of a message: "; did you mean seed?"; empty where there is none.
+[[nodiscard]] std::string suggestion(std::span<const std::string> keys, const std::string& key);
 
 }  // namespace sigs

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "project/json.h"
 
+#include <fmt/format.h>
+
 #include <unordered_set>
 #include <utility>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
+#include "project/fields.h"
 #include "project/json_reading.h"
-#include "project/near_key.h"
 
 namespace sigs {
 
@@ -37,7 +39,7 @@ Result<void> check_positions(const Json& intruder, std::size_t waypoints, const 
   for (std::size_t i = 0; i < waypoints; ++i) {
     const Json& waypoint = intruder.at("trajectory").at("waypoints").at(i);
     if (waypoint.is_object() && !waypoint.contains("position_m"))
-      return fail(where + ".trajectory.waypoints[" + std::to_string(i) + "].position_m",
+      return fail(fmt::format("{}.trajectory.waypoints[{}].position_m", where, i),
                   "is missing: where the waypoint is, in the world, as [x, y, z]", ErrorKind::bad_project);
   }
   return {};
@@ -48,7 +50,7 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
   if (!intruders) return fail(intruders.error());
   project.intruders.resize(*intruders);
   for (std::size_t i = 0; i < *intruders; ++i) {
-    const std::string key = "intruders[" + std::to_string(i) + "]";
+    const std::string key = fmt::format("intruders[{}]", i);
     const Json& intruder = json.at("intruders").at(i);
     if (!intruder.is_object()) return fail(file + ": " + key, "expected { ... }", ErrorKind::bad_project);
     const Result<std::size_t> waypoints =
@@ -60,7 +62,7 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
   return {};
 }
 
-// Objects that have lost all their keys go too, so that what remains is what nobody knows.
+// Objects without any key left are removed too, so that only unknown keys remain.
 void remove_empty_objects(Json& json) {
   if (!json.is_object()) return;
   Json remaining = Json::object();
@@ -100,7 +102,7 @@ std::string meant(const KeyPlace& place, const std::string& key, std::size_t war
   return warnings_so_far < kMaxSuggestions && key.size() <= kMaxKey ? suggestion(place.known, key) : "";
 }
 
-// So many at most: beyond them nobody reads on.
+// The greatest number of warnings; more would not be read.
 constexpr std::size_t kMaxWarnings = 100;
 
 void warn_of(const Json& unknown, const KeyPlace& place, const std::string& path, std::vector<Warning>& warnings) {
@@ -134,13 +136,13 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
   const std::vector<std::string> of_waypoint = known_keys("intruders[0].trajectory.waypoints[0].");
   project.unknown_json = kept(std::move(rest), {file + ": ", of_project}, warnings);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
-    const std::string where = file + ": intruders[" + std::to_string(i) + "].";
+    const std::string where = fmt::format("{}: intruders[{}].", file, i);
     IntruderSettings& intruder = project.intruders[i];
     Json& json = intruders.at(i);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j)
       intruder.trajectory.waypoints[j].unknown_json =
           kept(json.at("trajectory").at("waypoints").at(j),
-               {where + "trajectory.waypoints[" + std::to_string(j) + "].", of_waypoint}, warnings);
+               {fmt::format("{}trajectory.waypoints[{}].", where, j), of_waypoint}, warnings);
     if (json.contains("trajectory")) json.at("trajectory").erase("waypoints");
     intruder.unknown_json = kept(std::move(json), {where, of_intruder}, warnings);
   }

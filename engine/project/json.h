@@ -10,22 +10,23 @@
 
 namespace sigs {
 
+// A project as it was read from its file.
 struct ReadProject {
   Project project;
   std::vector<Warning> warnings;  // unknown keys; they are kept on save
 };
 
-// Reads the form of a project file; validate() looks at what it says. Errors name file and field: cannot_read where
-// there is no such file, else bad_project.
+// Reads a project file. Checks its form only; validate() checks the values. Errors name file and field: cannot_read
+// where there is no such file, else bad_project.
 [[nodiscard]] Result<ReadProject> read_project(const std::filesystem::path& path);
 
-// The same from text; path stands for the file in messages and for relative paths.
+// The same for the text of a file. `path` is the file's name in messages, and relative paths start in its folder.
 [[nodiscard]] Result<ReadProject> parse_project(const std::string& text, const std::filesystem::path& path);
 
-// JSON text of a project, every field written out, unknown keys kept. Numbers read back to the same values.
+// The project as JSON text, with all fields and the unknown keys that were read. Numbers read back as the same values.
 [[nodiscard]] std::string text_of(const Project& project);
 
-// Writes it under its final name at once or not at all.
+// Writes the project file, which appears only when it is complete. Errors as those of write_text().
 [[nodiscard]] Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite);
 
 }  // namespace sigs

@@ -1,24 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/nesting.h"
 #include "base/result.h"
-#include "project/field_json.h"
+#include "project/fields.h"
 
 namespace sigs {
 
+// JSON texts read safely, and fields from and to JSON. The library's exceptions stay in here.
+
+using Json = nlohmann::ordered_json;
+
 inline constexpr int kMaxJsonNesting = kMaxNesting;
 
-// The text of a file as JSON; what is wrong with it is an error of this kind, which names the file.
+// Parses the text of a file. The time grows with the length of the text only. Of several members of an object with the
+// same key the last one counts.
+//   file  named in errors
+//   kind  of errors: not JSON, a number that is too large, more than kMaxJsonNesting brackets within one another
 [[nodiscard]] Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind);
 
-// Puts the members of one object behind those of another, which has none of their keys; in time that grows with their
-// number, where the library's update() looks through all keys for each.
+// Appends the members of one object to another that has none of their keys. The time grows with the number of members,
+// whereas the library's update() compares each of them with all keys.
 void append_members(Json& object, Json more);
 
-// A value for a message: in one line, its beginning where it is longer than some 40 bytes.
+// A value for a message: in one line, shortened where it is longer than some 40 bytes.
 [[nodiscard]] std::string shown(const Json& json);
+
+// Sets a field to a JSON value. Returns what is wrong ("expected a number, found \"fast\""); empty where nothing is.
+// Does not check ranges; validate() does.
+[[nodiscard]] std::string put_json(const Json& json, const Field& field);
+
+// The field's value as JSON.
+[[nodiscard]] Json json_of(const Field& field);
 
 }  // namespace sigs

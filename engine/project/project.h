@@ -13,11 +13,13 @@
 
 namespace sigs {
 
-// Which lens model the numbers of the calibration file are of; automatic: as the file says or, where it does not, as
-// its numbers look (docs/calibration-files.md).
+// The lens model that the numbers of the calibration file belong to; automatic: as the file says or, where it does not,
+// as its numbers look (docs/calibration-files.md).
 enum class LensModelChoice { automatic, brown_conrady, fisheye };
 
-// A project as its file has it: numbers, names and paths; nothing is opened. Units and ranges: project/fields.h.
+// The contents of a project file: numbers, names and paths; nothing is opened. The members are described, with unit and
+// range, in fields.cpp and docs/project-format.md.
+// The background: which video, which of its frames, and the camera that took it.
 struct FootageSettings {
   std::string video;
   int first_frame = 0;
@@ -30,9 +32,10 @@ struct FootageSettings {
   [[nodiscard]] bool operator==(const FootageSettings&) const = default;
 };
 
+// The method that finds the UAV's own body: the project's own one, or that of section 4 of the paper.
 enum class OwnBodyMethod { stable, paper };
 
-// Section 4 of the paper. Where the paper gives no number, 0 means: as the clip asks for (occlusion/README.md).
+// Section 4 of the paper. Where the paper gives no number, 0 means: chosen for the clip (occlusion/README.md).
 struct PaperOwnBodySettings {
   double canny_low = 0;
   double canny_high = 0;
@@ -43,6 +46,7 @@ struct PaperOwnBodySettings {
   [[nodiscard]] bool operator==(const PaperOwnBodySettings&) const = default;
 };
 
+// Parameters of the method `stable` (occlusion/README.md).
 struct StableOwnBodySettings {
   double vibration_px = 2;
   double least_area_percent = 0.1;
@@ -64,17 +68,19 @@ struct OwnBodySettings {
   [[nodiscard]] bool operator==(const OwnBodySettings&) const = default;
 };
 
+// Position, mounting and speed of the camera. The world's X axis is the camera's heading at frame 0.
 struct CameraSettings {
   glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
   std::optional<double> roll_deg;     // none: not known; mount_attitude() takes it as 0
   std::optional<double> pitch_deg;    // likewise
   double yaw_deg = 0;
-  std::string attitude_file;  // how what carries the camera is turned, frame by frame; empty: level
+  std::string attitude_file;  // attitude, at each frame, of what carries the camera; empty: level
   double speed_mps = 0;       // along world X
 
   [[nodiscard]] bool operator==(const CameraSettings&) const = default;
 };
 
+// The one light source, an omnidirectional point light (paper section 3.1.2), and ambient light as a share, 0..1.
 struct LightSettings {
   glm::dvec3 position_m{-2000, 1000, -3000};  // world
   glm::dvec3 color{1, 1, 1};
@@ -83,31 +89,36 @@ struct LightSettings {
   [[nodiscard]] bool operator==(const LightSettings&) const = default;
 };
 
+// The point of the model that flies along the trajectory: the file's origin or the centre of its bounds.
 enum class AnchorChoice { origin, bounds };
 
+// The aircraft's model: file, axes and size (ModelAxes in mesh/mesh.h).
 struct ModelSettings {
   std::string file;
   std::string forward = "+x";
   std::string up = "+z";
   double scale = 1.0;
-  double length_m = 0;  // 0: scale says how large
+  double length_m = 0;  // 0: scale is used
   AnchorChoice anchor = AnchorChoice::origin;
 
   [[nodiscard]] bool operator==(const ModelSettings&) const = default;
 };
 
+// A point of the trajectory in the world, and the frame at which it is passed.
 struct WaypointSettings {
   std::optional<double> frame;  // none: spread evenly between its neighbours
   glm::dvec3 position_m{0, 0, 0};
-  std::string unknown_json;  // keys of the file that this program does not know, kept on save
+  std::string unknown_json;  // unknown keys of the file, as JSON; kept on save
 
   [[nodiscard]] bool operator==(const WaypointSettings&) const = default;
 };
 
+// What the trajectory is made of; spline/trajectory.h says what each choice means.
 enum class SplineChoice { interpolating, approximating };
 enum class TimingChoice { frames, constant_speed };
 enum class BankChoice { coordinated, level };
 
+// The flight of an intruder, as it is planned: spline/trajectory.h computes the trajectory from it.
 struct TrajectoryPlan {
   SplineChoice spline = SplineChoice::interpolating;
   TimingChoice timing = TimingChoice::frames;
@@ -118,6 +129,7 @@ struct TrajectoryPlan {
   [[nodiscard]] bool operator==(const TrajectoryPlan&) const = default;
 };
 
+// One intruder: its name in the annotations, its category in the labels, its model and its flight.
 struct IntruderSettings {
   std::string name = "intruder";
   std::string category = "airplane";
@@ -128,9 +140,13 @@ struct IntruderSettings {
   [[nodiscard]] bool operator==(const IntruderSettings&) const = default;
 };
 
+// How the intruder gets into the image: directly through the lens, by section 3.2 of the paper, or by a keyed paste;
+// and whether light or code values are mixed.
 enum class MethodChoice { direct, classic, plain };
 enum class BlendChoice { linear, display };
 
+// How layers become part of the image. blur_px_per_m: standard deviation of the Gaussian blur for each metre of
+// distance; supersampling: rendered pixels for each image pixel, along each axis.
 struct CompositingSettings {
   MethodChoice method = MethodChoice::direct;
   BlendChoice blend = BlendChoice::linear;
@@ -140,14 +156,17 @@ struct CompositingSettings {
   [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
 };
 
+// Formats of the exported video and masks; automatic: the container that suits the codec.
 enum class CodecChoice { ffv1, h264, mjpeg, png };
 enum class ContainerChoice { automatic, mkv, mp4, avi };
 enum class MasksChoice { none, video, png };
 
-// What export.labels may hold.
+// The label formats that export.labels may contain.
 inline constexpr std::array<std::string_view, 10> kLabelNames{"xml",   "coco", "yolo", "voc", "mot",
                                                               "kitti", "cvat", "vot",  "aot", "csv"};
 
+// What an export writes. crf: quality of h264, 0 (lossless) to 51. The two thresholds leave out labels of intruders
+// with fewer visible pixels, or a smaller visible share.
 struct ExportSettings {
   CodecChoice codec = CodecChoice::ffv1;
   ContainerChoice container = ContainerChoice::automatic;
@@ -161,6 +180,7 @@ struct ExportSettings {
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };
 
+// A whole project file.
 struct Project {
   std::filesystem::path file;  // where it was read from; paths in it are relative to this file's folder
   std::string name = "untitled";
@@ -176,16 +196,22 @@ struct Project {
   [[nodiscard]] bool operator==(const Project&) const = default;
 };
 
-// How the camera is fixed to what carries it. A roll or pitch that is not set counts as 0.
+// The attitude at which the camera is mounted on what carries it. A roll or pitch that is not set counts as 0.
 [[nodiscard]] Attitude mount_attitude(const CameraSettings& camera);
 
-// Whether the project says where the horizon lies: roll or pitch is set, or an attitude file is named.
+// Whether the project defines where the horizon is: roll or pitch is set, or an attitude file is named.
 [[nodiscard]] bool knows_horizon(const CameraSettings& camera);
 
-// The categories that labels count: export.categories or, where that is empty, those of the intruders, each once.
+// The categories of the labels: export.categories or, where that is empty, those of the intruders, each once.
 [[nodiscard]] std::vector<std::string> categories_of(const Project& project);
 
-// A path of the project as the file system knows it: absolute ones as they are, others from the project file's folder.
+// A path of the project for the file system: absolute ones as they are, others relative to the project file's folder.
 [[nodiscard]] std::filesystem::path resolved(const Project& project, const std::string& path);
+
+// A range of frames of the footage, counted from 0.
+struct FrameRange {
+  int first = 0;
+  int last = 0;  // included
+};
 
 }  // namespace sigs

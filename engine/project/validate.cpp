@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "project/validate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
-#include <sstream>
 #include <string_view>
 
-#include "base/angles.h"
-#include "base/file_name.h"
+#include "base/paths.h"
+#include "base/text.h"
 #include "project/fields.h"
 
 namespace sigs {
@@ -18,24 +18,12 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-std::string short_text(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
-std::string listed(std::span<const std::string_view> names) {
-  std::string list;
-  for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
-  return list;
-}
-
 void check_number(const Field& field, double number, Problems& problems) {
   if (!std::isfinite(number)) {
     problems.push_back({field.key, "is not a finite number"});
   } else if (number < field.minimum || number > field.maximum) {
-    problems.push_back({field.key, "is " + short_text(number) + "; it must lie between " + short_text(field.minimum) +
-                                       " and " + short_text(field.maximum)});
+    problems.push_back(
+        {field.key, fmt::format("is {:g}; it must lie between {:g} and {:g}", number, field.minimum, field.maximum)});
   }
 }
 
@@ -65,7 +53,7 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
 }
 
 void check_name(const Project& project, Problems& problems) {
-  if (project.name.empty()) return;  // a required field, told as such
+  if (project.name.empty()) return;  // a required field, reported as such
   if (const std::string wrong = wrong_with_file_name(project.name); !wrong.empty()) problems.push_back({"name", wrong});
 }
 
@@ -89,9 +77,9 @@ void check_waypoints(const TrajectoryPlan& plan, const std::string& key, Problem
     const std::optional<double>& frame = plan.waypoints[i].frame;
     if (!frame) continue;
     if (last_frame && *frame <= *last_frame)
-      problems.push_back({key + "[" + std::to_string(i) + "].frame",
-                          "is " + short_text(*frame) + ", not after waypoints[" + std::to_string(last_index) +
-                              "], which has " + short_text(*last_frame)});
+      problems.push_back(
+          {fmt::format("{}[{}].frame", key, i),
+           fmt::format("is {:g}, not after waypoints[{}], which has {:g}", *frame, last_index, *last_frame)});
     last_frame = frame;
     last_index = i;
   }
@@ -117,7 +105,8 @@ bool is_twice(const std::vector<std::string>& list, const std::string& text) {
 void check_labels(const ExportSettings& output, Problems& problems) {
   for (const std::string& label : output.labels) {
     if (std::find(kLabelNames.begin(), kLabelNames.end(), label) == kLabelNames.end())
-      problems.push_back({"export.labels", "knows no format \"" + label + "\"; there are " + listed(kLabelNames)});
+      problems.push_back(
+          {"export.labels", fmt::format("knows no format \"{}\"; there are {}", label, listed(kLabelNames))});
     if (is_twice(output.labels, label))
       return problems.push_back({"export.labels", "has \"" + label + "\" twice; leave one out"});
   }
@@ -131,33 +120,12 @@ void check_categories(const Project& project, Problems& problems) {
   if (categories.empty()) return;
   for (std::size_t i = 0; i < project.intruders.size(); ++i)
     if (std::find(categories.begin(), categories.end(), project.intruders[i].category) == categories.end())
-      problems.push_back({"intruders[" + std::to_string(i) + "].category",
-                          "is \"" + project.intruders[i].category + "\", which export.categories does not have"});
+      problems.push_back(
+          {fmt::format("intruders[{}].category", i),
+           fmt::format("is \"{}\", which export.categories does not have", project.intruders[i].category)});
 }
 
 }  // namespace
-
-std::vector<std::string> categories_of(const Project& project) {
-  if (!project.output.categories.empty()) return project.output.categories;
-  std::vector<std::string> categories;
-  for (const IntruderSettings& intruder : project.intruders)
-    if (std::find(categories.begin(), categories.end(), intruder.category) == categories.end())
-      categories.push_back(intruder.category);
-  return categories;
-}
-
-Attitude mount_attitude(const CameraSettings& camera) {
-  return {rad_of_deg(camera.roll_deg.value_or(0)), rad_of_deg(camera.pitch_deg.value_or(0)),
-          rad_of_deg(camera.yaw_deg)};
-}
-
-bool knows_horizon(const CameraSettings& camera) {
-  return camera.roll_deg || camera.pitch_deg || !camera.attitude_file.empty();
-}
-
-std::filesystem::path resolved(const Project& project, const std::string& path) {
-  return path.empty() ? std::filesystem::path() : project.file.parent_path() / path;
-}
 
 std::vector<Problem> validate(const Project& project) {
   Problems problems;
@@ -172,7 +140,7 @@ std::vector<Problem> validate(const Project& project) {
   check_labels(project.output, problems);
   check_categories(project, problems);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
-    const std::string key = "intruders[" + std::to_string(i) + "]";
+    const std::string key = fmt::format("intruders[{}]", i);
     check_axes(project.intruders[i].model, key + ".model", problems);
     check_waypoints(project.intruders[i].trajectory, key + ".trajectory.waypoints", problems);
   }

@@ -9,18 +9,20 @@
 
 namespace sigs {
 
-// Something wrong with a project, by the key of the field that it is in.
+// A mistake in a project, with the key of the field where it is.
 struct Problem {
   std::string field;
   std::string what;
-  ErrorKind kind = ErrorKind::bad_project;  // cannot_read: a file that it names is not there
+  ErrorKind kind = ErrorKind::bad_project;  // cannot_read: a file that it names does not exist
 };
 
-// All that can be seen without opening footage or models: ranges, empty names, missing files, waypoints that are not
-// finite, without order in time or none at all, codec and container that do not go together. Empty: nothing is wrong.
+// Checks all that does not need the footage or the models: ranges, empty names, missing files, waypoints that are not
+// finite, not in order of time or missing, labels and categories, and codec and container that do not go together.
+// Empty: nothing is wrong.
 [[nodiscard]] std::vector<Problem> validate(const Project& project);
 
-// {"projects/x.json: intruders[0].model.file", "no such file ..."}
+// The problem as an error that names the project file too: {"projects/x.json: intruders[0].model.file", "no such file
+// ..."}
 [[nodiscard]] Error error_of(const Project& project, const Problem& problem);
 
 }  // namespace sigs

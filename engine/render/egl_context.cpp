@@ -1,27 +1,62 @@
 // SPDX-License-Identifier: MIT
 #include "render/egl_context.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <initializer_list>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/ensure.h"
-#include "base/thread.h"
-#include "render/egl_library.h"
+#include "base/result.h"
+#include "base/threads.h"
 
 namespace sigs {
+
 namespace {
 
-// A way to a display, and what it is called.
+std::string how_to_get_opengl() {
+  return "install libegl1, libegl-mesa0 and libgl1-mesa-dri (Debian, Ubuntu), or a GPU's driver";
+}
+
+// Checks that one of the libraries can be loaded and has the functions. It stays loaded: libepoxy opens the same.
+Result<void> check_library(std::initializer_list<const char*> names, std::initializer_list<const char*> functions) {
+  std::string why;
+  for (const char* const name : names) {
+    void* const library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+    const char* missing = nullptr;
+    for (const char* const function : functions)
+      if (library != nullptr && missing == nullptr && dlsym(library, function) == nullptr) missing = function;
+    if (library != nullptr && missing == nullptr) return {};
+    const char* const said = library == nullptr ? dlerror() : nullptr;
+    why += (why.empty() ? "" : "; ") +
+           (missing != nullptr ? std::string(name) + " has no " + missing : std::string(said != nullptr ? said : name));
+  }
+  return fail("OpenGL", "cannot be loaded (" + why + "); " + how_to_get_opengl(), ErrorKind::unavailable);
+}
+
+// Checks that the libraries of EGL and OpenGL can be loaded and have the functions that are called. libepoxy looks for
+// them at the first call and ends the program where it does not find them, so this comes before. Error unavailable.
+Result<void> check_egl_library() {
+  Result<void> egl = check_library(
+      {"libEGL.so.1"}, {"eglQueryString", "eglGetProcAddress", "eglGetError", "eglInitialize", "eglBindAPI",
+                        "eglQueryAPI", "eglChooseConfig", "eglCreateContext", "eglDestroyContext", "eglMakeCurrent",
+                        "eglGetCurrentContext", "eglGetCurrentDisplay", "eglQueryContext"});
+  if (!egl) return egl;
+  return check_library({"libOpenGL.so.0", "libGL.so.1"}, {"glGetString", "glGetIntegerv", "glGetError"});
+}
+
+// A display of EGL, and the name of the way to it.
 struct Platform {
   std::string name;
   EGLDisplay display = EGL_NO_DISPLAY;
@@ -47,15 +82,13 @@ std::vector<Platform> device_platforms() {
   std::vector<Platform> platforms;
   for (EGLint i = 0; i < count; ++i)
     platforms.push_back(
-        {"EGL device " + std::to_string(i),
+        {fmt::format("EGL device {}", i),
          eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr)});
   return platforms;
 }
 
 std::string hexadecimal(EGLint code) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(code));
-  return text.data();
+  return fmt::format("0x{:04X}", static_cast<unsigned>(code));
 }
 
 EGLConfig config_of(EGLDisplay display) {
@@ -83,18 +116,18 @@ std::string text_of(GLenum name) {
 
 std::string description_of(const Platform& platform) {
   const int version = epoxy_gl_version();
-  return platform.name + ", " + text_of(GL_RENDERER) + ", OpenGL " + std::to_string(version / 10) + "." +
-         std::to_string(version % 10);
+  return fmt::format("{}, {}, OpenGL {}.{}", platform.name, text_of(GL_RENDERER), version / 10, version % 10);
 }
 
 // Mesa's driver and its compiler crash where memory cannot be had. They and the first textures take some 400 MiB of
 // addresses.
-Result<void> check_room() {
-  constexpr std::size_t kRoom_bytes = std::size_t{512} << 20;
-  void* const room = mmap(nullptr, kRoom_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (room == MAP_FAILED)
+Result<void> check_memory() {
+  constexpr std::size_t kDriverMemory_bytes = std::size_t{512} << 20;
+  void* const mapping =
+      mmap(nullptr, kDriverMemory_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (mapping == MAP_FAILED)
     return fail("OpenGL", "out of memory: 512 MiB more must be free for it", ErrorKind::unavailable);
-  munmap(room, kRoom_bytes);
+  munmap(mapping, kDriverMemory_bytes);
   return {};
 }
 
@@ -159,7 +192,7 @@ std::vector<Platform> platforms() {
 
 Result<EglContext> EglContext::create() {
   if (const Result<void> library = check_egl_library(); !library) return fail(library.error());
-  if (const Result<void> room = check_room(); !room) return fail(room.error());
+  if (const Result<void> mapping = check_memory(); !mapping) return fail(mapping.error());
   std::string tried;
   for (const Platform& platform : platforms()) {
     const Result<EGLContext> context = opened(platform);

@@ -8,21 +8,21 @@
 
 namespace sigs {
 
-// An OpenGL core context with no window and no surface. It belongs to the thread that made it.
+// An OpenGL core context without window and surface, made through EGL. It belongs to the thread that created it.
 class EglContext {
  public:
-  // Tries EGL's surfaceless platform, then each EGL device. OpenGL 4.5, else 3.3. Current on return.
-  // Error unavailable says what was tried, how each failed and what to install.
+  // Tries EGL's surfaceless platform, then each EGL device, with OpenGL 4.5, else 3.3. The context is current on
+  // return. Error unavailable says what was tried, how each attempt failed and what to install.
   [[nodiscard]] static Result<EglContext> create();
 
   EglContext(EglContext&& other) noexcept;
   EglContext& operator=(EglContext&& other) noexcept;
   ~EglContext();
 
-  // Several contexts may take turns on one thread.
+  // Makes the context current, as needed where several take turns on one thread. False where the driver refuses.
   [[nodiscard]] bool make_current() const;
 
-  // "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
+  // Platform, renderer and version: "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
   [[nodiscard]] const std::string& description() const { return description_; }
 
  private:

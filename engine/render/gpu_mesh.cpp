@@ -8,17 +8,69 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+#include <vector>
 
 #include "base/ensure.h"
 #include "base/transfer.h"
-#include "render/vertex_material.h"
+#include "mesh/mesh.h"
+#include "render/draw_list.h"
 
 namespace sigs {
+
 namespace {
 
-// Colour times opacity, in linear light, so that filtering lets no colour of transparent texels bleed in.
+// A material in the form in which the shaders get it with each vertex, so that one call draws many materials.
+struct VertexMaterial {
+  glm::vec4 color;  // linear diffuse; opacity, 1 where solid
+  glm::vec4 gloss;  // specular; shininess within 1..200
+};
+
+glm::vec3 linear_color(const glm::vec3& display) {
+  return {linear_of_display(display.x), linear_of_display(display.y), linear_of_display(display.z)};
+}
+
+VertexMaterial vertex_material_of(const Material& material) {
+  const float opacity = material.opacity >= kSolidOpacity ? 1.0F : std::max(material.opacity, 0.0F);
+  return {{linear_color(material.diffuse), opacity}, {material.specular, std::clamp(material.shininess, 1.0F, 200.0F)}};
+}
+
+// The same mesh where each vertex belongs to triangles of one material only: vertices that materials share are
+// duplicated.
+Mesh split_by_material(const Mesh& mesh) {
+  constexpr int kNone = -1;
+  Mesh split = mesh;
+  std::vector<int> owner(mesh.vertices.size(), kNone);
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> doubles;
+  for (const MeshPart& part : mesh.parts)
+    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
+      std::uint32_t& index = split.indices[i];
+      if (owner[index] == kNone) owner[index] = part.material;
+      if (owner[index] == part.material) continue;
+      const auto [known, is_first] =
+          doubles.try_emplace({index, part.material}, static_cast<std::uint32_t>(split.vertices.size()));
+      if (is_first) split.vertices.push_back(mesh.vertices[index]);
+      index = known->second;
+    }
+  return split;
+}
+
+// One for each vertex of a mesh from split_by_material().
+std::vector<VertexMaterial> vertex_materials(const Mesh& split) {
+  std::vector<VertexMaterial> of_materials;
+  for (const Material& material : split.materials) of_materials.push_back(vertex_material_of(material));
+  std::vector<VertexMaterial> per_vertex(split.vertices.size(), VertexMaterial{});
+  for (const MeshPart& part : split.parts)
+    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i)
+      per_vertex[split.indices[i]] = of_materials[part.material];
+  return per_vertex;
+}
+
+// Colour times opacity, in linear light, so that filtering does not mix in the colour of transparent texels.
 cv::Mat premultiplied(const cv::Mat& rgba) {
   std::array<float, 256> linear{};
   for (int i = 0; i < 256; ++i) linear[i] = linear_of_display(static_cast<float>(i) / 255.0F);
@@ -59,7 +111,7 @@ GLuint uploaded(const cv::Mat& texture) {
   return name;
 }
 
-// Of what Holder the current buffer is full of.
+// Sets an attribute of `count` floats at an offset in Holder, the type of the elements in the current buffer.
 template <class Holder>
 void set_attribute(GLuint index, GLint count, std::size_t offset) {
   glEnableVertexAttribArray(index);

@@ -10,31 +10,34 @@
 
 namespace sigs {
 
-// A mesh in the memory of the current context, which owns all of it.
+// A mesh in the memory of the GPU. It belongs to the context that is current when it is created.
 class GpuMesh {
  public:
+  // Uploads vertices, materials, textures and the indices of solid triangles. The mesh itself is not needed afterwards.
   explicit GpuMesh(const Mesh& mesh);
 
-  // False where the mesh at the same address is another one than that which was uploaded (a model read again with other
-  // axes, say). Looks at every material and part, but only at some thousand vertices, indices and texels.
+  // Whether the mesh is the one that was uploaded. False where another one lies at the same address (a model read again
+  // with other axes, for example). Compares all materials and parts, but only some thousand vertices, indices and
+  // texels.
   [[nodiscard]] bool is_copy_of(const Mesh& mesh) const;
 
-  // Returns what was uploaded to the driver.
+  // Frees the memory of the GPU.
   void release();
 
-  // What is seen through, far to near as the eye (body axes) sees it.
+  // The transparent triangles from far to near; eye_m in body axes.
   [[nodiscard]] DrawList sorted_for(const glm::dvec3& eye_m) const;
 
-  // Makes the following calls of draw() take their triangles from the solid ones, whose runs it returns; or from a list
-  // of this moment.
+  // Selects what the following calls of draw() take their triangles from: the solid ones, whose runs are returned, or a
+  // list from sorted_for().
   const std::vector<Run>& bind_solid() const;
   void bind_sorted(const DrawList& list) const;
+  // Draws one run of what was bound last, with the program in use.
   void draw(const Run& run) const;
 
-  // Binds the texture of a run; nothing where it has none.
+  // Binds the texture of a run; does nothing for kNoTexture.
   void bind_texture(int texture) const;
 
-  // Since the last time it was asked.
+  // Number of bytes uploaded since the last call.
   [[nodiscard]] std::int64_t take_bytes_uploaded() { return std::exchange(bytes_uploaded_, 0); }
 
  private:

@@ -2,24 +2,158 @@
 #include "render/renderer.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <map>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/pose.h"
+#include "base/result.h"
 #include "base/transfer.h"
+#include "camera/pinhole_view.h"
+#include "render/draw_list.h"
 #include "render/egl_context.h"
+#include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
-#include "render/passes.h"
-#include "render/program.h"
-#include "render/projection.h"
-#include "render/target.h"
 
 namespace sigs {
+
+// The shaders for each kind of surface, so that none does what it does not need.
+struct Programs {
+  enum Kind { kPlain, kTextured, kLayered };  // assets/shaders/intruder.frag
+
+  std::array<Program, 3> all;
+};
+
+namespace {
+
+// --- Projection.
+
+struct Planes {
+  double near_m;
+  double far_m;
+};
+
+std::optional<Planes> planes_around(double distance_m, double radius_m) {
+  const double margin_m = 1e-3 * radius_m;  // so that rounding never clips the outermost vertex
+  const double far_m = distance_m + radius_m + margin_m;
+  // Around the eye the near plane is as close as 24 bits of depth allow without flicker.
+  const double closest_m = std::min(0.05, 1e-3 * radius_m);
+  if (!(far_m > closest_m)) return std::nullopt;
+  return Planes{std::max(distance_m - radius_m - margin_m, closest_m), far_m};
+}
+
+glm::dmat4 clip_from_view(const VirtualCamera& view, const cv::Rect& piece, const Planes& planes) {
+  const double width = piece.width;
+  const double height = piece.height;
+  const double depth_m = planes.far_m - planes.near_m;
+  // window = center + 0.5 - piece + focal * (y, z) / x, and clip / w = 2 * window / size - 1, with w = x.
+  glm::dmat4 rows(0.0);
+  rows[0] = {2 * (view.center_px.x + 0.5 - piece.x) / width - 1, 2 * view.focal_px / width, 0, 0};
+  rows[1] = {2 * (view.center_px.y + 0.5 - piece.y) / height - 1, 0, 2 * view.focal_px / height, 0};
+  rows[2] = {(planes.far_m + planes.near_m) / depth_m, 0, 0, -2 * planes.far_m * planes.near_m / depth_m};
+  rows[3] = {1, 0, 0, 0};
+  return glm::transpose(rows);
+}
+
+// The matrix from body coordinates to OpenGL's clip coordinates for a piece of a view, all in double: large distances
+// cancel here, before anything becomes float. Row 0 of the piece is row 0 of OpenGL's window, so the rows need not be
+// reversed when they are read; pixel (i, j) of base/image.h is sampled around window coordinate (i + 0.5, j + 0.5).
+// Near and far planes enclose the sphere of radius_m around the body's origin, in front of the eye. None where the
+// whole sphere lies behind the eye.
+std::optional<glm::dmat4> clip_from_body(const Pose<frame::View, frame::Body>& view_from_body, double radius_m,
+                                         const VirtualCamera& view, const cv::Rect& piece) {
+  const std::optional<Planes> planes = planes_around(view_from_body.translation_m.x, std::max(radius_m, 1e-6));
+  if (!planes) return std::nullopt;
+  glm::dmat4 view_from_body_matrix = glm::mat4_cast(view_from_body.rotation);
+  view_from_body_matrix[3] = glm::dvec4(view_from_body.translation_m, 1);
+  return clip_from_view(view, piece, *planes) * view_from_body_matrix;
+}
+
+// --- Draw passes.
+
+struct PassCounts {
+  std::int64_t triangles = 0;
+  std::int64_t draw_calls = 0;
+};
+
+constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
+constexpr float kAnyOpacity = 1e9F;
+
+Programs::Kind kind_of(const Run& run) {
+  if (run.texture == kNoTexture) return Programs::kPlain;
+  return run.surface == Surface::solid ? Programs::kTextured : Programs::kLayered;
+}
+
+void leave_out(CullFace side) {
+  if (side == CullFace::none) return glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
+  glCullFace(side == CullFace::back ? GL_BACK : GL_FRONT);
+}
+
+PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::vector<Run>& runs, bool is_solid_pass,
+                     bool from_outside) {
+  PassCounts counts;
+  for (const Run& run : runs) {
+    const Programs::Kind kind = kind_of(run);
+    const Program& program = programs.all[kind];
+    program.use();
+    if (kind == Programs::kLayered) {
+      const bool is_cutout = run.surface == Surface::cutout;
+      program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kVisibleOpacity);
+      program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
+    }
+    gpu.bind_texture(run.texture);
+    leave_out(from_outside ? run.hidden : CullFace::none);
+    gpu.draw(run);
+    counts.triangles += run.count / 3;
+    ++counts.draw_calls;
+  }
+  return counts;
+}
+
+// Error unavailable as that of Program::create().
+Result<Programs> compiled_programs() {
+  Result<Program> plain = Program::create("");
+  if (!plain) return fail(plain.error());
+  Result<Program> textured = Program::create("#define IMAGE\n");
+  if (!textured) return fail(textured.error());
+  Result<Program> layered = Program::create("#define IMAGE\n#define LAYERED\n");
+  if (!layered) return fail(layered.error());
+  return Programs{{std::move(*plain), std::move(*textured), std::move(*layered)}};
+}
+
+// Draws solid parts and the opaque texels of cutouts, with the depth buffer.
+//   from_outside  nothing of the body is at or behind the eye: faces that point inward need not be drawn
+PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, bool from_outside) {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  const std::vector<Run>& runs = gpu.bind_solid();
+  return draw_runs(programs, gpu, runs, true, from_outside);
+}
+
+// Draws glass and the other texels of cutouts, blended in the order of the list.
+PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted) {
+  if (sorted.runs.empty()) return {};
+  glEnablei(GL_BLEND, 0);
+  glDisablei(GL_BLEND, 1);  // coverage is replaced, not blended: glass counts as covering
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  gpu.bind_sorted(sorted);
+  return draw_runs(programs, gpu, sorted.runs, false, false);
+}
+
+}  // namespace
 
 struct Renderer::State {
   EglContext context;
@@ -38,7 +172,7 @@ bool is_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// p = scaled / scale, with a length whose square fits a float.
+// A point p = scaled / scale, where the square of the length of `scaled` fits a float.
 struct ScaledPoint {
   glm::vec3 scaled;
   float scale;
@@ -65,8 +199,8 @@ void set_light(const Program& program, const Light& light, const ViewFromBody& v
   program.set("view_from_body", glm::mat3(glm::mat3_cast(view_from_body.rotation)));
 }
 
-// Outside the body with all of it beyond the near plane.
-bool sees_from_outside(const ViewFromBody& view_from_body, const Mesh& mesh) {
+// Whether the eye is outside the body and all of the body lies beyond the near plane.
+bool is_eye_outside(const ViewFromBody& view_from_body, const Mesh& mesh) {
   return view_from_body.translation_m.x > 1.01 * mesh.radius_m;
 }
 
@@ -74,7 +208,7 @@ void set_fixed_state() {
   glEnable(GL_MULTISAMPLE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glFrontFace(GL_CW);  // the window's rows run down the texture, so counter-clockwise triangles turn the other way
+  glFrontFace(GL_CW);  // rows of the window run downward, which reverses the winding of triangles
 }
 
 std::vector<cv::Rect> pieces_of(const cv::Size& size) {
@@ -86,7 +220,8 @@ std::vector<cv::Rect> pieces_of(const cv::Size& size) {
   return pieces;
 }
 
-GpuMesh& uploaded(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
+// The uploaded mesh, uploaded at its first use and again where it has changed.
+GpuMesh& uploaded_mesh(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
   const auto known = meshes.find(&mesh);
   if (known != meshes.end() && known->second.is_copy_of(mesh)) return known->second;
   if (known != meshes.end()) {
@@ -119,7 +254,7 @@ Result<Renderer> Renderer::create(int samples_per_pixel) {
   ENSURE(samples_per_pixel >= 1 && samples_per_pixel <= 8);
   Result<EglContext> context = EglContext::create();
   if (!context) return fail(context.error());
-  Result<Programs> programs = Programs::create();
+  Result<Programs> programs = compiled_programs();
   if (!programs) return fail(programs.error());
   return Renderer(
       std::unique_ptr<State>(new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}}));
@@ -148,16 +283,16 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   ensure_sane(view_from_body, light, view);
   if (view.size_px.empty()) return Layer{};
   if (std::max(view.size_px.width, view.size_px.height) > kLargestView_px)
-    return fail("view", "of " + std::to_string(view.size_px.width) + " x " + std::to_string(view.size_px.height) +
-                            " pixels is larger than " + std::to_string(kLargestView_px));
+    return fail("view", fmt::format("of {} x {} pixels is larger than {}", view.size_px.width, view.size_px.height,
+                                    kLargestView_px));
   if (!state_->context.make_current())
     return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
 
   Layer layer = blank(view.size_px);
   if (mesh.indices.empty()) return layer;
-  GpuMesh& gpu = uploaded(state_->meshes, mesh);
+  GpuMesh& gpu = uploaded_mesh(state_->meshes, mesh);
   const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
-  const bool from_outside = sees_from_outside(view_from_body, mesh);
+  const bool from_outside = is_eye_outside(view_from_body, mesh);
   set_fixed_state();
   for (const Program& program : state_->programs.all) set_light(program, light, view_from_body, view.view_from_camera);
   for (const cv::Rect& piece : pieces_of(view.size_px)) {
@@ -175,7 +310,7 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   }
   state_->counts.bytes_uploaded += gpu.take_bytes_uploaded();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR)
-    return fail("OpenGL", "drawing failed with error " + std::to_string(code), ErrorKind::unavailable);
+    return fail("OpenGL", fmt::format("drawing failed with error {}", code), ErrorKind::unavailable);
   return layer;
 }
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "base/pose.h"
 #include "base/result.h"
 #include "camera/pinhole_view.h"
@@ -22,19 +22,19 @@ struct Light {
   double ambient = 0.35;            // 0..1: share of the light that comes from everywhere
 };
 
-// What a renderer has done since it was made.
+// What a renderer has done since its creation.
 struct RenderCounts {
-  std::int64_t pixels_drawn = 0;     // of the views
+  std::int64_t pixels_drawn = 0;     // of all views
   std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view
-  std::int64_t bytes_uploaded = 0;   // vertices, triangles and textures; what a view says about itself is left out
+  std::int64_t bytes_uploaded = 0;   // vertices, triangles and textures; uniforms are not counted
   std::int64_t draw_calls = 0;
 };
 
-// Draws meshes off screen with OpenGL through EGL. One renderer lives on one thread: the one that made it.
+// Renders meshes off screen with OpenGL through EGL. A renderer may be used only by the thread that created it.
 class Renderer {
  public:
-  // Makes a context on EGL's surfaceless platform, else on the first EGL device that works.
-  // Error unavailable where there is none; it says what was tried.
+  // Creates a context on EGL's surfaceless platform, else on the first EGL device that works. Error unavailable where
+  // there is none; it says what was tried.
   //   samples_per_pixel  1 (no multisampling), 2, 4 or 8, as far as the driver can
   [[nodiscard]] static Result<Renderer> create(int samples_per_pixel = 4);
 
@@ -42,25 +42,29 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  // "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
+  // Platform, renderer and version: "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
   [[nodiscard]] const std::string& description() const;
 
-  // Largest side of a view that draw() can make, px.
+  // Largest width or height of a view that draw() accepts, px.
   [[nodiscard]] int max_size_px() const;
 
+  // What this renderer has done since its creation, over all calls of draw().
   [[nodiscard]] const RenderCounts& counts() const;
 
-  // The mesh as the view sees it, covering the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
-  // several samples a pixel. Solid parts first, then glass from far to near. The mesh is uploaded at its first use and
-  // kept for as long as the renderer lives, by the address of the mesh: keep meshes alive and where they are. A mesh
-  // that has changed is uploaded again, as far as a look at some thousand of its vertices and texels tells. Depth and
-  // position are relative to the camera, so nothing shakes far from the world's origin. Everything given must be
-  // finite. A view of no size gives an empty layer. Errors: bad_data where the view is larger than max_size_px();
-  // unavailable where the driver fails.
+  // Renders the mesh as a layer that covers the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
+  // several samples for each pixel. Solid parts come first, then glass from far to near.
+  // The mesh is uploaded at its first use and stays on the GPU until forget(). It is recognized by its address, so
+  // meshes must neither move nor be destroyed before. A mesh that has changed is uploaded again; the change is
+  // recognized by some thousand of its vertices and texels. Depth and position are computed relative to the camera, so
+  // nothing jitters far from the world's origin. All numbers must be finite. A view of no size gives an empty layer.
+  // Errors: bad_data where the view is larger than max_size_px(); unavailable where the driver fails.
+  //   camera_from_body  pose of the mesh's body axes in the camera frame, metres
+  //   light             in the camera frame
+  //   view              the virtual camera: its rotation in the camera frame, focal length, centre and size in pixels
   [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                                    const Light& light, const VirtualCamera& view);
 
-  // Gives back what was uploaded of a mesh. Nothing happens where it was never drawn.
+  // Frees what was uploaded of a mesh. Does nothing where the mesh was never drawn.
   void forget(const Mesh& mesh);
 
  private:

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/angles.h"
-#include "base/temporary_file.h"
-#include "base/text_pieces.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
 
 namespace sigs {
 

@@ -9,7 +9,7 @@
 
 #include "base/ensure.h"
 #include "scene/scene_at.h"
-#include "spline/gravity.h"
+#include "spline/directions.h"
 
 namespace sigs {
 

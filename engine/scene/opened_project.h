@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/frame_range.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "scene/scene.h"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "base/guarded.h"
-#include "base/image_size.h"
+#include "base/image.h"
 #include "base/input_file.h"
+#include "base/threads.h"
 
 namespace sigs {
 

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <variant>
 
-#include "base/overwrite_check.h"
-#include "mesh/model_files.h"
+#include "base/paths.h"
+#include "mesh/textures.h"
 #include "project/fields.h"
 
 namespace sigs {

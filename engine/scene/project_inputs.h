@@ -14,7 +14,7 @@ namespace sigs {
 // Those that cannot be read are left out.
 [[nodiscard]] std::vector<std::filesystem::path> files_read_by(const Project& project);
 
-// check_inputs_not_overwritten() (base/overwrite_check.h) for these. Where none of the outputs is there yet, nothing is
+// check_inputs_not_overwritten() (base/paths.h) for these. Where none of the outputs is there yet, nothing is
 // read.
 [[nodiscard]] Result<void> check_inputs_not_overwritten(const Project& project,
                                                         const std::vector<std::filesystem::path>& outputs,

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "scene/waypoint_times.h"
 
 namespace sigs {

@@ -10,7 +10,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "base/frame_range.h"
+#include "project/project.h"
 #include "project/validate.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"

@@ -6,21 +6,22 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "spline/interpolating_spline.h"
+#include "spline/splines.h"
 
 namespace sigs {
 
 namespace {
 
 constexpr int kMoments = 16;                 // of a leg at which the magnitudes are summed
-constexpr int kOvershootSamples = 64;        // of a leg at which its distance from the straight way is looked at
-constexpr double kMinOvershootShare = 0.01;  // of the longest leg: a overshoot below it is none
+constexpr int kOvershootSamples = 64;        // of a leg at which its distance from the straight line is measured
+constexpr double kMinOvershootShare = 0.01;  // of the longest leg: a smaller overshoot does not count
 
-// What a cardinal function's acceleration is worth after so many waypoints: it at least halves from one to the next, so
-// 2^-96. The acceleration itself may be 1e20 times larger where a leg is that much shorter than another, squared.
-constexpr std::size_t kReach = 96;
+// Number of waypoints after which a cardinal function's acceleration is negligible: it at least halves from one to the
+// next, so 2^-96. The acceleration itself may be 1e20 times larger where a leg is that much shorter than another,
+// squared.
+constexpr std::size_t kInfluence = 96;
 
-// The rows of interpolating_spline.cpp, eliminated once and solved for many right sides that are nearly all zero.
+// The rows of interpolating_spline(), eliminated once and solved for many right sides that are nearly all zero.
 class CardinalFunctions {
  public:
   explicit CardinalFunctions(std::span<const TimedWaypoint> waypoints) {
@@ -55,8 +56,8 @@ class CardinalFunctions {
   }
 
   void add_magnitudes(std::size_t waypoint, std::vector<std::array<double, kMoments>>& sums) const {
-    const std::size_t first = waypoint > kReach ? waypoint - kReach : 0;
-    const std::size_t end = std::min(waypoint + kReach, last());
+    const std::size_t first = waypoint > kInfluence ? waypoint - kInfluence : 0;
+    const std::size_t end = std::min(waypoint + kInfluence, last());
     std::vector<double> a(end - first + 1, 0.0);  // accelerations at the waypoints from `first` on
     for (std::size_t i = std::max<std::size_t>(first, 1); i <= end && i < last(); ++i) {
       const double before = i > first ? a[i - first - 1] : 0.0;
@@ -120,7 +121,7 @@ std::vector<Overshoot> overshoots_of(std::span<const TimedWaypoint> waypoints) {
   std::vector<double> lengths_m;
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i)
     lengths_m.push_back(distance(waypoints[i].position_m, waypoints[i + 1].position_m));
-  const double seen_m =
+  const double min_overshoot_m =
       lengths_m.empty() ? 0 : kMinOvershootShare * *std::max_element(lengths_m.begin(), lengths_m.end());
   std::vector<Overshoot> overshoots;
   for (std::size_t leg = 0; leg < lengths_m.size(); ++leg) {
@@ -128,7 +129,7 @@ std::vector<Overshoot> overshoots_of(std::span<const TimedWaypoint> waypoints) {
     const std::size_t end = std::min(leg + 2, lengths_m.size());
     const double max_leg_m = *std::max_element(lengths_m.begin() + static_cast<std::ptrdiff_t>(first),
                                                lengths_m.begin() + static_cast<std::ptrdiff_t>(end));
-    const double limit_m = std::max(max_leg_m, seen_m);
+    const double limit_m = std::max(max_leg_m, min_overshoot_m);
     if (max_overshoot_m(curve, waypoints[leg], waypoints[leg + 1]) <= limit_m) continue;
     const double overshoot_m = overshoot_m_of(curve, waypoints[leg], waypoints[leg + 1]);
     if (overshoot_m > limit_m) overshoots.push_back({leg, overshoot_m, max_leg_m});

@@ -6,10 +6,6 @@
 
 namespace sigs {
 
-double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(length(cross(a, b)), dot(a, b));
-}
-
 double signed_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& axis) {
   return std::atan2(dot(axis, cross(a, b)), dot(a, b));
 }

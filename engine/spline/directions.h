@@ -3,31 +3,42 @@
 
 #include <glm/glm.hpp>
 
+#include "base/pose.h"
+#include "spline/piecewise_cubic.h"
+
 namespace sigs {
 
-// Geometry of unit vectors. All angles in radians, all vectors in the world (Z down).
+// Geometry of directions, and gravity. All angles are in radians, all vectors in the world (Z down). angle_between() is
+// in base/pose.h.
 
 inline constexpr glm::dvec3 kWorldUp{0, 0, -1};
 
-// What is left of v across a unit direction.
+// The part of v that is perpendicular to a unit direction.
 [[nodiscard]] inline glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& direction) {
   return v - dot(v, direction) * direction;
 }
 
-// Angle between two vectors of any length, 0..pi; good for the smallest angles too. 0 where one of them is zero.
-[[nodiscard]] double angle_between(const glm::dvec3& a, const glm::dvec3& b);
-
-// Angle that turns a into b about a unit axis across both, by the right-hand rule, -pi..pi.
+// The angle about a unit axis that rotates a into b, by the right-hand rule, -pi..pi. a and b are perpendicular to the
+// axis.
 [[nodiscard]] double signed_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& axis);
 
-// v turned about a unit axis across it, by the right-hand rule.
+// v rotated about a unit axis perpendicular to it, by the right-hand rule.
 [[nodiscard]] glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle_rad);
 
-// The point of the great circle from one unit vector to another at share 0..1 of the way. The two are not opposite.
+// The point on the great circle between two unit vectors; share runs from 0 (from) to 1 (to). The two vectors must not
+// be opposite.
 [[nodiscard]] glm::dvec3 along_arc(const glm::dvec3& from, const glm::dvec3& to, double share);
 
-// An up vector taken along when the nose turns from one direction to another the shortest way (parallel transport on
-// the sphere): across the new nose, unit. up is across the old nose.
+// An up vector carried along while the nose turns the shortest way from one direction to another (parallel transport on
+// the sphere). The result is a unit vector perpendicular to the new nose; `up` is perpendicular to the old one.
 [[nodiscard]] glm::dvec3 transported(const glm::dvec3& up, const glm::dvec3& from_nose, const glm::dvec3& to_nose);
+
+inline constexpr double kGravity_mps2 = 9.80665;  // standard gravity, ISO 80000-3
+
+// Specific force, the acceleration that the wings have to provide: acceleration less gravity. Points up in level
+// flight.
+[[nodiscard]] inline glm::dvec3 specific_force_mps2(const Motion& motion) {
+  return motion.acceleration_mps2 - glm::dvec3(0, 0, kGravity_mps2);
+}
 
 }  // namespace sigs

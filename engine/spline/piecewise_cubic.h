@@ -5,19 +5,25 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "spline/motion.h"
-
 namespace sigs {
 
-// One piece of a curve: X(s) = c[0] + c[1] s + c[2] s^2 + c[3] s^3 in metres, s in seconds since the piece began.
+// Position, velocity and acceleration at one moment, in the world.
+struct Motion {
+  glm::dvec3 position_m{0, 0, 0};
+  glm::dvec3 velocity_mps{0, 0, 0};
+  glm::dvec3 acceleration_mps2{0, 0, 0};
+};
+
+// One piece of a curve: X(s) = c[0] + c[1] s + c[2] s^2 + c[3] s^3 in metres, with s in seconds since the piece began.
 using CubicPiece = std::array<glm::dvec3, 4>;
 
-// A curve in the world made of cubic pieces, each on its own stretch of time; both kinds of spline are one. Every piece
-// counts time and way from its own beginning, so that nothing is lost far from the origin. Before the first and after
-// the last knot it goes straight on.
+// A curve in the world that consists of cubic pieces, each over its own interval of time. Both kinds of spline
+// (splines.h) give one. Each piece counts its time and position from its own beginning, so that no digits are lost far
+// from the origin. Before the first and after the last knot the curve goes on as a straight line.
 class PiecewiseCubic {
  public:
-  // knots_s: strictly increasing, one more than pieces. end_m: the point at the last knot. Without pieces: stays there.
+  // knots_s: strictly increasing, one more than pieces. end_m: the point at the last knot. Without pieces the curve
+  // stays there.
   PiecewiseCubic(std::vector<double> knots_s, std::vector<CubicPiece> pieces, const glm::dvec3& end_m);
 
   // O(log n). Acceleration at a knot is that of the piece that begins there; beyond the ends it is zero.
@@ -27,8 +33,9 @@ class PiecewiseCubic {
   [[nodiscard]] double first_s() const { return knots_s_.front(); }
   [[nodiscard]] double last_s() const { return knots_s_.back(); }
 
-  // Ascending times that cut every piece into per_piece equal parts and, between those, wherever the speed is least or
-  // greatest: from one time to the next the speed only rises or only falls, so no moment of standing still is missed.
+  // Ascending times from the first knot to the last. They cut each piece into per_piece equal parts and also contain
+  // each time at which the speed has a minimum or maximum. Between two neighbours the speed only rises or only falls,
+  // so no moment of standing still is missed.
   [[nodiscard]] std::vector<double> sample_times_s(int per_piece) const;
 
  private:
@@ -36,5 +43,9 @@ class PiecewiseCubic {
   std::vector<CubicPiece> pieces_;
   glm::dvec3 end_m_;
 };
+
+// The places in (0, 1) where c[0] + c[1] x + c[2] x^2 + c[3] x^3 changes its sign, ascending, exact to the last few
+// bits. Leading coefficients may be zero. A double root, where the sign stays the same, may be left out.
+[[nodiscard]] std::vector<double> sign_changes_in_unit_interval(const std::array<double, 4>& c);
 
 }  // namespace sigs

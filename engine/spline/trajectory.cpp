@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "spline/trajectory.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -8,10 +10,9 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "spline/approximating_spline.h"
 #include "spline/attitude.h"
-#include "spline/interpolating_spline.h"
-#include "spline/timed_curve.h"
+#include "spline/constant_speed.h"
+#include "spline/splines.h"
 
 namespace sigs {
 
@@ -30,8 +31,8 @@ std::optional<std::string> mistake_in(const TimedWaypoint& waypoint, const Timed
     return "position must be three numbers, each within 1e12 m of the origin";
   if (!(std::abs(waypoint.time_s) <= kLatest_s)) return "time must be a number of seconds within 1e12";
   if (before && !(waypoint.time_s - before->time_s >= kMinLeg_s))
-    return "time " + std::to_string(waypoint.time_s) + " s must be later than that of the waypoint before, " +
-           std::to_string(before->time_s) + " s";
+    return fmt::format("time {:f} s must be later than that of the waypoint before, {:f} s", waypoint.time_s,
+                       before->time_s);
   return std::nullopt;
 }
 
@@ -39,13 +40,13 @@ Result<void> checked(const std::vector<TimedWaypoint>& waypoints, const Trajecto
   if (waypoints.empty()) return fail("waypoints", "a trajectory needs at least one waypoint", ErrorKind::bad_project);
   for (std::size_t i = 0; i < waypoints.size(); ++i)
     if (const auto mistake = mistake_in(waypoints[i], i > 0 ? &waypoints[i - 1] : nullptr))
-      return fail("waypoints[" + std::to_string(i) + "]", *mistake, ErrorKind::bad_project);
+      return fail(fmt::format("waypoints[{}]", i), *mistake, ErrorKind::bad_project);
   if (!(settings.bank_limit_rad >= 0 && settings.bank_limit_rad <= std::numbers::pi))
     return fail("bank_limit", "must lie between 0 and 180 degrees", ErrorKind::bad_project);
   return {};
 }
 
-TimedCurve course_of(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
+TimedCurve timed_curve_of(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
   PiecewiseCubic curve =
       settings.spline == SplineKind::interpolating ? interpolating_spline(waypoints) : approximating_spline(waypoints);
   if (settings.timing == Timing::frames) return curve;
@@ -66,7 +67,7 @@ Trajectory::Trajectory(std::shared_ptr<const Path> path) : path_(std::move(path)
 
 Result<Trajectory> Trajectory::make(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
   if (const Result<void> good = checked(waypoints, settings); !good) return fail(good.error());
-  return Trajectory(std::make_shared<const Path>(course_of(waypoints, settings), settings));
+  return Trajectory(std::make_shared<const Path>(timed_curve_of(waypoints, settings), settings));
 }
 
 glm::dvec3 Trajectory::position_m(double time_s) const {

@@ -12,17 +12,16 @@ namespace sigs {
 
 enum class SplineKind {
   interpolating,  // the C2 cubic spline through every waypoint at its time, natural at both ends
-  approximating,  // the paper's uniform cubic B-spline, equations (1) and (2): waypoints are control points, near the
-                  // curve
+  approximating,  // the paper's uniform cubic B-spline, equations (1) and (2): the waypoints are its control points
 };
 
 enum class Timing {
-  frames,          // as the waypoints' times say (approximating: the first one's and the last one's alone)
+  frames,          // at the waypoints' times (approximating: only those of the first and the last one count)
   constant_speed,  // the same curve at one speed, from the first waypoint's time to the last one's
 };
 
 enum class Bank {
-  coordinated,  // as a turn without sideslip asks for: atan(speed * turn rate / g) in a level turn
+  coordinated,  // as in a turn without sideslip: atan(speed * turn rate / g) in a level turn
   level,        // wings level
 };
 
@@ -35,35 +34,35 @@ struct TrajectorySettings {
   SplineKind spline = SplineKind::interpolating;
   Timing timing = Timing::frames;
   Bank bank = Bank::coordinated;
-  double bank_limit_rad = 1.0471975511965976;  // 60 degrees; 0..pi. Counts while the pitch is moderate: up_target.h
+  double bank_limit_rad = 1.0471975511965976;  // 60 degrees; 0..pi. Applies at moderate pitch: attitude.h
 };
 
-// Where an intruder is at any time, and how it lies in the air. A function of time alone: any order of calls and any
-// number of threads see the same bits. One waypoint hovers, level, nose along world X; two are joined by a straight
-// line. All times are seconds on the waypoints' clock and must be finite.
+// Position and attitude of an intruder at any time, computed from waypoints. It depends on the time alone: calls in any
+// order, on any number of threads, return the same bits. One waypoint hovers, level, with the nose along world X; two
+// are joined by a straight line. All times are seconds on the waypoints' clock and must be finite.
 class Trajectory {
  public:
-  // waypoints: at least one, times strictly increasing (by 1e-9 s at least), everything within 1e12 m or s of zero.
+  // waypoints  at least one, times strictly increasing (by 1e-9 s at least), everything within 1e12 m or s of zero.
   // Errors (bad_project) name the waypoint, "waypoints[3]", or "waypoints" where there is none, or "bank_limit".
   [[nodiscard]] static Result<Trajectory> make(const std::vector<TimedWaypoint>& waypoints,
                                                const TrajectorySettings& settings);
 
-  // In the world; before the first and after the last waypoint's time the flight goes straight on at constant velocity.
-  // Acceleration may jump there (approximating) and where the curve is a corner at constant speed; velocity there too.
+  // In the world. Before the first and after the last waypoint's time the flight goes on straight at constant velocity.
+  // Acceleration may be discontinuous at those two times (approximating) and at corners (constant speed); at corners
+  // velocity may be, too.
   [[nodiscard]] glm::dvec3 position_m(double time_s) const;
   [[nodiscard]] glm::dvec3 velocity_mps(double time_s) const;
   [[nodiscard]] glm::dvec3 acceleration_mps2(double time_s) const;
 
-  // Position, and the attitude that the path asks for: nose along the velocity, bank of a coordinated turn. Continuous
-  // everywhere. Where the path stands still (under 0.02 m/s), reverses or has a corner, the nose leaves the velocity
-  // and turns over, at least 0.2 s long for 180 degrees; wings roll over some 0.15 s where the path asks for it
-  // suddenly.
+  // Position and attitude: the nose along the velocity, the bank of a coordinated turn. Continuous everywhere. Where
+  // the path stands still (below 0.02 m/s), reverses or has a corner, the nose leaves the velocity and turns over, in
+  // at least 0.2 s for 180 degrees. A sudden change of bank is spread over about 0.15 s.
   [[nodiscard]] Pose<frame::World, frame::Body> world_from_body(double time_s) const;
 
  private:
   struct Path;
   explicit Trajectory(std::shared_ptr<const Path> path);
-  std::shared_ptr<const Path> path_;  // never changes once made, so copies may share it
+  std::shared_ptr<const Path> path_;  // constant, so copies may share it
 };
 
 }  // namespace sigs

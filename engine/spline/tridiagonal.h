@@ -8,8 +8,8 @@
 
 namespace sigs {
 
-// One row of a tridiagonal system: before * x[i-1] + self * x[i] + after * x[i+1] = right.
-// The first row's `before` and the last row's `after` are not looked at.
+// One row of a tridiagonal system of linear equations: before * x[i-1] + self * x[i] + after * x[i+1] = right.
+// `before` of the first row and `after` of the last one are ignored. Value is a number or a vector.
 template <class Value>
 struct TridiagonalRow {
   double before = 0;
@@ -18,7 +18,8 @@ struct TridiagonalRow {
   Value right{};
 };
 
-// Thomas' algorithm, O(n). Without pivoting it is stable for diagonally dominant rows, which is all that this room has.
+// The solution x, by Thomas' algorithm, O(n). At least one row. There is no pivoting, so the rows must be diagonally
+// dominant, as those of splines and of the roll's smoothing are.
 template <class Value>
 [[nodiscard]] std::vector<Value> solved(std::span<const TridiagonalRow<Value>> rows) {
   ENSURE(!rows.empty());

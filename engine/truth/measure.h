@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/image.h"
-#include "base/layer.h"
 #include "base/pose.h"
 #include "camera/camera.h"
 #include "truth/annotation.h"

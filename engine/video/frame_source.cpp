@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "video/frame_seeker.h"
 #include "video/libav/orientation.h"
 #include "video/libav/planes.h"

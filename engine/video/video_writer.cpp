@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/guarded.h"
+#include "base/threads.h"
 #include "video/libav/video_file.h"
 #include "video/png_sequence.h"
 

@@ -28,7 +28,7 @@ struct VideoFormat {
 };
 
 // Writes frames to a file or, for png, to a folder. The bytes depend on the format and the frames alone: no dates, no
-// machine, no thread count. The caller gives the file its final name (base/temporary_file.h).
+// machine, no thread count. The caller gives the file its final name (base/staged_outputs.h).
 class VideoWriter {
  public:
   // Errors: usage (codec and container do not go together: ffv1 wants mkv or avi, png wants none), unavailable (no such

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "base/bounded_queue.h"
 
 #include <doctest/doctest.h>
-
 #include <atomic>
 #include <thread>
 #include <vector>
 
+#include "base/bounded_queue.h"
+
 using namespace sigs;
 
-TEST_CASE("a queue hands over every item in order and never holds more than it may") {
+TEST_CASE("a queue passes all items in order and never has more than its capacity") {
   constexpr int kItems = 2000;
   constexpr int kCapacity = 3;
   BoundedQueue<int> queue(kCapacity);
@@ -33,7 +33,7 @@ TEST_CASE("a queue hands over every item in order and never holds more than it m
   CHECK(bounded);
 }
 
-TEST_CASE("a closed queue takes nothing more and gives what is left") {
+TEST_CASE("a closed queue accepts nothing more and returns what is left") {
   BoundedQueue<int> queue(2);
   CHECK(queue.put(1));
   queue.close();
@@ -42,7 +42,7 @@ TEST_CASE("a closed queue takes nothing more and gives what is left") {
   CHECK_FALSE(queue.take().has_value());
 }
 
-TEST_CASE("closing wakes who waits for room and who waits for an item") {
+TEST_CASE("closing wakes threads that wait in put() and in take()") {
   BoundedQueue<int> full(1);
   CHECK(full.put(1));
   bool refused = false;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "base/file_lock.h"
 
-#include <doctest/doctest.h>
 #include <sys/stat.h>
 
+#include <doctest/doctest.h>
 #include <cerrno>
 #include <fstream>
 
+#include "base/file_lock.h"
 #include "support/test_data.h"
 
 using namespace sigs;
 
-TEST_CASE("only EWOULDBLOCK says that somebody holds a lock") {
+TEST_CASE("only EWOULDBLOCK means that a lock is held") {
   CHECK(lock_answer(0) == LockAnswer::held);
   CHECK(lock_answer(EWOULDBLOCK) == LockAnswer::taken);
   for (const int error : {ENOLCK, ENOSYS, EOPNOTSUPP, EINVAL, EIO, ESTALE, EBADF})
     CHECK(lock_answer(error) == LockAnswer::unavailable);
 }
 
-TEST_CASE("a lock keeps out others until it is let go of") {
+TEST_CASE("a lock keeps others out until it is released") {
   const test::TemporaryFolder folder;
   Descriptor first = open_for_lock(folder / "lock", LockFile::made_where_missing);
   const Descriptor second = open_for_lock(folder / "lock", LockFile::must_be_there);
@@ -30,7 +30,7 @@ TEST_CASE("a lock keeps out others until it is let go of") {
   CHECK(try_lock(second) == LockAnswer::held);
 }
 
-TEST_CASE("a lock file is a regular file, not emptied, and known by its name") {
+TEST_CASE("a lock file is a regular file, keeps its contents, and is recognized by its name") {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "mine";
   const Descriptor file = open_for_lock(folder / "file", LockFile::made_where_missing);

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "base/image_size.h"
 
 #include <doctest/doctest.h>
-
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "base/image.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
 
-TEST_CASE("the stated size of an image is that which decoding gives") {
+TEST_CASE("the size in the header of an image is that which decoding gives") {
   const TemporaryFolder folder;
   for (const std::string name : {"a.png", "a.jpg", "a.bmp", "a.tiff", "a.webp", "a.ppm", "a.pgm", "a.pbm"})
     for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 2), cv::Size(640, 479), cv::Size(1, 5000)})
@@ -25,7 +24,7 @@ TEST_CASE("the stated size of an image is that which decoding gives") {
       }
 }
 
-TEST_CASE("a file that is cut short or no image states no size") {
+TEST_CASE("an incomplete file or one that is not an image has no size") {
   const TemporaryFolder folder;
   for (const std::string name : {"a.png", "a.jpg", "a.bmp", "a.tiff", "a.webp"}) {
     REQUIRE(cv::imwrite((folder / name).string(), cv::Mat(20, 30, CV_8UC3, cv::Scalar::all(9))));

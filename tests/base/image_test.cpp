@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "base/image.h"
 
 #include <doctest/doctest.h>
+
+#include "base/image.h"
 
 using namespace sigs;
 

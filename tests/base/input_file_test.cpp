@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "base/input_file.h"
-
-#include <doctest/doctest.h>
 
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <doctest/doctest.h>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "base/input_file.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -22,11 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void put(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-void put_socket(const fs::path& path) {
+void make_socket(const fs::path& path) {
   const int socket_number = socket(AF_UNIX, SOCK_STREAM, 0);
   sockaddr_un address{.sun_family = AF_UNIX};
   std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
@@ -47,27 +42,27 @@ void check_refused(const fs::path& path, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("a regular file and a link to one come back byte for byte") {
+TEST_CASE("a regular file and a link to one are read byte for byte") {
   const TemporaryFolder folder;
   const std::string bytes = std::string("a\r\n\0b\xFF", 6) + std::string(300'000, 'x');
-  put(folder / "file", bytes);
+  test::write_file(folder / "file", bytes);
   fs::create_symlink("file", folder / "link");
   CHECK(read_text(folder / "file").value() == bytes);
   CHECK(read_text(folder / "link").value() == bytes);
-  put(folder / "empty", "");
+  test::write_file(folder / "empty", "");
   CHECK(read_text(folder / "empty").value().empty());
 }
 
-TEST_CASE("a file that does not tell its size is read to its end") {
+TEST_CASE("a file that reports the size 0 is read to its end") {
   const std::string text = read_text("/proc/self/status").value();
   CHECK(text.find("\nPid:") != std::string::npos);
   CHECK(text.back() == '\n');
 }
 
-TEST_CASE("what is missing, a folder, a device, a pipe or a socket is named and not opened") {
+TEST_CASE("a missing file, a folder, a device, a pipe and a socket are named and not opened") {
   const TemporaryFolder folder;
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  put_socket(folder / "socket");
+  make_socket(folder / "socket");
   fs::create_symlink("/dev/zero", folder / "link");
   fs::create_symlink("gone", folder / "dangling");
   check_refused(folder / "gone", "no such file");
@@ -81,7 +76,7 @@ TEST_CASE("what is missing, a folder, a device, a pipe or a socket is named and 
 
 TEST_CASE("a file may be as large as its limit and no larger") {
   const TemporaryFolder folder;
-  fs::resize_file((put(folder / "file", ""), folder / "file"), 2 * kMebibyte);
+  fs::resize_file((test::write_file(folder / "file", ""), folder / "file"), 2 * kMebibyte);
   CHECK(read_text(folder / "file", 2 * kMebibyte).value().size() == 2 * kMebibyte);
   const Result<std::string> larger = read_text(folder / "file", 2 * kMebibyte - 1);
   REQUIRE_FALSE(larger);

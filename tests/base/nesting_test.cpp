@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "base/nesting.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <random>
 #include <string>
+
+#include "base/nesting.h"
 
 namespace sigs::test {
 namespace {
@@ -78,7 +78,7 @@ std::string block(Random& random, int depth, int indent) {
 
 }  // namespace
 
-TEST_CASE("no YAML that OpenCV reads nests deeper than is said") {
+TEST_CASE("no YAML that OpenCV reads is nested deeper than computed") {
   Random random(12);
   int read = 0;
   int deepest = 0;
@@ -96,7 +96,7 @@ TEST_CASE("no YAML that OpenCV reads nests deeper than is said") {
   CHECK(deepest >= 6);
 }
 
-TEST_CASE("what OpenCV writes nests as deep as is said or a level less") {
+TEST_CASE("what OpenCV writes is nested as deep as computed or a level less") {
   for (int depth = 1; depth < 30; ++depth)
     for (const int style : {0, int(cv::FileNode::FLOW)}) {
       cv::FileStorage out(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
@@ -114,7 +114,7 @@ TEST_CASE("what OpenCV writes nests as deep as is said or a level less") {
     }
 }
 
-TEST_CASE("matrices and lists of a usual calibration lie a few levels deep") {
+TEST_CASE("matrices and lists of a usual calibration are a few levels deep") {
   std::string text = "%YAML:1.0\n---\ncalibration_time: \"Tue 07 Aug 2018 [11:38:23\"\n";
   for (int i = 0; i < 1000; ++i)
     text += "view" + std::to_string(i) + ": !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., 2. ]\n";
@@ -123,7 +123,7 @@ TEST_CASE("matrices and lists of a usual calibration lie a few levels deep") {
   CHECK(opencv_yaml_depth(text) <= 6);
 }
 
-TEST_CASE("tags and comments and empty elements are told apart") {
+TEST_CASE("tags, comments and empty elements are distinguished") {
   CHECK(xml_depth("<?xml version=\"1.0\"?><!DOCTYPE a><a><b/><c d=\"e\"/><f></f></a>") == 2);
   CHECK(xml_depth("<a><!-- <b><c> > --><d/></a>") == 2);
   CHECK(xml_depth("<a><b><c>") == 3);

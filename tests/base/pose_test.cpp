@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "base/pose.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <type_traits>
 
-#include "base/angles.h"
+#include "base/pose.h"
 
 using namespace sigs;
 
@@ -37,13 +35,13 @@ TEST_CASE("poses multiply only where their frames meet") {
   CHECK(true);
 }
 
-TEST_CASE("a pose and its inverse bring every point back") {
+TEST_CASE("a pose followed by its inverse leaves every point in place") {
   const WorldFromBody pose{rotation_of({0.3, -0.8, 2.5}), {1e7, -20, 3}};
   for (const glm::dvec3 p : {glm::dvec3(0, 0, 0), glm::dvec3(1, 2, 3), glm::dvec3(-400, 5, 1e4)})
     CHECK(largest_difference(inverse(pose) * (pose * p), p) < 1e-8);  // doubles at 1e7 m resolve 2e-9 m
 }
 
-TEST_CASE("a product of poses does one after the other") {
+TEST_CASE("a product of poses applies one after the other") {
   const WorldFromBody a{rotation_of({0.1, 0.2, 0.3}), {1, 2, 3}};
   const BodyFromCamera b{rotation_of({-1, 0.4, 2}), {-5, 0, 9}};
   const glm::dvec3 p(7, -8, 9);
@@ -59,7 +57,7 @@ TEST_CASE("yaw turns the nose right and pitch turns it up and roll puts the righ
   CHECK(largest_difference(rotation_of({quarter, 0, 0}) * right_wing, {0, 0, 1}) < 1e-15);
 }
 
-TEST_CASE("attitude angles come back from the rotation they made") {
+TEST_CASE("attitude angles are recovered from their rotation") {
   for (double roll = -3; roll <= 3; roll += 0.75)
     for (double pitch = -1.5; pitch <= 1.5; pitch += 0.5)
       for (double yaw = -3; yaw <= 3; yaw += 0.75) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "camera/example_lenses.h"
 
 namespace sigs::test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "camera/camera.h"
 #include "camera/example_lenses.h"
 #include "camera/lens.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/tiny_recipe.h"
 
 using namespace sigs;

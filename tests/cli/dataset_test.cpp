@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/tiny_recipe.h"
 
 using namespace sigs;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "export/frame_stream.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 

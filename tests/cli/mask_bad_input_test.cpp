@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "occlusion/synthetic_clip.h"

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "occlusion/synthetic_clip.h"

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "occlusion/detect.h"

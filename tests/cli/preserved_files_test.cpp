@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "cli/tiny_recipe.h"

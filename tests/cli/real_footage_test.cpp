@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "video/frame_source.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "support/test_data.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/tiny_project.h"
 #include "support/test_data.h"
 

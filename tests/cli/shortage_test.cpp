@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/shell.h"
 #include "cli/tiny_project.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "video/video_writer.h"
 
 namespace sigs::test {

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 
 namespace sigs::test {
 

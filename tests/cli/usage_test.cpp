@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "video/frame.h"
 
 namespace sigs::test {

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/flight_quantities.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "dataset/flight_contexts.h"
 #include "dataset/flight_plan.h"
 

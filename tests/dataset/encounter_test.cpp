@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/angles.h"
+#include "base/pose.h"
 
 using namespace sigs;
 

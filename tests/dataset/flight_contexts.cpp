@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "scene/scene_at.h"
 #include "scene/waypoint_times.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/merge_formats.h"
 #include "dataset/tiny_plan.h"
 #include "support/test_data.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "dataset/checksum.h"
 #include "dataset/tiny_plan.h"
 #include "project/json.h"

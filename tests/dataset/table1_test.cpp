@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "camera/camera.h"
 #include "dataset/plan.h"
 #include "support/test_data.h"

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "project/fields.h"
 #include "project/json.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/angles.h"
-#include "base/temporary_file.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
 #include "docs/markdown.h"
 #include "docs/process.h"
 #include "labels/sigs_xml.h"

@@ -5,7 +5,7 @@
 #include <regex>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "docs/markdown.h"
 #include "support/test_data.h"
 

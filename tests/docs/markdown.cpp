@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

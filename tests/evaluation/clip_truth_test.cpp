@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "labels/sigs_xml.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"

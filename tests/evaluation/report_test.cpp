@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "evaluation/synthetic_report.h"
 #include "support/test_data.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "evaluation/results.h"
 #include "support/test_data.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
 

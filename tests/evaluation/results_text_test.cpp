@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "evaluation/clips.h"
 #include "support/test_data.h"
 

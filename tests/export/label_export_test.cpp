@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "export/export_files.h"
 #include "export/export_project.h"
 #include "frame/synthetic_scenes.h"

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "extremes/validity.h"
 
 namespace sigs::test {

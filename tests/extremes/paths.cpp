@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "extremes/validity.h"
 #include "spline/flights.h"
 

@@ -7,7 +7,7 @@
 #include "extremes/validity.h"
 #include "spline/conditioning.h"
 #include "spline/flights.h"
-#include "spline/interpolating_spline.h"
+#include "spline/splines.h"
 
 namespace sigs::test {
 namespace {

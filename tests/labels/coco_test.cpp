@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/angles.h"
-#include "base/temporary_file.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
 #include "labels/label_sequence.h"
 #include "labels/run_length.h"
 #include "support/comma_locale.h"

@@ -7,7 +7,7 @@
 #include <pugixml.hpp>
 #include <string>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "labels/label_writing.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"

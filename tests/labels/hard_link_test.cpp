@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -12,7 +12,6 @@
 #include <sstream>
 #include <string>
 
-#include "base/angles.h"
 #include "base/pose.h"
 #include "labels/kitti_box.h"
 #include "labels/label_writing.h"

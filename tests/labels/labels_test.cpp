@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "labels/label_text.h"
 #include "labels/label_writing.h"
 #include "project/project.h"

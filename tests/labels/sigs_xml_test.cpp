@@ -8,8 +8,8 @@
 #include <pugixml.hpp>
 #include <string>
 
-#include "base/angles.h"
-#include "base/temporary_file.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
 #include "support/comma_locale.h"
 #include "support/death_test.h"
 #include "support/test_data.h"

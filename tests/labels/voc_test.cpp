@@ -5,7 +5,7 @@
 
 #include <pugixml.hpp>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "labels/label_sequence.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "labels/label_sequence.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"

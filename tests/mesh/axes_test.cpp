@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <cmath>
 #include <limits>
 
-#include "mesh/axes.h"
+#include "mesh/geometry.h"
 #include "mesh/mesh.h"
 #include "mesh/written.h"
 #include "support/test_data.h"

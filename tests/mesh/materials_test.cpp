@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "mesh/mesh.h"
 #include "mesh/written.h"
 #include "support/test_data.h"
@@ -45,7 +45,7 @@ TEST_CASE("colours and gloss come from the MTL") {
   CHECK(material.texture.empty());
 }
 
-TEST_CASE("opacity is d or what Tr leaves or the fourth number of Kd in that order") {
+TEST_CASE("opacity is d, or 1 - Tr, or the fourth number of Kd, in that order") {
   const auto opacity = [](const std::string& mtl) { return Painted(mtl).material().opacity; };
   CHECK(opacity("Kd 1 1 1\n") == 1);
   CHECK(opacity("Kd 1 1 1\nd 0.25\n") == 0.25F);
@@ -57,7 +57,7 @@ TEST_CASE("opacity is d or what Tr leaves or the fourth number of Kd in that ord
   CHECK(opacity("Kd 1 1 1 # white\n") == 1);
 }
 
-TEST_CASE("what nobody should see is left out of the mesh with a warning") {
+TEST_CASE("invisible materials are left out of the mesh with a warning") {
   const test::TemporaryFolder folder;
   test::written(folder / "model.mtl", "newmtl paint\nKd 1 0 0 1\nnewmtl hot_spot\nKd 0.6 0.6 0.6 0\n");
   test::written(folder / "model.obj", std::string("mtllib model.mtl\n") + kShape +
@@ -71,13 +71,13 @@ TEST_CASE("what nobody should see is left out of the mesh with a warning") {
   CHECK(mesh.warnings[0].text().find("hot_spot") != std::string::npos);
 }
 
-TEST_CASE("a model that is transparent all over is drawn solid with a warning") {
+TEST_CASE("a model that is transparent throughout is rendered solid with a warning") {
   const Mesh mesh = Painted("Kd 0.2 0.2 0.2 0\n").mesh();
   CHECK(mesh.materials[0].opacity == 1);
   CHECK(mesh.warnings.size() == 1);
 }
 
-TEST_CASE("a missing MTL makes grey and is named") {
+TEST_CASE("a missing MTL file gives grey and a warning with its name") {
   const test::TemporaryFolder folder;
   test::written(folder / "model.obj", std::string("mtllib lost.mtl\n") + kShape + "usemtl paint\nf 1 2 3\n");
   const Mesh mesh = read_obj(folder / "model.obj").value();
@@ -93,7 +93,7 @@ TEST_CASE("faces without a material are grey without a warning") {
   CHECK(mesh.warnings.empty());
 }
 
-TEST_CASE("a material that no MTL holds is grey and named") {
+TEST_CASE("a material that no MTL file has is grey and named") {
   const test::TemporaryFolder folder;
   test::written(folder / "model.mtl", "newmtl other\nKd 1 0 0\n");
   test::written(folder / "model.obj", std::string("mtllib model.mtl\n") + kShape + "usemtl paint\nf 1 2 3\n");
@@ -103,7 +103,7 @@ TEST_CASE("a material that no MTL holds is grey and named") {
   CHECK(mesh.warnings[0].text().find("paint") != std::string::npos);
 }
 
-TEST_CASE("a missing or unreadable texture makes grey and is named") {
+TEST_CASE("a missing or unreadable texture gives grey and a warning with its name") {
   for (const bool is_there : {false, true}) {
     Painted painted("Kd 1 0 0\nmap_Kd lost.png\n");
     if (is_there) test::written(painted.folder / "lost.png", "this is no texture");
@@ -167,7 +167,7 @@ TEST_CASE("a texture of too many pixels is named with its size and not decoded")
   }
 }
 
-TEST_CASE("textures are found in folders and with blanks and as Windows wrote them") {
+TEST_CASE("textures are found in folders, with blanks, and with names from Windows") {
   for (const char* written :
        {"textures/my paint.png", "textures\\my paint.png", "Textures\\My Paint.PNG", "C:\\Users\\me\\my paint.png"}) {
     CAPTURE(written);
@@ -193,7 +193,7 @@ TEST_CASE("materials that name the same texture share its pixels") {
   CHECK(mesh.materials[0].texture.data == mesh.materials[1].texture.data);
 }
 
-TEST_CASE("an opacity map thins the texture out") {
+TEST_CASE("an opacity map multiplies the opacity of the texture") {
   Painted painted("Kd 1 1 1\nmap_Kd paint.png\nmap_d holes.png\n");
   cv::imwrite((painted.folder / "paint.png").string(), two_rows(CV_8UC3, {0, 0, 255}, {0, 0, 255}));
   cv::imwrite((painted.folder / "holes.png").string(), two_rows(CV_8UC1, 255, 0));
@@ -212,7 +212,7 @@ TEST_CASE("texture coordinates follow the placement in the MTL") {
   CHECK(mesh.vertices[mesh.indices[2]].uv == glm::vec2{0.5F, 3.25F});
 }
 
-TEST_CASE("a library whose name holds blanks is found") {
+TEST_CASE("an MTL file whose name contains blanks is found") {
   const test::TemporaryFolder folder;
   test::written(folder / "my model.mtl", "newmtl my paint\nKd 0 1 0\n");
   test::written(folder / "model.obj", std::string("mtllib my model.mtl\n") + kShape + "usemtl my paint \nf 1 2 3\n");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "mesh/mesh.h"
 #include "mesh/written.h"
 #include "support/test_data.h"
@@ -13,9 +13,9 @@
 namespace sigs {
 namespace {
 
-Result<Mesh> mesh_of(const std::string& text) {
-  const test::TemporaryFolder folder;
-  return read_obj(test::written(folder / "model.obj", text), {.forward = "+x", .up = "-z"});  // model axes = body axes
+// The axes of the file are the body's.
+Result<Mesh> mesh_in_body_axes(const std::string& text) {
+  return test::mesh_of(text, {.forward = "+x", .up = "-z"});
 }
 
 // A sphere of radius 1 cut along parallels and meridians, without normals.
@@ -51,21 +51,21 @@ double largest_angle_to_radius_deg(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("averaged normals of a sphere point along its radius") {
-  const Result<Mesh> mesh = mesh_of(sphere_obj(48, 96));
+  const Result<Mesh> mesh = mesh_in_body_axes(sphere_obj(48, 96));
   REQUIRE(mesh);
   // Faces are 3.75 degrees wide; weighting by angle leaves an error of second order of that, far below a tenth of it.
   CHECK(largest_angle_to_radius_deg(*mesh) < 0.3);
   for (const Vertex& vertex : mesh->vertices) CHECK(glm::length(vertex.normal) == doctest::Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("each vertex of a smooth sphere is there once") {
-  const Result<Mesh> mesh = mesh_of(sphere_obj(8, 16));
+TEST_CASE("each vertex of a smooth sphere exists once") {
+  const Result<Mesh> mesh = mesh_in_body_axes(sphere_obj(8, 16));
   REQUIRE(mesh);
   CHECK(mesh->vertices.size() == 7 * 16 + 2);
 }
 
 TEST_CASE("edges of a cube stay sharp") {
-  const Result<Mesh> mesh = mesh_of(test::box_obj());
+  const Result<Mesh> mesh = mesh_in_body_axes(test::box_obj());
   REQUIRE(mesh);
   for (const Vertex& vertex : mesh->vertices) {
     const glm::vec3 size = glm::abs(vertex.normal);
@@ -81,29 +81,30 @@ TEST_CASE("a roof is smooth below sixty degrees and sharp above") {
     text.precision(9);
     text << "v 0 0 0\nv 1 0 0\nv 0 " << std::cos(slope) << " " << -std::sin(slope) << "\nv 0 " << -std::cos(slope)
          << " " << -std::sin(slope) << "\nf 1 2 3\nf 1 4 2\n";
-    const Result<Mesh> mesh = mesh_of(text.str());
+    const Result<Mesh> mesh = mesh_in_body_axes(text.str());
     REQUIRE(mesh);
     const bool is_smooth = fold_deg < 60;
     CHECK(mesh->vertices.size() == (is_smooth ? 4 : 6));
   }
 }
 
-TEST_CASE("the file's own normals are kept and made unit") {
-  const Result<Mesh> mesh = mesh_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nf 1//1 2//1 3//1\n");
+TEST_CASE("the file's own normals are kept and normalized") {
+  const Result<Mesh> mesh = mesh_in_body_axes("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nf 1//1 2//1 3//1\n");
   REQUIRE(mesh);
   for (const Vertex& vertex : mesh->vertices) CHECK(glm::distance(vertex.normal, glm::vec3{0, 0.6F, 0.8F}) < 1e-6F);
 }
 
-TEST_CASE("normals of no length or of no number are made anew") {
+TEST_CASE("normals without length or with NaN are computed anew") {
   for (const char* bad : {"vn 0 0 0", "vn nan nan nan"}) {
-    const Result<Mesh> mesh = mesh_of("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(bad) + "\nf 1//1 2//1 3//1\n");
+    const Result<Mesh> mesh =
+        mesh_in_body_axes("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(bad) + "\nf 1//1 2//1 3//1\n");
     REQUIRE(mesh);
     for (const Vertex& vertex : mesh->vertices) CHECK(glm::distance(vertex.normal, glm::vec3{0, 0, 1}) < 1e-6F);
   }
 }
 
-TEST_CASE("faces wound against their own normals are turned round") {
-  const Result<Mesh> mesh = mesh_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n");
+TEST_CASE("faces wound against their own normals are reversed") {
+  const Result<Mesh> mesh = mesh_in_body_axes("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n");
   REQUIRE(mesh);
   const auto p = [&](std::size_t i) { return mesh->vertices[mesh->indices[i]].position_m; };
   CHECK(glm::cross(p(1) - p(0), p(2) - p(0)).z < 0);

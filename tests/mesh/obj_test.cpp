@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
+
 #include <unistd.h>
 
+#include <doctest/doctest.h>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
@@ -14,10 +15,7 @@
 namespace sigs {
 namespace {
 
-Result<Mesh> mesh_of(const std::string& text) {
-  const test::TemporaryFolder folder;
-  return read_obj(test::written(folder / "model.obj", text));
-}
+using test::mesh_of;
 
 void refused(const std::string& text, const std::string& part_of_message) {
   CAPTURE(text);
@@ -52,7 +50,7 @@ constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 }  // namespace
 
-TEST_CASE("a file of another format is told by its name") {
+TEST_CASE("a file of another format is named in the error") {
   const auto utf16 = [](const std::string& text) {
     std::string wide = "\xFF\xFE";
     for (const char c : text) wide.append(1, c).append(1, '\0');
@@ -70,7 +68,7 @@ TEST_CASE("a file of another format is told by its name") {
   CHECK(mesh_of("\xEF\xBB\xBF" + obj));  // the mark of UTF-8 before the first vertex
 }
 
-TEST_CASE("colours of vertices are not used, and that is said") {
+TEST_CASE("colours of vertices are ignored with a warning") {
   const Result<Mesh> colored = mesh_of("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 1\nf 1 2 3\n");
   REQUIRE(colored);
   REQUIRE(colored->warnings.size() == 1);
@@ -195,13 +193,13 @@ TEST_CASE("vertices that no face uses do not count for the bounds") {
   CHECK(mesh->radius_m == 1);
 }
 
-TEST_CASE("the same corner is one vertex and another uv makes another one") {
+TEST_CASE("equal corners are one vertex, and another uv gives another one") {
   const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n";
   CHECK(mesh_of(quad + "f 1/1 2/1 3/1\nf 1/1 3/1 4/1\n").value().vertices.size() == 4);
   CHECK(mesh_of(quad + "f 1/1 2/1 3/1\nf 1/1 3/2 4/1\n").value().vertices.size() == 5);
 }
 
-TEST_CASE("files that hold no surface are refused") {
+TEST_CASE("files without a surface are refused") {
   refused("", "no faces");
   refused("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces");
   refused("v 0 0 0\nv 1 0 0\nl 1 2\n", "no faces");
@@ -225,7 +223,7 @@ TEST_CASE("coordinates that are no finite numbers are refused with their line") 
   refused("v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "too large");  // a double, but no float
 }
 
-TEST_CASE("a file that is not there cannot be read") {
+TEST_CASE("a missing file cannot be read") {
   const test::TemporaryFolder folder;
   const Result<Mesh> mesh = read_obj(folder / "nowhere.obj");
   REQUIRE_FALSE(mesh);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace sigs {
 
-TEST_CASE("real aircraft have the size and the triangles that their catalogue says") {
+TEST_CASE("real aircraft have the size and the triangles that their catalogue states") {
   if (!test::has_real_data()) return;
   struct Aircraft {
     const char* file;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "project/json.h"
 
-#include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <doctest/doctest.h>
 #include <map>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "project/fields.h"
+#include "project/json.h"
 #include "project/json_reading.h"
 #include "support/test_data.h"
 
@@ -94,7 +94,7 @@ TEST_CASE("unknown keys are warned of by their whole name and kept on save") {
     CHECK_MESSAGE(saved.find(kept) != std::string::npos, kept);
 }
 
-TEST_CASE("an unknown key that is nearly a known one says which") {
+TEST_CASE("for an unknown key a similar known one is suggested") {
   const Result<ReadProject> read = parse_project(R"({"sigs": 1, "footage": {"vidoe": "a.mkv"}, "intruder": [],
       "cammera": {"position_m": [0, 0, 0]}, "colour_of_hangar": 1,
       "intruders": [{"modle": {"file": "a.obj"}, "trajectory": {"waypoint": [],
@@ -128,7 +128,7 @@ TEST_CASE("what a file leaves out has its default and null stands for none") {
   CHECK(p.output.labels == std::vector<std::string>{"xml"});
 }
 
-TEST_CASE("a wrong value is named by file and field with what was found") {
+TEST_CASE("a wrong value is reported with file, field and value") {
   CHECK(error_text(R"({"sigs": 1, "camera": {"speed_mps": "fast"}})") ==
         "x.json: camera.speed_mps: expected a number, found \"fast\"");
   CHECK(error_text(R"({"sigs": 1, "camera": {"position_m": [1, 2]}})") ==
@@ -151,7 +151,7 @@ TEST_CASE("sections and lists of the wrong kind are named") {
             .starts_with("x.json: intruders[0].trajectory.waypoints[0]"));
 }
 
-TEST_CASE("text that is no project is said with its line") {
+TEST_CASE("text that is not a project is reported with its line") {
   CHECK(error_text("{\n  \"sigs\": 1,\n  oops\n}").find("line 3") != std::string::npos);
   CHECK(error_text("[1, 2]").find("not a SIGS project") != std::string::npos);
   CHECK(error_text("{}").find("begins with \"sigs\": 1") != std::string::npos);
@@ -173,7 +173,7 @@ TEST_CASE("a written project file reads back from disk") {
   CHECK(text_of(read_project(folder / "p.json").value().project) == text_of(whole()));
 }
 
-TEST_CASE("every field says what it is for and its key is there once") {
+TEST_CASE("each field has a help text and a unique key") {
   Project p = whole();
   std::vector<std::string> keys;
   for (const Field& field : fields_of(p)) {
@@ -229,7 +229,7 @@ TEST_CASE("of several values under one key the last counts") {
   CHECK(parse_project(R"({"sigs": 1, "name": "a", "name": "b"})", "p.json")->project.name == "b");
 }
 
-TEST_CASE("a value in a message is cut between letters, and bytes that are no letters do no harm") {
+TEST_CASE("a value in a message is cut between characters, and invalid UTF-8 does no harm") {
   CHECK(shown(Json("short")) == "\"short\"");
   CHECK(shown(Json("\xff")) == "\"\xEF\xBF\xBD\"");
   std::string text;

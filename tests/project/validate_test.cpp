@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "project/validate.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <fstream>
 #include <limits>
 
+#include "project/validate.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -41,11 +40,11 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "a project whose files are there has no problems") {
+TEST_CASE_FIXTURE(Fixture, "a project whose files exist has no problems") {
   CHECK(wrong_fields() == Fields{});
 }
 
-TEST_CASE_FIXTURE(Fixture, "a project without intruders is whole") {
+TEST_CASE_FIXTURE(Fixture, "a project without intruders has no problems") {
   project.intruders.clear();
   CHECK(wrong_fields() == Fields{});
 }
@@ -79,7 +78,7 @@ TEST_CASE_FIXTURE(Fixture, "numbers beyond their range or not finite are named")
                         "light.ambient"});
 }
 
-TEST_CASE_FIXTURE(Fixture, "waypoints that are none or not finite or not in order are named") {
+TEST_CASE_FIXTURE(Fixture, "waypoints that are missing, not finite or not in order are named") {
   auto& waypoints = project.intruders[0].trajectory.waypoints;
   waypoints[1].position_m.z = kNan;
   CHECK(wrong_fields() == Fields{"intruders[0].trajectory.waypoints[1].position_m"});
@@ -92,7 +91,7 @@ TEST_CASE_FIXTURE(Fixture, "waypoints that are none or not finite or not in orde
   CHECK(wrong_fields() == Fields{"intruders[0].trajectory.waypoints"});
 }
 
-TEST_CASE_FIXTURE(Fixture, "axes that are no axes or lie along one another are named") {
+TEST_CASE_FIXTURE(Fixture, "axes that are invalid or parallel are named") {
   project.intruders[0].model.forward = "north";
   CHECK(wrong_fields() == Fields{"intruders[0].model.forward"});
   project.intruders[0].model.forward = "-z";
@@ -106,7 +105,7 @@ TEST_CASE_FIXTURE(Fixture, "a range that ends before it begins is named") {
   CHECK(wrong_fields() == Fields{"footage.last_frame"});
 }
 
-TEST_CASE_FIXTURE(Fixture, "codec and container and labels that cannot be are named") {
+TEST_CASE_FIXTURE(Fixture, "codec, container and labels that do not go together are named") {
   project.output.container = ContainerChoice::mp4;
   project.output.labels = {"xml", "yaml"};
   CHECK(wrong_fields() == Fields{"export.video.container", "export.labels"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -12,8 +12,6 @@ namespace sigs {
 using namespace test;
 
 namespace {
-
-const Material kWhite = paint({1, 1, 1});
 
 // Box of the pixels that are covered at all, and the centre of all coverage.
 cv::Rect covered(const Layer& layer) {
@@ -64,7 +62,7 @@ TEST_CASE("the centre of the image may lie anywhere") {
   CHECK(covered(layer) == cv::Rect(4, 41 - 32, 8, 8));
 }
 
-TEST_CASE("coverage at the edges is the share of the pixel as far as four samples tell") {
+TEST_CASE("coverage at the edges is the share of the pixel to the accuracy of four samples") {
   for (const double offset_px : {0.0, 0.1, 0.25, 0.4, 0.5, 0.7, 0.9}) {
     CAPTURE(offset_px);
     VirtualCamera view = view_of({32, 24}, 200);
@@ -135,7 +133,7 @@ TEST_CASE("at a great distance the image is that of the same aircraft nearby see
   }
 }
 
-TEST_CASE("a sideways offset of ten thousand kilometres shakes nothing") {
+TEST_CASE("a sideways offset of ten thousand kilometres causes no jitter") {
   const Mesh mesh = box({2, 3, 1}, kWhite);
   const glm::dvec3 far_away{1e7, 1e7, 0};
   VirtualCamera view = view_of({64, 64}, 8 * glm::length(far_away));

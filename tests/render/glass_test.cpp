@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <cmath>
 
 #include "base/transfer.h"
@@ -27,7 +27,7 @@ Mesh panes(const std::vector<Pane>& all) {
   return measured(std::move(mesh));
 }
 
-Layer seen(const Mesh& mesh) {
+Layer rendered_panes(const Mesh& mesh) {
   Layer layer = drawn(mesh, at({50, 0, 0}), ambient_only(), view_of({9, 9}, 300));
   CHECK(is_valid(layer));
   return layer;
@@ -46,7 +46,7 @@ const Material kRedGlass = paint({1, 0, 0}, 0.25F);
 const Material kGreenGlass = paint({0, 1, 0}, 0.5F);
 const Material kBlue = paint({0, 0, 1});
 
-constexpr double kRounding = 1e-6;
+constexpr double kGlassRounding = 1e-6;
 
 // An image of 2 x 2 texels: opaque and transparent above, half and opaque below.
 Material cutout() {
@@ -62,27 +62,30 @@ Material cutout() {
 }  // namespace
 
 TEST_CASE("glass over nothing is premultiplied and covers wholly") {
-  const Layer layer = seen(panes({{0, kRedGlass}}));
-  CHECK(glm::distance(middle(layer), glm::dvec4{0.25, 0, 0, 0.25}) < kRounding);
+  const Layer layer = rendered_panes(panes({{0, kRedGlass}}));
+  CHECK(glm::distance(middle(layer), glm::dvec4{0.25, 0, 0, 0.25}) < kGlassRounding);
   CHECK(layer.coverage.at<float>(4, 4) == 1);
 }
 
-TEST_CASE("two panes are laid over each other from far to near whatever their order in the file") {
+TEST_CASE("two panes are blended from far to near whatever their order in the file") {
   const glm::dvec4 red{0.25, 0, 0, 0.25};
   const glm::dvec4 green{0, 0.5, 0, 0.5};
-  CHECK(glm::distance(middle(seen(panes({{-5, kRedGlass}, {5, kGreenGlass}}))), over(red, green)) < kRounding);
-  CHECK(glm::distance(middle(seen(panes({{5, kGreenGlass}, {-5, kRedGlass}}))), over(red, green)) < kRounding);
-  CHECK(glm::distance(middle(seen(panes({{-5, kGreenGlass}, {5, kRedGlass}}))), over(green, red)) < kRounding);
+  CHECK(glm::distance(middle(rendered_panes(panes({{-5, kRedGlass}, {5, kGreenGlass}}))), over(red, green)) <
+        kGlassRounding);
+  CHECK(glm::distance(middle(rendered_panes(panes({{5, kGreenGlass}, {-5, kRedGlass}}))), over(red, green)) <
+        kGlassRounding);
+  CHECK(glm::distance(middle(rendered_panes(panes({{-5, kGreenGlass}, {5, kRedGlass}}))), over(green, red)) <
+        kGlassRounding);
 }
 
-TEST_CASE("glass shows what is solid behind it and is hidden by what is solid before it") {
+TEST_CASE("glass shows solid parts behind it and is occluded by solid parts before it") {
   const glm::dvec4 red{0.25, 0, 0, 0.25};
   const glm::dvec4 blue{0, 0, 1, 1};
-  CHECK(glm::distance(middle(seen(panes({{-5, kRedGlass}, {5, kBlue}}))), over(red, blue)) < kRounding);
-  CHECK(glm::distance(middle(seen(panes({{5, kRedGlass}, {-5, kBlue}}))), blue) < kRounding);
+  CHECK(glm::distance(middle(rendered_panes(panes({{-5, kRedGlass}, {5, kBlue}}))), over(red, blue)) < kGlassRounding);
+  CHECK(glm::distance(middle(rendered_panes(panes({{5, kRedGlass}, {-5, kBlue}}))), blue) < kGlassRounding);
 }
 
-TEST_CASE("glass never hides glass even where no order of whole triangles is right") {
+TEST_CASE("glass never occludes glass, even where no order of whole triangles is right") {
   Mesh mesh;
   mesh.materials = {kRedGlass, kGreenGlass};
   // A large slanting pane whose triangles' middles are nearer than the small pane, before which it nowhere lies.
@@ -96,7 +99,7 @@ TEST_CASE("glass never hides glass even where no order of whole triangles is rig
 }
 
 TEST_CASE("what is nearly transparent neither covers nor colours") {
-  const Layer layer = seen(panes({{0, paint({1, 1, 1}, 0.003F)}}));  // below 1/255
+  const Layer layer = rendered_panes(panes({{0, paint({1, 1, 1}, 0.003F)}}));  // below 1/255
   CHECK(cv::countNonZero(layer.coverage) == 0);
   CHECK(cv::countNonZero(layer.color.reshape(1)) == 0);
 }
@@ -124,7 +127,7 @@ TEST_CASE("an image lies on the surface upright and unmirrored") {
   CHECK(is_valid(layer));
 }
 
-TEST_CASE("opaque texels of a cutout hide what is behind and transparent ones do not") {
+TEST_CASE("opaque texels of a cutout occlude what is behind and transparent ones do not") {
   Mesh mesh;
   mesh.materials = {cutout(), kBlue, kGreenGlass};
   add_quad(mesh, {-1, -1, 1}, {0, 2, 0}, {0, 0, -2}, 0);

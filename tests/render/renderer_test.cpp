@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "render/renderer.h"
 
 #include <doctest/doctest.h>
-
 #include <array>
 #include <thread>
 
+#include "render/renderer.h"
 #include "render/scenes.h"
 #include "support/test_data.h"
 
@@ -37,14 +36,14 @@ bool same(const Layer& a, const Layer& b) {
 
 }  // namespace
 
-TEST_CASE("the renderer tells its platform and driver and version") {
+TEST_CASE("the description names platform, driver and version") {
   const std::string text = renderer().description();
   CAPTURE(text);
   CHECK((text.starts_with("surfaceless, ") || text.starts_with("EGL device ")));
   CHECK(text.find("OpenGL ") != std::string::npos);
 }
 
-TEST_CASE("the same image twice has the same bytes and from another renderer too") {
+TEST_CASE("the same call gives the same bytes, from another renderer too") {
   const Mesh mesh = glass_box();
   const Layer first = image(renderer(), mesh);
   CHECK(is_valid(first));
@@ -55,7 +54,7 @@ TEST_CASE("the same image twice has the same bytes and from another renderer too
   CHECK(same(first, image(renderer(), mesh)));  // the two take turns on this thread
 }
 
-TEST_CASE("what was drawn before leaves no trace") {
+TEST_CASE("earlier calls leave no trace") {
   const Mesh mesh = glass_box();
   const Layer first = image(renderer(), mesh);
   static_cast<void>(drawn(box({3, 3, 3}, paint({1, 1, 1}, 0.5F)), at({5, 0, 0}), Light{}, view_of({700, 300}, 400)));
@@ -90,7 +89,7 @@ TEST_CASE("a renderer can be moved within its thread") {
   CHECK(same(expected, image(second, mesh)));
 }
 
-TEST_CASE("another mesh at the same address is drawn as it is") {
+TEST_CASE("another mesh at the same address is uploaded again") {
   Mesh mesh = box({1, 1, 1}, paint({1, 0, 0}));
   const auto seen = [&] { return renderer().draw(mesh, at({10, 0, 0}), ambient_only(), view_of({9, 9}, 100)).value(); };
   const auto middle = [&] { return seen().color.at<cv::Vec4f>(4, 4); };
@@ -123,7 +122,7 @@ TEST_CASE("a mesh without triangles draws nothing") {
   CHECK(cv::countNonZero(layer.coverage) == 0);
 }
 
-TEST_CASE("real aircraft are drawn soundly from every side") {
+TEST_CASE("real aircraft are rendered correctly from every side") {
   if (!has_real_data()) return;
   Renderer by = Renderer::create().value();
   for (const char* file : {"boeing737-300/boeing737-300.obj", "cessna172p-hires/cessna172p-hires.obj",

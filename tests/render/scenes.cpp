@@ -2,7 +2,6 @@
 #include "render/scenes.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>

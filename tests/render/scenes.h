@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "base/layer.h"
+#include "base/image.h"
 #include "base/pose.h"
 #include "camera/pinhole_view.h"
 #include "mesh/mesh.h"
@@ -16,6 +16,8 @@ namespace sigs::test {
 
 // Material of one colour (display code values).
 [[nodiscard]] Material paint(const glm::vec3& diffuse, float opacity = 1);
+
+inline const Material kWhite{.diffuse = {1, 1, 1}};
 
 // Adds a rectangle: corner, and two edges whose cross product points to the side from which it is seen. uv runs from
 // (0, 0) at the corner along the edges.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using namespace test;
 namespace {
 
 // 24 bits of a float, and a few operations on it.
-constexpr double kRounding = 2e-6;
+constexpr double kShadingRounding = 2e-6;
 
 cv::Vec4f color_in_middle(const Mesh& mesh, const Light& light, double distance_m = 10) {
   const Layer layer = drawn(mesh, at({distance_m, 0, 0}), light, view_of({9, 9}, 100));
@@ -26,7 +26,7 @@ Mesh wall(const Material& material) {
   return facing_quad({-2, -2}, {2, 2}, material);
 }
 
-bool is_near(const cv::Vec4f& a, const glm::dvec4& b, double tolerance = kRounding) {
+bool is_near(const cv::Vec4f& a, const glm::dvec4& b, double tolerance = kShadingRounding) {
   for (int i = 0; i < 4; ++i)
     if (!(std::abs(a[i] - b[i]) <= tolerance)) return false;
   return true;
@@ -38,7 +38,7 @@ double linear(float display) {
 
 }  // namespace
 
-TEST_CASE("light from everywhere alone gives albedo times ambient in linear light") {
+TEST_CASE("ambient light alone gives albedo times ambient in linear light") {
   for (const double ambient : {0.0, 0.35, 1.0}) {
     const Light light{.p_in_camera = {100, 0, 0}, .color = {1, 0.5, 0.25}, .ambient = ambient};  // behind the wall
     const cv::Vec4f color = color_in_middle(wall(paint({0.2F, 0.5F, 1})), light);
@@ -106,7 +106,7 @@ TEST_CASE("gloss brightens the mirror direction only and not what lies in shadow
   CHECK(is_near(color_in_middle(wall(glossy), behind), {0, 0, 0, 1}));
 }
 
-TEST_CASE("a light on the surface or within the body or very far away makes no NaN") {
+TEST_CASE("a light on the surface, within the body or very far away gives no NaN") {
   Material glossy = paint({1, 1, 1});
   glossy.specular = {1, 1, 1};
   const Mesh mesh = box({1, 1, 1}, glossy);
@@ -119,13 +119,13 @@ TEST_CASE("a light on the surface or within the body or very far away makes no N
   }
 }
 
-TEST_CASE("a sun far away lights as its direction says") {
+TEST_CASE("a light very far away acts by its direction") {
   const double far_m = 1.5e11;
   const Light light{.p_in_camera = {-far_m, far_m, 0}, .ambient = 0};
   CHECK(color_in_middle(wall(paint({1, 1, 1})), light)[0] == doctest::Approx(std::sqrt(0.5)).epsilon(1e-5));
 }
 
-TEST_CASE("normals of no length and odd material numbers make no NaN") {
+TEST_CASE("normals without length and unusual material numbers give no NaN") {
   Material odd = paint({1, 1, 1});
   odd.specular = {1, 1, 1};
   odd.shininess = 0;

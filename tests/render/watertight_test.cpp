@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "render/watertight.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "render/draw_list.h"
 #include "render/scenes.h"
 
 namespace sigs {
@@ -14,8 +13,6 @@ namespace sigs {
 using namespace test;
 
 namespace {
-
-const Material kWhite = paint({1, 1, 1});
 
 bool all_are(const Mesh& mesh, CullFace side) {
   const std::vector<CullFace> sides = cull_faces_of(mesh, surfaces_of(mesh));
@@ -45,7 +42,7 @@ Mesh with_fin_inside(Mesh mesh) {
 
 }  // namespace
 
-TEST_CASE("a box hides its inner sides whichever way its triangles are wound") {
+TEST_CASE("the inner sides of a box are culled whichever way its triangles are wound") {
   const Mesh mesh = box({1, 2, 3}, kWhite);
   CHECK(all_are(mesh, CullFace::back));
   CHECK(all_are(turned_inside_out(mesh), CullFace::front));
@@ -58,7 +55,7 @@ TEST_CASE("a box far from the origin is as watertight as one around it") {
   CHECK(all_are(mesh, CullFace::back));
 }
 
-TEST_CASE("what has a hole or glass in it or no volume hides nothing") {
+TEST_CASE("surfaces with a hole, with glass or without volume are not culled") {
   CHECK(all_are(without_last_triangle(box({1, 2, 3}, kWhite)), CullFace::none));
   CHECK(all_are(facing_quad({-1, -1}, {1, 1}, kWhite), CullFace::none));
   CHECK(all_are(box({1, 2, 3}, paint({1, 1, 1}, 0.5F)), CullFace::none));
@@ -66,7 +63,7 @@ TEST_CASE("what has a hole or glass in it or no volume hides nothing") {
   CHECK(cull_faces_of(Mesh{}, {}).empty());
 }
 
-TEST_CASE("a watertight part hides its inner sides beside an open one") {
+TEST_CASE("a watertight part is culled beside an open one") {
   Mesh mesh = box({1, 1, 1}, kWhite);
   const auto start = mesh.indices.size() / 3;
   add_quad(mesh, {5, -1, 1}, {0, 2, 0}, {0, 0, -2}, 0);
@@ -75,7 +72,7 @@ TEST_CASE("a watertight part hides its inner sides beside an open one") {
   for (std::size_t i = 0; i < sides.size(); ++i) CHECK(sides[i] == (i < start ? CullFace::back : CullFace::none));
 }
 
-TEST_CASE("a body looks the same whether its hidden sides are left out or drawn") {
+TEST_CASE("a body looks the same with and without culling") {
   for (const Mesh& watertight : {box({1, 2, 0.5F}, kWhite), turned_inside_out(box({1, 2, 0.5F}, kWhite))}) {
     const Mesh open = with_fin_inside(watertight);
     REQUIRE(all_are(open, CullFace::none));

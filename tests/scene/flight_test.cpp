@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scene/sample_scenes.h"
-#include "spline/gravity.h"
+#include "spline/directions.h"
 
 using namespace sigs;
 using namespace sigs::test;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "scene/sample_scenes.h"
 
 using namespace sigs;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "spline/approximating_spline.h"
 
 #include <doctest/doctest.h>
-
 #include <cmath>
 
 #include "flights.h"
+#include "spline/splines.h"
 
 namespace sigs {
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "spline/arc_length.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "flights.h"
 #include "spline/constant_speed.h"
-#include "spline/interpolating_spline.h"
+#include "spline/splines.h"
 
 namespace sigs {
 
@@ -96,7 +94,7 @@ TEST_CASE("constant speed is constant and takes the whole time and acceleration 
   }
 }
 
-TEST_CASE("constant speed is constant by the ruler too") {
+TEST_CASE("constant speed is constant by measured distances too") {
   const PiecewiseCubic curve = interpolating_spline(wild(10, 24));
   const ConstantSpeed timed_curve(curve);
   const double speed_mps = length(timed_curve.motion_at(0).velocity_mps);
@@ -114,7 +112,7 @@ TEST_CASE("constant speed is constant by the ruler too") {
   }
 }
 
-TEST_CASE("constant speed keeps to the curve of the waypoints' own timing") {
+TEST_CASE("constant speed stays on the curve of the waypoints' own timing") {
   const auto waypoints = wild(8, 25);
   const PiecewiseCubic curve = interpolating_spline(waypoints);
   const ArcLength arc_length(curve);
@@ -126,7 +124,7 @@ TEST_CASE("constant speed keeps to the curve of the waypoints' own timing") {
   }
 }
 
-TEST_CASE("coincident waypoints neither stop nor break constant speed") {
+TEST_CASE("coincident waypoints do not interrupt constant speed") {
   const glm::dvec3 a_m{0, 0, 0};
   const glm::dvec3 b_m{100, 0, 0};
   const PiecewiseCubic line(

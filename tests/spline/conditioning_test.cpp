@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "spline/conditioning.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "flights.h"
-#include "spline/interpolating_spline.h"
+#include "spline/conditioning.h"
+#include "spline/splines.h"
 
 namespace sigs::test {
 namespace {
@@ -124,7 +123,7 @@ TEST_CASE("the condition bounds how far moved waypoints move the curve and is re
   CHECK(farthest_m >= condition * 0.98);
 }
 
-TEST_CASE("a overshoot beyond the legs around it is found with its closed form") {
+TEST_CASE("an overshoot beyond the legs around it is found and has its closed form") {
   // 60 m/s are carried into a leg of 4000 s that asks for 2.25 m/s: with both ends natural the bow is that of three
   // waypoints, acceleration 3 (2.25 - 60) / 4000.04 at the middle one, h^2 / 6 * a * 2 / (3 sqrt(3)) off a straight way
   // that the curve overtakes by so much that it lies beyond its end.
@@ -138,7 +137,7 @@ TEST_CASE("a overshoot beyond the legs around it is found with its closed form")
   CHECK(overshoots[0].overshoot_m == doctest::Approx(off_m).epsilon(0.001));
 }
 
-TEST_CASE("a overshoot is told from the length of the longest leg around it on") {
+TEST_CASE("an overshoot counts from the length of the longest leg around it on") {
   for (const double share : {0.97, 1.03}) {
     const double speed_mps = share * 9000 / (4000.0 * 4000 / 2 / (4000 + kFrame_s) * 2 / (3 * std::sqrt(3)));
     const std::vector<TimedWaypoint> waypoints{
@@ -147,7 +146,7 @@ TEST_CASE("a overshoot is told from the length of the longest leg around it on")
   }
 }
 
-TEST_CASE("a stop made of waypoints at one place overshoots in sight at first and not in the end") {
+TEST_CASE("the overshoot falls from leg to leg where many waypoints lie at one place") {
   // 100 m legs at 50 m/s, then ten waypoints at one place: from leg to leg of the stop the overshoot falls to 0.27.
   std::vector<TimedWaypoint> waypoints{{0, {0, 0, 0}}, {2, {100, 0, 0}}, {4, {200, 0, 0}}};
   for (int i = 0; i < 10; ++i) waypoints.push_back({6.0 + 2 * i, {200, 0, 0}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 
+#include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
 
@@ -54,11 +54,11 @@ void check_continuous(const Trajectory& trajectory, double first_s, double last_
 
 }  // namespace
 
-TEST_CASE("attitude is continuous through everything that a path can do") {
+TEST_CASE("attitude is continuous through every feature that a path can have") {
   for (const Flight& flight : all_flights())
     for (const TrajectorySettings& settings : all_settings()) {
       INFO(flight.name << ", " << name_of(settings));
-      check_continuous(made(flight.waypoints, settings), flight.waypoints.front().time_s - 3,
+      check_continuous(trajectory_through(flight.waypoints, settings), flight.waypoints.front().time_s - 3,
                        flight.waypoints.back().time_s + 3);
     }
 }
@@ -68,7 +68,7 @@ TEST_CASE("attitude is continuous in many wild flights") {
     INFO(seed);
     const auto waypoints = wild(6, seed);
     const auto settings = all_settings()[seed % 8];
-    check_continuous(made(waypoints, settings), -1, waypoints.back().time_s + 1);
+    check_continuous(trajectory_through(waypoints, settings), -1, waypoints.back().time_s + 1);
   }
 }
 
@@ -88,9 +88,9 @@ TEST_CASE("two reversals close together are both turned through") {
     CHECK(distance(nose_at(time_s), nose_at(time_s + 1e-4)) < 24 * 1e-4);  // pi in 0.2 s, half as fast again half-way
 }
 
-TEST_CASE("a fast loop and a push-over turn no faster than their paths ask for") {
+TEST_CASE("a fast loop and a push-over turn no faster than their paths require") {
   const auto fastest_radps = [](const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
-    const Trajectory trajectory = made(waypoints, settings);
+    const Trajectory trajectory = trajectory_through(waypoints, settings);
     double max_rad = 0;
     for (const Step& step : steps_over(trajectory, -1, waypoints.back().time_s + 1, 0.002))
       max_rad = std::max(max_rad, step.rotation_rad);
@@ -107,7 +107,7 @@ TEST_CASE("nothing is ever NaN and rotations are unit quaternions") {
   for (const Flight& flight : all_flights())
     for (const TrajectorySettings& settings : all_settings()) {
       INFO(flight.name << ", " << name_of(settings));
-      const Trajectory trajectory = made(flight.waypoints, settings);
+      const Trajectory trajectory = trajectory_through(flight.waypoints, settings);
       std::vector<double> times_s{-1e9, 1e9};
       for (const TimedWaypoint& w : flight.waypoints) times_s.push_back(w.time_s);
       for (double time_s = -3; time_s < flight.waypoints.back().time_s + 3; time_s += 0.0917) times_s.push_back(time_s);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "spline/cubic_basis.h"
 
 #include <doctest/doctest.h>
-
 #include <cmath>
+
+#include "spline/splines.h"
 
 namespace sigs {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "spline/cubic_roots.h"
 
 #include <doctest/doctest.h>
-
 #include <cmath>
+
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 
@@ -15,7 +15,7 @@ std::array<double, 4> from_roots(double a, double b, double c, double factor) {
 
 }  // namespace
 
-TEST_CASE("a cubic made from its roots shows those of them that lie between zero and one") {
+TEST_CASE("the roots of a cubic between zero and one are found") {
   for (const double factor : {1e-12, 1.0, -3.0, 1e12}) {
     const auto all = sign_changes_in_unit_interval(from_roots(0.2, 0.5, 0.9, factor));
     REQUIRE(all.size() == 3);

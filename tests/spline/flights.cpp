@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "flights.h"
 
 #include <doctest/doctest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "base/angles.h"
+#include "base/pose.h"
+#include "flights.h"
 
 namespace sigs::test {
 
@@ -129,7 +128,7 @@ std::string name_of(const TrajectorySettings& settings) {
          (settings.bank == Bank::level ? ", level" : ", coordinated");
 }
 
-Trajectory made(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
+Trajectory trajectory_through(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
   const Result<Trajectory> trajectory = Trajectory::make(waypoints, settings);
   REQUIRE_MESSAGE(trajectory.has_value(), (trajectory ? "" : trajectory.error().text()));
   return *trajectory;

@@ -46,7 +46,8 @@ struct Flight {
 [[nodiscard]] std::string name_of(const TrajectorySettings& settings);
 
 // Stops the test where the waypoints are refused.
-[[nodiscard]] Trajectory made(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings = {});
+[[nodiscard]] Trajectory trajectory_through(const std::vector<TimedWaypoint>& waypoints,
+                                            const TrajectorySettings& settings = {});
 
 // Angle of the rotation that leads from one attitude to another, 0..pi.
 [[nodiscard]] double rotation_between_rad(const glm::dquat& a, const glm::dquat& b);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "spline/interpolating_spline.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <opencv2/core.hpp>
 
 #include "flights.h"
+#include "spline/splines.h"
 
 namespace sigs {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "spline/roll.h"
 
 #include <doctest/doctest.h>
-
 #include <cmath>
 #include <numbers>
+
+#include "spline/attitude.h"
 
 namespace sigs {
 
@@ -37,7 +37,7 @@ TEST_CASE("a steady desired roll is followed exactly and a steadily growing one 
     CHECK(std::abs(growing[i] - 0.02 * i) < 1e-7);  // exp(-3 s / 0.15 s) of the ends is left
 }
 
-TEST_CASE("a sudden change is rounded as the smoothing problem's closed form says") {
+TEST_CASE("a sudden change is smoothed as the closed form of the problem says") {
   const double step_s = 0.001;
   const auto roll_rad = smoothed_roll_rad(desired_rolls(
       step_s, 4000, [](double s) { return s < 1.9995 ? 0.0 : 1.0; }, one));
@@ -48,7 +48,7 @@ TEST_CASE("a sudden change is rounded as the smoothing problem's closed form say
   }
 }
 
-TEST_CASE("a stretch without weight is crossed in a straight line and worthless desired rolls count nothing") {
+TEST_CASE("the roll is linear over an interval without weight, and desired rolls of negligible weight do not count") {
   const auto roll_rad = smoothed_roll_rad(desired_rolls(
       0.01, 1001, [](double s) { return s < 3   ? 0.0
                                         : s > 7 ? 1.0

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "spline/trajectory.h"
 
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "flights.h"
+#include "spline/trajectory.h"
 
 namespace sigs {
 
@@ -37,7 +36,7 @@ TEST_CASE("velocity and acceleration are what central differences of the positio
   const double step_s = 1e-4;
   for (const SplineKind spline : {SplineKind::interpolating, SplineKind::approximating}) {
     const auto waypoints = wild(12, 31);
-    const Trajectory trajectory = made(waypoints, {.spline = spline});
+    const Trajectory trajectory = trajectory_through(waypoints, {.spline = spline});
     for (double time_s = 0.0123; time_s < waypoints.back().time_s; time_s += 0.0317) {
       const glm::dvec3 before_m = trajectory.position_m(time_s - step_s);
       const glm::dvec3 here_m = trajectory.position_m(time_s);
@@ -53,7 +52,7 @@ TEST_CASE("velocity and acceleration are what central differences of the positio
 TEST_CASE("position is the pose's translation and passes through the waypoints far from the origin") {
   auto waypoints = wild(20, 32);
   for (TimedWaypoint& w : waypoints) w.position_m += glm::dvec3(1e7, -1e7, -1e7);
-  const Trajectory trajectory = made(waypoints);
+  const Trajectory trajectory = trajectory_through(waypoints);
   for (const TimedWaypoint& w : waypoints) {
     CHECK(distance(trajectory.position_m(w.time_s), w.position_m) < 1e-9);
     CHECK(trajectory.world_from_body(w.time_s).translation_m == trajectory.position_m(w.time_s));
@@ -64,8 +63,8 @@ TEST_CASE("far from the origin the attitude is the same") {
   const auto near = wild(10, 33);
   auto far = near;
   for (TimedWaypoint& w : far) w.position_m += glm::dvec3(1e7, -1e7, -1e7);
-  const Trajectory a = made(near);
-  const Trajectory b = made(far);
+  const Trajectory a = trajectory_through(near);
+  const Trajectory b = trajectory_through(far);
   for (double time_s = -1; time_s < near.back().time_s; time_s += 0.1)
     CHECK(rotation_between_rad(a.world_from_body(time_s).rotation, b.world_from_body(time_s).rotation) < 1e-5);
 }
@@ -73,8 +72,8 @@ TEST_CASE("far from the origin the attitude is the same") {
 TEST_CASE("everything depends on the time alone and not on the order of the calls") {
   for (const TrajectorySettings& settings : all_settings()) {
     const auto waypoints = wild(10, 34);
-    const Trajectory trajectory = made(waypoints, settings);
-    const Trajectory again = made(waypoints, settings);
+    const Trajectory trajectory = trajectory_through(waypoints, settings);
+    const Trajectory again = trajectory_through(waypoints, settings);
     std::vector<double> times_s;
     for (double time_s = -3; time_s < waypoints.back().time_s + 3; time_s += 0.0371) times_s.push_back(time_s);
     std::vector<std::vector<double>> in_order;
@@ -92,7 +91,7 @@ TEST_CASE("everything depends on the time alone and not on the order of the call
 TEST_CASE("ten thousand waypoints are flown") {
   const auto waypoints = wild(10000, 35);
   for (const Timing timing : {Timing::frames, Timing::constant_speed}) {
-    const Trajectory trajectory = made(waypoints, {.timing = timing});
+    const Trajectory trajectory = trajectory_through(waypoints, {.timing = timing});
     const double last_s = waypoints.back().time_s;
     CHECK(distance(trajectory.position_m(last_s), waypoints.back().position_m) < 1e-9);
     for (double share = 0; share <= 1; share += 0.001)
@@ -100,7 +99,7 @@ TEST_CASE("ten thousand waypoints are flown") {
   }
 }
 
-TEST_CASE("legs of one frame and of a hundred thousand frames go together") {
+TEST_CASE("legs of one frame and of a hundred thousand frames can be combined") {
   const std::vector<TimedWaypoint> waypoints{{0, {0, 0, -100}},
                                              {0.04, {2, 0, -100}},
                                              {4000.04, {9000, 500, -200}},
@@ -108,7 +107,7 @@ TEST_CASE("legs of one frame and of a hundred thousand frames go together") {
                                              {8000.08, {0, 900, -200}}};
   for (const TrajectorySettings& settings : all_settings()) {
     INFO(name_of(settings));
-    const Trajectory trajectory = made(waypoints, settings);
+    const Trajectory trajectory = trajectory_through(waypoints, settings);
     for (double time_s = -10; time_s < 8100; time_s += 1.37) {
       const auto pose = trajectory.world_from_body(time_s);
       CHECK(std::abs(length(pose.rotation) - 1) < 1e-14);
@@ -128,7 +127,7 @@ TEST_CASE("numbers at the edge of what is allowed give numbers") {
                                                  {1e-9, {0, extent_m, 0}},
                                                  {1, {0, 0, -extent_m}},
                                                  {1e12, {0, 0, 0}}};
-      const Trajectory trajectory = made(waypoints, settings);
+      const Trajectory trajectory = trajectory_through(waypoints, settings);
       for (const double time_s : {-2e12, -1e12, -5.0, 0.0, 5e-10, 1e-9, 0.5, 1.0, 1e6, 1e12, 2e12})
         CHECK(std::abs(length(trajectory.world_from_body(time_s).rotation) - 1) < 1e-14);
     }
@@ -164,7 +163,7 @@ TEST_CASE("mistakes in the waypoints are named") {
 }
 
 TEST_CASE("a copy of a trajectory is the same flight") {
-  const Trajectory trajectory = made(wild(5, 36));
+  const Trajectory trajectory = trajectory_through(wild(5, 36));
   const Trajectory copy = trajectory;
   CHECK(bytes_of(copy, 1.5) == bytes_of(trajectory, 1.5));
 }

@@ -6,7 +6,7 @@
 
 namespace sigs::test {
 
-// While it lives, C++ streams write 1.234,5. Made by hand, since a machine may have no such locale installed.
+// During its life C++ streams write 1.234,5. It needs no locale installed on the machine.
 class CommaLocale {
  public:
   CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Comma))) {}

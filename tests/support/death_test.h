@@ -5,7 +5,7 @@
 
 namespace sigs::test {
 
-// Whether the act ends its process by SIGABRT, as ENSURE does. It runs in a child process, whose messages are dropped.
+// Whether the act ends its process by SIGABRT, as ENSURE does. It runs in a child process; its messages are discarded.
 [[nodiscard]] bool aborts(const std::function<void()>& act);
 
 }  // namespace sigs::test

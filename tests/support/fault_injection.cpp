@@ -6,6 +6,7 @@
 //   SIGS_TEST_FAIL_RENAME=NAME  giving a file or folder the final name NAME fails with EIO, but not putting back an
 //   older SIGS_TEST_KILL_AT=N         the process is killed (SIGKILL) right before its N-th renaming, counted from 1
 //   SIGS_TEST_TERM_AT=N         the process gets two SIGTERM right before its N-th renaming
+
 #include <dlfcn.h>
 #include <unistd.h>
 

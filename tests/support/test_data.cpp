@@ -2,9 +2,9 @@
 #include "support/test_data.h"
 
 #include <doctest/doctest.h>
-
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -43,6 +43,10 @@ fs::path source_dir() {
 }
 fs::path build_dir() {
   return SIGS_BUILD_DIR;
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "compositor/synthetic_layers.h"
 #include "truth/measure.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "editor/document/field_texts.h"
 
 namespace sigs::editor {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "editor/document/field_texts.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/angles.h"
+#include "base/pose.h"
 #include "editor/views/viewport/path.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"

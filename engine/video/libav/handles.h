@@ -34,7 +34,7 @@ using PacketPtr = std::unique_ptr<AVPacket, Deleter>;
 using FramePtr = std::unique_ptr<AVFrame, Deleter>;
 using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 
-// These throw std::bad_alloc where there is no memory; guarded() (base/guarded.h) makes an error of it.
+// These throw std::bad_alloc where there is no memory; guarded() (base/threads.h) makes an error of it.
 [[nodiscard]] PacketPtr new_packet();
 [[nodiscard]] FramePtr new_frame();
 

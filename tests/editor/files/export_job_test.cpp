@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "editor/preview/export_plan.h"

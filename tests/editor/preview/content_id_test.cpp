@@ -6,7 +6,7 @@
 #include <functional>
 #include <type_traits>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "project/json.h"
 #include "support/test_data.h"
 

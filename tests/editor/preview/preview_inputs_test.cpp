@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/tiny_project.h"
 #include "editor/preview/previewer.h"
 #include "preview_client.h"

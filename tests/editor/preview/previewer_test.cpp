@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "export/export_project.h"
 #include "preview_client.h"

@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
-#include "base/temporary_file.h"
+#include "base/staged_outputs.h"
 #include "cli/tiny_project.h"
 #include "editor/preview/outline_truth.h"
 #include "editor/preview/survey_builder.h"

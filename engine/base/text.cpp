@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "base/ensure.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr std::string_view kSpace = " \t\r";
+
+// What std::to_chars writes. A fixed notation takes 309 digits before the point at most.
+template <class... Format>
+std::string chars_of(double number, Format... format) {
+  std::array<char, 400> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, format...);
+  return {buffer.data(), end.ptr};
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+std::string_view without_bom(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
+std::string_view next_line(std::string_view& text) {
+  const auto end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+std::string_view next_token(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
+  const std::string_view token = line.substr(0, line.find_first_of(kSpace));
+  line.remove_prefix(token.size());
+  return token;
+}
+
+std::size_t columns_of(std::string_view line) {
+  return static_cast<std::size_t>(
+      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string text_position(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t line_break = before.rfind('\n');
+  const std::size_t column = before.size() - (line_break == std::string_view::npos ? 0 : line_break + 1) + 1;
+  return fmt::format("line {}, column {}", line, column);
+}
+
+std::string exact_text(double number) {
+  if (!std::isfinite(number)) return "";
+  return chars_of(number == 0 ? 0.0 : number);
+}
+
+std::string exact_text(const std::optional<double>& number) {
+  return number ? exact_text(*number) : std::string();
+}
+
+std::string number_text(double number, int decimals) {
+  ENSURE(std::isfinite(number));
+  std::string text = chars_of(number, std::chars_format::fixed, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string fixed_text(double number, int decimals) {
+  if (!std::isfinite(number)) return "-";
+  std::string text = chars_of(number, std::chars_format::fixed, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  if (is_zero && text.starts_with('-')) text.erase(0, 1);
+  return text;
+}
+
+std::string short_number_text(double number) {
+  std::string text = chars_of(number, std::chars_format::general, 6);
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  text.erase(exponent + 1, text.find_first_not_of("+0", exponent + 1) - exponent - 1);  // 1e+08
+  if (text[exponent + 1] == '-') text.erase(exponent + 2, text.find_first_not_of('0', exponent + 2) - exponent - 2);
+  return text;
+}
+
+}  // namespace sigs

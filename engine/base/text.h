@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sigs {
+
+// Texts cut into pieces, and numbers and lists as text. Nothing here depends on the locale: a point always separates
+// the decimals.
+
+// --- Reading. White space is blank, tab and carriage return.
+
+// The text without white space at its two ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+// The text without the byte order mark (EF BB BF) with which some editors begin files in UTF-8.
+[[nodiscard]] std::string_view without_bom(std::string_view text);
+
+// Takes the first line off the text and returns it without its line feed. The last line needs none.
+[[nodiscard]] std::string_view next_line(std::string_view& text);
+
+// Takes the first word, and the white space before it, off the line and returns the word; empty at the line's end.
+[[nodiscard]] std::string_view next_token(std::string_view& line);
+
+// Number of columns that a line of UTF-8 takes on a terminal: one for each code point.
+[[nodiscard]] std::size_t columns_of(std::string_view line);
+
+// "line 3, column 5": the position of a byte, which is counted from 1 as parsers do. Lines and columns (in bytes) are
+// counted from 1 too, as editors do. Bytes beyond the end count as the end.
+[[nodiscard]] std::string text_position(std::string_view text, std::size_t byte);
+
+// --- Numbers. Choose by who reads the text:
+//   exact_text         a program: no digit may be lost
+//   number_text        a program or a person: decimals up to a given place, no zeros at the end
+//   fixed_text         a person: columns of a table, always the same number of decimals
+//   short_number_text  a person: six digits of any number, large or small
+
+// The shortest text that reads back as the same number (std::to_chars): 0.1, 1e+22. No minus before a zero. Empty for
+// NaN, infinity and a number that is not there.
+[[nodiscard]] std::string exact_text(double number);
+[[nodiscard]] std::string exact_text(const std::optional<double>& number);
+
+// Decimal notation with at most `decimals` digits behind the point and no zeros at the end: 3.5, -12, 0. What rounds to
+// zero has no sign. The number must be finite.
+[[nodiscard]] std::string number_text(double number, int decimals);
+
+// Decimal notation with exactly `decimals` digits behind the point: 3.50. What rounds to zero has no sign. "-" for NaN
+// and infinity.
+[[nodiscard]] std::string fixed_text(double number, int decimals);
+
+// Six significant digits, with an exponent where that is shorter: 98.7654, 1e8, 3e-7 (not 1e+08, 3e-07).
+[[nodiscard]] std::string short_number_text(double number);
+
+// --- Lists.
+
+// The names, or other texts, one after the other: "a, b, c". Empty for an empty list.
+template <class Names>
+[[nodiscard]] std::string listed(const Names& names, std::string_view separator = ", ") {
+  std::string list;
+  bool is_first = true;
+  for (const auto& name : names) {
+    if (!is_first) list += separator;
+    list += name;
+    is_first = false;
+  }
+  return list;
+}
+
+}  // namespace sigs

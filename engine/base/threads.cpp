@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "base/threads.h"
+
+#include <new>
+#include <opencv2/core.hpp>
+#include <system_error>
+#include <utility>
+
+namespace sigs {
+
+namespace {
+
+Error error_of_exception(const std::string& where) {
+  if (is_out_of_memory())
+    return {where, "out of memory; smaller inputs and fewer jobs at a time need less", ErrorKind::unavailable};
+  try {
+    throw;
+  } catch (const cv::Exception& problem) {
+    return {where, problem.err.empty() ? problem.what() : problem.err};
+  } catch (const std::system_error& problem) {
+    const bool no_more = problem.code() == std::errc::resource_unavailable_try_again;
+    return {where, problem.what(), no_more ? ErrorKind::unavailable : ErrorKind::bad_data};
+  } catch (const std::exception& problem) {
+    return {where, problem.what()};
+  } catch (...) {
+    return {where, "failed for a reason that is not known"};
+  }
+}
+
+}  // namespace
+
+bool is_out_of_memory() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (const cv::Exception& problem) {
+    return problem.code == cv::Error::StsNoMem;
+  } catch (...) {
+    return false;
+  }
+}
+
+Error thrown_error(const std::string& where) {
+  try {
+    return error_of_exception(where);
+  } catch (...) {  // no memory for the message either; this short one needs none
+    return {{}, "out of memory", ErrorKind::unavailable};
+  }
+}
+
+Result<std::thread> started_thread(std::function<void()> body) {
+  const char* why = "out of memory";
+  try {
+    return std::thread(std::move(body));
+  } catch (const std::system_error&) {
+    why = "the system's limit of threads or memory is reached";
+  } catch (const std::bad_alloc&) {
+  }
+  return fail("", std::string("no more threads can be started: ") + why, ErrorKind::unavailable);
+}
+
+}  // namespace sigs

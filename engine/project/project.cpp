@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "project/project.h"
+
+#include <algorithm>
+
+#include "base/pose.h"
+
+namespace sigs {
+
+std::vector<std::string> categories_of(const Project& project) {
+  if (!project.output.categories.empty()) return project.output.categories;
+  std::vector<std::string> categories;
+  for (const IntruderSettings& intruder : project.intruders)
+    if (std::find(categories.begin(), categories.end(), intruder.category) == categories.end())
+      categories.push_back(intruder.category);
+  return categories;
+}
+
+Attitude mount_attitude(const CameraSettings& camera) {
+  return {rad_of_deg(camera.roll_deg.value_or(0)), rad_of_deg(camera.pitch_deg.value_or(0)),
+          rad_of_deg(camera.yaw_deg)};
+}
+
+bool knows_horizon(const CameraSettings& camera) {
+  return camera.roll_deg || camera.pitch_deg || !camera.attitude_file.empty();
+}
+
+std::filesystem::path resolved(const Project& project, const std::string& path) {
+  return path.empty() ? std::filesystem::path() : project.file.parent_path() / path;
+}
+
+}  // namespace sigs

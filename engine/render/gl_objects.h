@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "base/result.h"
+
+namespace sigs {
+
+// OpenGL objects behind C++ types. They belong to the context that is current when they are created.
+
+// The shaders of assets/shaders, compiled and linked.
+class Program {
+ public:
+  //   defines  lines to put before the shaders: "#define NAME\n..."
+  // Error unavailable with the driver's message.
+  [[nodiscard]] static Result<Program> create(const std::string& defines);
+
+  // Makes the following draw calls and set() calls use this program.
+  void use() const;
+
+  // Set a uniform of the program in use. The name must be that of a uniform in the shaders.
+  void set(const char* name, float value) const;
+  void set(const char* name, bool value) const;
+  void set(const char* name, const glm::vec3& value) const;
+  void set(const char* name, const glm::mat3& value) const;
+  void set(const char* name, const glm::mat4& value) const;
+
+ private:
+  explicit Program(unsigned int name);
+  [[nodiscard]] int location(const char* name) const;
+
+  unsigned int name_ = 0;
+  std::map<std::string, int, std::less<>> locations_;
+};
+
+// The render target: buffers of colour (RGBA), coverage and depth, all floating point, with several samples for each
+// pixel. They are enlarged when a larger piece is begun.
+class Target {
+ public:
+  // Views are drawn in pieces of at most this many pixels on each side, so that the buffers do not grow with the view.
+  static constexpr int kLargestPiece_px = 1024;
+
+  // samples_per_pixel: 1 (no multisampling), 2, 4 or 8. Creates no buffers yet; begin() does.
+  explicit Target(int samples_per_pixel) : samples_(samples_per_pixel > 1 ? samples_per_pixel : 0) {}
+
+  // Prepares buffers of at least this size and clears them. Error unavailable where the driver cannot draw to them.
+  [[nodiscard]] Result<void> begin(const cv::Size& size);
+
+  // Averages the samples and copies them to parts of larger images (CV_32FC4 and CV_32FC1).
+  void read(cv::Mat color, cv::Mat coverage) const;
+
+ private:
+  // OpenGL's names of a framebuffer and its attachments; 0: none.
+  struct Buffers {
+    unsigned int framebuffer = 0;
+    unsigned int color = 0;
+    unsigned int coverage = 0;
+    unsigned int depth = 0;
+  };
+  [[nodiscard]] static Result<Buffers> make(const cv::Size& size, int samples, bool with_depth,
+                                            unsigned int color_format);
+  [[nodiscard]] Result<void> grow(const cv::Size& size);
+  static void release(const Buffers& buffers);
+  void resolve(const cv::Size& size) const;
+
+  int samples_;       // 0: no multisampling
+  Buffers drawn_;     // with samples_ samples
+  Buffers resolved_;  // 1 sample, no depth; none without multisampling
+  cv::Size size_{0, 0};
+};
+
+}  // namespace sigs

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+
+#include <doctest/doctest.h>
+#include <clocale>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/text.h"
+#include "support/comma_locale.h"
+#include "support/death_test.h"
+
+namespace sigs::test {
+
+TEST_CASE("a number is written without zeros at its end") {
+  CHECK(number_text(0, 6) == "0");
+  CHECK(number_text(3, 6) == "3");
+  CHECK(number_text(3.5, 6) == "3.5");
+  CHECK(number_text(-12, 6) == "-12");
+  CHECK(number_text(0.000001, 6) == "0.000001");
+  CHECK(number_text(-0.5, 1) == "-0.5");
+}
+
+TEST_CASE("zeros before the point are kept") {
+  CHECK(number_text(100, 6) == "100");
+  CHECK(number_text(100, 0) == "100");
+  CHECK(number_text(1e6, 0) == "1000000");
+  CHECK(number_text(-250, 2) == "-250");
+}
+
+TEST_CASE("a number is rounded to the given decimals") {
+  CHECK(number_text(0.1234567, 6) == "0.123457");
+  CHECK(number_text(-2.0 / 3, 4) == "-0.6667");
+  CHECK(number_text(0.99999996, 6) == "1");
+  CHECK(number_text(9.7, 0) == "10");
+}
+
+TEST_CASE("what rounds to zero has no sign") {
+  CHECK(number_text(-0.0, 6) == "0");
+  CHECK(number_text(-0.0, 0) == "0");
+  CHECK(number_text(-4e-7, 6) == "0");
+  CHECK(number_text(-0.3, 0) == "0");
+  CHECK(number_text(-std::numeric_limits<double>::denorm_min(), 6) == "0");
+  CHECK(number_text(-6e-7, 6) == "-0.000001");
+}
+
+TEST_CASE("the largest numbers are written out without an exponent and read back") {
+  for (const double number :
+       {1e15, 1e100, 1e300, std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()}) {
+    const std::string text = number_text(number, 6);
+    CHECK(text.find_first_not_of("-0123456789") == std::string::npos);
+    CHECK(std::strtod(text.c_str(), nullptr) == number);
+  }
+}
+
+TEST_CASE("what is written reads back within half a unit of the last digit") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  for (int decimals = 0; decimals <= 9; ++decimals)
+    for (int exponent = -12; exponent <= 8; ++exponent)
+      for (int i = 0; i < 20; ++i) {
+        const double number = mantissa(random) * std::pow(10.0, exponent);
+        const double back = std::strtod(number_text(number, decimals).c_str(), nullptr);
+        // The second term is the double's own rounding, which at 1e8 is some 1e-8.
+        const double tolerance = 0.5 * std::pow(10.0, -decimals) + 4e-16 * std::abs(number);
+        CHECK(std::abs(back - number) <= tolerance);
+      }
+}
+
+TEST_CASE("numbers have a point whatever the locale") {
+  const CommaLocale comma;
+  const char* const c_locale = std::setlocale(LC_ALL, nullptr);
+  const std::string before = c_locale == nullptr ? "C" : c_locale;
+  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where the machine has it
+  CHECK(number_text(1234567.25, 6) == "1234567.25");
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST_CASE("NaN and infinity are never written") {
+  for (const double number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()})
+    CHECK(aborts([number] { static_cast<void>(number_text(number, 6)); }));
+  CHECK_FALSE(aborts([] { static_cast<void>(number_text(1, 6)); }));
+}
+
+TEST_CASE("the exact text is the shortest that reads back, and empty for what is not a number") {
+  CHECK(exact_text(0.1) == "0.1");
+  CHECK(exact_text(-0.0) == "0");
+  CHECK(exact_text(1.0 / 3) == "0.3333333333333333");
+  CHECK(exact_text(std::numeric_limits<double>::infinity()).empty());
+  CHECK(exact_text(std::optional<double>()).empty());
+}
+
+TEST_CASE("fixed and short texts have the digits that tables and messages want") {
+  CHECK(fixed_text(3.5, 2) == "3.50");
+  CHECK(fixed_text(-0.001, 2) == "0.00");
+  CHECK(fixed_text(std::numeric_limits<double>::quiet_NaN(), 2) == "-");
+  CHECK(short_number_text(98.76543) == "98.7654");
+  CHECK(short_number_text(1e8) == "1e8");
+  CHECK(short_number_text(-3e-7) == "-3e-7");
+}
+
+TEST_CASE("lists are joined and the byte order mark is skipped") {
+  CHECK(listed(std::vector<std::string>{"a", "b", "c"}) == "a, b, c");
+  CHECK(listed(std::vector<std::string_view>{}).empty());
+  CHECK(without_bom("\xEF\xBB\xBFv 1") == "v 1");
+  CHECK(without_bom("v 1") == "v 1");
+}
+
+}  // namespace sigs::test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+
+#include <doctest/doctest.h>
+#include <new>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/threads.h"
+
+using namespace sigs;
+
+namespace {
+
+// What becomes of something that a job throws.
+template <class Thrown>
+Error error_of(const Thrown& thrown) {
+  const Result<int> result = guarded([&]() -> Result<int> { throw thrown; }, "job");
+  REQUIRE_FALSE(result);
+  return result.error();
+}
+
+}  // namespace
+
+TEST_CASE("guarded() returns the value or the error of the job") {
+  CHECK(guarded([]() -> Result<int> { return 7; }).value() == 7);
+  const Result<int> failed = guarded([]() -> Result<int> { return fail("here", "is wrong", ErrorKind::usage); });
+  REQUIRE_FALSE(failed);
+  CHECK(failed.error().text() == "here: is wrong");
+  CHECK(failed.error().kind == ErrorKind::usage);
+}
+
+TEST_CASE("lack of memory gives the error unavailable, whoever asked for the memory") {
+  for (const Error& error :
+       {error_of(std::bad_alloc()), error_of(std::bad_array_new_length()),
+        error_of(cv::Exception(cv::Error::StsNoMem, "Failed to allocate 12 bytes", "f", "alloc.cpp", 1))}) {
+    CHECK(error.kind == ErrorKind::unavailable);
+    CHECK(error.where == "job");
+    CHECK(error.what.find("out of memory") != std::string::npos);
+  }
+}
+
+TEST_CASE("other exceptions keep their message") {
+  CHECK(error_of(std::runtime_error("is odd")).text() == "job: is odd");
+  CHECK(error_of(cv::Exception(cv::Error::StsBadArg, "is no image", "f", "x.cpp", 1)).text() == "job: is no image");
+  CHECK(error_of(std::runtime_error("is odd")).kind == ErrorKind::bad_data);
+  CHECK_FALSE(error_of(42).what.empty());
+  const auto no_more = std::make_error_code(std::errc::resource_unavailable_try_again);
+  CHECK(error_of(std::system_error(no_more)).kind == ErrorKind::unavailable);
+}
+
+TEST_CASE("a started thread does its work") {
+  int done = 0;
+  Result<std::thread> thread = started_thread([&] { done = 5; });
+  REQUIRE(thread);
+  thread->join();
+  CHECK(done == 5);
+}
