@@ -16,7 +16,7 @@ here=$PWD
 lot=$(mktemp -d)
 trap 'rm -rf "$lot"' EXIT
 
-# As engine/video/libav/encoder.cpp sets them up.
+# As engine/video/libav/encoding.cpp sets them up.
 h264=(-c:v libx264 -crf 18 -g 60 -x264-params threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1)
 ffv1=(-c:v ffv1 -level 3 -g 1 -slicecrc 1 -threads "$(nproc)")
 

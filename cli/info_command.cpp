@@ -14,9 +14,8 @@
 #include "cli/options.h"
 #include "mesh/mesh.h"
 #include "project/json.h"
+#include "video/color_space.h"
 #include "video/frame_source.h"
-#include "video/primaries.h"
-#include "video/transfer_function.h"
 
 namespace sigs::cli {
 

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "camera/camera.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,36 +17,250 @@
 #include "camera/opencv_storage.h"
 #include "camera/plain_yaml.h"
 
-namespace sigs {
+namespace sigs::calibration {
 namespace {
 
-using calibration::Fields;
+using Names = std::span<const std::string_view>;
 
-// Without a byte order mark and leading blanks, which the parsers stumble over.
-std::string trimmed(std::string text) {
+constexpr std::array<std::string_view, 6> kMatrixNames{
+    "camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k", "M1"};
+constexpr std::array<std::string_view, 12> kCoefficientNames{"distortion_coefficients",
+                                                             "Distortion_Coefficients",
+                                                             "distortionCoefficients",
+                                                             "distortion_coeffs",
+                                                             "dist_coeffs",
+                                                             "dist_coefs",
+                                                             "dist_coeff",
+                                                             "distCoeffs",
+                                                             "D",
+                                                             "d",
+                                                             "D1",
+                                                             "distortion"};
+constexpr std::array<std::string_view, 4> kSizeNames{"image_size", "image_Size", "imageSize", "Image_Size"};
+constexpr std::array<std::string_view, 4> kWidthNames{"image_width", "image_Width", "imageWidth", "width"};
+constexpr std::array<std::string_view, 4> kHeightNames{"image_height", "image_Height", "imageHeight", "height"};
+constexpr std::array<std::string_view, 3> kFisheyeNames{"fisheye_model", "fisheye", "fisheyeModel"};
+constexpr std::array<std::string_view, 1> kModelNames{"distortion_model"};
+
+std::string joined(Names names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+const Field* found(const Fields& fields, Names names) {
+  for (const std::string_view name : names)
+    if (const auto it = fields.find(name); it != fields.end()) return &it->second;
+  return nullptr;
+}
+
+// Reads the fields by the keys that docs/calibration-files.md lists. Its messages name the file and, where one is at
+// fault, the field.
+struct Reader {
+  const Fields& fields;
+  const std::string& file;
+
+  [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
+  [[nodiscard]] Result<void> check_numbers(const Field& field) const;
+  [[nodiscard]] Result<std::optional<bool>> stated_fisheye() const;
+  [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
+  [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
+  [[nodiscard]] Result<void> choose_model(LensParameters& lens, std::optional<LensModel> wanted,
+                                          std::vector<Warning>& warnings) const;
+  [[nodiscard]] Result<int> whole_pixels(const Field& field, double number) const;
+  [[nodiscard]] Result<std::optional<cv::Size>> size() const;
+};
+
+Result<void> Reader::check_numbers(const Field& field) const {
+  if (field.not_a_number) return fail(where(field), "'" + *field.not_a_number + "' is not a number");
+  if (field.stated_count && *field.stated_count != field.numbers.size())
+    return fail(where(field),
+                fmt::format("rows and cols say {} numbers, found {}", *field.stated_count, field.numbers.size()));
+  for (const double number : field.numbers)
+    if (!std::isfinite(number)) return fail(where(field), text_of(number) + " is not a finite number");
+  return {};
+}
+
+// Whether the file states a fisheye: by OpenCV's flag, or by the name of a model as ROS and Kalibr write it. Nothing
+// where the file states neither.
+Result<std::optional<bool>> Reader::stated_fisheye() const {
+  constexpr std::array<std::string_view, 6> kBrown{"plumb_bob", "rational_polynomial", "thin_prism",
+                                                   "radtan",    "brown_conrady",       "none"};
+  constexpr std::array<std::string_view, 5> kFisheye{"equidistant", "fisheye", "kannala_brandt", "kannala_brandt4",
+                                                     "opencv_fisheye"};
+  const Field* flag = found(fields, kFisheyeNames);
+  if (flag != nullptr) {
+    if (flag->text == "true" || flag->text == "True") return true;
+    if (flag->text == "false" || flag->text == "False") return false;
+    if (flag->numbers.size() != 1 || flag->not_a_number) return fail(where(*flag), "expected 0 or 1");
+    if (flag->numbers.front() != 0) return true;
+  }
+  const Field* model = found(fields, kModelNames);
+  if (model == nullptr || model->text.empty()) return flag == nullptr ? std::nullopt : std::optional(false);
+  if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return true;
+  if (std::ranges::find(kBrown, model->text) != kBrown.end()) return false;
+  return fail(
+      where(*model),
+      fmt::format("distortion model '{}' is not supported; plumb_bob, rational_polynomial, equidistant and fisheye are",
+                  model->text));
+}
+
+Result<void> Reader::read_matrix(LensParameters& lens) const {
+  const Field* field = found(fields, kMatrixNames);
+  if (field == nullptr) return fail(file, "no camera matrix; looked for " + joined(kMatrixNames));
+  if (const auto good = check_numbers(*field); !good) return fail(good.error());
+  const std::vector<double>& m = field->numbers;
+  if (m.size() != 9) return fail(where(*field), fmt::format("expected 9 numbers, found {}", m.size()));
+  lens.fx = m[0], lens.fy = m[4], lens.cx = m[2], lens.cy = m[5];
+  if (!(lens.fx > 0 && lens.fy > 0))
+    return fail(where(*field),
+                fmt::format("focal lengths must be positive, are {} and {}", text_of(lens.fx), text_of(lens.fy)));
+  constexpr double kRounding = 1e-6;  // of the focal length: what a solver leaves where it was meant to keep zero
+  if (std::abs(m[1]) > kRounding * lens.fx || std::abs(m[3]) > kRounding * lens.fx)
+    return fail(where(*field), fmt::format("skew is not supported; the 2nd and 4th numbers must be 0, are {} and {}",
+                                           text_of(m[1]), text_of(m[3])));
+  constexpr double kLastRowRounding = 1e-9;
+  if (std::abs(m[6]) > kLastRowRounding || std::abs(m[7]) > kLastRowRounding || std::abs(m[8] - 1) > kLastRowRounding)
+    return fail(where(*field),
+                fmt::format("the last row must be 0 0 1, is {} {} {}", text_of(m[6]), text_of(m[7]), text_of(m[8])));
+  return {};
+}
+
+Result<void> Reader::read_coefficients(LensParameters& lens) const {
+  const Field* field = found(fields, kCoefficientNames);
+  if (field == nullptr) return fail(file, "no distortion coefficients; looked for " + joined(kCoefficientNames));
+  if (const auto good = check_numbers(*field); !good) return fail(good.error());
+  lens.coefficients = field->numbers;
+  return {};
+}
+
+// The model that is wanted, else the one that the file states, else the one that its coefficients suggest.
+Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel> wanted,
+                                  std::vector<Warning>& warnings) const {
+  const auto name_of = [](LensModel model) { return model == LensModel::kannala_brandt ? "fisheye" : "Brown-Conrady"; };
+  const Result<std::optional<bool>> fisheye = stated_fisheye();
+  if (!fisheye) return fail(fisheye.error());
+  std::optional<LensModel> stated;
+  if (*fisheye) stated = **fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
+  if (wanted || stated) {
+    lens.model = wanted ? *wanted : *stated;
+    if (wanted && stated && *wanted != *stated)
+      warnings.push_back({file, fmt::format("says that it is of the {} model; it is read as {}, as asked for",
+                                            name_of(*stated), name_of(*wanted))});
+    return {};
+  }
+  const AssumedModel assumed = assumed_model(lens.coefficients);
+  lens.model = assumed.model;
+  if (!assumed.why.empty())
+    warnings.push_back(
+        {where(*found(fields, kCoefficientNames)),
+         fmt::format("four coefficients can be Brown-Conrady (k1 k2 p1 p2) or fisheye (k1 k2 k3 k4), and the file does "
+                     "not say which; read as {}, since {}: set footage.lens_model to brown_conrady or fisheye, or "
+                     "fisheye_model to 0 or 1 in the file",
+                     name_of(assumed.model), assumed.why)});
+  return {};
+}
+
+Result<int> Reader::whole_pixels(const Field& field, double number) const {
+  constexpr double kMax = 1 << 20;
+  if (!(number >= 1 && number <= kMax) || number != std::floor(number))
+    return fail(where(field), "expected a whole number of pixels, found " + text_of(number));
+  return static_cast<int>(number);
+}
+
+// Nothing where the file states no size at all.
+Result<std::optional<cv::Size>> Reader::size() const {
+  const Field* both = found(fields, kSizeNames);
+  const Field* width = found(fields, kWidthNames);
+  const Field* height = found(fields, kHeightNames);
+  if (both == nullptr && width == nullptr && height == nullptr) return std::nullopt;
+  if (width == nullptr && height == nullptr) {
+    if (both->numbers.size() != 2 || both->not_a_number)
+      return fail(where(*both), "expected 2 numbers, width and height");
+    width = height = both;
+  }
+  if (width == nullptr) return fail(where(*height), "a height without a width; looked for " + joined(kWidthNames));
+  if (height == nullptr) return fail(where(*width), "a width without a height; looked for " + joined(kHeightNames));
+  for (const Field* field : {width, height})
+    if (field != both && (field->numbers.size() != 1 || field->not_a_number))
+      return fail(where(*field), "expected one number");
+  const Result<int> width_px = whole_pixels(*width, width->numbers.front());
+  if (!width_px) return fail(width_px.error());
+  const Result<int> height_px = whole_pixels(*height, height->numbers.back());
+  if (!height_px) return fail(height_px.error());
+  return cv::Size(*width_px, *height_px);
+}
+
+cv::Size divided(cv::Size size_px, const cv::Point2d& by) {
+  return {cvRound(size_px.width / by.x), cvRound(size_px.height / by.y)};
+}
+
+// The intrinsics after the camera has cropped the image to this share of each side, around the middle, and enlarged it
+// to the old size.
+void crop(LensParameters& lens, cv::Size size_px, double kept_share) {
+  lens.fx /= kept_share;
+  lens.fy /= kept_share;
+  lens.cx = (lens.cx + 0.5 - size_px.width / 2.0) / kept_share + size_px.width / 2.0 - 0.5;
+  lens.cy = (lens.cy + 0.5 - size_px.height / 2.0) / kept_share + size_px.height / 2.0 - 0.5;
+}
+
+std::string size_names() {
+  return fmt::format("{}; {} with {}", fmt::join(kSizeNames, ", "), fmt::join(kWidthNames, ", "),
+                     fmt::join(kHeightNames, ", "));
+}
+
+// The camera that the fields describe. footage_size_px and wanted_model as in read_calibration.
+Result<Camera> camera_from(const Fields& fields, const std::string& file_name, std::optional<cv::Size> footage_size_px,
+                           std::optional<LensModel> wanted_model) {
+  constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
+  const Reader reader{fields, file_name};
+  if (const Field* mirror = found(fields, kMirrorNames))
+    return fail(reader.where(*mirror), "the omnidirectional model (xi) is not supported; calibrate as fisheye");
+  LensParameters lens;
+  if (const auto good = reader.read_matrix(lens); !good) return fail(good.error());
+  if (const auto good = reader.read_coefficients(lens); !good) return fail(good.error());
+  std::vector<Warning> warnings = fields.warnings;
+  if (const auto good = reader.choose_model(lens, wanted_model, warnings); !good) return fail(good.error());
+  const Result<std::optional<cv::Size>> own_size_px = reader.size();
+  if (!own_size_px) return fail(own_size_px.error());
+  if (!*own_size_px && !footage_size_px)
+    return fail(file_name, "no image size, and no footage to take it from; looked for " + size_names());
+  const std::string matrix = reader.where(*found(fields, kMatrixNames));
+  if (!*own_size_px && !footage_size_px->empty())
+    if (const std::string why_not = why_not_made_for(lens, *footage_size_px); !why_not.empty())
+      return fail(matrix, why_not);
+  const cv::Point2d stretch = fields.stretch;
+  const cv::Size from_px =
+      own_size_px->value_or(divided(footage_size_px.value_or(cv::Size{}), {1 / stretch.x, 1 / stretch.y}));
+  const cv::Size to_px = footage_size_px.value_or(divided(from_px, stretch));
+  if (fields.kept_share != 1) crop(lens, from_px, fields.kept_share);
+  Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, to_px, stretch, file_name, warnings);
+  if (!scaled) return fail(scaled.error());
+  Result<Lens> made = Lens::make(*std::move(scaled));
+  // The matrix is correct by now: only the coefficients can still be wrong.
+  if (!made) return fail(reader.where(*found(fields, kCoefficientNames)), made.error().what);
+  for (const std::string& warning : matrix_warnings(made->parameters(), to_px, own_size_px->has_value()))
+    warnings.push_back({matrix, warning});
+  return Camera{.lens = *std::move(made), .size_px = to_px, .warnings = std::move(warnings)};
+}
+
+// Without a byte order mark and leading white space, which the parsers do not take.
+std::string without_beginning(std::string text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   text.erase(0, text.find_first_not_of(" \t\r\n"));
   return text;
 }
 
-Result<Fields> fields_in(const std::string& text, const std::string& file_name) {
-  if (text.empty()) return fail(file_name, "is empty");
-  if (text.find('\0') != std::string::npos) return fail(file_name, "is not a text file");
-  // "%YAML:1.0" is OpenCV's own header; the YAML standard has a space in the colon's place.
-  if (text.starts_with('<') || text.starts_with("%YAML:")) return calibration::opencv_storage_fields(text, file_name);
-  if (text.starts_with('{')) return calibration::json_fields(text, file_name);
-  return calibration::plain_yaml_fields(text, file_name);
-}
-
 }  // namespace
+}  // namespace sigs::calibration
+
+namespace sigs {
 
 Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px,
                                 std::optional<LensModel> model) {
   const std::string file_name = path.filename().string();
   Result<std::string> text = read_text(path, kCalibrationLimit_bytes);
   if (!text) return fail(text.error());
-  const Result<Fields> fields = fields_in(trimmed(*std::move(text)), file_name);
+  const auto fields = calibration::fields_in(calibration::without_beginning(*std::move(text)), file_name);
   if (!fields) return fail(fields.error());
   return calibration::camera_from(*fields, file_name, footage_size_px, model);
 }

@@ -12,22 +12,24 @@
 
 namespace sigs {
 
-// A lens and the image it throws. Pixels as in base/image.h.
+// A lens and the size of its images. Pixels as in base/image.h.
 struct Camera {
   Lens lens;
   cv::Size size_px;
-  std::vector<Warning> warnings = {};  // what is doubtful about its calibration file (camera/calibration_warnings.h)
+  std::vector<Warning> warnings = {};  // what is doubtful about its calibration file (camera/calibration_fit.h)
 };
 
 // Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow
-// lens profile JSON. The flavour is seen from the content, not from the name. docs/calibration-files.md lists the keys.
-//   footage_size_px  scales the calibration to the footage where both have the same shape; a different shape is an
-//   error
-//                    that names both sizes. A file that states no size is taken to be made for the footage. Without
-//                    footage_size_px the file's own size is kept, and a file without one is an error.
-//   model            the lens model that the numbers are of, whatever the file says; none: as the file says or, where
-//                    it does not, as its numbers look
-// Errors name file and field: {"gopro.xml: camera_matrix", "expected 9 numbers, found 8"}.
+// lens profile JSON. The format is recognised by the content, not by the name. docs/calibration-files.md lists the
+// keys.
+//   footage_size_px  size of the images that the camera is wanted for. The calibration is scaled to it where both have
+//                    the same shape; a different shape is an error that names both sizes. A file without a size is
+//                    taken to be made for the footage. If omitted, the file's own size is kept, and a file without one
+//                    is an error
+//   model            the lens model of the coefficients, whatever the file says. If omitted, the model that the file
+//                    states or, where it states none, the one that its coefficients suggest
+// Errors name file and field: {"gopro.xml: camera_matrix", "expected 9 numbers, found 8"}. The kind is cannot_read
+// where the file cannot be opened, else bad_data.
 [[nodiscard]] Result<Camera> read_calibration(const std::filesystem::path& path,
                                               std::optional<cv::Size> footage_size_px = std::nullopt,
                                               std::optional<LensModel> model = std::nullopt);

@@ -1,16 +1,130 @@
 // SPDX-License-Identifier: MIT
 #include "camera/lens.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "base/pose.h"
-#include "camera/undistort.h"
+#include "camera/distortion_models.h"
+#include "camera/valid_field.h"
+
+namespace sigs::distortion {
+
+namespace {
+
+// The radius alone is solved for: enough for models, and parts of models, that keep circles.
+template <class Model>
+std::optional<glm::dvec2> radially_undistorted(const Model& model, const Field& field, const glm::dvec2& point) {
+  const double distance = glm::length(point);
+  if (distance == 0) return point;
+  if (!std::isfinite(field.radius)) return point;  // no distortion, no limit
+  const auto radial = [&model](double r) { return model.radial(r); };
+  const std::optional<double> r = increasing_inverse(radial, distance, field.radius);
+  if (!r) return std::nullopt;
+  return point * (*r / distance);
+}
+
+// Where Newton's method starts: at the radial answer, or just inside the rim.
+glm::dvec2 first_guess(const BrownConrady& model, const Field& field, const glm::dvec2& point) {
+  constexpr double kInside = 0.98;
+  const std::optional<glm::dvec2> radial = radially_undistorted(model, field, point);
+  if (radial && glm::length(*radial) < kInside * field.radius) return *radial;
+  return glm::normalize(point) * (kInside * field.radius);
+}
+
+// Newton's method on distorted(p) = point. A step is halved until it stays in the field and reduces the error. The
+// method ends where no step reduces it, which at a root is the last digit.
+std::optional<glm::dvec2> newton(const BrownConrady& model, const Field& field, const glm::dvec2& point, glm::dvec2 p) {
+  constexpr int kMaxSteps = 100;
+  constexpr int kMaxHalvings = 30;
+  constexpr double kGoodEnough = 1e-11;  // Lens::ray checks the result again, in pixels
+  glm::dvec2 error = model.distorted_before_tilt(p) - point;
+  for (int step = 0; step < kMaxSteps && error != glm::dvec2{0, 0}; ++step) {
+    const glm::dmat2 jacobian = model.jacobian_before_tilt(p);
+    if (!(glm::determinant(jacobian) > 0)) break;
+    glm::dvec2 move = -(glm::inverse(jacobian) * error);
+    bool is_better = false;
+    for (int halving = 0; halving < kMaxHalvings && !is_better; ++halving, move *= 0.5) {
+      const glm::dvec2 candidate = p + move;
+      if (!(glm::length(candidate) < field.radius)) continue;
+      const glm::dvec2 candidate_error = model.distorted_before_tilt(candidate) - point;
+      is_better = glm::dot(candidate_error, candidate_error) < glm::dot(error, error);
+      if (is_better) p = candidate, error = candidate_error;
+    }
+    if (!is_better) break;
+  }
+  if (!(glm::length(error) <= kGoodEnough * (1 + glm::length(point)))) return std::nullopt;
+  return p;
+}
+
+// True where the point lies outside the distorted rim by more than the polygon of the rim deviates from the curve: then
+// no p of the field is distorted to it. Even-odd rule: a ray from a point outside crosses the polygon an even number of
+// times.
+bool clearly_outside(std::span<const glm::dvec2> rim, const glm::dvec2& point) {
+  constexpr double kMargin = 1.001;  // 360 corners cut off 4e-5 of a circle's radius
+  int crossings = 0;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const glm::dvec2 a = rim[i] * kMargin - point;
+    const glm::dvec2 b = rim[(i + 1) % rim.size()] * kMargin - point;
+    if ((a.y > 0) == (b.y > 0)) continue;
+    const double x = a.x - a.y * (b.x - a.x) / (b.y - a.y);
+    if (x > 0) ++crossings;
+  }
+  return crossings % 2 == 0;
+}
+
+// Tries Newton's method from the best sample of each of many circles, spread evenly by angle from the axis.
+std::optional<glm::dvec2> searched(const BrownConrady& model, const Field& field, const glm::dvec2& point) {
+  constexpr int kRings = 48;
+  constexpr int kSpokes = 96;
+  const double widest_rad = std::atan(field.radius);
+  for (int ring = kRings; ring > 0; --ring) {
+    const double r = std::tan(widest_rad * (ring - 0.01) / kRings);
+    glm::dvec2 best{0, 0};
+    double best_error = std::numeric_limits<double>::infinity();
+    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+      const double phi = 2 * std::numbers::pi * spoke / kSpokes;
+      const glm::dvec2 p = r * glm::dvec2{std::cos(phi), std::sin(phi)};
+      const double error = glm::length(model.distorted_before_tilt(p) - point);
+      if (error < best_error) best = p, best_error = error;
+    }
+    if (const auto found = newton(model, field, point, best)) return found;
+  }
+  return std::nullopt;
+}
+
+// The p within the field that a model distorts to a given point, to the last digits that the arithmetic holds; nothing
+// where there is none. For radial models one number is solved for. Where tangential or prism terms couple x and y,
+// damped Newton's method in the plane starts from the radial answer; where it fails and the point is not clearly
+// outside the distorted rim of the field, the whole field is searched.
+std::optional<glm::dvec2> undistorted(const BrownConrady& model, const Field& field,
+                                      const glm::dvec2& distorted_point) {
+  const std::optional<glm::dvec2> flat = model.untilted(distorted_point);
+  if (!flat) return std::nullopt;
+  if (model.radial_only) return radially_undistorted(model, field, *flat);
+  if (*flat == glm::dvec2{0, 0}) return flat;
+  if (const auto found = newton(model, field, *flat, first_guess(model, field, *flat))) return found;
+  if (clearly_outside(field.edge, *flat)) return std::nullopt;
+  return searched(model, field, *flat);
+}
+
+std::optional<glm::dvec2> undistorted(const KannalaBrandt& model, const Field& field,
+                                      const glm::dvec2& distorted_point) {
+  return radially_undistorted(model, field, distorted_point);
+}
+
+}  // namespace
+}  // namespace sigs::distortion
 
 namespace sigs {
 namespace {
@@ -28,13 +142,13 @@ bool has_count(LensModel model, std::size_t count) {
   return std::ranges::find(kCounts, count) != kCounts.end();
 }
 
-// What is wrong with the parameters; empty where nothing is.
-std::string complaint(const LensParameters& p) {
+// What is wrong with the parameters; empty where they are valid.
+std::string fault(const LensParameters& p) {
   const std::size_t count = p.coefficients.size();
   if (!has_count(p.model, count)) {
     const bool fisheye = p.model == LensModel::kannala_brandt;
-    return "expected " + std::string(fisheye ? "4 fisheye" : "0, 4, 5, 8, 12 or 14 distortion") +
-           " coefficients, found " + std::to_string(count);
+    return fmt::format("expected {} coefficients, found {}", fisheye ? "4 fisheye" : "0, 4, 5, 8, 12 or 14 distortion",
+                       count);
   }
   if (!is_finite({p.fx, p.fy}) || !is_finite({p.cx, p.cy})) return "focal length and principal point must be finite";
   if (!(p.fx > 0 && p.fy > 0)) return "the focal length must be positive";
@@ -46,14 +160,6 @@ std::string complaint(const LensParameters& p) {
   return {};
 }
 
-// Largest singular value of a 2x2 matrix.
-double largest_stretch(const glm::dmat2& m) {
-  const double first = glm::dot(m[0], m[0]);
-  const double second = glm::dot(m[1], m[1]);
-  const double between = glm::dot(m[0], m[1]);
-  return std::sqrt((first + second + std::hypot(first - second, 2 * between)) / 2);
-}
-
 }  // namespace
 
 Lens::Lens(LensParameters parameters, Model model)
@@ -62,14 +168,14 @@ Lens::Lens(LensParameters parameters, Model model)
       field_(std::visit([](const auto& m) { return distortion::valid_field(m); }, model_)) {}
 
 Result<Lens> Lens::make(LensParameters parameters) {
-  if (std::string wrong = complaint(parameters); !wrong.empty()) return fail("", std::move(wrong));
+  if (std::string wrong = fault(parameters); !wrong.empty()) return fail("", std::move(wrong));
   Model model = parameters.model == LensModel::kannala_brandt
                     ? Model{distortion::KannalaBrandt::of(parameters.coefficients)}
                     : Model{distortion::BrownConrady::of(parameters.coefficients)};
   return Lens(std::move(parameters), std::move(model));
 }
 
-// Place on the model's undistorted plane, if it lies within the field.
+// The direction's point on the model's undistorted plane, if it lies within the field.
 std::optional<glm::dvec2> Lens::plane_point(const glm::dvec3& p_in_camera) const {
   if (!is_finite(p_in_camera)) return std::nullopt;
   const glm::dvec3 p_optical = optical_of(p_in_camera);
@@ -87,8 +193,8 @@ std::optional<glm::dvec2> Lens::pixel(const glm::dvec3& p_in_camera) const {
   return result;
 }
 
-// The forward map must return to the pixel: within 1e-9 px or, where a step of the doubles that hold the pixel or the
-// ray is worth more than that, within some such steps.
+// Whether the forward map leads back to the pixel: within 1e-9 px or, where one step of the doubles that hold the pixel
+// or the ray is more than that, within some such steps.
 bool Lens::comes_back(const glm::dvec3& ray, const glm::dvec2& pixel_px) const {
   constexpr double kTolerancePx = 1e-9;
   constexpr double kSteps = 64 * std::numeric_limits<double>::epsilon();
@@ -127,7 +233,8 @@ double Lens::pixels_per_radian(const glm::dvec3& direction_in_camera) const {
       [&](const auto& model) {
         const glm::dvec2 stretch = model.stretch(*point);
         const glm::dmat2 jacobian = model.jacobian(*point);
-        return largest_stretch({focal() * (jacobian * along) * stretch.x, focal() * (jacobian * across) * stretch.y});
+        return distortion::largest_singular_value(
+            {focal() * (jacobian * along) * stretch.x, focal() * (jacobian * across) * stretch.y});
       },
       model_);
 }

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "camera/brown_conrady.h"
-#include "camera/kannala_brandt.h"
+#include "camera/distortion_models.h"
 #include "camera/valid_field.h"
 
 namespace sigs {
@@ -18,39 +17,40 @@ enum class LensModel {
   kannala_brandt,  // OpenCV fisheye: 4 coefficients k1 k2 k3 k4
 };
 
+// The intrinsics of a camera. Pixels as in base/image.h: the centre of the first pixel is (0, 0).
 struct LensParameters {
   LensModel model = LensModel::brown_conrady;
-  double fx = 1, fy = 1, cx = 0, cy = 0;  // px
-  std::vector<double> coefficients;
+  double fx = 1, fy = 1, cx = 0, cy = 0;  // focal lengths and principal point, px
+  std::vector<double> coefficients;       // in the model's order
 
   [[nodiscard]] bool operator==(const LensParameters&) const = default;
 };
 
 // Maps directions to pixels and back, as OpenCV's projectPoints and fisheye::projectPoints do, but only within the
-// field in which the map is one to one. A direction or pixel beyond it has no image, and nothing is extrapolated.
+// field in which the map is one to one. A direction or pixel beyond it has no image: nothing is extrapolated.
 class Lens {
  public:
-  // Errors: not a number of coefficients that the model has; fx or fy not positive; anything not finite; a sensor
-  // tilted by 90 degrees or more. Where is "".
+  // Errors, with an empty place: a number of coefficients that the model does not have; fx or fy not positive; a number
+  // that is not finite; a sensor tilted by 90 degrees or more.
   [[nodiscard]] static Result<Lens> make(LensParameters parameters);
 
   // Pixel of a point given in the camera frame (X along the axis, Y right, Z down; any length). Nothing where the point
   // lies behind the camera (pinhole models), at the camera, or beyond the valid field.
   [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p_in_camera) const;
 
-  // Unit ray in the camera frame that a pixel looks along, by Newton's method with the analytic Jacobian, to 1e-9 px
-  // (or to the last digits of doubles where a step of theirs is more than that: far outside any image).
+  // Unit vector in the camera frame along which a pixel looks, by Newton's method with the analytic Jacobian. pixel()
+  // of it agrees to 1e-9 px or, far outside any image, to the last digits of doubles.
   // Nothing where no ray within the valid field meets the pixel.
   [[nodiscard]] std::optional<glm::dvec3> ray(const glm::dvec2& pixel) const;
 
   // Local magnification: how far the pixel moves, at most, when a direction (camera frame, any length) turns by a small
-  // angle; px per radian. The largest singular value of d pixel / d angle. 0 where the direction has no image.
+  // angle; px per radian. It is the largest singular value of d pixel / d angle. 0 where the direction has no image.
   [[nodiscard]] double pixels_per_radian(const glm::dvec3& direction_in_camera) const;
 
   // Largest angle from the optical axis that has an image, radians. The field is round in undistorted coordinates.
   [[nodiscard]] double valid_angle_rad() const;
 
-  // True where the lens is a plain pinhole: nothing needs to be warped.
+  // True where the lens is a pinhole without distortion: images need no warp.
   [[nodiscard]] bool is_pinhole() const;
 
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }

@@ -36,7 +36,8 @@ LensTable::LensTable(Camera camera, double tolerance_px, std::size_t max_bytes)
   for (int step_px = kWidestStep_px; step_px > 1; step_px /= 2) stencils_.push_back(stencils_of(step_px));
 }
 
-// Lagrange's weights; the four nodes stay within the tile, so that no tile needs a ray outside itself.
+// Lagrange's weights of cubic interpolation. The four nodes stay within the tile, so that no tile needs a ray outside
+// itself.
 LensTable::Stencils LensTable::stencils_of(int step_px) {
   Stencils stencils;
   for (int offset = 0; offset <= kTile_px; ++offset) {
@@ -58,7 +59,7 @@ glm::dvec3 LensTable::exact_ray(int x, int y) {
   return camera_.lens.ray({x - 0.5, y - 0.5}).value_or(glm::dvec3(0));
 }
 
-// Every other node of every other row stands in the coarser grid already.
+// The exact rays of a tile's nodes. The coarser grid has every other node of every other row already.
 std::vector<glm::dvec3> LensTable::nodes_of(const glm::ivec2& origin, int step_px, const Tile& coarser) {
   const int last = kTile_px / step_px;
   std::vector<glm::dvec3> nodes;
@@ -72,8 +73,9 @@ std::vector<glm::dvec3> LensTable::nodes_of(const glm::ivec2& origin, int step_p
   return nodes;
 }
 
-// Every node has a ray, and none is nearer to the rim of the field than its neighbours are to each other.
+// Whether every node has a ray, and none is nearer to the rim of the field than its neighbours are to each other.
 bool LensTable::is_smooth(const Tile& tile) const {
+  using distortion::angle_between;
   const std::size_t across = static_cast<std::size_t>(kTile_px / tile.step_px) + 1;
   double widest_rad = 0;
   double largest_step_rad = 0;
@@ -97,8 +99,9 @@ bool LensTable::misses(const glm::dvec3& ray, int x, int y) {
   return !back || !(glm::distance(*back, {x - 0.5, y - 0.5}) <= tolerance_px_ / 3);
 }
 
-// Between nodes the error of a polynomial is largest near the middles, but errors across and down can cancel there: a
-// third of the tolerance is allowed. Half the step brings a sixteenth of the error, so that costs little.
+// Whether the tile's polynomial meets the tolerance. Its error is largest near the middles between nodes, but
+// horizontal and vertical errors can cancel there: a third of the tolerance is allowed. Half the step gives a sixteenth
+// of the error, so that the margin costs little.
 bool LensTable::is_good(const Tile& tile, const glm::ivec2& origin) {
   const int half = tile.step_px / 2;
   for (int y = 0; y <= kTile_px; y += half) {
@@ -111,7 +114,7 @@ bool LensTable::is_good(const Tile& tile, const glm::ivec2& origin) {
   return true;
 }
 
-LensTable::Tile LensTable::made(const glm::ivec2& origin) {
+LensTable::Tile LensTable::new_tile(const glm::ivec2& origin) {
   Tile tile;
   if (tolerance_px_ > 0)
     for (int step_px = kWidestStep_px; step_px > 1; step_px /= 2) {
@@ -125,7 +128,7 @@ LensTable::Tile LensTable::made(const glm::ivec2& origin) {
 const LensTable::Tile& LensTable::tile_at(int column, int row) {
   const auto found = tiles_.find({row, column});
   if (found != tiles_.end()) return found->second;
-  Tile tile = made({column * kTile_px, row * kTile_px});
+  Tile tile = new_tile({column * kTile_px, row * kTile_px});
   const std::size_t bytes = tile.nodes.size() * sizeof(glm::dvec3) + sizeof(Tile);
   if (bytes_ + bytes > max_bytes_) {
     tiles_.clear();
@@ -135,7 +138,7 @@ const LensTable::Tile& LensTable::tile_at(int column, int row) {
   return tiles_.insert_or_assign({row, column}, std::move(tile)).first->second;
 }
 
-// The row and, behind it, the tile's corners first .. last - 1 of one of its rows.
+// Appends the rays of a tile's corners first .. last - 1 in one of its rows to `row`.
 std::vector<glm::dvec3> LensTable::with_row(std::vector<glm::dvec3> row, const Tile& tile, int y_in_tile, int first,
                                             int last) const {
   const int across = kTile_px / tile.step_px + 1;
@@ -148,7 +151,7 @@ std::vector<glm::dvec3> LensTable::with_row(std::vector<glm::dvec3> row, const T
   }
   const Stencils& all = stencils(tile.step_px);
   const Stencil& down = all[static_cast<std::size_t>(y_in_tile)];
-  std::array<glm::dvec3, kTile_px / 2 + 1> line;  // the nodes' columns at this row
+  std::array<glm::dvec3, kTile_px / 2 + 1> line;  // the columns of nodes, interpolated at this row
   const int low = all[static_cast<std::size_t>(first)].first;
   const int high = all[static_cast<std::size_t>(last - 1)].first + 3;
   for (int i = low; i <= high; ++i)

@@ -15,46 +15,49 @@
 
 namespace sigs {
 
-// The directions that the corners of a camera's pixels look along, worked out tile by tile where they are asked for,
-// and kept. In a tile of 64 by 64 pixels exact rays stand on a grid of 16 pixels' step; between them a cubic polynomial
-// runs each way. The rays in the middle of the grid's cells and of their sides are thrown back through the lens: where
-// one misses its pixel by more than the tolerance the step is halved, down to exact rays everywhere. Tiles that reach
-// to the rim of the lens' field, or beyond, are exact. What a tile holds depends on camera and tolerance alone.
-// A pinhole lens has no tiles: its rays are a closed form.
+// A cache of the directions along which the corners of a camera's pixels look, computed tile by tile where they are
+// asked for. A tile of 64 by 64 pixels has exact rays on a grid with a step of 16 pixels; cubic polynomials interpolate
+// between them, each way. The interpolated rays in the middle of the grid's squares and of their sides are projected
+// through the lens: where one misses its pixel by more than the tolerance the step is halved, down to exact rays
+// everywhere. Tiles that reach to the rim of the lens' field, or beyond, are exact. The contents of a tile depend on
+// camera and tolerance alone. A pinhole lens has no tiles: its rays have a closed form.
+//
+// Not for use by several threads at a time.
 class LensTable {
  public:
   static constexpr double kTolerance_px = 1e-3;  // moves the sharpest edge by a quarter of a code value
   static constexpr int kTile_px = 64;
   static constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // 8192 x 4320 pixels take 6 MB, all exact 0.9 GB
 
-  //   tolerance_px  in the image; 0: exact everywhere
-  //   max_bytes    that the tiles may take: where they would take more, all are forgotten first. One is always kept
+  //   tolerance_px  largest error of an interpolated ray, in the image; 0: exact everywhere
+  //   max_bytes     memory of the tiles. Before they would take more, all are discarded; one is always kept
   explicit LensTable(Camera camera, double tolerance_px = kTolerance_px, std::size_t max_bytes = kMaxBytes);
 
   // Directions (camera frame, not of unit length) of the points (x - 0.5 + i, y - 0.5), i = 0 .. count - 1: the upper
-  // left corners of pixels (x + i, y), which may lie beyond the image. (0, 0, 0) where the lens has no ray.
-  // Valid until the next call.
+  // left corners of the pixels (x + i, y), which may lie beyond the image. (0, 0, 0) where the lens has no ray.
+  // The span is valid until the next call.
   [[nodiscard]] std::span<const glm::dvec3> corner_rays(int x, int y, int count);
 
-  // Lens::pixel, counted.
+  // Lens::pixel, counted in evaluations().
   [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p_in_camera);
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] double tolerance_px() const { return tolerance_px_; }
 
-  // Directions and pixels that went through the lens' own formulas so far; a pinhole has none.
+  // How many directions and pixels have gone through the lens' own formulas so far; 0 for a pinhole.
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
 
-  // Of the tiles kept.
+  // Memory of the tiles that are kept.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
-  // Rays at every step-th corner, rows of kTile_px / step + 1; step 1: every one.
+  // Rays at every step-th corner, in rows of kTile_px / step + 1 nodes; with step 1 at every corner.
   struct Tile {
     int step_px = 1;
     std::vector<glm::dvec3> nodes;
   };
-  // The cubic polynomial through four neighbouring nodes, at one of a tile's corners.
+  // The cubic polynomial through four neighbouring nodes, evaluated at one of a tile's corners: the sum of
+  // weights[k] * node[first + k].
   struct Stencil {
     int first = 0;
     std::array<double, 4> weights{};
@@ -68,7 +71,7 @@ class LensTable {
   [[nodiscard]] bool is_smooth(const Tile& tile) const;
   [[nodiscard]] bool misses(const glm::dvec3& ray, int x, int y);
   [[nodiscard]] bool is_good(const Tile& tile, const glm::ivec2& origin);
-  [[nodiscard]] Tile made(const glm::ivec2& origin);
+  [[nodiscard]] Tile new_tile(const glm::ivec2& origin);
   [[nodiscard]] const Tile& tile_at(int column, int row);
   [[nodiscard]] std::vector<glm::dvec3> with_row(std::vector<glm::dvec3> row, const Tile& tile, int y_in_tile,
                                                  int first, int last) const;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "camera/polynomial.h"
+#include "camera/numerics.h"
 
 namespace sigs::distortion {
 namespace {
@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 constexpr double kLargestRadius = 1e8;
 constexpr double kSmallestDenominator = 1e-6;
 
-// mean + Re(first e^{i phi}) + Re(second e^{2 i phi}): how a quantity changes round a circle.
+// A quantity along a circle: mean + Re(first e^{i phi}) + Re(second e^{2 i phi}).
 struct Harmonics {
   double mean = 0;
   Complex first;
@@ -27,20 +27,21 @@ struct Harmonics {
   [[nodiscard]] double at(Complex turn) const { return mean + (first * turn + second * turn * turn).real(); }
 };
 
-// Smallest value of a function between two places that enclose one dip, by golden section; and where.
-struct Lowest {
+// A minimum of a function: where it is, and its value.
+struct Minimum {
   double x = 0;
   double value = 0;
 };
 
+// The minimum between a and b, which enclose only one, by golden section search.
 template <class Function>
-Lowest bottom_of_dip(const Function& f, double a, double b) {
+Minimum minimum_between(const Function& f, double a, double b) {
   constexpr double kGolden = 1 / std::numbers::phi;
   double x1 = b - kGolden * (b - a);
   double x2 = a + kGolden * (b - a);
   double f1 = f(x1);
   double f2 = f(x2);
-  constexpr int kSteps = 40;  // 0.618^40 = 4e-9 of the interval: a parabola's bottom to the last bit
+  constexpr int kSteps = 40;  // 0.618^40 = 4e-9 of the interval: a parabola's minimum to the last bit
   for (int step = 0; step < kSteps; ++step) {
     if (f1 < f2) {
       b = x2, x2 = x1, f2 = f1;
@@ -50,7 +51,7 @@ Lowest bottom_of_dip(const Function& f, double a, double b) {
       x2 = a + kGolden * (b - a), f2 = f(x2);
     }
   }
-  return f1 < f2 ? Lowest{x1, f1} : Lowest{x2, f2};
+  return f1 < f2 ? Minimum{x1, f1} : Minimum{x2, f2};
 }
 
 constexpr int kSamples = 32;
@@ -61,8 +62,8 @@ std::array<Complex, kSamples> turns_of_samples() {
   return turns;
 }
 
-// Value at the bottom of the dip near a turn, by Newton's method on the derivative.
-double bottom_near(const Harmonics& h, Complex turn) {
+// Value of the minimum near a point of the circle, by Newton's method on the derivative.
+double minimum_near(const Harmonics& h, Complex turn) {
   constexpr int kSteps = 4;  // from a 64th of a circle, each squares the error
   constexpr double kFarthest_rad = 2 * std::numbers::pi / kSamples;
   for (int step = 0; step < kSteps; ++step) {
@@ -76,7 +77,7 @@ double bottom_near(const Harmonics& h, Complex turn) {
   return h.at(turn);
 }
 
-// At most two dips lie on the circle, so 32 samples see each of them.
+// There are at most two minima on the circle, so that 32 samples find each of them.
 double smallest(const Harmonics& h) {
   static const std::array<Complex, kSamples> turns = turns_of_samples();
   std::array<double, kSamples> sample{};
@@ -85,7 +86,7 @@ double smallest(const Harmonics& h) {
   for (int i = 0; i < kSamples; ++i) {
     const double before = sample[(i + kSamples - 1) % kSamples];
     const double after = sample[(i + 1) % kSamples];
-    if (sample[i] <= before && sample[i] < after) result = std::min(result, bottom_near(h, turns[i]));
+    if (sample[i] <= before && sample[i] < after) result = std::min(result, minimum_near(h, turns[i]));
   }
   return result;
 }
@@ -106,7 +107,8 @@ double smallest_determinant(const BrownConrady& m, double r) {
                    .second = a * c});
 }
 
-// Third coordinate of a distorted circle on the tilted sensor, against that of the axis: zero where it is met edge on.
+// Smallest third coordinate of a distorted circle on the tilted sensor, relative to that of the axis: zero where the
+// ray runs parallel to the sensor.
 double smallest_tilt_depth(const BrownConrady& m, double r) {
   const Complex w{m.p2, m.p1};
   const Complex shift = 2.0 * r * r * w + r * r * Complex{m.s1, m.s3} + r * r * r * r * Complex{m.s2, m.s4};
@@ -119,8 +121,8 @@ double smallest_tilt_depth(const BrownConrady& m, double r) {
          kSmallestDenominator;
 }
 
-// Largest r up to limit below which f, positive near 0, is positive throughout. Steps of under 1 percent of r, and
-// every dip between them is followed to its bottom.
+// Largest r up to limit below which f, positive near 0, is positive throughout. f is sampled in steps of less than 1
+// percent of r, and each minimum between samples is located.
 template <class Function>
 double positive_up_to(const Function& f, double limit) {
   constexpr double kSmallestRadius = 1e-8;
@@ -133,14 +135,14 @@ double positive_up_to(const Function& f, double limit) {
     }
   };
   const double growth = std::pow(limit / kSmallestRadius, 1.0 / kSteps);
-  std::array<Lowest, 3> last{{{0, 1}, {0, 1}, {0, 1}}};
+  std::array<Minimum, 3> last{{{0, 1}, {0, 1}, {0, 1}}};
   for (int step = 0; step <= kSteps; ++step) {
     const double r = std::min(limit, kSmallestRadius * std::pow(growth, step));
-    last = {last[1], last[2], Lowest{r, f(r)}};
+    last = {last[1], last[2], Minimum{r, f(r)}};
     if (!(last[2].value > 0)) return fall_between(last[1].x, r);
     if (last[1].value > last[0].value || last[1].value > last[2].value) continue;
-    const Lowest bottom = bottom_of_dip(f, std::max(last[0].x, kSmallestRadius), r);
-    if (!(bottom.value > 0)) return fall_between(last[0].x, bottom.x);
+    const Minimum lowest = minimum_between(f, std::max(last[0].x, kSmallestRadius), r);
+    if (!(lowest.value > 0)) return fall_between(last[0].x, lowest.x);
   }
   return limit;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/footage_light.h"
 
-#include "video/primaries.h"
+#include "video/color_space.h"
 
 namespace sigs {
 

@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 
 #include "base/transfer.h"
+#include "video/color_space.h"
 #include "video/frame.h"
-#include "video/transfer_function.h"
 
 namespace sigs {
 

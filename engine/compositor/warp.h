@@ -7,7 +7,7 @@
 #include "base/image.h"
 #include "camera/camera.h"
 #include "camera/lens_table.h"
-#include "camera/pinhole_view.h"
+#include "camera/virtual_camera.h"
 
 namespace sigs {
 

@@ -10,7 +10,7 @@
 #include "base/image.h"
 #include "base/pose.h"
 #include "base/result.h"
-#include "camera/pinhole_view.h"
+#include "camera/virtual_camera.h"
 #include "mesh/mesh.h"
 
 namespace sigs {

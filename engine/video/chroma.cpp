@@ -69,7 +69,7 @@ std::vector<ChromaShare> chroma_shares(int luma_size, int step, bool on_luma) {
   for (int i = 0; i <= last; ++i) {
     ChromaShare& share = shares[static_cast<size_t>(i)];
     const bool is_even = i % 2 == 0;
-    // Beyond the edge the outermost luma sample stands in, with the weight of what is missing there.
+    // Beyond the edge the outermost luma sample is repeated, so it has the weight of the missing one too.
     if (step == 1)
       share = {i, 1, 0};
     else if (!on_luma)

@@ -6,7 +6,7 @@
 
 namespace sigs {
 
-// How the 8-bit samples of an image lie.
+// How the 8-bit samples of an image are stored.
 enum class PixelLayout {
   gray,    // plane 0: luma
   yuv420,  // planes Y, Cb, Cr; chroma halved both ways, rounded up
@@ -18,22 +18,29 @@ enum class PixelLayout {
 enum class ColorRange { limited, full };          // luma 16..235 or 0..255
 enum class ColorMatrix { bt601, bt709, bt2020 };  // Y'CbCr coefficients; bt2020 is the non-constant-luminance one
 
-// Where a chroma sample sits among its luma samples: of 4:2:0 on a column, midway between two rows; midway both ways;
-// on a pixel. Of 4:2:2 on a column; midway between two; on a column.
-enum class ChromaSite { left, center, top_left };
+// Where the chroma samples lie among the luma samples (H.273, chroma sample location type).
+enum class ChromaSite {
+  left,      // 4:2:0: on every other column, midway between two rows; 4:2:2: on every other column
+  center,    // 4:2:0: midway between two columns and two rows; 4:2:2: midway between two columns
+  top_left,  // 4:2:0: on every other column and row; 4:2:2: as left
+};
 
-// What the samples mean. Carried from the footage to the output unchanged.
+// The meaning of the samples. It is passed from the footage to the output unchanged.
 struct ColorInfo {
   ColorRange range = ColorRange::limited;
   ColorMatrix matrix = ColorMatrix::bt709;
   ChromaSite chroma_site = ChromaSite::left;
   int primaries = 2;  // ISO/IEC 23091-2 code points, 2: unspecified
   int transfer = 2;
-  bool matrix_stated = false;  // false: the file does not say, the matrix above is assumed from the image's height
-  bool range_stated = false;
+  bool matrix_stated = false;  // false: the file does not state it; the matrix above is assumed from the image's height
+  bool range_stated = false;   // false: the file does not state it; the range above is assumed
 
   [[nodiscard]] bool operator==(const ColorInfo&) const = default;
 };
+
+[[nodiscard]] constexpr int plane_count(PixelLayout layout) {
+  return layout == PixelLayout::gray ? 1 : 3;
+}
 
 // One image of the footage in its own planes, CV_8UC1 each. Unused planes are empty.
 struct Frame {
@@ -41,13 +48,13 @@ struct Frame {
   ColorInfo color;
   std::array<cv::Mat, 3> planes{};
   double time_s = 0;     // presentation time, 0 at the footage's first frame
-  bool damaged = false;  // the footage's own frame is damaged: another one, which is intact, stands in for it
+  bool damaged = false;  // the footage's own frame is damaged; the samples are of an intact one nearby
 
   [[nodiscard]] cv::Size size_px() const { return planes[0].size(); }
-  [[nodiscard]] int plane_count() const { return layout == PixelLayout::gray ? 1 : 3; }
+  [[nodiscard]] int plane_count() const { return sigs::plane_count(layout); }
 };
 
-// cv::Mat shares its samples; this shares nothing.
+// A deep copy: copies of a cv::Mat share their samples, those of this frame are its own.
 [[nodiscard]] Frame cloned(const Frame& frame);
 
 // A frame whose samples are all 0.
@@ -56,8 +63,9 @@ struct Frame {
 // How many luma samples one chroma sample spans, in x and y: {2, 2} for yuv420, {1, 1} for layouts without subsampling.
 [[nodiscard]] cv::Size chroma_step(PixelLayout layout);
 
-// Linear map between code values and R'G'B' in 0..1: rgb = to_rgb * (code - offset), code = from_rgb * rgb + offset.
-// For gray the first row and column are all there is (luma alone, R' = G' = B'); for rgb it is a division by 255.
+// The linear map between 8-bit code values (planes 0, 1, 2) and R'G'B' in 0..1:
+//   rgb = to_rgb * (code - offset), code = from_rgb * rgb + offset
+// For gray only luma is used (R' = G' = B'); for rgb the map is a division by 255. Equations of H.273, section 8.3.
 struct CodeToRgb {
   cv::Matx33f to_rgb;
   cv::Matx33f from_rgb;
@@ -65,9 +73,11 @@ struct CodeToRgb {
 };
 [[nodiscard]] CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color);
 
-// Whole images as 8-bit BGR (OpenCV's order), chroma read at its own site (bilinear), and back (chroma averaged at
-// its site). For showing, for PNG files and for the classic method; the direct method never converts a whole image.
+// A whole image as 8-bit BGR (CV_8UC3, OpenCV's order), chroma interpolated bilinearly from its site. For display, for
+// PNG files and for the classic method; the direct method never converts a whole image. The frame must not be empty.
 [[nodiscard]] cv::Mat bgr_of(const Frame& frame);
+
+// The reverse: an 8-bit BGR image as a frame, chroma averaged at its site (shrunk_chroma), codes rounded.
 [[nodiscard]] Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color);
 
 }  // namespace sigs

@@ -53,7 +53,7 @@ size_t FrameSeeker::nearest_start(int n) const {
   return behind == starts_.begin() ? 0 : static_cast<size_t>(behind - starts_.begin()) - 1;
 }
 
-// Behind the next start lie, in decoding, images that are shown before it.
+// The ordinal at which the group of a start ends. Images that are shown before the next start may be decoded after it.
 int FrameSeeker::end_of_group(size_t start) const {
   if (start + 1 >= starts_.size()) return static_cast<int>(first_place_.size());
   const Start& next = starts_[start + 1];
@@ -70,14 +70,14 @@ const FrameSeeker::Placed* FrameSeeker::kept(int n) const {
 }
 
 void FrameSeeker::keep(Placed placed) {
-  const size_t most = std::clamp<size_t>(bytes_to_keep_ / bytes_of(*placed.image.frame), 1, 32);
+  const size_t max_count = std::clamp<size_t>(bytes_to_keep_ / bytes_of(*placed.image.frame), 1, 32);
   kept_.push_back(std::move(placed));
-  while (kept_.size() > most) kept_.pop_front();
+  while (kept_.size() > max_count) kept_.pop_front();
 }
 
-// Images that are shown before the start but decoded behind it lean on what was not decoded, and none behind the
-// start leans on them.
-bool FrameSeeker::is_excused(int ordinal) const {
+// Whether a packet does not count for the run's damage. Images that are shown before the start but decoded after it
+// refer to images that were not decoded, and no image after the start refers to them.
+bool FrameSeeker::is_outside_run(int ordinal) const {
   const int n = first_place_[static_cast<size_t>(ordinal)];
   if (n < 0) return start_ == 0 && ordinal < head_end_;
   return n < starts_[start_].n;
@@ -89,7 +89,7 @@ bool FrameSeeker::is_intact(size_t start, int n) const {
   return damage_[start] > ordinal && !missing_.contains({start, n});
 }
 
-bool FrameSeeker::got_over_a_group(size_t start, int n) const {
+bool FrameSeeker::reached_next_start(size_t start, int n) const {
   const int stopped = std::min(damage_[start], ordinal_of(n));
   return start + 1 < starts_.size() && starts_[start + 1].ordinal <= stopped;
 }
@@ -107,30 +107,30 @@ void FrameSeeker::note_damage() {
     while (order_.in_fields && ordinal > 0 && first_place_[static_cast<size_t>(ordinal)] < 0) --ordinal;
     if (order_.intra_only)
       damaged_.insert(ordinal);
-    else if (is_excused(ordinal))
+    else if (is_outside_run(ordinal))
       head_damage_ = start_ == 0 ? std::min(head_damage_, ordinal) : head_damage_;
     else
       damage_[start_] = std::min(damage_[start_], ordinal);
   }
 }
 
-void FrameSeeker::miss_up_to(int n) {
+void FrameSeeker::note_missing_up_to(int n) {
   for (int m = newest_ + 1; m <= n; ++m) {
     if (order_.intra_only)
       damaged_.insert(ordinal_of(m));
     else
       missing_.insert({start_, m});
-    if (start_ > 0 && m == starts_[start_].n) damage_[start_] = starts_[start_].ordinal;  // no start at all
+    if (start_ > 0 && m == starts_[start_].n) damage_[start_] = starts_[start_].ordinal;  // not a keyframe
   }
   newest_ = std::max(newest_, n);
 }
 
-// One packet may make several images; they come out one after the other.
+// Takes an image that the decoder has given. One packet may give several images, one after the other.
 void FrameSeeker::place(DecodedFrame image) {
   int n = first_place_.at(static_cast<size_t>(image.ordinal));
   if (newest_ + 1 < count() && ordinal_of(newest_ + 1) == image.ordinal) n = newest_ + 1;
   if (n <= newest_) return;
-  miss_up_to(n - 1);
+  note_missing_up_to(n - 1);
   newest_ = n;
   if (start_ > 0 && image.ordinal == starts_[start_].ordinal && !libav::is_key(*image.frame))
     damage_[start_] = image.ordinal;
@@ -147,29 +147,30 @@ Result<void> FrameSeeker::run_on_to(int n) {
       place(std::move(**image));
     } else {
       running_ = false;
-      miss_up_to(n);
+      note_missing_up_to(n);
     }
     if (!order_.intra_only && damage_[start_] <= ordinal_of(n)) return {};
   }
   return {};
 }
 
-bool FrameSeeker::goes_on_to(size_t start, int n) const {
+bool FrameSeeker::can_continue_to(size_t start, int n) const {
   return running_ && start_ == start && n > newest_ && ordinal_of(n) < end_;
 }
 
 Result<void> FrameSeeker::run(size_t start, int n) {
-  if (!goes_on_to(start, n))
+  if (!can_continue_to(start, n))
     if (const Result<void> begun = begin(start, starts_[start].ordinal, end_of_group(nearest_start(n))); !begun)
       return begun;
   return run_on_to(n);
 }
 
-// A decoder that works on one image at a time is a fresh one for each: some keep tables of those before.
+// For images that are coded alone. A decoder that works on one image at a time is opened afresh for each image: some
+// keep tables from one to the next.
 Result<void> FrameSeeker::run_alone(int n) {
   const int ordinal = ordinal_of(n);
-  const bool goes_on = running_ && order_.decodes_ahead && n > newest_ && ordinal <= stream_.fed() + 1;
-  if (!goes_on) {
+  const bool continues = running_ && order_.decodes_ahead && n > newest_ && ordinal <= stream_.fed() + 1;
+  if (!continues) {
     const int end = order_.decodes_ahead ? static_cast<int>(first_place_.size()) : ordinal + 1;
     if (const Result<void> begun = begin(0, ordinal, end); !begun) return begun;
     newest_ = first_place_[static_cast<size_t>(ordinal)] - 1;
@@ -177,7 +178,7 @@ Result<void> FrameSeeker::run_alone(int n) {
   return run_on_to(n);
 }
 
-// Makes the n-th image, which is kept then. False: it is damaged.
+// Decodes the n-th image, which is then among those kept. False: it is damaged.
 Result<bool> FrameSeeker::show(int n) {
   if (kept(n) != nullptr) return true;
   if (order_.intra_only) {
@@ -190,11 +191,11 @@ Result<bool> FrameSeeker::show(int n) {
       if (const Result<void> ran = run(start, n); !ran) return fail(ran.error());
       if (is_intact(start, n)) return kept(n) != nullptr;
     }
-    if (start == 0 || got_over_a_group(start, n)) return false;
+    if (start == 0 || reached_next_start(start, n)) return false;
   }
 }
 
-// The last intact image before the n-th, else the first behind it; -1: there is none.
+// The last intact image before the n-th, else the first one after it; -1: there is none.
 Result<int> FrameSeeker::substitute_of(int n) {
   const auto known = [this](int m) { return shown_[static_cast<size_t>(m)]; };
   for (int m = n - 1; m >= 0;) {
@@ -212,7 +213,7 @@ Result<int> FrameSeeker::substitute_of(int n) {
   return -1;
 }
 
-// Held beside the images kept, so that a long damaged stretch does not make it again and again.
+// Keeps a substitute apart from the other images, so that a long damaged part does not decode it again and again.
 void FrameSeeker::hold_as_substitute(int n) {
   const Placed* placed = kept(n);
   if (placed == nullptr || (substitute_ && substitute_->n == n)) return;

@@ -14,31 +14,38 @@
 
 namespace sigs {
 
-// The image that is shown as the n-th, which depends on the file and n alone. A *run* is what a fresh decoder makes
-// of the packets from a start, a keyframe, on; up to the first packet that is damaged its images are intact.
+// Finds the n-th image of a video in order of presentation. The result depends on the file and n alone, not on what was
+// read before. A *run* is the sequence of images that a fresh decoder produces from a start (a keyframe) on; up to the
+// first damaged packet its images are intact.
 //   1. The n-th image is taken from the nearest start at or before it whose run has it intact.
-//   2. Starts are gone back over until there is one, or until a run got over a whole group of images before its
-//      damage: then the start was right and the footage is damaged. Starts that are no keyframes have no run.
-//   3. An image that no run has intact is substituted by the last intact one before it, or the first intact one at all.
-// Where images stand alone each has a run of its own, and there is nothing to go back to.
+//   2. Where the nearest start has it damaged, earlier starts are tried, until a run reaches the next start without
+//      damage: then that start is a correct one and the footage is damaged. Starts that turn out to be no keyframes
+//      have no run.
+//   3. An image that no run has intact is substituted by the last intact one before it, else by the first intact one.
+// Where each image is coded alone, each is a run of its own, and no other start is tried.
 class FrameSeeker {
  public:
+  //   order          the order of presentation; it belongs to the stream
+  //   bytes_to_keep  memory for decoded images, so that steps back need no decoding
   FrameSeeker(libav::FrameDecoder stream, libav::FrameOrder order, const libav::PacketTable& table,
               size_t bytes_to_keep);
 
+  // A decoded image that is intact.
   struct Found {
     const libav::DecodedFrame* image = nullptr;  // null: no image of the file is intact
-    int n = 0;                                   // which image it is
+    int n = 0;                                   // the number of that image; another one where it is a substitute
   };
 
-  // Valid until the next call.
+  // The n-th image or its substitute; valid until the next call. Errors as of FrameDecoder.
   [[nodiscard]] Result<Found> find(int n);
 
  private:
+  // An image with its number.
   struct Placed {
     libav::DecodedFrame image;
     int n = 0;
   };
+  // A keyframe: its number, and the ordinal of its packet.
   struct Start {
     int n = 0;
     int ordinal = 0;
@@ -50,43 +57,43 @@ class FrameSeeker {
   [[nodiscard]] int count() const { return static_cast<int>(order_.ordinals.size()); }
   [[nodiscard]] size_t nearest_start(int n) const;
   [[nodiscard]] int end_of_group(size_t start) const;
-  [[nodiscard]] bool is_excused(int ordinal) const;
+  [[nodiscard]] bool is_outside_run(int ordinal) const;
   [[nodiscard]] bool is_intact(size_t start, int n) const;
-  [[nodiscard]] bool got_over_a_group(size_t start, int n) const;
+  [[nodiscard]] bool reached_next_start(size_t start, int n) const;
   [[nodiscard]] Result<bool> show(int n);
   [[nodiscard]] Result<int> substitute_of(int n);
   void hold_as_substitute(int n);
   [[nodiscard]] Result<void> run(size_t start, int n);
   [[nodiscard]] Result<void> run_alone(int n);
   [[nodiscard]] Result<void> run_on_to(int n);
-  [[nodiscard]] bool goes_on_to(size_t start, int n) const;
+  [[nodiscard]] bool can_continue_to(size_t start, int n) const;
   [[nodiscard]] Result<void> begin(size_t start, int from, int end);
   void note_damage();
   void place(libav::DecodedFrame image);
-  void miss_up_to(int n);
+  void note_missing_up_to(int n);
   [[nodiscard]] const Placed* kept(int n) const;
   void keep(Placed placed);
 
   libav::FrameDecoder stream_;
   libav::FrameOrder order_;
-  std::vector<int> first_place_;    // n by ordinal; -1: makes no image
-  std::vector<int> last_ordinals_;  // by n: the last packet, in decoding, of the images up to the n-th
+  std::vector<int> first_place_;    // n by ordinal; -1: the packet gives no image
+  std::vector<int> last_ordinals_;  // by n: the last packet, in order of decoding, of the images up to the n-th
   std::vector<Start> starts_;       // the first is where the file begins
-  int head_end_ = 0;                // packets before it that make no image lean on what lies before the file
-  size_t bytes_to_keep_ = 0;
+  int head_end_ = 0;                // packets before it that give no image depend on what lies before the file
+  size_t bytes_to_keep_ = 0;        // for kept_
 
-  std::vector<int> damage_;  // by start: the first damaged packet of its run as far as it is known; kNone: none
+  std::vector<int> damage_;  // by start: the first damaged packet of its run, as far as known; kNone: none
   int head_damage_ = kNone;  // the first damaged packet of those before the first start in presentation
-  std::set<std::pair<size_t, int>> missing_;  // start and n: its run does not make the image
-  std::set<int> damaged_;                     // where images stand alone: ordinals
-  std::vector<int> shown_;                    // by n: which image is shown; -1: not known yet
+  std::set<std::pair<size_t, int>> missing_;  // start and n: its run does not give the image
+  std::set<int> damaged_;                     // where images are coded alone: ordinals
+  std::vector<int> shown_;                    // by n: which image is given for it; -1: not known yet
 
   std::deque<Placed> kept_;           // intact images, the newest last
   std::optional<Placed> substitute_;  // the one used last
-  size_t start_ = 0;                  // of the run that the decoder is in
-  bool running_ = false;
-  int newest_ = -1;  // the last image of the run that came out
-  int end_ = 0;      // ordinal before which the run stops
+  size_t start_ = 0;                  // of the decoder's present run
+  bool running_ = false;              // the decoder can continue
+  int newest_ = -1;                   // the last image that the run has given
+  int end_ = 0;                       // ordinal before which the run ends
 };
 
 }  // namespace sigs

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "video/frame_source.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
 #include "base/ensure.h"
 #include "base/threads.h"
 #include "video/frame_seeker.h"
-#include "video/libav/orientation.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_info.h"
 
@@ -16,14 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kBytesToKeep = 64 << 20;  // of images already decoded, for stepping back
+constexpr size_t kBytesToKeep = 64 << 20;  // of decoded images, for steps back
 
-Error named(Error error, const fs::path& path) {
-  if (error.where.empty() && error.kind != ErrorKind::interrupted) error.where = path.string();
-  return error;
-}
-
-// Images before the first that can be decoded (a clip cut out of an open group of images) are no frames.
+// Removes the images before the first that can be decoded (in a clip that begins in an open group of pictures). Returns
+// their number.
 int drop_undecodable_head(libav::FrameOrder& order, int first_ordinal) {
   int n = 0;
   while (n < static_cast<int>(order.ordinals.size()) && order.ordinals[static_cast<size_t>(n)] != first_ordinal) ++n;
@@ -36,7 +33,7 @@ int drop_undecodable_head(libav::FrameOrder& order, int first_ordinal) {
   return n;
 }
 
-// From the packets where that is sure, else by decoding everything.
+// From the packets where that is certain, else by decoding everything.
 Result<libav::FrameOrder> order_of(const libav::PacketTable& table, libav::FrameDecoder& stream) {
   const libav::Demuxer& source = stream.demuxer();
   if (auto order = libav::order_from_packets(table, source.format(), source.stream())) return std::move(*order);
@@ -52,38 +49,35 @@ Result<libav::DecodedFrame> first_image(libav::FrameDecoder& stream, const libav
   return std::move(**first);
 }
 
-// A file as it was when it was opened.
-struct FileState {
-  uintmax_t bytes = 0;
-  fs::file_time_type written;
+}  // namespace
 
-  [[nodiscard]] bool operator==(const FileState&) const = default;
+struct FrameSource::State {
+  // Size and time of a file, by which a change is noticed.
+  struct FileState {
+    uintmax_t bytes = 0;
+    fs::file_time_type written;
+
+    [[nodiscard]] bool operator==(const FileState&) const = default;
+  };
+
+  libav::PacketTable table;
+  VideoInfo info;
+  std::optional<FrameSeeker> seeker;
+  const std::atomic<bool>* cancel = nullptr;  // null: none
+  FileState file;                             // when it was opened
+  libav::Orientation orientation;
+
+  [[nodiscard]] static FileState state_of(const fs::path& path);
+  [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
+  [[nodiscard]] Result<Frame> read(int n);
 };
 
-FileState state_of(const fs::path& path) {
+FrameSource::State::FileState FrameSource::State::state_of(const fs::path& path) {
   std::error_code code;
   FileState state{.bytes = fs::file_size(path, code)};
   state.written = fs::last_write_time(path, code);
   return state;
 }
-
-std::string size_text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-}  // namespace
-
-struct FrameSource::State {
-  libav::PacketTable table;
-  VideoInfo info;
-  std::optional<FrameSeeker> seeker;
-  const std::atomic<bool>* cancel = nullptr;  // null: none
-  FileState file;
-  libav::Orientation orientation;
-
-  [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
-  [[nodiscard]] Result<Frame> read(int n);
-};
 
 Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   table = libav::PacketTable::read(demuxer);
@@ -101,7 +95,7 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   if (const Result<void> possible = libav::check_orientation(orientation, info.layout); !possible) return possible;
   if (dropped > 0)
     info.warnings.push_back(
-        {info.path.string(), std::to_string(dropped) + " images before the first that can be decoded are left out"});
+        {info.path.string(), fmt::format("{} images before the first that can be decoded are left out", dropped)});
   seeker.emplace(std::move(stream), std::move(*order), table, kBytesToKeep);
   const Result<FrameSeeker::Found> intact = seeker->find(0);
   if (!intact) return fail(intact.error());
@@ -115,10 +109,10 @@ Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bo
     if (!demuxer) return fail(demuxer.error());
     auto state = std::make_unique<State>();
     state->info.path = path;
-    state->file = state_of(path);
+    state->file = State::state_of(path);
     state->cancel = cancel;
     const Result<void> opened = state->open(std::move(*demuxer));
-    if (!opened) return fail(named(opened.error(), path));
+    if (!opened) return fail(libav::named(opened.error(), path));
     return FrameSource(std::move(state));
   });
 }
@@ -133,14 +127,15 @@ const VideoInfo& FrameSource::info() const {
 }
 
 Result<Frame> FrameSource::State::read(int n) {
-  const std::string where = info.path.string() + ": frame " + std::to_string(n);
+  const std::string where = fmt::format("{}: frame {}", info.path.string(), n);
   const Result<FrameSeeker::Found> found = seeker->find(n);
-  if (!found) return fail(named(found.error(), info.path));
+  if (!found) return fail(libav::named(found.error(), info.path));
   if (found->image == nullptr) return fail(where, "is damaged, and so are all others");
   const AVFrame& image = *found->image->frame;
   const cv::Size size = libav::oriented(cv::Size(image.width, image.height), orientation);
   if (size != info.size_px)
-    return fail(where, "the image's size changes from " + size_text(info.size_px) + " to " + size_text(size));
+    return fail(where, fmt::format("the image's size changes from {} to {}", libav::size_text(info.size_px),
+                                   libav::size_text(size)));
   Result<Frame> frame = libav::frame_of(image, info.layout, info.color);
   if (!frame) return fail(where, frame.error().what);
   if (!(orientation == libav::Orientation{})) frame = libav::oriented(*frame, orientation);
@@ -152,11 +147,10 @@ Result<Frame> FrameSource::State::read(int n) {
 Result<Frame> FrameSource::read(int n) {
   ENSURE(n >= 0 && n < state_->info.frame_count());
   Result<Frame> frame = guarded([&] { return state_->read(n); });
-  // What the reading gave may then be less than is there.
-  if (state_->cancel != nullptr && state_->cancel->load())
-    return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-  // Behind the reading: what was read may be neither the file of before nor that of after.
-  if (!(state_of(state_->info.path) == state_->file))
+  // After a cancellation the result may be incomplete.
+  if (state_->cancel != nullptr && state_->cancel->load()) return libav::interrupted();
+  // Checked after reading: the result may mix the old and the new file.
+  if (!(State::state_of(state_->info.path) == state_->file))
     return fail(state_->info.path.string(), "changed while it was being read; start again when nothing writes to it",
                 ErrorKind::cannot_read);
   return frame;

@@ -13,36 +13,37 @@
 
 namespace sigs {
 
-// What is known of a video once its index is read.
+// The properties of a video, known once its index has been read.
 struct VideoInfo {
   std::filesystem::path path;
   cv::Size size_px;
   PixelLayout layout = PixelLayout::yuv420;
   ColorInfo color;
   std::vector<double> times_s;  // presentation time of each frame, in order, 0 for the first
-  int frame_rate_num = 25;      // nominal rate; times_s holds the truth where the rate varies
+  int frame_rate_num = 25;      // nominal rate; where the rate varies, times_s has the exact times
   int frame_rate_den = 1;
   int pixel_aspect_num = 1;  // sample aspect ratio
   int pixel_aspect_den = 1;
   bool variable_frame_rate = false;
-  std::string codec;              // "h264"
-  std::string pixel_format;       // as the decoder names it: "yuv420p10le"
-  std::string conversion;         // how deeper or odd formats become 8-bit planes; empty: samples are taken as they are
-  std::string container;          // "mov,mp4,..."
-  long long declared_frames = 0;  // what the header claims; 0: nothing
+  std::string codec;         // "h264"
+  std::string pixel_format;  // as the decoder names it: "yuv420p10le"
+  std::string conversion;    // how other formats are converted to 8-bit planes; empty: samples are taken as they are
+  std::string container;     // "mov,mp4,..."
+  long long declared_frames = 0;  // number of frames that the header states; 0: none
   std::vector<Warning> warnings;  // "header declares 444 frames, 68 are there"
 
   [[nodiscard]] int frame_count() const { return static_cast<int>(times_s.size()); }
 };
 
-// A video, any frame by its number. The number counts the frames in order of presentation from 0 and is exact: frame n
-// is the n-th image that a whole decode from the start gives, whatever the codec, container or seek table.
+// Random access to the frames of a video. Numbers count the frames in order of presentation from 0 and are exact: frame
+// n is the n-th image that decoding the whole file from the start gives, whatever the codec, container or seek table.
 class FrameSource {
  public:
-  // Reads the container's packets once to build the index; nothing is decoded but what is needed for the format.
-  //   cancel  set: opening and reading end soon with the error interrupted; null or longer alive than the source
-  // Errors: cannot_read (missing, no regular file, no video in it, a play list), bad_data (no frame can be decoded
-  // soundly), interrupted.
+  // Reads the container's packets once to build the index. Frames are decoded only as far as the format requires.
+  //   cancel  while it is true, opening and reading soon end with the error interrupted; null, or alive as long as the
+  //           source
+  // Errors: cannot_read (missing, not a regular file, not a video, a playlist), bad_data (no frame can be decoded
+  // without damage), interrupted.
   [[nodiscard]] static Result<FrameSource> open(const std::filesystem::path& path,
                                                 const std::atomic<bool>* cancel = nullptr);
 
@@ -52,10 +53,9 @@ class FrameSource {
 
   [[nodiscard]] const VideoInfo& info() const;
 
-  // Frame n, 0 <= n < frame_count(). It depends on the file and n alone. Where the file is damaged so that the frame
-  // itself cannot be decoded soundly, the last intact frame before it is given in its place (before the first intact
-  // one: that one), marked damaged. Errors: bad_data (the image's size changes), cannot_read (the file was changed
-  // since it was opened).
+  // Frame n, 0 <= n < frame_count(). It depends on the file and n alone. Where the frame itself is damaged, the result
+  // is the last intact frame before it or, if there is none, the first intact one, with `damaged` set.
+  // Errors: bad_data (the image's size changes), cannot_read (the file has changed since it was opened), interrupted.
   [[nodiscard]] Result<Frame> read(int n);
 
  private:

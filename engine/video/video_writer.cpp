@@ -1,17 +1,54 @@
 // SPDX-License-Identifier: MIT
 #include "video/video_writer.h"
 
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/ensure.h"
 #include "base/threads.h"
 #include "video/libav/video_file.h"
-#include "video/png_sequence.h"
 
 namespace sigs {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// What is written as PNG: one channel for gray, else BGR.
+cv::Mat png_image(const Frame& frame) {
+  cv::Mat image = bgr_of(frame);
+  if (frame.layout == PixelLayout::gray) cv::extractChannel(image, image, 0);
+  return image;
+}
+
+// Writes one image as folder/frame_000123.png: 8-bit gray for gray footage (as full range), else 8-bit RGB.
+// Error write_failed.
+Result<void> write_png(const fs::path& folder, const Frame& frame, int number) {
+  const fs::path path = folder / fmt::format("frame_{:06}.png", number);
+  std::vector<uchar> bytes;
+  try {
+    cv::imencode(".png", png_image(frame), bytes);
+  } catch (const cv::Exception& problem) {
+    return fail(path.string(), "cannot be written as PNG: " + problem.err, ErrorKind::write_failed);
+  }
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out)
+    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
+  return {};
+}
+
+}  // namespace
 
 struct VideoWriter::State {
   fs::path path;
@@ -43,7 +80,7 @@ VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::warm_up() {
   if (!state_->file) return;
-  // What fails for want of memory fails again where it is needed, and is told there.
+  // A failure for lack of memory is not reported here: it fails again where it is needed.
   static_cast<void>(guarded([this]() -> Result<void> {
     state_->file->warm_up();
     return {};

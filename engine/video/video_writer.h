@@ -13,17 +13,18 @@ namespace sigs {
 enum class VideoCodec { ffv1, h264, mjpeg, png };
 enum class Container { mkv, mp4, avi };
 
+// What is written, and into which file format.
 struct VideoFormat {
   VideoCodec codec = VideoCodec::ffv1;
   Container container = Container::mkv;  // png: a folder of numbered images instead
   int crf = 18;                          // h264: 0 (lossless) to 51
-  int threads = 1;                       // of the encoder; the bytes do not depend on it
+  int threads = 1;                       // of the encoder; the bytes do not depend on their number
   cv::Size size_px;
   PixelLayout layout = PixelLayout::yuv420;
   ColorInfo color;
-  int frame_rate_num = 25;
+  int frame_rate_num = 25;  // nominal rate; frames carry their own times
   int frame_rate_den = 1;
-  int pixel_aspect_num = 1;
+  int pixel_aspect_num = 1;  // sample aspect ratio
   int pixel_aspect_den = 1;
 };
 
@@ -31,26 +32,29 @@ struct VideoFormat {
 // machine, no thread count. The caller gives the file its final name (base/staged_outputs.h).
 class VideoWriter {
  public:
-  // Errors: usage (codec and container do not go together: ffv1 wants mkv or avi, png wants none), unavailable (no such
-  // encoder), cannot_create.
-  //   path  the file to write, its extension does not matter; for png the folder, which must exist
+  //   path  the file to write, whatever its extension; for png the folder, which must exist
+  // Errors: usage (codec and container do not go together, as ffv1 and mp4; the codec cannot store the size),
+  // unavailable (no such encoder), cannot_create.
   [[nodiscard]] static Result<VideoWriter> open(const std::filesystem::path& path, const VideoFormat& format);
 
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
   ~VideoWriter();
 
-  // Does what the first images would have to wait for, so that they need not. The bytes are the same without it.
+  // Prepares in advance what the first images would have to wait for. Optional: the bytes are the same without it.
   void warm_up();
 
-  // Frames in order, each with a time after the one before. number names the image of a png sequence:
-  // frame_000123.png. Error write_failed (disk full).
+  // Writes the next frame. Its layout and size are those of the format, its time_s is later than that of the frame
+  // before.
+  //   number  names the image of a png sequence: frame_000123.png
+  // Errors: write_failed (disk full), bad_data (the time is not later).
   [[nodiscard]] Result<void> write(const Frame& frame, int number);
 
-  // The same for an image whose samples are all 0. FFV1 encodes one of them alone; the bytes are those of write().
+  // Writes a frame whose samples are all 0; the bytes are those of write(). FFV1 encodes only the first of them.
   [[nodiscard]] Result<void> write_blank(double time_s, int number);
 
-  // Writes what the encoder still holds and the container's end. Without it the file is not complete.
+  // Writes what the encoder still has in its buffers, and the end of the container. Without it the file is incomplete.
+  // Nothing can be written afterwards. Error write_failed.
   [[nodiscard]] Result<void> finish();
 
  private:
@@ -59,7 +63,7 @@ class VideoWriter {
   std::unique_ptr<State> state_;
 };
 
-// "mkv", "mp4", "avi"; png has no extension of its own.
+// The extension of a container's file name, without the dot: "mkv", "mp4", "avi".
 [[nodiscard]] const char* extension_of(Container container);
 
 }  // namespace sigs

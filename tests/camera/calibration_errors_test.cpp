@@ -43,13 +43,13 @@ const std::string kGyroflow =
 
 }  // namespace
 
-TEST_CASE("the correct texts that the faulty ones are made from are read") {
+TEST_CASE("the correct texts from which the faulty ones are derived are read") {
   CHECK(message(with_matrix("[500, 0, 320, 0, 510, 240, 0, 0, 1]")).empty());
   CHECK(message(with("")).empty());
   CHECK(message("{" + kGyroflow + "}").empty());
 }
 
-TEST_CASE("a calibration that cannot be opened is told from a faulty one") {
+TEST_CASE("a calibration that cannot be opened gives another kind of error than a faulty one") {
   const TemporaryFolder folder;
   const auto missing = read_calibration(folder / "none.xml");
   REQUIRE_FALSE(missing.has_value());
@@ -60,7 +60,7 @@ TEST_CASE("a calibration that cannot be opened is told from a faulty one") {
   CHECK(a_folder.error().kind == ErrorKind::cannot_read);
 }
 
-TEST_CASE("what is no calibration at all is refused") {
+TEST_CASE("a file that is no calibration is refused") {
   CHECK(message("") == "gopro.any: is empty");
   CHECK(message(" \n\t\n") == "gopro.any: is empty");
   CHECK(message(std::string("\x89PNG\0\0\x01", 7)) == "gopro.any: is not a text file");
@@ -101,7 +101,7 @@ TEST_CASE("missing keys are named") {
   CHECK(contains(size, "image_width"));
 }
 
-TEST_CASE("a camera matrix that is none is refused") {
+TEST_CASE("an invalid camera matrix is refused") {
   CHECK(message(with_matrix("[500, 0, 320, 0, 510, 240, 0, 0]")) ==
         "gopro.any: camera_matrix: expected 9 numbers, found 8");
   CHECK(message(with_matrix("[]")) == "gopro.any: camera_matrix: expected 9 numbers, found 0");
@@ -126,7 +126,7 @@ TEST_CASE("a camera matrix that is none is refused") {
         "gopro.any: camera_matrix: rows and cols say 9 numbers, found 3");
 }
 
-TEST_CASE("a camera matrix of OpenCV that is none is refused") {
+TEST_CASE("an invalid camera matrix of OpenCV is refused") {
   const auto xml = [](const std::string& data) {
     return "<?xml version=\"1.0\"?><opencv_storage><camera_matrix "
            "type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols>"
@@ -141,7 +141,7 @@ TEST_CASE("a camera matrix of OpenCV that is none is refused") {
   CHECK(message(xml("500. 0. left 0. 510. 240. 0. 0. 1.")) == "gopro.any: camera_matrix: 'left' is not a number");
 }
 
-TEST_CASE("coefficients that no model has are refused") {
+TEST_CASE("coefficients that fit no model are refused") {
   CHECK(message(with_coefficients("[1, 2, 3, 4, 5, 6]")) ==
         "gopro.any: dist_coeffs: expected 0, 4, 5, 8, 12 or 14 distortion coefficients, found 6");
   CHECK(message(with_coefficients("[1, 2, 3, 4, 5]\nfisheye_model: 1")) ==
@@ -154,7 +154,7 @@ TEST_CASE("coefficients that no model has are refused") {
       contains(message(with_coefficients("[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2]")), "dist_coeffs: the sensor's"));
 }
 
-TEST_CASE("a size that is none is refused") {
+TEST_CASE("an invalid size is refused") {
   CHECK(message(with("image_width: 640")) ==
         "gopro.any: image_width: a width without a height; looked for image_height, image_Height, imageHeight, height");
   CHECK(contains(message(with("height: 480")), "gopro.any: height: a height without a width"));
@@ -180,7 +180,7 @@ TEST_CASE("footage without a size is refused for a file without one") {
   CHECK(message(with(""), cv::Size(0, 0)) == "gopro.any: cannot be scaled to footage of 0x0");
 }
 
-TEST_CASE("models that are not ours are refused by name") {
+TEST_CASE("unsupported models are refused by name") {
   CHECK(message(with("xi: 0.95")) ==
         "gopro.any: xi: the omnidirectional model (xi) is not supported; calibrate as fisheye");
   CHECK(message(with("distortion_model: fov")) ==

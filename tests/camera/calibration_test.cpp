@@ -23,7 +23,7 @@ Result<Camera> read(const std::string& text, std::optional<cv::Size> footage_px 
   return read_calibration(folder / name, footage_px);
 }
 
-// fx 500, fy 510, cx 320, cy 240 and the given coefficients, whatever the flavour.
+// fx 500, fy 510, cx 320, cy 240 and the given coefficients, whatever the format.
 void check_reads_as(const std::string& text, LensModel model, const Coefficients& coefficients,
                     cv::Size size_px = {640, 480}) {
   INFO(text);
@@ -58,7 +58,7 @@ const std::string kSizeXml = "<image_width>640</image_width><image_height>480</i
 
 }  // namespace
 
-TEST_CASE("what OpenCV writes is read back") {
+TEST_CASE("files that OpenCV has written are read back") {
   const cv::Mat matrix = (cv::Mat_<double>(3, 3) << 500, 0, 320, 0, 510, 240, 0, 0, 1);
   const Coefficients coefficients{-0.25, 0.125, 0.001, -0.002, 1.0 / 3};
   for (const char* extension : {".xml", ".yml", ".json"})
@@ -70,7 +70,8 @@ TEST_CASE("what OpenCV writes is read back") {
           << "image_width" << 640 << "image_height" << 480;
       out << "flags" << 6158 << "fisheye_model" << 0 << "camera_matrix" << matrix;
       out << "distortion_coefficients" << cv::Mat(coefficients) << "rms" << 0.39;
-      if (base64 && std::string(extension) == ".json") continue;  // its own reader knows how, JSON's does not
+      if (base64 && std::string(extension) == ".json")
+        continue;  // OpenCV's own reader supports it, the JSON reader does not
       check_reads_as(out.releaseAndGetString(), kBrown, coefficients);
     }
 }
@@ -138,7 +139,7 @@ TEST_CASE("YAML with OpenCV tags is read with its own header and without") {
     check_reads_as(head + body, kBrown, {-0.25, 0.125, 0, 0.05});
 }
 
-TEST_CASE("line ends of Windows do not matter") {
+TEST_CASE("line ends of Windows are accepted") {
   std::string text = "%YAML:1.0\n---\nK: " + kMatrixYaml + "\nD: [1, 2, .03, .04]\nimage_size: [640, 480]\n";
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
   check_reads_as(text, kBrown, {1, 2, 0.03, 0.04});
@@ -182,7 +183,7 @@ TEST_CASE("a Gyroflow profile's stabilisation crop keeps the middle of the image
     CHECK_FALSE(read(profile(std::string(R"(, "crop": )") + wrong)).has_value());
 }
 
-TEST_CASE("a Gyroflow profile's stretch is that of its images and not of the footage's") {
+TEST_CASE("a Gyroflow profile's stretch applies to its images and not to the footage's") {
   // Of real footage of 3840x2160 with a 1.212 anamorphic lens: 3840 * 1.212 = 4654.
   const std::string text = profile(R"(, "input_horizontal_stretch": 1.212)", R"({"w": 4654, "h": 2160})");
   const auto own = read(text);
@@ -201,7 +202,7 @@ TEST_CASE("a Gyroflow profile's stretch is that of its images and not of the foo
   CHECK(read(profile(R"(, "input_horizontal_stretch": 0.0)"))->lens.parameters().fx == 500);  // not set
 }
 
-TEST_CASE("what a Gyroflow profile leaves open is warned of by name") {
+TEST_CASE("a warning names each setting that a Gyroflow profile leaves open") {
   const TemporaryFolder folder;
   const auto warnings = [&](const std::string& rest) {
     std::ofstream(folder / "p.json") << profile(rest);
@@ -261,7 +262,7 @@ TEST_CASE("a side may be rounded by half a pixel") {
   CHECK(camera->lens.parameters().fy == doctest::Approx(510 * 480.0 / 1080).epsilon(1e-15));
 }
 
-TEST_CASE("a shape within one percent of the calibration's is scaled side by side and warned of") {
+TEST_CASE("a shape within one percent of the calibration's is scaled each side by itself, with a warning") {
   // GoPro's 848x480 is 853.3x480 in whole blocks of 16.
   const TemporaryFolder folder;
   std::ofstream(folder / "lens.yml") << "K: " << kMatrixYaml << "\nD: []\nimage_size: [1920, 1080]\n";

@@ -7,10 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include "camera/brown_conrady.h"
+#include "camera/distortion_models.h"
 #include "camera/example_lenses.h"
-#include "camera/kannala_brandt.h"
-#include "camera/polynomial.h"
+#include "camera/numerics.h"
 
 namespace sigs::test {
 namespace {
@@ -51,7 +50,7 @@ TEST_CASE("the Jacobian of every lens is that of finite differences") {
   }
 }
 
-TEST_CASE("the tilt is undone by its inverse") {
+TEST_CASE("the inverse of the tilt leads back to the point") {
   std::vector<double> coefficients(14, 0.0);
   coefficients[12] = 0.3;
   coefficients[13] = -0.2;
@@ -64,7 +63,7 @@ TEST_CASE("the tilt is undone by its inverse") {
     }
 }
 
-TEST_CASE("beyond the horizon of a tilted sensor there is nothing to undo") {
+TEST_CASE("points beyond the horizon of a tilted sensor have no inverse") {
   std::vector<double> coefficients(14, 0.0);
   coefficients[12] = 0.3;
   const BrownConrady model = BrownConrady::of(coefficients);
@@ -84,7 +83,7 @@ TEST_CASE("the first fall of a polynomial is its smallest root") {
   CHECK(distortion::first_fall(Polynomial{1, -1e-12}, 1e11) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("a dip of a millionth is not stepped over") {
+TEST_CASE("a dip with a width of a millionth is found") {
   // (u - 1)^2 = 1e-12, so the roots are 1 - 1e-6 and 1 + 1e-6; a double root doubles the digits that rounding takes
   const Polynomial dip{1 - 1e-12, -2, 1};
   CHECK(distortion::first_fall(dip, 1e16) == doctest::Approx(1 - 1e-6).epsilon(1e-9));

@@ -49,7 +49,7 @@ std::vector<ExampleLens> example_lenses() {
       {"12 coefficients", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, twelve), vga},
       {"12, strong prism",
        lens_of(kBrown, 500, 500, {320, 240}, {-0.2, 0.05, 0, 0, 0, 0, 0, 0, 0.1, -0.02, 0.05, 0.03}), vga},
-      // Bent so much that Newton's method from the radial answer misses parts of the field.
+      // Distorted so much that Newton's method from the radial answer misses parts of the field.
       {"12, wild",
        lens_of(kBrown, 500, 600, {320, 240},
                {-2.31165, 0.535954, 1.95676, 0.00111828, -5.10527, 0.00055061, 2.78996, 1.27892, 1.88511, -1.49008,

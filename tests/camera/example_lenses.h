@@ -17,15 +17,16 @@ struct ExampleLens {
   cv::Size size_px;
 };
 
-// Every size of model and every sort of trouble.
+// Lenses with every number of coefficients and every kind of difficulty: folds, poles, tilts, extreme values.
 [[nodiscard]] std::vector<ExampleLens> example_lenses();
 
 // All calibrations among the real data; empty where they are absent.
 [[nodiscard]] std::vector<ExampleLens> real_lenses();
 
-// Both.
+// example_lenses() and real_lenses().
 [[nodiscard]] std::vector<ExampleLens> all_lenses();
 
+// The lens of these parameters, which must be valid.
 [[nodiscard]] Lens lens_of(LensModel model, double fx, double fy, glm::dvec2 center, std::vector<double> coefficients);
 
 // Unit direction in the camera frame at an angle from the axis; turn 0 is to the right, a quarter turn is down.
@@ -34,7 +35,7 @@ struct ExampleLens {
 // Directions over the whole valid field (up to share of its angle), axis first.
 [[nodiscard]] std::vector<glm::dvec3> directions_over(const Lens& lens, int rings, int spokes, double share);
 
-// What OpenCV makes of points in front of the camera, whether or not they lie in the field.
+// The pixels that OpenCV computes for points in front of the camera, whether or not they lie in the field.
 [[nodiscard]] std::vector<glm::dvec2> opencv_pixels(const Lens& lens, const std::vector<glm::dvec3>& p_in_camera);
 
 // Angle between two directions, good for small ones too.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texts made to exhaust stack, time or memory: refused in one line, at once. A hang ends the test by its alarm.
+// Texts that are meant to exhaust stack, time or memory are refused in one line, at once. A hang ends the test by its
+// alarm.
 #include <doctest/doctest.h>
 
 #include <unistd.h>
@@ -50,7 +51,7 @@ const std::string kLensOfJson = R"("K": [500, 0, 320, 0, 510, 240, 0, 0, 1], "D"
 
 }  // namespace
 
-TEST_CASE("a list that holds itself is refused") {
+TEST_CASE("a list that contains itself is refused") {
   check_refused("camera_matrix: &a [1, *a]\n" + kLens, "alias");
   check_refused(kLens + "D: &a {data: *a}\n", "alias");
   check_refused("&a {*a : *a}\n", "alias");
@@ -71,7 +72,7 @@ TEST_CASE("an alias is refused with its line, whatever it multiplies") {
   check_refused(kLens + "image_size: &s [640, 480]\nagain: *s\n", "line 4");
 }
 
-TEST_CASE("brackets, dashes and keys nested too deep are refused in every flavour of YAML and JSON") {
+TEST_CASE("brackets, dashes and keys nested too deep are refused in every kind of YAML and JSON") {
   for (const char* const pair : {"[]", "{}"})
     for (const char* const end : {"", "\n"}) {
       const std::string open = std::string(1, pair[0]) + (pair[0] == '{' ? "a: " : "") + end;
@@ -95,8 +96,8 @@ TEST_CASE("brackets, dashes and keys nested too deep are refused in every flavou
   }
 }
 
-TEST_CASE("what looks closed to a careless reader still counts as deep") {
-  // A key of a flow map is all that stands before the colon, brackets too.
+TEST_CASE("closing brackets in keys, strings and comments do not hide the depth") {
+  // The key of a flow map is everything before the colon, brackets too.
   check_refused("%YAML:1.0\n---\nx: " + repeated("{ a}: ", kDeep), "within one another");
   check_refused("%YAML:1.0\n---\nx: " + repeated("[ \"]\", ", kDeep), "within one another");
   check_refused("%YAML:1.0\n---\nx: " + repeated("[ # ]\n", kDeep), "within one another");
@@ -122,7 +123,7 @@ TEST_CASE("a calibration of many megabytes is refused for its size") {
   check_refused(kLens + "note: " + std::string(std::size_t{20} << 20, 'x') + "\n", "MiB");
 }
 
-TEST_CASE("two hundred thousand keys that nobody knows do no harm") {
+TEST_CASE("two hundred thousand unknown keys are ignored") {
   const HangGuard guard;
   const TemporaryFolder folder;
   std::string yaml = kLens;
@@ -142,7 +143,7 @@ TEST_CASE("two hundred thousand keys that nobody knows do no harm") {
   }
 }
 
-TEST_CASE("YAML that OpenCV's storage never comes back from is refused") {
+TEST_CASE("YAML on which OpenCV's storage hangs is refused") {
   check_refused("%YAML:1.0\n---\n[q]2:\n  - }\n", "keys");
   const HangGuard guard;
   const TemporaryFolder folder;
@@ -150,7 +151,7 @@ TEST_CASE("YAML that OpenCV's storage never comes back from is refused") {
   CHECK(read_calibration(folder / "two.yml", cv::Size(640, 480)).has_value());
 }
 
-TEST_CASE("anchors that nothing refers to do no harm") {
+TEST_CASE("anchors without aliases are ignored") {
   const TemporaryFolder folder;
   std::ofstream(folder / "anchor.yaml") << "K: &k [500, 0, 320, 0, 510, 240, 0, 0, 1]\nD: &d [0, 0, 0, 0]\n";
   CHECK(read_calibration(folder / "anchor.yaml", cv::Size(640, 480)).has_value());

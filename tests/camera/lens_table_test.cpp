@@ -14,9 +14,9 @@
 namespace sigs::test {
 namespace {
 
-// Every one of a table's corners over a stretch of rows, far apart and odd, with the lens' own.
+// A table's rays at some corners, compared with the lens' own.
 struct Comparison {
-  double worst_px = 0;      // between the corner and where the lens throws the table's ray
+  double worst_px = 0;      // between the corner and the pixel of the table's ray
   int only_one_has_it = 0;  // corners where one of the two has a ray and the other has none
   int rays = 0;
 };
@@ -60,7 +60,7 @@ TEST_CASE("a table's ray misses its corner by no more than the tolerance, throug
     }
 }
 
-TEST_CASE("a table without tolerance holds the lens' own rays to the last bit") {
+TEST_CASE("a table without tolerance has the lens' own rays to the last bit") {
   for (const ExampleLens& example : example_lenses()) {
     if (example.lens.is_pinhole()) continue;
     CAPTURE(example.name);
@@ -72,7 +72,7 @@ TEST_CASE("a table without tolerance holds the lens' own rays to the last bit") 
   }
 }
 
-TEST_CASE("a pinhole's table is its closed form and asks the lens for nothing") {
+TEST_CASE("a pinhole's table is its closed form and needs no evaluation of the lens") {
   const Lens lens = lens_of(LensModel::brown_conrady, 535, 530, {342, 235}, {0, 0, 0, 0, 0});
   LensTable table({lens, {640, 480}});
   const Comparison all = compared(table, {-1000, -900, 2600, 2100}, 97);
@@ -82,7 +82,7 @@ TEST_CASE("a pinhole's table is its closed form and asks the lens for nothing") 
   CHECK(table.bytes() == 0);
 }
 
-TEST_CASE("rays do not depend on what was asked for before") {
+TEST_CASE("rays do not depend on earlier calls") {
   const ExampleLens example = example_lenses()[4];  // strong tangential
   LensTable forward({example.lens, example.size_px});
   LensTable backward({example.lens, example.size_px});
@@ -101,7 +101,7 @@ TEST_CASE("rays do not depend on what was asked for before") {
     }
 }
 
-TEST_CASE("a mild lens is asked for less than a tenth of its rays, once") {
+TEST_CASE("a lens with mild distortion is evaluated for less than a tenth of the rays, once") {
   const Lens lens = lens_of(LensModel::brown_conrady, 900, 900, {640, 480}, {-0.26, 0.1, 0.0018, -0.0003, -0.02});
   LensTable table({lens, {1280, 960}});
   CHECK(table.evaluations() == 0);
@@ -132,7 +132,7 @@ TEST_CASE("a table of an image of 8192 by 4320 pixels takes some megabytes") {
   CHECK(table.bytes() < std::size_t{16} << 20);
 }
 
-TEST_CASE("tiles are forgotten before they take more than the table may hold") {
+TEST_CASE("tiles are discarded before they take more memory than the table may") {
   const Lens lens = lens_of(LensModel::brown_conrady, 900, 900, {320, 240}, {-0.1, 0.01, 0, 0});
   constexpr std::size_t kMax = 450'000;
   LensTable table({lens, {640, 480}}, 0, kMax);  // exact tiles are the largest: some 100 kB, so four fit
@@ -146,7 +146,7 @@ TEST_CASE("tiles are forgotten before they take more than the table may hold") {
   CHECK(table.corner_rays(5, 5, 1)[0] == first);
 }
 
-TEST_CASE("corners as far away as integers reach have no ray and do no harm") {
+TEST_CASE("corners as far away as integers reach agree with the lens") {
   for (const ExampleLens& example : example_lenses()) {
     if (example.lens.is_pinhole()) continue;
     CAPTURE(example.name);

@@ -57,7 +57,7 @@ TEST_CASE("the distance of a point does not change its pixel") {
   }
 }
 
-TEST_CASE("the axis meets the principal point") {
+TEST_CASE("the axis is projected to the principal point") {
   for (const ExampleLens& example : example_lenses()) {
     INFO(example.name);
     const LensParameters& l = example.lens.parameters();
@@ -71,7 +71,7 @@ TEST_CASE("right in the camera frame is right in the image and down is down") {
   CHECK(lens.pixel({10, 1, 2}) == glm::dvec2{370, 320});
 }
 
-TEST_CASE("nothing is where there is no direction") {
+TEST_CASE("there is no pixel without a direction, and no ray without a pixel") {
   for (const ExampleLens& example : example_lenses()) {
     INFO(example.name);
     const Lens& lens = example.lens;
@@ -87,7 +87,7 @@ TEST_CASE("nothing is where there is no direction") {
   }
 }
 
-TEST_CASE("a lens on the image plane sees nothing behind it") {
+TEST_CASE("a lens on the image plane has no image of what is behind it") {
   for (const ExampleLens& example : example_lenses()) {
     if (example.lens.parameters().model != LensModel::brown_conrady) continue;
     INFO(example.name);
@@ -99,7 +99,7 @@ TEST_CASE("a lens on the image plane sees nothing behind it") {
   }
 }
 
-TEST_CASE("a plain pinhole sees everything before it") {
+TEST_CASE("a pinhole without distortion has an image of everything before it") {
   const Lens lens = lens_of(LensModel::brown_conrady, 500, 500, {320, 240}, {});
   CHECK(lens.is_pinhole());
   CHECK(lens.valid_angle_rad() == doctest::Approx(std::numbers::pi / 2).epsilon(1e-15));
@@ -116,18 +116,18 @@ TEST_CASE("only lenses without distortion are pinholes") {
     CHECK_MESSAGE(example.lens.is_pinhole() == (example.name.find("pinhole") == 0), example.name);
 }
 
-TEST_CASE("a fisheye of 200 degrees sees behind the image plane") {
+TEST_CASE("a fisheye of 200 degrees has an image of what is behind the image plane") {
   const Lens lens = lens_of(LensModel::kannala_brandt, 260, 250, {480, 470}, {-0.01, 0.002, -0.0003, 0.00001});
   CHECK(deg_of_rad(lens.valid_angle_rad()) > 100);
   for (const double angle_deg : {80.0, 89.0, 90.0, 91.0, 100.0}) {
     const double t = rad_of_deg(angle_deg);
-    const double bent = t - 0.01 * std::pow(t, 3) + 0.002 * std::pow(t, 5) - 0.0003 * std::pow(t, 7) +
-                        0.00001 * std::pow(t, 9);  // OpenCV's fisheye formula
+    const double distorted = t - 0.01 * std::pow(t, 3) + 0.002 * std::pow(t, 5) - 0.0003 * std::pow(t, 7) +
+                             0.00001 * std::pow(t, 9);  // OpenCV's fisheye formula
     const double turn = 2.1;
     const auto pixel = lens.pixel(direction(t, turn) * 40.0);
     REQUIRE(pixel.has_value());
-    CHECK(pixel->x == doctest::Approx(480 + 260 * bent * std::cos(turn)).epsilon(1e-13));  // rounding
-    CHECK(pixel->y == doctest::Approx(470 + 250 * bent * std::sin(turn)).epsilon(1e-13));
+    CHECK(pixel->x == doctest::Approx(480 + 260 * distorted * std::cos(turn)).epsilon(1e-13));  // rounding
+    CHECK(pixel->y == doctest::Approx(470 + 250 * distorted * std::sin(turn)).epsilon(1e-13));
     const auto back = lens.ray(*pixel);
     REQUIRE(back.has_value());
     CHECK(angle_between(*back, direction(t, turn)) < 1e-13);  // rounding
@@ -153,7 +153,7 @@ TEST_CASE("magnification is how far the pixel moves when the direction turns") {
         largest = std::max(largest, glm::distance(*ahead, *back) / (2 * kTurn));
       }
       // 360 directions miss the largest by 1 - cos(0.25 deg) = 1e-5; near the poles and folds the third derivative
-      // tells.
+      // matters.
       CHECK(example.lens.pixels_per_radian(at * 3.0) == doctest::Approx(largest).epsilon(1e-4));
     }
   }
@@ -167,7 +167,7 @@ TEST_CASE("magnification of a pinhole has its closed form") {
   CHECK(lens.pixels_per_radian({-1, 0, 0}) == 0);
 }
 
-TEST_CASE("parameters that make no lens are refused with a reason") {
+TEST_CASE("invalid parameters are refused with a reason") {
   const auto reason = [](LensParameters parameters) {
     const auto lens = Lens::make(std::move(parameters));
     REQUIRE_FALSE(lens.has_value());

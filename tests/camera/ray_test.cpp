@@ -16,7 +16,7 @@
 namespace sigs::test {
 namespace {
 
-// What Lens::ray promises, or the last digits where the pixel is large.
+// The tolerance of Lens::ray, or the last digits where the pixel is large.
 double promised_px(const glm::dvec2& pixel) {
   return 1e-9 + 1e-13 * glm::length(pixel);
 }
@@ -85,14 +85,14 @@ TEST_CASE("lenses of random coefficients find every direction in their field aga
   }
 }
 
-TEST_CASE("a pixel without a ray is met by no direction in the field") {
+TEST_CASE("no direction in the field is projected to a pixel without a ray") {
   for (const ExampleLens& example : all_lenses()) {
     std::vector<glm::dvec2> unmet;
     for (const glm::dvec2& pixel : pixels_over(example.size_px, 24))
       if (!example.lens.ray(pixel)) unmet.push_back(pixel);
     if (unmet.empty()) continue;
     INFO(example.name);
-    // The field's rim in the image, finely; a pixel that some direction meets lies inside it.
+    // The field's rim in the image, finely; a pixel with a ray lies inside it.
     std::vector<cv::Point2f> rim;
     for (int i = 0; i < 7200; ++i) {
       const auto edge =
@@ -144,7 +144,7 @@ TEST_CASE("a pixel beyond any image has a ray or none but never a wrong one") {
         const auto back = example.lens.pixel(*ray);
         REQUIRE(back.has_value());
         const glm::dvec2 apart = *back - far * toward;
-        // Near a pole of the denominator the last digit of the ray is worth many pixels.
+        // Near a pole of the denominator the last digit of the ray amounts to many pixels.
         const double last_digit_px = 1e-14 * example.lens.pixels_per_radian(*ray);
         CHECK(std::hypot(apart.x, apart.y) < promised_px(far * toward) + last_digit_px);
       }

@@ -31,8 +31,8 @@ Camera real_camera(const std::string& name) {
   return *std::move(camera);
 }
 
-// Smallest area, round a circle of the plane at distance 1, that OpenCV makes of a small square there, against the
-// square's own; px^2, negative where it is turned over.
+// Smallest determinant of OpenCV's map along a circle of the plane at distance 1: the area of the image of a small
+// square over the square's own; px^2, negative where the orientation is reversed.
 double smallest_opencv_determinant(const Lens& lens, double radius) {
   constexpr int kSpokes = 360;
   const double h = 1e-5 * std::max(0.1, radius);
@@ -98,21 +98,21 @@ TEST_CASE("a pole of the denominator ends the field") {
   CHECK(near->x == doctest::Approx(1000 * 0.9 / 0.19).epsilon(1e-13));  // rounding
 }
 
-TEST_CASE("a tilted sensor ends the field where it is met edge on") {
+TEST_CASE("a tilted sensor ends the field where rays run parallel to it") {
   std::vector<double> tilt(14, 0.0);
   tilt[12] = 0.3;
   const Lens lens = brown(tilt);
   CHECK(lens.valid_angle_rad() == doctest::Approx(std::numbers::pi / 2 - 0.3).epsilon(1e-5));  // 1e-6 of the depth
 }
 
-TEST_CASE("a fold as narrow as a millionth is seen") {
+TEST_CASE("a fold as narrow as a millionth is found") {
   // slope 1 + 3 k1 u + 5 k2 u^2 proportional to (u - 1)^2 - 1e-12
   const double scale = 1 / (1 - 1e-12);
   const Lens lens = brown({-2 * scale / 3, scale / 5, 0, 0});
   CHECK(valid_radius(lens) == doctest::Approx(std::sqrt(1 - 1e-6)).epsilon(1e-9));
 }
 
-TEST_CASE("a narrow fold that only the tangential terms make is seen") {
+TEST_CASE("a narrow fold that only the tangential terms cause is found") {
   // slope proportional to (u - 1)^2 + 1e-4: monotonic alone, but flat enough for |p| = 1e-4 to fold it near u = 1
   const double scale = 1 / (1 + 1e-4);
   const std::vector<double> radial{-2 * scale / 3, scale / 5, 0, 0};
@@ -126,7 +126,7 @@ TEST_CASE("a narrow fold that only the tangential terms make is seen") {
   CHECK(smallest_opencv_determinant(lens, valid_radius(lens) * 1.001) < 0);
 }
 
-TEST_CASE("a fold of a twenty thousandth that only the tangential terms make is seen") {
+TEST_CASE("a fold of a twenty thousandth that only the tangential terms cause is found") {
   // The slope is ((u - 1.7)^2 + d) / (1.7^2 + d) with d = 1e-6. With R = N / D the determinant towards the worst side
   // is R (slope - 6 |p| r) but for |p|^2; p is chosen so that it is negative where (u - 1.7)^2 < 0.01 d = 1e-8.
   constexpr double kMiddle = 1.7;
@@ -139,13 +139,13 @@ TEST_CASE("a fold of a twenty thousandth that only the tangential terms make is 
   CHECK(valid_radius(brown(tangential)) == doctest::Approx(std::sqrt(kMiddle - 1e-4)).epsilon(1e-5));  // |p|^2
 }
 
-TEST_CASE("pincushion sees nearly everything before it") {
+TEST_CASE("a lens with pincushion distortion has an image of nearly everything before it") {
   const Lens lens = brown({0.3, 0.1, 0, 0});
   CHECK(deg_of_rad(lens.valid_angle_rad()) > 89.99999);
   CHECK(lens.pixel({1e-3, 1e3, 0}).has_value());
 }
 
-TEST_CASE("a fisheye sees up to its fold or all round") {
+TEST_CASE("a fisheye has an image up to its fold or all around") {
   const auto fisheye = [](std::vector<double> k) {
     return lens_of(LensModel::kannala_brandt, 300, 300, {0, 0}, std::move(k)).valid_angle_rad();
   };

@@ -5,10 +5,20 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
-using namespace sigs;
+#include "base/pose.h"
 
+namespace sigs::test {
 namespace {
+
+// A virtual camera rotated to the right by yaw_rad.
+VirtualCamera rotated_right(double yaw_rad) {
+  return {.view_from_camera = {glm::conjugate(rotation_of({.yaw_rad = yaw_rad})), {0, 0, 0}},
+          .focal_px = 100,
+          .center_px = {20, 10},
+          .size_px = cv::Size(41, 21)};
+}
 
 Camera fisheye() {
   return {*Lens::make({.model = LensModel::kannala_brandt,
@@ -35,7 +45,29 @@ bool inside(const VirtualCamera& view, const glm::dvec3& p_in_camera) {
 
 }  // namespace
 
-TEST_CASE("one view holds the whole of a body wherever it is") {
+TEST_CASE("a virtual camera projects the direction towards which it is rotated to its centre") {
+  const VirtualCamera view = rotated_right(0.5);
+  const auto pixel = view.pixel(7.0 * glm::dvec3{std::cos(0.5), std::sin(0.5), 0});
+  REQUIRE(pixel.has_value());
+  CHECK(glm::distance(*pixel, {20, 10}) < 1e-12);  // rounding
+}
+
+TEST_CASE("a virtual camera is a pinhole") {
+  const VirtualCamera view = rotated_right(0);
+  CHECK(view.pixel({10, 1, -2}) == glm::dvec2{30, -10});
+  CHECK(view.pixel({1e7, 1e6, -2e6}) == glm::dvec2{30, -10});
+}
+
+TEST_CASE("a virtual camera has no image of what is behind it") {
+  const VirtualCamera view = rotated_right(3);
+  CHECK_FALSE(view.pixel({1, 0, 0}).has_value());
+  CHECK(view.pixel({-1, 0, 0}).has_value());
+  CHECK_FALSE(view.pixel({0, 0, 0}).has_value());
+  CHECK_FALSE(view.pixel({std::numeric_limits<double>::quiet_NaN(), 0, 0}).has_value());
+  CHECK_FALSE(view.pixel({-1, std::numeric_limits<double>::infinity(), 0}).has_value());
+}
+
+TEST_CASE("one view contains the whole body wherever it is") {
   for (const glm::dvec3 middle : {glm::dvec3(300, 0, 0), glm::dvec3(200, -250, 40), glm::dvec3(50, 20, -60)}) {
     const std::vector<VirtualCamera> views = virtual_cameras(fisheye(), box_at(middle, 15), std::nullopt, 2, 2048);
     REQUIRE(views.size() == 1);
@@ -57,20 +89,20 @@ TEST_CASE("a view is at least as fine as the image times the supersampling") {
   }
 }
 
-TEST_CASE("a speck is drawn large enough to measure its coverage") {
+TEST_CASE("a tiny body is rendered large enough to measure its coverage") {
   const VirtualCamera view = virtual_cameras(fisheye(), box_at({1e6, 0, 0}, 5), std::nullopt, 1, 2048).at(0);
   CHECK(std::max(view.size_px.width, view.size_px.height) >= 128);
   CHECK(view.size_px.width < 140);  // a margin of 2 pixels each way, and rounding
 }
 
-TEST_CASE("a body that is too large for a view is drawn coarser and still held whole") {
+TEST_CASE("a body that is too large for a view is rendered coarser and still contained whole") {
   const VirtualCamera view = virtual_cameras(fisheye(), box_at({60, 0, 0}, 15), std::nullopt, 8, 256).at(0);
   CHECK(view.size_px.width <= 256);
   CHECK(view.size_px.height <= 256);
   for (const glm::dvec3& corner : box_at({60, 0, 0}, 15)) CHECK(inside(view, corner));
 }
 
-TEST_CASE("a body around the camera gets the faces of a cube that the lens can see") {
+TEST_CASE("a body around the camera gets the faces of a cube of which the lens has an image") {
   const std::vector<VirtualCamera> views = virtual_cameras(fisheye(), box_at({0, 0, 0}, 15), std::nullopt, 1, 512);
   CHECK(views.size() >= 5);
   for (const glm::dvec3 direction : {glm::dvec3(1, 0, 0), glm::dvec3(1, 0.9, 0.3), glm::dvec3(0.3, -1, 0.2)}) {
@@ -80,7 +112,7 @@ TEST_CASE("a body around the camera gets the faces of a cube that the lens can s
   }
 }
 
-TEST_CASE("what no pixel will ask for is cut off") {
+TEST_CASE("a view leaves out what no pixel samples") {
   const glm::dvec3 middle(45, 0, 0);
   const cv::Rect corner(0, 0, 500, 350);
   const VirtualCamera whole = virtual_cameras(fisheye(), box_at(middle, 15), std::nullopt, 2, 4096).at(0);
@@ -95,7 +127,7 @@ TEST_CASE("what no pixel will ask for is cut off") {
     }
 }
 
-TEST_CASE("faces of the cube that no pixel looks at are left out and the others still hold every pixel's ray") {
+TEST_CASE("faces of the cube that no pixel samples are left out and the others still contain every pixel's ray") {
   const cv::Rect right_edge(1100, 300, 180, 300);
   const std::vector<VirtualCamera> views = virtual_cameras(fisheye(), box_at({0, 0, 0}, 15), right_edge, 1, 1024);
   CHECK(views.size() <= 2);
@@ -118,7 +150,7 @@ TEST_CASE("a body beyond the lens' field needs no view") {
   CHECK(virtual_cameras(narrow, box_at({-300, 10, 0}, 5), std::nullopt, 1, 2048).empty());
 }
 
-TEST_CASE("a body behind a fisheye, whose image goes round the image, needs no view") {
+TEST_CASE("a body behind a fisheye, projected all around the visible image, needs no view") {
   const Camera wide{*Lens::make({.model = LensModel::kannala_brandt,
                                  .fx = 560,
                                  .fy = 560,
@@ -144,7 +176,7 @@ TEST_CASE("a body on the image's edge keeps its view however small it is") {
     }
 }
 
-TEST_CASE("before a pinhole a view's pixels are whole parts of the image's, edges on edges") {
+TEST_CASE("with a pinhole a view's pixels are whole parts of the image's, edges on edges") {
   const Lens lens = *Lens::make({.fx = 431.7, .fy = 431.7, .cx = 317.31, .cy = 243.77});
   const Camera camera{lens, {640, 480}};
   for (const double supersampling : {1.0, 2.0, 3.0})
@@ -163,13 +195,15 @@ TEST_CASE("before a pinhole a view's pixels are whole parts of the image's, edge
     }
 }
 
-TEST_CASE("cube faces before a wide pinhole are no finer than its image") {
+TEST_CASE("cube faces for a wide pinhole are no finer than its image") {
   const Camera camera{*Lens::make({.fx = 300, .fy = 300, .cx = 426.5, .cy = 239.5}), {854, 480}};  // 110 degrees wide
   const cv::Rect image({0, 0}, camera.size_px);
-  double drawn_px = 0;
+  double rendered_px = 0;
   for (const VirtualCamera& view : virtual_cameras(camera, box_at({0, 0, 0}, 15), image, 2, 4096))
-    drawn_px += view.size_px.area();
-  // Twice as fine each way: four times the image. The sides' faces look at its edges, which are stretched up to
-  // 1 / 0.7^2 times each way, and all have margins.
-  CHECK(drawn_px < 4 * 4 * image.area());
+    rendered_px += view.size_px.area();
+  // Twice as fine each way: four times the image. The faces at the sides cover its edges, which are stretched by up to
+  // 1 / 0.7^2 each way, and all have margins.
+  CHECK(rendered_px < 4 * 4 * image.area());
 }
+
+}  // namespace sigs::test

@@ -5,7 +5,7 @@
 
 #include "base/image.h"
 #include "base/pose.h"
-#include "camera/pinhole_view.h"
+#include "camera/virtual_camera.h"
 #include "mesh/mesh.h"
 #include "render/renderer.h"
 

@@ -15,17 +15,7 @@ using namespace sigs::test;
 
 namespace {
 
-constexpr std::array kLayouts{PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444,
-                              PixelLayout::rgb};
 constexpr std::array kSites{ChromaSite::left, ChromaSite::center, ChromaSite::top_left};
-
-ColorInfo meaning(ColorRange range, ColorMatrix matrix, ChromaSite site = ChromaSite::left) {
-  ColorInfo color;
-  color.range = range;
-  color.matrix = matrix;
-  color.chroma_site = site;
-  return color;
-}
 
 cv::Mat smooth_bgr(cv::Size size) {
   cv::Mat bgr(size, CV_8UC3);
@@ -47,7 +37,7 @@ TEST_CASE("one colour everywhere stays that colour whatever the layout size and 
   for (const PixelLayout layout : kLayouts)
     for (const ChromaSite site : kSites)
       for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 2), cv::Size(7, 5), cv::Size(16, 9)}) {
-        const ColorInfo color = meaning(ColorRange::full, ColorMatrix::bt709, site);
+        const ColorInfo color = color_info(ColorRange::full, ColorMatrix::bt709, site);
         const cv::Mat bgr(size, CV_8UC3, cv::Scalar(colour));
         const cv::Mat back = bgr_of(frame_of_bgr(bgr, layout, color));
         REQUIRE(back.size() == size);
@@ -61,9 +51,9 @@ TEST_CASE("one colour everywhere stays that colour whatever the layout size and 
 TEST_CASE("without subsampling an image comes back within rounding") {
   const cv::Mat bgr = smooth_bgr({50, 40});
   for (const ColorMatrix matrix : {ColorMatrix::bt601, ColorMatrix::bt709, ColorMatrix::bt2020}) {
-    const cv::Mat full = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::full, matrix)));
+    const cv::Mat full = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, color_info(ColorRange::full, matrix)));
     CHECK(largest_difference(full, bgr) <= 2);  // 0.5 luma + 0.5 * 1.88 chroma + 0.5 at the end
-    const cv::Mat limited = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::limited, matrix)));
+    const cv::Mat limited = bgr_of(frame_of_bgr(bgr, PixelLayout::yuv444, color_info(ColorRange::limited, matrix)));
     CHECK(largest_difference(limited, bgr) <= 2);  // the same, times 255 / 219, still below 2.5
   }
   CHECK(largest_difference(bgr_of(frame_of_bgr(bgr, PixelLayout::rgb, {})), bgr) == 0);
@@ -73,7 +63,7 @@ TEST_CASE("limited BT601 agrees with OpenCV") {
   // OpenCV's I420 is BT.601 limited range with chroma repeated, not interpolated: equal where chroma does not change.
   cv::Mat bgr = cv::Mat(20, 30, CV_8UC3, cv::Scalar(50, 120, 190));
   bgr(cv::Rect(0, 0, 30, 8)).setTo(cv::Scalar(70, 140, 210));  // the same chroma, brighter
-  const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv420, meaning(ColorRange::limited, ColorMatrix::bt601));
+  const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv420, color_info(ColorRange::limited, ColorMatrix::bt601));
   cv::Mat theirs;
   cv::cvtColor(bgr, theirs, cv::COLOR_BGR2YUV_I420);
   CHECK(largest_difference(frame.planes[0], theirs.rowRange(0, 20)) <= 1);  // its coefficients have 20 bits
@@ -90,7 +80,7 @@ TEST_CASE("full BT601 agrees with OpenCV") {
   const cv::Mat bgr = smooth_bgr({33, 21});
   cv::Mat ycrcb;
   cv::cvtColor(bgr, ycrcb, cv::COLOR_BGR2YCrCb);  // Y, Cr, Cb of JPEG
-  const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv444, meaning(ColorRange::full, ColorMatrix::bt601));
+  const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv444, color_info(ColorRange::full, ColorMatrix::bt601));
   for (const auto& [plane, channel] : {std::pair{0, 0}, std::pair{1, 2}, std::pair{2, 1}}) {
     cv::Mat theirs;
     cv::extractChannel(ycrcb, theirs, channel);
@@ -98,15 +88,15 @@ TEST_CASE("full BT601 agrees with OpenCV") {
   }
 }
 
-TEST_CASE("chroma is read and written where its siting says") {
-  // Cb is a ramp over x and y. A ramp is its own linear interpolation, and its own mean about the sample's place, so a
-  // chroma sample must hold the ramp's value at its place, and every luma pixel inside must read the ramp's value.
+TEST_CASE("chroma is read and written at the positions of its site") {
+  // Cb is a ramp over x and y. A ramp is its own linear interpolation, and its own mean about the sample's position, so
+  // a chroma sample must have the ramp's value at its position, and every luma pixel inside must read the ramp's value.
   const cv::Size size(40, 24);
   const auto ramp = [](double x, double y) { return 100 + 1.0 * x + 2.0 * y; };
   for (const ChromaSite site : kSites) {
     const double dx = site == ChromaSite::center ? 0.5 : 0;
     const double dy = site == ChromaSite::top_left ? 0 : 0.5;
-    const ColorInfo color = meaning(ColorRange::full, ColorMatrix::bt601, site);
+    const ColorInfo color = color_info(ColorRange::full, ColorMatrix::bt601, site);
     Frame frame;
     frame.layout = PixelLayout::yuv420;
     frame.color = color;
@@ -127,14 +117,14 @@ TEST_CASE("chroma is read and written where its siting says") {
   }
 }
 
-TEST_CASE("shrinking keeps a ramp where the siting says") {
+TEST_CASE("shrunk chroma keeps a ramp at the positions of its site") {
   cv::Mat bgr(20, 40, CV_8UC3);
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 40; ++x) bgr.at<cv::Vec3b>(y, x) = {static_cast<uchar>(4 * x + 2 * y + 20), 90, 90};
   for (const ChromaSite site : kSites) {
     const double dx = site == ChromaSite::center ? 0.5 : 0;
     const double dy = site == ChromaSite::top_left ? 0 : 0.5;
-    const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv420, meaning(ColorRange::full, ColorMatrix::bt601, site));
+    const Frame frame = frame_of_bgr(bgr, PixelLayout::yuv420, color_info(ColorRange::full, ColorMatrix::bt601, site));
     REQUIRE(frame.planes[1].size() == cv::Size(20, 10));
     for (int y = 1; y < 9; ++y)
       for (int x = 1; x < 19; ++x) {
@@ -148,7 +138,7 @@ TEST_CASE("shrinking keeps a ramp where the siting says") {
 TEST_CASE("values beyond the gamut are clipped and not wrapped") {
   Frame frame;
   frame.layout = PixelLayout::yuv444;
-  frame.color = meaning(ColorRange::limited, ColorMatrix::bt709);
+  frame.color = color_info(ColorRange::limited, ColorMatrix::bt709);
   frame.planes = {cv::Mat(1, 2, CV_8UC1, cv::Scalar(255)), cv::Mat(1, 2, CV_8UC1, cv::Scalar(255)),
                   cv::Mat(1, 2, CV_8UC1, cv::Scalar(255))};
   frame.planes[0].at<uchar>(0, 1) = 0;
@@ -172,8 +162,8 @@ TEST_CASE("every byte of a converted image is that of the plain formula pixel by
       for (const ColorRange range : {ColorRange::limited, ColorRange::full})
         for (const cv::Size size :
              {cv::Size(1, 1), cv::Size(15, 4), cv::Size(16, 5), cv::Size(33, 7), cv::Size(98, 6)}) {
-          Frame frame = test_frame(layout, size, 3, meaning(range, ColorMatrix::bt601, site));
-          for (int i = 0; i < 3; ++i)  // every code value, far outside of what any image holds
+          Frame frame = test_frame(layout, size, 3, color_info(range, ColorMatrix::bt601, site));
+          for (int i = 0; i < 3; ++i)  // every code value, far outside of what images contain
             cv::randu(frame.planes[static_cast<size_t>(i)], 0, 256);
           const CodeToRgb map = code_to_rgb(layout, frame.color);
           const cv::Matx33f m = map.to_rgb * 255.0F;

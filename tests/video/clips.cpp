@@ -44,6 +44,15 @@ uint32_t grain(uint32_t x, uint32_t y, uint32_t number) {
 
 }  // namespace
 
+ColorInfo color_info(ColorRange range, ColorMatrix matrix, ChromaSite site) {
+  return {.range = range, .matrix = matrix, .chroma_site = site};
+}
+
+bool warns(const VideoInfo& info, const std::string& what) {
+  return std::any_of(info.warnings.begin(), info.warnings.end(),
+                     [&](const Warning& warning) { return warning.what.find(what) != std::string::npos; });
+}
+
 Samples samples_of(const Frame& frame) {
   Samples samples;
   for (const cv::Mat& plane : frame.planes)

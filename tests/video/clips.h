@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,12 +13,20 @@
 
 namespace sigs::test {
 
+inline constexpr std::array kLayouts{PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444,
+                                     PixelLayout::rgb};
+
+[[nodiscard]] ColorInfo color_info(ColorRange range, ColorMatrix matrix, ChromaSite site = ChromaSite::left);
+
+// Whether one of the warnings contains a text.
+[[nodiscard]] bool warns(const VideoInfo& info, const std::string& what);
+
 // All samples of an image, plane after plane without gaps.
 using Samples = std::vector<uint8_t>;
 [[nodiscard]] Samples samples_of(const Frame& frame);
 
-// Every image that FFmpeg's libraries give in one go from the start with one thread: the truth for reading. Only for
-// planar 8-bit formats, whose bytes are the samples.
+// Every image that FFmpeg's libraries give when they decode the file from the start with one thread: the truth for
+// reading. Only for planar 8-bit formats, whose bytes are the samples.
 struct WholeDecode {
   std::vector<Samples> images;
   std::vector<double> times_s;  // of each image as FFmpeg guesses it, from the first
@@ -52,7 +61,7 @@ void check_against(FrameSource& source, const WholeDecode& truth);
 [[nodiscard]] std::vector<uint8_t> bytes_of(const std::filesystem::path& path);
 void write_bytes(const std::filesystem::path& path, const std::vector<uint8_t>& bytes);
 
-// 0..count-1 in a fixed disorder.
+// The numbers 0..count-1 in a fixed, mixed order.
 [[nodiscard]] std::vector<int> shuffled(int count);
 
 }  // namespace sigs::test

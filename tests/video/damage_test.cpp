@@ -34,7 +34,7 @@ int damaged_frames(FrameSource& source) {
   return static_cast<int>(std::count(damaged.begin(), damaged.end(), true));
 }
 
-void scribble(const std::filesystem::path& path, double from, double to) {
+void overwrite(const std::filesystem::path& path, double from, double to) {
   std::vector<uint8_t> bytes = bytes_of(path);
   const auto at = [&](double share) { return static_cast<size_t>(share * static_cast<double>(bytes.size())); };
   for (size_t i = at(from); i < at(to); ++i) bytes[i] = static_cast<uint8_t>(bytes[i] * 37 + i);
@@ -54,24 +54,19 @@ std::string error_of(const std::filesystem::path& path, ErrorKind kind) {
   return source.error().what;
 }
 
-bool warns(const VideoInfo& info, const std::string& what) {
-  return std::any_of(info.warnings.begin(), info.warnings.end(),
-                     [&](const Warning& warning) { return warning.what.find(what) != std::string::npos; });
-}
-
 }  // namespace
 
-TEST_CASE("a damaged stretch in the middle leaves the rest of an H264 clip as it was") {
+TEST_CASE("a damaged part in the middle leaves the rest of an H264 clip unchanged") {
   for (const char* file : {"a.mp4", "a.mkv"}) {
     CAPTURE(std::string(file));
     const TemporaryFolder folder;
     const auto path = folder / file;
     if (!make_clip("-c:v libx264 -bf 2 -g 10 -keyint_min 10 -crf 15", path)) return;
     const WholeDecode whole = whole_decode(path);
-    scribble(path, 0.50, 0.52);
+    overwrite(path, 0.50, 0.52);
     FrameSource source = opened(path);
     REQUIRE(source.info().frame_count() <= 50);
-    // Where the scribble hits a block's own header, the Matroska reader goes on at the next keyframe or cluster.
+    // Where the header of a block is overwritten, the Matroska reader continues at the next keyframe or cluster.
     REQUIRE(source.info().frame_count() >= 40);
     const int damaged = damaged_frames(source);
     CHECK((damaged >= 1 || source.info().frame_count() < 50));
@@ -84,11 +79,11 @@ TEST_CASE("a damaged stretch in the middle leaves the rest of an H264 clip as it
   }
 }
 
-TEST_CASE("motion JPEG scribbled over gives the same frames in steps as in order") {
+TEST_CASE("overwritten motion JPEG gives the same frames in steps as in order") {
   const TemporaryFolder folder;
   const auto path = folder / "a.avi";
   if (!make_clip("-c:v mjpeg -pix_fmt yuvj420p -q:v 3", path)) return;
-  scribble(path, 0.50, 0.52);
+  overwrite(path, 0.50, 0.52);
   FrameSource in_order = opened(path);
   CHECK(damaged_frames(in_order) >= 1);
   const int count = in_order.info().frame_count();
@@ -105,7 +100,8 @@ TEST_CASE("motion JPEG scribbled over gives the same frames in steps as in order
   }
 }
 
-TEST_CASE("whatever is scribbled over a clip it can be read or is refused and every way to a frame agrees") {
+TEST_CASE(
+    "a clip with any bytes overwritten can be read or is refused, and every order of reading gives the same frames") {
   const TemporaryFolder folder;
   for (const char* file : {"a.mp4", "a.mkv", "a.avi"}) {
     CAPTURE(std::string(file));
@@ -125,7 +121,7 @@ TEST_CASE("whatever is scribbled over a clip it can be read or is refused and ev
   }
 }
 
-TEST_CASE("a flipped bit in FFV1 is seen by its checksum") {
+TEST_CASE("a flipped bit in FFV1 is found by its checksum") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mkv";
   write_clip(path, {.size_px = {160, 120}}, 20);
@@ -145,7 +141,7 @@ TEST_CASE("a flipped bit in FFV1 is seen by its checksum") {
   }
 }
 
-TEST_CASE("a file that ends early keeps what is there") {
+TEST_CASE("a file that ends early keeps the frames that it has") {
   for (const char* file : {"a.mkv", "a.avi"}) {
     CAPTURE(std::string(file));
     const TemporaryFolder folder;
@@ -165,7 +161,7 @@ TEST_CASE("a file that ends early keeps what is there") {
   }
 }
 
-TEST_CASE("an MP4 cut short behind its index keeps what is there") {
+TEST_CASE("an MP4 cut short after its index keeps the frames that it has") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mp4";
   if (!make_clip("-c:v libx264 -bf 2 -g 10 -movflags +faststart", path)) return;
@@ -177,10 +173,10 @@ TEST_CASE("an MP4 cut short behind its index keeps what is there") {
   REQUIRE(source.info().frame_count() > 20);
   CHECK(warns(source.info(), "header declares 50 frames"));
   CHECK(samples_of(*source.read(15)) == whole.images[15]);
-  CHECK(damaged_frames(source) <= 4);  // the cut frame and those that lean on it
+  CHECK(damaged_frames(source) <= 4);  // the cut frame and those that depend on it
 }
 
-TEST_CASE("an MP4 cut short before its index says so") {
+TEST_CASE("an MP4 cut short before its index is refused with this reason") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mp4";
   if (!make_clip("-c:v libx264", path)) return;
@@ -188,7 +184,7 @@ TEST_CASE("an MP4 cut short before its index says so") {
   CHECK(error_of(path, ErrorKind::bad_data).find("moov") != std::string::npos);
 }
 
-TEST_CASE("what is no video is refused with a reason") {
+TEST_CASE("a file that is no video is refused with a reason") {
   const TemporaryFolder folder;
   CHECK(error_of(folder / "absent.mp4", ErrorKind::cannot_read) == "no such file");
   CHECK(error_of(folder.path(), ErrorKind::cannot_read) == "is a folder, not a video");
@@ -201,7 +197,7 @@ TEST_CASE("what is no video is refused with a reason") {
   CHECK(error_of(folder / "noise.mp4", ErrorKind::cannot_read).find("video") != std::string::npos);
 }
 
-TEST_CASE("intact alone is no video") {
+TEST_CASE("sound alone is no video") {
   const TemporaryFolder folder;
   if (!run_ffmpeg("-f lavfi -i sine=duration=1 \"" + (folder / "a.wav").string() + "\"")) return;
   CHECK(error_of(folder / "a.wav", ErrorKind::cannot_read) == "there is no video in it");

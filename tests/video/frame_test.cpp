@@ -13,13 +13,6 @@ using namespace sigs::test;
 
 namespace {
 
-ColorInfo meaning(ColorRange range, ColorMatrix matrix) {
-  ColorInfo color;
-  color.range = range;
-  color.matrix = matrix;
-  return color;
-}
-
 cv::Vec3f rgb_of(const CodeToRgb& map, cv::Vec3f code) {
   return map.to_rgb * (code - map.offset);
 }
@@ -34,8 +27,8 @@ constexpr double kFloatTolerance = 1e-6;
 
 TEST_CASE("white and black have their codes in every range and matrix") {
   for (const ColorMatrix matrix : kMatrices) {
-    const CodeToRgb limited = code_to_rgb(PixelLayout::yuv420, meaning(ColorRange::limited, matrix));
-    const CodeToRgb full = code_to_rgb(PixelLayout::yuv420, meaning(ColorRange::full, matrix));
+    const CodeToRgb limited = code_to_rgb(PixelLayout::yuv420, color_info(ColorRange::limited, matrix));
+    const CodeToRgb full = code_to_rgb(PixelLayout::yuv420, color_info(ColorRange::full, matrix));
     for (int i = 0; i < 3; ++i) {
       CHECK(rgb_of(limited, {235, 128, 128})[i] == doctest::Approx(1).epsilon(kFloatTolerance));
       CHECK(rgb_of(limited, {16, 128, 128})[i] == doctest::Approx(0));
@@ -58,7 +51,7 @@ TEST_CASE("primaries have the codes of the standards' colour bars") {
       {ColorMatrix::bt709, {1, 1, 0}, {219, 16, 138}},
   };
   for (const Bar& bar : bars) {
-    const CodeToRgb map = code_to_rgb(PixelLayout::yuv444, meaning(ColorRange::limited, bar.matrix));
+    const CodeToRgb map = code_to_rgb(PixelLayout::yuv444, color_info(ColorRange::limited, bar.matrix));
     const cv::Vec3f code = map.from_rgb * bar.rgb + map.offset;
     for (int i = 0; i < 3; ++i) CHECK(std::abs(code[i] - bar.code[i]) <= 0.5 + 1e-4);  // the tables are rounded
   }
@@ -66,24 +59,24 @@ TEST_CASE("primaries have the codes of the standards' colour bars") {
 
 TEST_CASE("full-range red of BT601 is JPEG's red") {
   // ITU-T T.871 (JFIF): Y = 0.299 R, Cb = 128 - 0.168736 R, Cr = 128 + 0.5 R.
-  const CodeToRgb map = code_to_rgb(PixelLayout::yuv420, meaning(ColorRange::full, ColorMatrix::bt601));
+  const CodeToRgb map = code_to_rgb(PixelLayout::yuv420, color_info(ColorRange::full, ColorMatrix::bt601));
   const cv::Vec3f code = map.from_rgb * cv::Vec3f(1, 0, 0) + map.offset;
   CHECK(code[0] == doctest::Approx(0.299 * 255).epsilon(1e-6));
   CHECK(code[1] == doctest::Approx(128 - 0.168736 * 255).epsilon(1e-5));
   CHECK(code[2] == doctest::Approx(128 + 0.5 * 255).epsilon(1e-6));
 }
 
-TEST_CASE("there and back is the identity for every layout with three planes") {
+TEST_CASE("conversion to RGB and back is the identity for every layout with three planes") {
   for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444, PixelLayout::rgb})
     for (const ColorRange range : kRanges)
       for (const ColorMatrix matrix : kMatrices) {
-        const CodeToRgb map = code_to_rgb(layout, meaning(range, matrix));
+        const CodeToRgb map = code_to_rgb(layout, color_info(range, matrix));
         CHECK(cv::norm(map.to_rgb * map.from_rgb - cv::Matx33f::eye()) < 1e-5);  // nine sums of floats near 1
       }
 }
 
 TEST_CASE("luma alone gives gray and takes the weighted mean") {
-  const CodeToRgb map = code_to_rgb(PixelLayout::gray, meaning(ColorRange::limited, ColorMatrix::bt709));
+  const CodeToRgb map = code_to_rgb(PixelLayout::gray, color_info(ColorRange::limited, ColorMatrix::bt709));
   const cv::Vec3f rgb = rgb_of(map, {126, 7, 9});
   for (int i = 0; i < 3; ++i) CHECK(rgb[i] == doctest::Approx(110.0 / 219).epsilon(kFloatTolerance));
   const cv::Vec3f code = map.from_rgb * cv::Vec3f(1, 0, 0) + map.offset;

@@ -41,8 +41,8 @@ struct Kind {
   const char* pixel_format;
   const char* options;
   PixelLayout layout;
-  const char* planar;      // ffmpeg's lossless planar twin
-  const char* conversion;  // what info() has to say
+  const char* planar;      // the planar format to which ffmpeg converts it without loss
+  const char* conversion;  // expected in info()
 };
 
 }  // namespace
@@ -118,7 +118,7 @@ TEST_CASE("deeper samples are rounded to the nearest 8-bit code of the same rang
   }
 }
 
-TEST_CASE("full range keeps white white and grey chroma grey when depth shrinks") {
+TEST_CASE("full range keeps white and neutral chroma when the depth is reduced") {
   const TemporaryFolder folder;
   if (!make_clip("-c:v ffv1 -level 3 -pix_fmt yuv444p10le -color_range pc", folder / "a.mkv",
                  "color=white:size=32x32:rate=25:duration=0.2,format=yuv444p10le,lutyuv=y=1023:u=512:v=1023"))
@@ -132,7 +132,7 @@ TEST_CASE("full range keeps white white and grey chroma grey when depth shrinks"
   CHECK(frame->planes[2].at<uchar>(3, 3) == 255);
 }
 
-TEST_CASE("formats without a layout of their own take the nearest") {
+TEST_CASE("formats without a layout of their own are converted to the nearest") {
   const Kind kinds[] = {
       {"yuv411p", "-c:v ffv1", PixelLayout::yuv422, "yuv422p", "yuv411p to yuv422p through swscale"},
       {"yuv440p", "-c:v ffv1", PixelLayout::yuv444, "yuv444p", "yuv440p to yuv444p through swscale"},
@@ -158,7 +158,7 @@ TEST_CASE("formats without a layout of their own take the nearest") {
   }
 }
 
-TEST_CASE("what a file says of its colours is read and what it leaves open is assumed") {
+TEST_CASE("the colours that a file states are read and those that it leaves open are assumed") {
   struct Case {
     const char* options;
     const char* size;
@@ -192,12 +192,12 @@ TEST_CASE("what a file says of its colours is read and what it leaves open is as
   }
 }
 
-TEST_CASE("an image that players turn is oriented and said so") {
+TEST_CASE("an image that players rotate is upright, with a warning") {
   const TemporaryFolder folder;
   if (!make_clip("-c:v libx264", folder / "flat.mp4")) return;
   REQUIRE(run_ffmpeg("-i \"" + (folder / "flat.mp4").string() + "\" -c copy -metadata:s:v rotate=90 \"" +
-                     (folder / "turned.mp4").string() + "\""));
-  const FrameSource source = opened(folder / "turned.mp4");
+                     (folder / "rotated.mp4").string() + "\""));
+  const FrameSource source = opened(folder / "rotated.mp4");
   CHECK(source.info().size_px == cv::Size(96, 128));
   REQUIRE(source.info().warnings.size() == 1);
   CHECK(source.info().warnings[0].what.find("rotate") != std::string::npos);

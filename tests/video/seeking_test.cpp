@@ -20,7 +20,7 @@ struct ClipKind {
   const char* filter = "";
 };
 
-constexpr ClipKind kKinds[] = {
+constexpr ClipKind kClipKinds[] = {
     {"B-frames", "-c:v libx264 -bf 3 -g 20", "a.mp4"},
     {"open groups of pictures", "-c:v libx264 -bf 3 -x264-params open-gop=1:keyint=15:min-keyint=5", "a.mkv"},
     {"open groups in HEVC", "-c:v libx265 -x265-params open-gop=1:keyint=15:bframes=4:log-level=none", "a.mkv"},
@@ -33,8 +33,8 @@ constexpr ClipKind kKinds[] = {
     {"H.264 in fragments", "-c:v libx264 -bf 3 -g 20 -movflags frag_keyframe+empty_moov", "a.mp4"},
     {"H.264 without a container", "-c:v libx264 -bf 3 -g 20", "a.h264"},
     {"interlaced H.264", "-c:v libx264 -bf 2 -g 20 -flags +ildct+ilme", "a.mp4"},
-    {"VP8 with hidden pictures", "-c:v libvpx -auto-alt-ref 1 -lag-in-frames 16 -g 20 -b:v 300k -cpu-used 8", "a.mkv"},
-    {"VP9 with hidden pictures", "-c:v libvpx-vp9 -auto-alt-ref 1 -lag-in-frames 16 -g 20 -b:v 300k -cpu-used 8",
+    {"VP8 with hidden images", "-c:v libvpx -auto-alt-ref 1 -lag-in-frames 16 -g 20 -b:v 300k -cpu-used 8", "a.mkv"},
+    {"VP9 with hidden images", "-c:v libvpx-vp9 -auto-alt-ref 1 -lag-in-frames 16 -g 20 -b:v 300k -cpu-used 8",
      "a.mkv"},
     {"motion JPEG", "-c:v mjpeg -pix_fmt yuvj420p", "a.avi"},
     {"varying frame rate", "-vf setpts=N*N*0.002/TB -fps_mode passthrough -c:v libx264 -bf 3 -g 20", "a.mkv",
@@ -55,7 +55,7 @@ void hide_avi_index(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("any frame of any kind of clip is the one that a whole decode gives") {
-  for (const ClipKind& kind : kKinds) {
+  for (const ClipKind& kind : kClipKinds) {
     CAPTURE(std::string(kind.name));
     const TemporaryFolder folder;
     const auto path = folder / kind.file;
@@ -67,7 +67,7 @@ TEST_CASE("any frame of any kind of clip is the one that a whole decode gives") 
   }
 }
 
-TEST_CASE("frames taken in steps of any length are those of a whole decode") {
+TEST_CASE("frames read in steps of any length are those of a whole decode") {
   for (const char* options : {"-c:v mjpeg -pix_fmt yuvj420p", "-c:v libx264 -bf 3 -g 20"}) {
     CAPTURE(std::string(options));
     const TemporaryFolder folder;
@@ -77,8 +77,7 @@ TEST_CASE("frames taken in steps of any length are those of a whole decode") {
     for (int step = 2; step <= 18; ++step) {
       CAPTURE(step);
       FrameSource source = opened(folder / "a.avi");
-      for (int n = 0; n < count; n += step)
-        CHECK(samples_of(*source.read(n)) == truth.images[static_cast<size_t>(n)]);
+      for (int n = 0; n < count; n += step) CHECK(samples_of(*source.read(n)) == truth.images[static_cast<size_t>(n)]);
     }
   }
 }
@@ -97,7 +96,7 @@ TEST_CASE("an AVI without an index gives every frame") {
   }
 }
 
-TEST_CASE("an edit list hides the pictures before it") {
+TEST_CASE("an edit list removes the images before it") {
   const TemporaryFolder folder;
   if (!make_clip("-c:v libx264 -bf 3 -g 20", folder / "whole.mp4")) return;
   const std::string cut = "-ss 1.08 -i \"" + (folder / "whole.mp4").string() + "\" -c copy \"";
@@ -108,7 +107,7 @@ TEST_CASE("an edit list hides the pictures before it") {
   check_against(source, truth);
 }
 
-TEST_CASE("a clip cut inside an open group of pictures begins with the first whole picture") {
+TEST_CASE("a clip cut inside an open group of pictures begins with the first complete image") {
   const TemporaryFolder folder;
   if (!make_clip("-c:v libx264 -bf 3 -x264-params open-gop=1:keyint=15:scenecut=0 -f h264", folder / "whole.h264"))
     return;
@@ -123,7 +122,7 @@ TEST_CASE("a clip cut inside an open group of pictures begins with the first who
   check_against(source, truth);
 }
 
-TEST_CASE("intact and other streams beside the video change nothing") {
+TEST_CASE("sound and other streams beside the video change nothing") {
   const TemporaryFolder folder;
   if (!run_ffmpeg("-f lavfi -i testsrc2=size=128x96:rate=25:duration=2 -f lavfi -i sine=duration=3 "
                   "-map 1:a -map 0:v -map 1:a -c:v libx264 -g 20 -bf 3 -c:a aac \"" +
@@ -159,7 +158,7 @@ TEST_CASE("frame times of an AVI with B-frames are those of a constant rate") {
     CHECK(source.info().times_s[static_cast<size_t>(n)] == doctest::Approx(n / 25.0).epsilon(1e-9));
 }
 
-TEST_CASE("the same frame twice gives the same samples that nobody else holds") {
+TEST_CASE("reading a frame twice gives the same samples, and they are not shared") {
   const TemporaryFolder folder;
   write_clip(folder / "a.mkv", {.size_px = {64, 48}}, 3);
   FrameSource source = opened(folder / "a.mkv");

@@ -16,16 +16,13 @@ using namespace sigs::test;
 
 namespace {
 
-constexpr std::array kLayouts{PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444,
-                              PixelLayout::rgb};
-
 ColorInfo plain_color() {
   ColorInfo color;
   color.matrix_stated = color.range_stated = true;
   return color;
 }
 
-VideoFormat format_of(VideoCodec codec, Container container, PixelLayout layout, cv::Size size_px) {
+VideoFormat tagged_format(VideoCodec codec, Container container, PixelLayout layout, cv::Size size_px) {
   VideoFormat format;
   format.codec = codec;
   format.container = container;
@@ -49,7 +46,7 @@ TEST_CASE("FFV1 gives back every sample of every layout and size") {
         CAPTURE(static_cast<int>(layout));
         CAPTURE(size);
         const TemporaryFolder folder;
-        write_clip(folder / "a", format_of(VideoCodec::ffv1, container, layout, size), 5);
+        write_clip(folder / "a", tagged_format(VideoCodec::ffv1, container, layout, size), 5);
         FrameSource source = opened(folder / "a");
         REQUIRE(source.info().frame_count() == 5);
         CHECK(source.info().layout == layout);
@@ -75,7 +72,7 @@ TEST_CASE("the lossy codecs keep a colour in every layout container range and ma
           CAPTURE(static_cast<int>(container));
           CAPTURE(static_cast<int>(layout));
           const TemporaryFolder folder;
-          VideoFormat format = format_of(codec, container, layout, {96, 64});
+          VideoFormat format = tagged_format(codec, container, layout, {96, 64});
           format.color.range = range;
           format.color.matrix = matrix;
           Frame frame = frame_of_bgr(cv::Mat(64, 96, CV_8UC3, cv::Scalar(30, 70, 220)), layout, format.color);
@@ -96,10 +93,10 @@ TEST_CASE("the lossy codecs keep a colour in every layout container range and ma
         }
 }
 
-TEST_CASE("H264 at zero loses nothing") {
+TEST_CASE("H264 with crf 0 is lossless") {
   for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444}) {
     const TemporaryFolder folder;
-    VideoFormat format = format_of(VideoCodec::h264, Container::mp4, layout, {96, 64});
+    VideoFormat format = tagged_format(VideoCodec::h264, Container::mp4, layout, {96, 64});
     format.crf = 0;
     write_clip(folder / "a", format, 4);
     FrameSource source = opened(folder / "a");
@@ -116,7 +113,7 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
     CAPTURE(static_cast<int>(codec));
     CAPTURE(static_cast<int>(container));
     const TemporaryFolder folder;
-    VideoFormat format = format_of(codec, container, PixelLayout::yuv420, {176, 144});
+    VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {176, 144});
     std::vector<std::vector<uint8_t>> files;
     for (const int threads : {1, 1, 2, 3}) {
       format.threads = threads;
@@ -131,7 +128,7 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
   }
 }
 
-TEST_CASE("what the colours mean survives") {
+TEST_CASE("the meaning of the colours is preserved") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
         std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::avi}})
@@ -142,7 +139,7 @@ TEST_CASE("what the colours mean survives") {
           CAPTURE(static_cast<int>(container));
           CAPTURE(static_cast<int>(site));
           const TemporaryFolder folder;
-          VideoFormat format = format_of(codec, container, PixelLayout::yuv420, {64, 48});
+          VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {64, 48});
           format.color.range = range;
           format.color.matrix = matrix;
           format.color.chroma_site = site;
@@ -153,23 +150,23 @@ TEST_CASE("what the colours mean survives") {
         }
 }
 
-TEST_CASE("4:2:2 tells where its chroma lies too: motion JPEG midway, video at the left") {
+TEST_CASE("4:2:2 states its chroma site too: motion JPEG midway, video at the left") {
   const TemporaryFolder folder;
   for (const auto& [codec, site] :
        {std::pair{VideoCodec::mjpeg, ChromaSite::center}, std::pair{VideoCodec::ffv1, ChromaSite::center},
         std::pair{VideoCodec::ffv1, ChromaSite::left}, std::pair{VideoCodec::h264, ChromaSite::left}}) {
     CAPTURE(static_cast<int>(codec));
-    VideoFormat format = format_of(codec, Container::mkv, PixelLayout::yuv422, {64, 48});
+    VideoFormat format = tagged_format(codec, Container::mkv, PixelLayout::yuv422, {64, 48});
     format.color.chroma_site = site;
     write_clip(folder / "a", format, 2);
     CHECK(opened(folder / "a").info().color.chroma_site == site);
   }
 }
 
-TEST_CASE("what the footage leaves open stays open") {
+TEST_CASE("colours that the footage leaves unstated stay unstated") {
   for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264}) {
     const TemporaryFolder folder;
-    VideoFormat format = format_of(codec, Container::mkv, PixelLayout::yuv420, {64, 48});
+    VideoFormat format = tagged_format(codec, Container::mkv, PixelLayout::yuv420, {64, 48});
     format.color = {};
     format.color.matrix = ColorMatrix::bt601;
     write_clip(folder / "a", format, 2);
@@ -180,7 +177,7 @@ TEST_CASE("what the footage leaves open stays open") {
   }
 }
 
-TEST_CASE("rate shape and size of pixels survive") {
+TEST_CASE("rate, pixel aspect and size are preserved") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
         std::pair{VideoCodec::mjpeg, Container::avi}})
@@ -189,7 +186,7 @@ TEST_CASE("rate shape and size of pixels survive") {
       CAPTURE(static_cast<int>(codec));
       CAPTURE(num);
       const TemporaryFolder folder;
-      VideoFormat format = format_of(codec, container, PixelLayout::yuv420, {64, 48});
+      VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {64, 48});
       format.frame_rate_num = num;
       format.frame_rate_den = den;
       format.pixel_aspect_num = 4;
@@ -207,14 +204,14 @@ TEST_CASE("rate shape and size of pixels survive") {
     }
 }
 
-TEST_CASE("uneven frame times survive in Matroska and MP4 and begin at zero") {
+TEST_CASE("uneven frame times are preserved in Matroska and MP4 and begin at zero") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
         std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::mjpeg, Container::mp4}}) {
     CAPTURE(static_cast<int>(codec));
     CAPTURE(static_cast<int>(container));
     const TemporaryFolder folder;
-    const VideoFormat format = format_of(codec, container, PixelLayout::yuv420, {64, 48});
+    const VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {64, 48});
     Result<VideoWriter> writer = VideoWriter::open(folder / "a", format);
     REQUIRE(writer.has_value());
     const auto time_s = [](int n) { return 3.5 + 0.011 * n + 0.0013 * n * n; };
@@ -237,9 +234,9 @@ TEST_CASE("uneven frame times survive in Matroska and MP4 and begin at zero") {
   }
 }
 
-TEST_CASE("a frame that does not come after the one before is refused") {
+TEST_CASE("a frame whose time is not later than that of the one before is refused") {
   const TemporaryFolder folder;
-  const VideoFormat format = format_of(VideoCodec::ffv1, Container::mkv, PixelLayout::gray, {16, 16});
+  const VideoFormat format = tagged_format(VideoCodec::ffv1, Container::mkv, PixelLayout::gray, {16, 16});
   for (const double second_s : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     Result<VideoWriter> writer = VideoWriter::open(folder / "a.mkv", format);
     REQUIRE(writer.has_value());
@@ -250,9 +247,9 @@ TEST_CASE("a frame that does not come after the one before is refused") {
   }
 }
 
-TEST_CASE("a PNG sequence holds the images by their numbers") {
+TEST_CASE("a PNG sequence names the images by their numbers") {
   const TemporaryFolder folder;
-  VideoFormat format = format_of(VideoCodec::png, Container::mkv, PixelLayout::rgb, {33, 21});
+  VideoFormat format = tagged_format(VideoCodec::png, Container::mkv, PixelLayout::rgb, {33, 21});
   Result<VideoWriter> writer = VideoWriter::open(folder.path(), format);
   REQUIRE(writer.has_value());
   const Frame frame = test_frame(PixelLayout::rgb, {33, 21}, 4);
@@ -264,7 +261,7 @@ TEST_CASE("a PNG sequence holds the images by their numbers") {
 
 TEST_CASE("gray images become gray PNG files") {
   const TemporaryFolder folder;
-  VideoFormat format = format_of(VideoCodec::png, Container::mkv, PixelLayout::gray, {33, 21});
+  VideoFormat format = tagged_format(VideoCodec::png, Container::mkv, PixelLayout::gray, {33, 21});
   format.color.range = ColorRange::full;
   Result<VideoWriter> writer = VideoWriter::open(folder.path(), format);
   REQUIRE(writer.has_value());

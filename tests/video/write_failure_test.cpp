@@ -11,7 +11,7 @@ using namespace sigs::test;
 
 namespace {
 
-VideoFormat format_of(VideoCodec codec, Container container, cv::Size size_px) {
+VideoFormat plain_format(VideoCodec codec, Container container, cv::Size size_px) {
   VideoFormat format;
   format.codec = codec;
   format.container = container;
@@ -39,7 +39,7 @@ Result<void> outcome(const std::filesystem::path& path, const VideoFormat& forma
 
 TEST_CASE("a codec and a container that do not go together are both named") {
   const TemporaryFolder folder;
-  const Error error = refused(folder / "a.mp4", format_of(VideoCodec::ffv1, Container::mp4, {64, 48}));
+  const Error error = refused(folder / "a.mp4", plain_format(VideoCodec::ffv1, Container::mp4, {64, 48}));
   CHECK(error.kind == ErrorKind::usage);
   CHECK(error.what.find("ffv1") != std::string::npos);
   CHECK(error.what.find("mp4") != std::string::npos);
@@ -48,27 +48,27 @@ TEST_CASE("a codec and a container that do not go together are both named") {
 
 TEST_CASE("an odd size is refused only by H264 with shared chroma") {
   const TemporaryFolder folder;
-  const Error error = refused(folder / "a.mkv", format_of(VideoCodec::h264, Container::mkv, {65, 48}));
+  const Error error = refused(folder / "a.mkv", plain_format(VideoCodec::h264, Container::mkv, {65, 48}));
   CHECK(error.kind == ErrorKind::usage);
   CHECK(error.what.find("65x48") != std::string::npos);
   CHECK(error.what.find("ffv1") != std::string::npos);
-  VideoFormat full_chroma = format_of(VideoCodec::h264, Container::mkv, {65, 47});
+  VideoFormat full_chroma = plain_format(VideoCodec::h264, Container::mkv, {65, 47});
   full_chroma.layout = PixelLayout::yuv444;
   CHECK(outcome(folder / "b.mkv", full_chroma, 2).has_value());
-  CHECK(outcome(folder / "c.mkv", format_of(VideoCodec::mjpeg, Container::mkv, {65, 47}), 2).has_value());
+  CHECK(outcome(folder / "c.mkv", plain_format(VideoCodec::mjpeg, Container::mkv, {65, 47}), 2).has_value());
 }
 
 TEST_CASE("an empty or tiny image is refused") {
   const TemporaryFolder folder;
-  CHECK(refused(folder / "a.mkv", format_of(VideoCodec::ffv1, Container::mkv, {3, 48})).kind == ErrorKind::usage);
-  CHECK(refused(folder / "a.mkv", format_of(VideoCodec::ffv1, Container::mkv, {0, 48})).kind == ErrorKind::usage);
+  CHECK(refused(folder / "a.mkv", plain_format(VideoCodec::ffv1, Container::mkv, {3, 48})).kind == ErrorKind::usage);
+  CHECK(refused(folder / "a.mkv", plain_format(VideoCodec::ffv1, Container::mkv, {0, 48})).kind == ErrorKind::usage);
 }
 
-TEST_CASE("a folder that is not there cannot be written into") {
+TEST_CASE("a missing folder cannot be written into") {
   const TemporaryFolder folder;
-  CHECK(refused(folder / "absent" / "a.mkv", format_of(VideoCodec::ffv1, Container::mkv, {64, 48})).kind ==
+  CHECK(refused(folder / "absent" / "a.mkv", plain_format(VideoCodec::ffv1, Container::mkv, {64, 48})).kind ==
         ErrorKind::cannot_create);
-  CHECK(refused(folder / "absent", format_of(VideoCodec::png, Container::mkv, {64, 48})).kind ==
+  CHECK(refused(folder / "absent", plain_format(VideoCodec::png, Container::mkv, {64, 48})).kind ==
         ErrorKind::cannot_create);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("a full disk is an error for every codec and container") {
     for (const int frames : {1, 60}) {  // one frame may fit into a buffer and fail only at the end
       CAPTURE(static_cast<int>(codec));
       CAPTURE(static_cast<int>(container));
-      const Result<void> result = outcome("/dev/full", format_of(codec, container, {64, 48}), frames);
+      const Result<void> result = outcome("/dev/full", plain_format(codec, container, {64, 48}), frames);
       REQUIRE(!result.has_value());
       CHECK(result.error().kind == ErrorKind::write_failed);
       CHECK(result.error().what.find("No space left") != std::string::npos);
@@ -94,15 +94,15 @@ TEST_CASE("a full disk is an error for every codec and container") {
 TEST_CASE("a PNG that cannot be written is an error") {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("/dev/full", folder / "frame_000000.png");
-  const Result<void> result = outcome(folder.path(), format_of(VideoCodec::png, Container::mkv, {64, 48}), 1);
+  const Result<void> result = outcome(folder.path(), plain_format(VideoCodec::png, Container::mkv, {64, 48}), 1);
   REQUIRE(!result.has_value());
   CHECK(result.error().kind == ErrorKind::write_failed);
 }
 
-TEST_CASE("a writer that is dropped half way leaves without a word") {
+TEST_CASE("a writer that is destroyed without finish reports nothing") {
   const TemporaryFolder folder;
   Result<VideoWriter> writer =
-      VideoWriter::open(folder / "a.mkv", format_of(VideoCodec::h264, Container::mkv, {64, 48}));
+      VideoWriter::open(folder / "a.mkv", plain_format(VideoCodec::h264, Container::mkv, {64, 48}));
   REQUIRE(writer.has_value());
   CHECK(writer->write(test_frame(PixelLayout::yuv420, {64, 48}, 0), 0).has_value());
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/color_tags.h"
 
+#include <fmt/format.h>
+
 extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
-#include "video/primaries.h"
-#include "video/transfer_function.h"
+#include "video/color_space.h"
 
 namespace sigs::libav {
 namespace {
@@ -19,7 +20,7 @@ bool is_jpeg_format(AVPixelFormat format) {
          format == AV_PIX_FMT_YUVJ440P || format == AV_PIX_FMT_YUVJ411P;
 }
 
-// Standards in which video without a word is limited range, gray too.
+// Standards in which video without a stated range is limited, gray too.
 bool is_limited_by_standard(AVCodecID codec) {
   return codec == AV_CODEC_ID_H264 || codec == AV_CODEC_ID_HEVC || codec == AV_CODEC_ID_VP9 ||
          codec == AV_CODEC_ID_AV1 || codec == AV_CODEC_ID_MPEG4 || codec == AV_CODEC_ID_MPEG2VIDEO;
@@ -54,8 +55,8 @@ std::string read_matrix(ColorInfo& color, const AVFrame& image) {
   color.matrix = image.height < kHighDefinitionLines ? ColorMatrix::bt601 : ColorMatrix::bt709;
   if (image.colorspace == AVCOL_SPC_UNSPECIFIED || image.colorspace == AVCOL_SPC_RGB) return {};
   const char* name = av_color_space_name(image.colorspace);
-  return std::string("the colour matrix ") + (name == nullptr ? "of this number" : name) + " is not known; " +
-         (color.matrix == ColorMatrix::bt601 ? "BT.601" : "BT.709") + " is assumed";
+  return fmt::format("the colour matrix {} is not known; {} is assumed", name == nullptr ? "of this number" : name,
+                     color.matrix == ColorMatrix::bt601 ? "BT.601" : "BT.709");
 }
 
 std::string read_site(ColorInfo& color, const AVFrame& image, AVCodecID codec) {
@@ -75,8 +76,7 @@ std::string read_site(ColorInfo& color, const AVFrame& image, AVCodecID codec) {
   // JFIF puts chroma midway; every video standard puts it at the left, full range or not.
   color.chroma_site = codec == AV_CODEC_ID_MJPEG ? ChromaSite::center : ChromaSite::left;
   if (image.chroma_location == AVCHROMA_LOC_UNSPECIFIED) return {};
-  return std::string("chroma siting ") + av_chroma_location_name(image.chroma_location) +
-         " is not known; left is assumed";
+  return fmt::format("chroma siting {} is not known; left is assumed", av_chroma_location_name(image.chroma_location));
 }
 
 void add_remark(std::string& remark, const std::string& more) {
@@ -86,10 +86,11 @@ void add_remark(std::string& remark, const std::string& more) {
 std::string remark_on_light(const ColorInfo& color) {
   std::string remark;
   if (!transfer_function_of(color.transfer))
-    add_remark(remark,
-               "the transfer function (" + transfer_name(color.transfer) + ") is not followed; sRGB's is assumed");
+    add_remark(remark, fmt::format("the transfer function ({}) is not followed; sRGB's is assumed",
+                                   transfer_name(color.transfer)));
   if (!from_bt709(color.primaries))
-    add_remark(remark, "the primaries (" + primaries_name(color.primaries) + ") are not known; BT.709's are assumed");
+    add_remark(remark,
+               fmt::format("the primaries ({}) are not known; BT.709's are assumed", primaries_name(color.primaries)));
   return remark;
 }
 
@@ -148,7 +149,7 @@ void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
   const bool full = color.range == ColorRange::full;
   if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
   if (color.matrix_stated) encoder.colorspace = space_of(color.matrix);
-  // Of 4:2:2 the standards know one site, the left; what lies elsewhere must be said.
+  // For 4:2:2 the standards know one site, the left; any other one must be stated.
   const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
   if (layout == PixelLayout::yuv420 || is_odd_422) encoder.chroma_sample_location = location_of(color.chroma_site);
 }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file cut off in the middle gives an error for each packet that its index still names.
+// A truncated file gives an error for each packet that its index still lists.
 constexpr int kMaxReadErrorsInARow = 64;
 
 Result<void> check_is_file(const fs::path& path) {
@@ -32,7 +32,7 @@ bool begins_as_mp4(const fs::path& path) {
   return box == "ftyp" || box == "mdat" || box == "wide";
 }
 
-// HLS, DASH and FFmpeg's own lists. They name other files, which may lie anywhere and never end.
+// HLS, DASH and FFmpeg's own lists. They name other files, which may be anywhere and never end.
 bool begins_as_playlist(const fs::path& path) {
   std::string head(4096, '\0');
   std::ifstream in(path, std::ios::binary);
@@ -41,7 +41,7 @@ bool begins_as_playlist(const fs::path& path) {
   return head.find("#EXTM3U") < 16 || head.find("ffconcat") < 16 || head.find("<MPD") != std::string::npos;
 }
 
-// The formats that are read: all but those that name other files or are programs. FFmpeg looks here before it reads on.
+// The formats that may be read, for FFmpeg's format_whitelist: all but those that name other files or are programs.
 std::string formats_of_one_file() {
   constexpr std::array<std::string_view, 10> kOthers{
       "hls", "applehttp", "concat", "dash", "imf", "sdp", "rtsp", "avisynth", "vapoursynth", "webm_dash_manifest"};
@@ -60,16 +60,12 @@ int is_cancelled(void* cancel) {
   return cancel != nullptr && static_cast<const std::atomic<bool>*>(cancel)->load() ? 1 : 0;
 }
 
-// An input that is not open yet. FFmpeg asks `cancel` wherever it waits or reads.
+// An input that is not open yet. FFmpeg checks `cancel` wherever it waits or reads.
 AVFormatContext* new_input(const std::atomic<bool>* cancel) {
   AVFormatContext* context = avformat_alloc_context();
   if (context == nullptr) throw std::bad_alloc();
   context->interrupt_callback = {is_cancelled, const_cast<std::atomic<bool>*>(cancel)};
   return context;
-}
-
-tl::unexpected<Error> interrupted() {
-  return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
 }
 
 tl::unexpected<Error> open_failed(const fs::path& path, int error) {
@@ -98,6 +94,10 @@ bool is_video(const AVStream& stream) {
 }
 
 }  // namespace
+
+tl::unexpected<Error> interrupted() {
+  return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+}
 
 Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* cancel) {
   silence();

@@ -10,29 +10,33 @@
 
 namespace sigs::libav {
 
-// The packets of a file's video stream, in the order in which they lie (decode order).
+// The error of work that `cancel` has ended.
+[[nodiscard]] tl::unexpected<Error> interrupted();
+
+// Reads the packets of a file's video stream, in the order in which they are stored (order of decoding).
 class Demuxer {
  public:
-  // Reads that one regular file and nothing else: no play lists, no network.
-  //   cancel  set: opening, reading and seeking end soon; null or longer alive than this
-  // Errors: cannot_read (missing, a device or pipe, not a video, a play list, no video stream), bad_data (an MP4
+  // Opens one regular file and nothing else: no playlists, no network.
+  //   cancel  while it is true, opening, reading and seeking soon end; null, or alive as long as the demuxer
+  // Errors: cannot_read (missing, a device or pipe, not a video, a playlist, no video stream), bad_data (an MP4
   // without its index), interrupted.
   [[nodiscard]] static Result<Demuxer> open(const std::filesystem::path& path, const std::atomic<bool>* cancel);
 
   [[nodiscard]] AVFormatContext& format() const { return *input_; }
   [[nodiscard]] AVStream& stream() const { return *input_->streams[stream_]; }
 
-  // False at the end, or where the file cannot be read on; broke_off() tells the two apart.
+  // Reads the next packet. False at the end, or where the file cannot be read on: then broke_off() is true.
   [[nodiscard]] bool next(AVPacket& packet);
   [[nodiscard]] bool broke_off() const { return broke_off_; }
 
-  // Error interrupted once `cancel` is set: that next() found an end may mean no more than this.
+  // Error interrupted once `cancel` is set. next() then returns false although the file goes on.
   [[nodiscard]] Result<void> check_interrupt() const;
 
-  // The same file from its start, by the same rules.
+  // The same file opened again, at its start.
   [[nodiscard]] Result<Demuxer> reopened(const std::filesystem::path& path) const { return open(path, cancel_); }
 
-  // Towards the keyframe at or before time (in the stream's ticks). Where it lands is for the caller to see.
+  // Seeks to the keyframe at or before a time in the stream's ticks, as the container knows it. The caller checks where
+  // the next packet lies. False: the container cannot seek.
   [[nodiscard]] bool seek(int64_t time);
 
  private:

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/encoding.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <new>
 #include <string>
+
+extern "C" {
+#include <libavutil/opt.h>
+}
 
 #include "base/ensure.h"
 #include "video/chroma.h"
+#include "video/libav/color_tags.h"
 
 namespace sigs::libav {
 namespace {
@@ -30,11 +38,7 @@ Result<void> check_pair(const VideoFormat& format) {
   return {};
 }
 
-std::string size_text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-// FFmpeg's FFV1 cuts every image into slices and does not give back those that are one sample wide or high.
+// FFmpeg's FFV1 cuts every image into slices and does not restore those that are one sample wide or high.
 constexpr int kSmallestFfv1_px = 4;
 
 // H.264's 4:2:0 and 4:2:2 images are whole chroma samples wide and high.
@@ -42,14 +46,15 @@ Result<void> check_size(const VideoFormat& format, const Encoding& encoding) {
   if (format.size_px.width <= 0 || format.size_px.height <= 0)
     return fail("", "the image is empty: " + size_text(format.size_px), ErrorKind::usage);
   if (format.codec == VideoCodec::ffv1 && std::min(format.size_px.width, format.size_px.height) < kSmallestFfv1_px)
-    return fail("", "ffv1 cannot hold an image as small as " + size_text(format.size_px) + "; 4x4 is the least",
+    return fail("",
+                fmt::format("ffv1 cannot hold an image as small as {}; 4x4 is the least", size_text(format.size_px)),
                 ErrorKind::usage);
   if (format.codec != VideoCodec::h264) return {};
   const cv::Size step = chroma_step(encoding.layout);
   if (format.size_px.width % step.width == 0 && format.size_px.height % step.height == 0) return {};
   return fail("",
-              std::string(name_of(format.codec)) + " needs an even width and height, the image is " +
-                  size_text(format.size_px) + "; ffv1, mjpeg and png take any size",
+              fmt::format("{} needs an even width and height, the image is {}; ffv1, mjpeg and png take any size",
+                          name_of(format.codec), size_text(format.size_px)),
               ErrorKind::usage);
 }
 
@@ -118,6 +123,55 @@ Frame with_neutral_chroma(const Frame& gray, PixelLayout layout) {
   return frame;
 }
 
+// The same for all machines: the results of x264's motion search and lookahead depend on the number of threads, and its
+// hand-written routines differ in the last bit between processors unless cpu-independent is set.
+constexpr int kH264Threads = 4;
+constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
+constexpr int kH264KeyInterval = 60;  // about two seconds: an editor scrubs through it
+
+constexpr int kMjpegQuality = 2;  // the finest scale that FFmpeg's rate control takes
+
+int frame_threads(int wanted) {
+  return std::max(wanted, 1);
+}
+
+void set_up_ffv1(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
+  context.level = 3;  // slices with checksums
+  context.gop_size = 1;
+  context.slices = 0;  // chosen by the encoder from the image's size alone: four, more where that is not possible
+  context.thread_count = frame_threads(format.threads);
+  context.thread_type = FF_THREAD_SLICE;
+  av_dict_set(options, "slicecrc", "1", 0);
+}
+
+void set_up_h264(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
+  context.thread_count = kH264Threads;
+  context.gop_size = kH264KeyInterval;
+  if (format.container == Container::avi) context.max_b_frames = 0;  // AVI has no presentation times
+  av_dict_set(options, "crf", std::to_string(std::clamp(format.crf, 0, 51)).c_str(), 0);
+  av_dict_set(options, "x264-params", kH264Parameters, 0);
+}
+
+void set_up_mjpeg(AVCodecContext& context, const VideoFormat& format) {
+  context.flags |= AV_CODEC_FLAG_QSCALE;
+  context.global_quality = FF_QP2LAMBDA * kMjpegQuality;
+  context.qmin = context.qmax = kMjpegQuality;
+  // Slices would change the bytes; images do not depend on one another.
+  context.thread_count = frame_threads(format.threads);
+  context.thread_type = FF_THREAD_FRAME;
+}
+
+void set_up_frame(AVCodecContext& context, const VideoFormat& format, const Encoding& encoding, AVRational tick) {
+  context.width = format.size_px.width;
+  context.height = format.size_px.height;
+  context.pix_fmt = encoding.pixel_format;
+  context.time_base = tick;
+  context.framerate = {format.frame_rate_num, format.frame_rate_den};
+  context.sample_aspect_ratio = {format.pixel_aspect_num, format.pixel_aspect_den};
+  context.flags |= AV_CODEC_FLAG_BITEXACT;
+  tag(context, encoding.color, encoding.layout);
+}
+
 }  // namespace
 
 Result<Encoding> encoding_for(const VideoFormat& format) {
@@ -137,6 +191,27 @@ Frame stored(const Frame& frame, const Encoding& encoding) {
     return frame;
   if (gray && frame.color.range == encoding.color.range) return with_neutral_chroma(frame, encoding.layout);
   return frame_of_bgr(bgr_of(frame), encoding.layout, encoding.color);
+}
+
+Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encoding, AVRational tick, bool headers) {
+  const AVCodec* codec = avcodec_find_encoder_by_name(encoding.encoder);
+  if (codec == nullptr)
+    return fail("", fmt::format("this FFmpeg has no encoder {}", encoding.encoder), ErrorKind::unavailable);
+  CodecPtr context(avcodec_alloc_context3(codec));
+  if (context == nullptr) throw std::bad_alloc();
+  set_up_frame(*context, format, encoding, tick);
+  if (headers) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+  AVDictionary* options = nullptr;
+  if (format.codec == VideoCodec::ffv1) set_up_ffv1(*context, format, &options);
+  if (format.codec == VideoCodec::h264) set_up_h264(*context, format, &options);
+  if (format.codec == VideoCodec::mjpeg) set_up_mjpeg(*context, format);
+  const int error = avcodec_open2(context.get(), codec, &options);
+  av_dict_free(&options);
+  check_memory(error);
+  if (error < 0)
+    return fail("", fmt::format("the encoder {} refuses: {}", encoding.encoder, text_of(error)),
+                ErrorKind::unavailable);
+  return context;
 }
 
 }  // namespace sigs::libav

@@ -1,12 +1,168 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/frame_decoder.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <string>
 #include <utility>
 
+#include "base/ensure.h"
+
 namespace sigs::libav {
+namespace {
+
+Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings) {
+  const AVCodec* codec = avcodec_find_decoder(parameters.codec_id);
+  if (codec == nullptr)
+    return fail("", fmt::format("no decoder for the codec {}", avcodec_get_name(parameters.codec_id)),
+                ErrorKind::cannot_read);
+  CodecPtr context(avcodec_alloc_context3(codec));
+  if (context == nullptr) throw std::bad_alloc();
+  int error = avcodec_parameters_to_context(context.get(), &parameters);
+  // With several threads it depends on their timing which macroblocks of a damaged MPEG-4 image FFmpeg loses.
+  context->thread_count = parameters.codec_id == AV_CODEC_ID_MPEG4 ? 1 : settings.threads;
+  context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
+  if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
+  if (error < 0 && settings.threads > 1)  // perhaps no more threads can be started; one gives the same images
+    return open_decoder(parameters, {.threads = 1, .reorder_depth = settings.reorder_depth});
+  check_memory(error);
+  if (error < 0)
+    return fail("", fmt::format("the {} decoder cannot be opened: {}", codec->name, text_of(error)),
+                ErrorKind::cannot_read);
+  return context;
+}
+
+// Whether the decoder has flagged an image as damaged.
+bool is_damaged(const AVFrame& frame) {
+  return frame.decode_error_flags != 0 || (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0;
+}
+
+constexpr int kMaxSeeks = 5;
+constexpr size_t kMaxRecent = 64;
+constexpr size_t kMaxRecentBytes = 8 << 20;
+
+// A time at or before the packet's, for seeking: some containers seek by decode time, some by presentation time.
+std::optional<int64_t> seek_time(const PacketMark& mark) {
+  if (mark.pts == AV_NOPTS_VALUE && mark.dts == AV_NOPTS_VALUE) return {};
+  if (mark.pts == AV_NOPTS_VALUE) return mark.dts;
+  if (mark.dts == AV_NOPTS_VALUE) return mark.pts;
+  return std::min(mark.pts, mark.dts);
+}
+
+// Ordinal of the last keyframe before a packet; 0 where there is none.
+int key_before(const PacketTable& table, int ordinal) {
+  for (int i = ordinal - 1; i > 0; --i)
+    if (table[i].key) return i;
+  return 0;
+}
+
+}  // namespace
+
+bool is_key(const AVFrame& frame) {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 7, 100)
+  return (frame.flags & AV_FRAME_FLAG_KEY) != 0;
+#else
+  return frame.key_frame != 0;
+#endif
+}
+
+bool is_intra_only(AVCodecID codec) {
+  const AVCodecDescriptor* descriptor = avcodec_descriptor_get(codec);
+  return descriptor != nullptr && (descriptor->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
+}
+
+bool decodes_ahead(AVCodecID codec) {
+  const AVCodec* decoder = avcodec_find_decoder(codec);
+  return decoder != nullptr && (decoder->capabilities & AV_CODEC_CAP_FRAME_THREADS) != 0;
+}
+
+Result<void> PacketReader::reopen() {
+  Result<Demuxer> demuxer = demuxer_.reopened(path_);
+  if (!demuxer) return fail(demuxer.error());
+  demuxer_ = std::move(*demuxer);
+  met_ = -1;
+  held_ = false;
+  sought_ = false;
+  return {};
+}
+
+bool PacketReader::seek_before(int ordinal) {
+  int target = ordinal;
+  for (int i = 0; i < kMaxSeeks && target > 0; ++i, target = key_before(*table_, target)) {
+    const std::optional<int64_t> time = seek_time((*table_)[target]);
+    if (!time || !demuxer_.seek(*time) || !demuxer_.next(*packet_)) return false;
+    const std::optional<int> landed = table_->ordinal_of(*packet_);
+    if (!landed) return false;
+    if (*landed > ordinal) continue;
+    met_ = *landed;
+    held_ = true;
+    sought_ = true;
+    return true;
+  }
+  return false;
+}
+
+Result<void> PacketReader::go_to(int ordinal) {
+  wanted_ = ordinal;
+  if (ordinal <= read_ && ordinal >= read_ - static_cast<int>(recent_.size())) return {};
+  recent_.clear();
+  recent_bytes_ = 0;
+  read_ = ordinal;
+  if (ordinal > 0 && seek_before(ordinal)) return {};
+  return reopen();
+}
+
+Error PacketReader::changed() const {
+  return {path_.string(), "changed while it was being read"};
+}
+
+// Reads on up to packet read_, into packet_. False: the file ends before it.
+Result<bool> PacketReader::read_on() {
+  while (read_ < table_->size()) {
+    if (!held_) {
+      const bool more = demuxer_.next(*packet_);
+      ++met_;
+      if (!more || met_ >= table_->size() || !table_->looks_like(met_, *packet_)) {
+        if (!sought_) return fail(changed());
+        if (const Result<void> opened = reopen(); !opened) return fail(opened.error());
+        continue;
+      }
+    }
+    held_ = false;
+    if (met_ >= read_) return true;
+  }
+  return false;
+}
+
+void PacketReader::keep() {
+  PacketPtr kept = new_packet();
+  recent_bytes_ += static_cast<size_t>(packet_->size);
+  av_packet_move_ref(kept.get(), packet_.get());
+  recent_.push_back(std::move(kept));
+  ++read_;
+  while (recent_.size() > 1 && (recent_.size() > kMaxRecent || recent_bytes_ > kMaxRecentBytes)) {
+    recent_bytes_ -= static_cast<size_t>(recent_.front()->size);
+    recent_.pop_front();
+  }
+}
+
+Result<std::optional<int>> PacketReader::next(AVPacket& packet) {
+  if (wanted_ == read_) {
+    const Result<bool> more = read_on();
+    if (!more) return fail(more.error());
+    if (!*more) return std::optional<int>();
+    keep();
+  }
+  av_packet_unref(&packet);
+  const auto place = recent_.end() - (read_ - wanted_);
+  ENSURE(av_packet_ref(&packet, place->get()) >= 0);
+  return wanted_++;
+}
 
 Result<void> FrameDecoder::start(int ordinal, const DecoderSettings& settings, std::optional<int> end) {
-  // A fresh decoder for each start: what a flushed one keeps of its past differs from codec to codec.
+  // A fresh decoder for each start: what a flushed one keeps differs from codec to codec.
   Result<CodecPtr> decoder = open_decoder(*reader_.demuxer().stream().codecpar, settings);
   if (!decoder) return fail(decoder.error());
   decoder_ = std::move(*decoder);  // the threads of the one before have ended
@@ -27,10 +183,10 @@ Result<void> FrameDecoder::feed() {
     return {};
   }
   fed_ = **ordinal;
-  if (packet_->size == 0) return {};  // a frame left out; to the decoder an empty packet means the end
+  if (packet_->size == 0) return {};  // a dropped frame; to the decoder an empty packet would mean the end
   if ((*table_)[fed_].corrupt) note_damage(fed_);
-  // The decoder hands time stamps through to the images. Ours is the ordinal: every container has it, and it is
-  // unique.
+  // The decoder passes the time stamps on to the images. The ordinal is used as the time stamp: it exists for every
+  // container and is unique.
   packet_->pts = packet_->dts = fed_;
   decoder_->opaque = decoder_errors_->tag_of(fed_);
   // FFmpeg waits for each image of FFV1, threads or not.
@@ -53,7 +209,7 @@ void FrameDecoder::note_decoder_errors() {
   for (const int ordinal : decoder_errors_->taken()) note_damage(ordinal);
 }
 
-// An error that comes back is about the packet that has been in work for longest.
+// An error that the decoder returns concerns the packet that it has had for longest.
 void FrameDecoder::note_refusal() {
   note_damage(in_work_.empty() ? fed_ : in_work_.front());
 }

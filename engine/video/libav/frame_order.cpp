@@ -8,8 +8,8 @@
 namespace sigs::libav {
 namespace {
 
-// In these one packet is one shown picture. Not so in MPEG-4 part 2 (packed and empty pictures), VP8 (hidden ones), or
-// H.264 in fields (two packets per picture).
+// Codecs in which one packet is one shown image. This does not hold for MPEG-4 part 2 (packed and empty images), VP8
+// (hidden ones), or H.264 in fields (two packets per image).
 bool one_frame_per_packet(const AVCodecParameters& parameters) {
   switch (parameters.codec_id) {
     case AV_CODEC_ID_H264:
@@ -33,7 +33,7 @@ bool has_true_time_stamps(const AVFormatContext& format) {
   return name.starts_with("mov,mp4") || name.starts_with("matroska");
 }
 
-// FFV1 and PNG may lean on the picture before, but only in packets that are no keyframes.
+// FFV1 and PNG may refer to the image before, but only in packets that are no keyframes.
 bool each_stands_alone(const PacketTable& table, AVCodecID codec) {
   if (is_intra_only(codec)) return true;
   if (codec != AV_CODEC_ID_FFV1 && codec != AV_CODEC_ID_PNG) return false;
@@ -46,10 +46,10 @@ bool is_shown(const PacketMark& mark) {
   return !mark.discarded && mark.size > 0;
 }
 
-// The most packets that come before another in decoding although they are shown after it.
+// The largest number of packets that come before another in decoding although they are shown after it.
 int reorder_depth(const PacketTable& table, const std::vector<int>& ordinals) {
   int deepest = 0;
-  // A picture's place in presentation against its place in decoding; the depth is the greatest lag.
+  // A image's place in presentation against its place in decoding; the depth is the greatest lag.
   std::vector<int> shown;
   for (int i = 0; i < table.size(); ++i)
     if (is_shown(table[i])) shown.push_back(i);
@@ -71,8 +71,8 @@ std::vector<double> times_of(const std::vector<int64_t>& stamps, double tick_s) 
   return times_s;
 }
 
-// Decoders give pictures in the order of their time stamps, so the stamps only need to be sorted. Decode times serve as
-// well: they are the same set of instants, early by a constant.
+// The time stamps of the images, sorted: decoders give images in the order of their time stamps. Decoding times serve
+// as well: they are the same set of instants, earlier by a constant. Nothing where stamps are missing or repeated.
 std::optional<std::vector<int64_t>> sorted_stamps(const PacketTable& table, const std::vector<int>& ordinals,
                                                   int64_t PacketMark::*stamp) {
   std::vector<int64_t> stamps;
@@ -99,7 +99,7 @@ void set_times(FrameOrder& order, const PacketTable& table, const StreamBasics& 
 std::optional<FrameOrder> order_from_packets(const PacketTable& table, const AVFormatContext& format,
                                              const AVStream& stream) {
   if (!one_frame_per_packet(*stream.codecpar) || !has_true_time_stamps(format)) return {};
-  const AVCodecID codec = stream.codecpar->codec_id;  // its pictures are whole: one a packet
+  const AVCodecID codec = stream.codecpar->codec_id;
   FrameOrder order{.intra_only = each_stands_alone(table, codec), .decodes_ahead = decodes_ahead(codec)};
   for (int i = 0; i < table.size(); ++i)
     if (is_shown(table[i])) order.ordinals.push_back(i);
@@ -113,9 +113,9 @@ std::optional<FrameOrder> order_from_packets(const PacketTable& table, const AVF
   return order;
 }
 
-Result<FrameOrder> order_from_decoding(const PacketTable& table, FrameDecoder& pictures, AVRational frame_rate) {
-  // Taken out first: each start may open the file anew, and then the stream of the last opening is gone.
-  const AVStream& stream = pictures.demuxer().stream();
+Result<FrameOrder> order_from_decoding(const PacketTable& table, FrameDecoder& images, AVRational frame_rate) {
+  // Copied first: each start may open the file again, and the former stream then no longer exists.
+  const AVStream& stream = images.demuxer().stream();
   const StreamBasics basics{.tick_s = av_q2d(stream.time_base), .frame_period_s = 1 / av_q2d(frame_rate)};
   const AVCodecID codec = stream.codecpar->codec_id;
   const bool in_fields = is_in_fields(*stream.codecpar);
@@ -123,18 +123,18 @@ Result<FrameOrder> order_from_decoding(const PacketTable& table, FrameDecoder& p
   const auto decode_all = [&](int threads) -> Result<void> {
     order = {
         .intra_only = each_stands_alone(table, codec), .in_fields = in_fields, .decodes_ahead = decodes_ahead(codec)};
-    if (const Result<void> started = pictures.start(0, {.threads = threads}); !started) return fail(started.error());
+    if (const Result<void> started = images.start(0, {.threads = threads}); !started) return fail(started.error());
     while (true) {
-      Result<std::optional<DecodedFrame>> picture = pictures.next();
-      if (!picture) return fail(picture.error());
-      if (!*picture) return {};
-      order.ordinals.push_back((*picture)->ordinal);
-      order.can_start.push_back(is_key(*(*picture)->frame));
+      Result<std::optional<DecodedFrame>> image = images.next();
+      if (!image) return fail(image.error());
+      if (!*image) return {};
+      order.ordinals.push_back((*image)->ordinal);
+      order.can_start.push_back(is_key(*(*image)->frame));
     }
   };
   Result<void> decoded = decode_all(2);
-  // What two threads make of a damaged stream can depend on which of them is ahead.
-  if (decoded && !pictures.damaged().empty()) decoded = decode_all(1);
+  // With two threads the result of a damaged stream can depend on their timing.
+  if (decoded && !images.damaged().empty()) decoded = decode_all(1);
   if (!decoded) return fail(decoded.error());
   set_times(order, table, basics);
   return order;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/handles.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdarg>
 #include <new>
@@ -12,11 +14,11 @@ namespace {
 
 constexpr std::string_view kGap = "Frame num gap";  // H.264: a reference image is missing; FFmpeg fills in another
 
-// What FFmpeg calls errors and intact footage has too: supplemental information of a kind it cannot parse, references
-// that lie before a start in the middle.
+// Reports at the level of errors that occur with intact footage too: supplemental information that FFmpeg cannot parse,
+// references to images before a start in the middle of the file.
 constexpr std::string_view kHarmless[] = {"SEI type", "mmco: unref", "number of reference frames"};
 
-// Patching up the macroblocks of a damaged image is no more than information to FFmpeg.
+// FFmpeg reports the concealment of damaged macroblocks at the level of information only.
 bool is_decoder_error(int level, std::string_view format) {
   for (const std::string_view begin : kHarmless)
     if (format.starts_with(begin)) return false;
@@ -69,6 +71,15 @@ std::string text_of(int error) {
 
 void check_memory(int error) {
   if (error == AVERROR(ENOMEM)) throw std::bad_alloc();
+}
+
+Error named(Error error, const std::filesystem::path& path) {
+  if (error.where.empty() && error.kind != ErrorKind::interrupted) error.where = path.string();
+  return error;
+}
+
+std::string size_text(cv::Size size) {
+  return fmt::format("{}x{}", size.width, size.height);
 }
 
 std::string url_of(const std::filesystem::path& path) {

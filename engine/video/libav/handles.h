@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Private to this room: the FFmpeg libraries' types with owners. Nothing outside engine/video includes
-// engine/video/libav.
+// Owners for the types of the FFmpeg libraries, and their errors and reports. Private to the module: nothing outside
+// engine/video includes engine/video/libav.
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -15,8 +15,11 @@ extern "C" {
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
+
+#include "base/result.h"
 
 namespace sigs::libav {
 
@@ -38,33 +41,43 @@ using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 [[nodiscard]] PacketPtr new_packet();
 [[nodiscard]] FramePtr new_frame();
 
-// Throws std::bad_alloc where that is what the error code says. An image that could not be decoded for want of memory
+// Throws std::bad_alloc where the error code means a lack of memory: an image that could not be decoded for that reason
 // is not a damaged one.
 void check_memory(int error);
 
-// FFmpeg's words for one of its error codes.
+// FFmpeg's text for one of its error codes.
 [[nodiscard]] std::string text_of(int error);
 
-// The path as FFmpeg takes it literally: "a:b.mkv" is a file, not a protocol.
+// The error with the file's path where it names no place yet. An interruption is not about a file.
+[[nodiscard]] Error named(Error error, const std::filesystem::path& path);
+
+// "640x480"
+[[nodiscard]] std::string size_text(cv::Size size);
+
+// The URL by which FFmpeg takes a path literally: "a:b.mkv" is a file, not a protocol.
 [[nodiscard]] std::string url_of(const std::filesystem::path& path);
 
-// FFmpeg reports to stderr, which belongs to the program's own log and progress. silence() turns that off; what a
-// decoder reports goes to the DecoderErrors of the packet it is about, if any.
+// Stops FFmpeg from writing to stderr, which belongs to the program's own messages. What a decoder reports goes to the
+// DecoderErrors of the packet that it concerns, if any.
 void silence();
 
-// The packets of which a decoder reports that something is wrong with them. Its worker threads report too.
+// Collects the packets for which a decoder reports an error. It may be called from the decoder's worker threads.
 class DecoderErrors {
  public:
-  // Forgets all. first: ordinal of the packet that decoding begins at; what is missing before it is not missed.
+  // Clears the collection.
+  //   first  ordinal of the packet at which decoding begins; that images before it are missing is no error
   void restart(int first);
 
-  // To be a decoder's `opaque` while a packet goes into it, so that reports name the packet. FFmpeg hands it on to the
-  // thread that decodes that packet.
+  // The value for a decoder's `opaque` while a packet is given to it, by which reports identify the packet. FFmpeg
+  // passes it on to the thread that decodes the packet.
   [[nodiscard]] void* tag_of(int ordinal);
 
-  // The ordinals of the packets complained of since the last call.
+  // The ordinals of the packets reported since the last call.
   [[nodiscard]] std::vector<int> taken();
 
+  // Called by the log of FFmpeg.
+  //   tag       from tag_of()
+  //   of_a_gap  the report is about a missing reference image
   static void report(void* tag, bool of_a_gap);
 
  private:

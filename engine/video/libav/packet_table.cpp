@@ -2,14 +2,40 @@
 #include "video/libav/packet_table.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <numeric>
+#include <span>
+
+extern "C" {
+#include <libavutil/crc.h>
+}
 
 #include "base/ensure.h"
-#include "video/libav/ffv1_check.h"
 
 namespace sigs::libav {
+
 namespace {
+
+// A slice footer: slice_size (3 bytes, big endian, without the footer), error_status (1), slice_crc_parity (4).
+constexpr size_t kFooterBytes = 8;
+
+// Whether every slice of an FFV1 version 3 packet has a matching checksum (RFC 9043, section 4.9, slice footer). A
+// stream written without checksums never matches. FFmpeg's decoder conceals a damaged slice without a report.
+bool ffv1_checksums_match(std::span<const uint8_t> packet) {
+  if (packet.empty()) return false;
+  const AVCRC* table = av_crc_get_table(AV_CRC_32_IEEE);
+  while (!packet.empty()) {
+    if (packet.size() < kFooterBytes) return false;
+    const auto footer = packet.last(kFooterBytes);
+    const size_t slice_bytes = (size_t{footer[0]} << 16 | size_t{footer[1]} << 8 | footer[2]) + kFooterBytes;
+    if (slice_bytes > packet.size()) return false;
+    // The checksum is chosen so that the whole slice with it has the remainder 0.
+    if (av_crc(table, 0, packet.last(slice_bytes).data(), slice_bytes) != 0) return false;
+    packet = packet.first(packet.size() - slice_bytes);
+  }
+  return true;
+}
 
 PacketMark mark_of(const AVPacket& packet) {
   return {.pts = packet.pts,
@@ -21,8 +47,8 @@ PacketMark mark_of(const AVPacket& packet) {
           .corrupt = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0};
 }
 
-// Whether a picture that the container calls a keyframe is one by its own header, as far as FFmpeg has a parser for it.
-// Containers call pictures of an intra refresh so, or all of them.
+// Whether an image that the container calls a keyframe is one by its own header, as far as FFmpeg has a parser for it.
+// Some containers call the images of an intra refresh keyframes, or all images.
 class KeyCheck {
  public:
   explicit KeyCheck(const AVCodecParameters& parameters) : context_(avcodec_alloc_context3(nullptr)) {
@@ -49,7 +75,7 @@ class KeyCheck {
   std::unique_ptr<AVCodecParserContext, Close> parser_;
 };
 
-// Only a stream in which some packet's checksums match has checksums at all.
+// Marks the packets whose checksums do not match. A stream in which none match has no checksums.
 void mark_corrupt(std::vector<PacketMark>& marks, const std::vector<bool>& checksums_match) {
   if (std::find(checksums_match.begin(), checksums_match.end(), true) == checksums_match.end()) return;
   for (size_t i = 0; i < marks.size(); ++i)
@@ -102,7 +128,7 @@ std::optional<int> PacketTable::ordinal_of(const AVPacket& packet) const {
   std::optional<int> found;
   for (auto it = first; it != by_position_.end() && (*this)[*it].file_position == packet.pos; ++it) {
     if (!matches(*it, packet)) continue;
-    if (found) return {};  // an edit list may show the same bytes twice
+    if (found) return {};  // an edit list may present the same bytes twice
     found = *it;
   }
   return found;

@@ -9,18 +9,19 @@
 
 namespace sigs::libav {
 
-// One packet of the video stream as the container gives it; AV_NOPTS_VALUE and -1 where it says nothing.
+// One packet of the video stream as the container describes it; AV_NOPTS_VALUE and -1 where it states nothing.
 struct PacketMark {
-  int64_t pts = AV_NOPTS_VALUE;
-  int64_t dts = AV_NOPTS_VALUE;
+  int64_t pts = AV_NOPTS_VALUE;  // presentation time, in the stream's ticks
+  int64_t dts = AV_NOPTS_VALUE;  // decoding time
   int64_t file_position = -1;
-  int size = 0;
-  bool key = false;        // decoding can begin here, as the container says
-  bool discarded = false;  // decoded but not shown: an edit list starts behind it
-  bool corrupt = false;    // the container or a checksum says so
+  int size = 0;            // bytes
+  bool key = false;        // decoding can begin here, according to the container
+  bool discarded = false;  // decoded but not shown: an edit list starts after it
+  bool corrupt = false;    // according to the container or a checksum
 };
 
-// All packets in decode order. A packet's place in it, its ordinal, is its name throughout this room.
+// All packets of a video stream in order of decoding. A packet's index in the table is its *ordinal*, by which all of
+// libav/ refers to it.
 class PacketTable {
  public:
   // Reads the file to its end.
@@ -31,11 +32,14 @@ class PacketTable {
   [[nodiscard]] bool any_corrupt() const;
   [[nodiscard]] bool broke_off() const { return broke_off_; }  // the file ends before its index does
 
-  // The ordinal of a packet that was met after a seek, where the file position, size and time stamp tell it.
+  // The ordinal of a packet that was read after a seek, by its file position, size and time stamp. Nothing where they
+  // do not identify it.
   [[nodiscard]] std::optional<int> ordinal_of(const AVPacket& packet) const;
+
+  // Whether the packet is certainly the one of this ordinal: the file position is known and agrees.
   [[nodiscard]] bool matches(int ordinal, const AVPacket& packet) const;
 
-  // The same where the file position is unknown: whether the packet can be the one of this ordinal.
+  // Whether the packet can be the one of this ordinal; for use where the file position may be unknown.
   [[nodiscard]] bool looks_like(int ordinal, const AVPacket& packet) const;
 
  private:

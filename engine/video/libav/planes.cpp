@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/planes.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
+#include <vector>
+
 extern "C" {
 #include <libavutil/imgutils.h>
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
-
-#include <algorithm>
-#include <bit>
-#include <cstring>
-#include <new>
-#include <vector>
 
 #include "base/ensure.h"
 #include "video/chroma.h"
@@ -19,48 +23,37 @@ extern "C" {
 namespace sigs::libav {
 namespace {
 
-constexpr uint64_t kOddFlags = AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL |
-                               AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
+constexpr uint64_t kSpecialFlags = AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL |
+                                   AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
 
-const AVPixFmtDescriptor& description_of(AVPixelFormat format) {
-  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
-  ENSURE(description != nullptr);
-  return *description;
+const AVPixFmtDescriptor& descriptor_of(AVPixelFormat format) {
+  const AVPixFmtDescriptor* descriptor = av_pix_fmt_desc_get(format);
+  ENSURE(descriptor != nullptr);
+  return *descriptor;
 }
 
 bool is_rgb(const AVPixFmtDescriptor& format) {
   return (format.flags & AV_PIX_FMT_FLAG_RGB) != 0;
 }
 
-int component_count(PixelLayout layout) {
-  return layout == PixelLayout::gray ? 1 : 3;
-}
-
-// The layout with the same components and chroma raster, if there is one.
-bool same_layout(const AVPixFmtDescriptor& format, PixelLayout& layout) {
+// The layout with the same components and chroma subsampling, if there is one.
+std::optional<PixelLayout> same_layout(const AVPixFmtDescriptor& format) {
   const cv::Size step(1 << format.log2_chroma_w, 1 << format.log2_chroma_h);
-  if (format.nb_components < 3)
-    layout = PixelLayout::gray;
-  else if (is_rgb(format))
-    layout = PixelLayout::rgb;
-  else if (step == cv::Size(2, 2))
-    layout = PixelLayout::yuv420;
-  else if (step == cv::Size(2, 1))
-    layout = PixelLayout::yuv422;
-  else if (step == cv::Size(1, 1))
-    layout = PixelLayout::yuv444;
-  else
-    return false;
-  return true;
+  if (format.nb_components < 3) return PixelLayout::gray;
+  if (is_rgb(format)) return PixelLayout::rgb;
+  if (step == cv::Size(2, 2)) return PixelLayout::yuv420;
+  if (step == cv::Size(2, 1)) return PixelLayout::yuv422;
+  if (step == cv::Size(1, 1)) return PixelLayout::yuv444;
+  return std::nullopt;
 }
 
 // Whether samples can be picked one by one: whole bytes, or whole 16-bit words of this machine's byte order.
 bool can_pick(const AVPixFmtDescriptor& format) {
-  PixelLayout layout{};
-  if ((format.flags & kOddFlags) != 0 || !same_layout(format, layout)) return false;
+  const std::optional<PixelLayout> layout = same_layout(format);
+  if ((format.flags & kSpecialFlags) != 0 || !layout) return false;
   if (std::string_view(format.name).starts_with("xyz")) return false;
   const int depth = format.comp[0].depth;
-  for (int i = 0; i < component_count(layout); ++i)
+  for (int i = 0; i < plane_count(*layout); ++i)
     if (format.comp[i].depth != depth) return false;
   if (depth == 8) return true;
   const bool big_endian = (format.flags & AV_PIX_FMT_FLAG_BE) != 0;
@@ -68,11 +61,10 @@ bool can_pick(const AVPixFmtDescriptor& format) {
 }
 
 PixelLayout nearest_layout(const AVPixFmtDescriptor& format) {
-  PixelLayout layout{};
   if ((format.flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER)) != 0 || is_rgb(format)) return PixelLayout::rgb;
   if (std::string_view(format.name).starts_with("xyz")) return PixelLayout::rgb;
-  if (same_layout(format, layout)) return layout;
-  // Chroma finer in y than in x and the other way round: keep the finer of the two.
+  if (const std::optional<PixelLayout> same = same_layout(format)) return *same;
+  // Chroma subsampled in y alone (4:4:0) becomes 4:4:4, otherwise in y 4:2:0, by more than 2 in x (4:1:1) 4:2:2.
   if (format.log2_chroma_h >= 1) return format.log2_chroma_w == 0 ? PixelLayout::yuv444 : PixelLayout::yuv420;
   return PixelLayout::yuv422;
 }
@@ -144,7 +136,7 @@ Frame picked(const AVFrame& image, const AVPixFmtDescriptor& format, PixelLayout
   Frame frame{.layout = layout, .color = color};
   const cv::Size size(image.width, image.height);
   const ColorRange range = layout == PixelLayout::rgb ? ColorRange::full : color.range;
-  for (int i = 0; i < component_count(layout); ++i) {
+  for (int i = 0; i < plane_count(layout); ++i) {
     const AVComponentDescriptor& component = format.comp[i];
     const bool is_chroma = i > 0 && layout != PixelLayout::rgb;
     const cv::Size plane_size = is_chroma ? chroma_size(layout, size) : size;
@@ -156,7 +148,7 @@ Frame picked(const AVFrame& image, const AVPixFmtDescriptor& format, PixelLayout
   return frame;
 }
 
-// data[1] holds 256 words of opacity, red, green and blue, from the highest byte down.
+// The image of a palette format: data[1] has 256 words of opacity, red, green and blue, from the highest byte down.
 Frame looked_up(const AVFrame& image, const ColorInfo& color) {
   Frame frame{.layout = PixelLayout::rgb, .color = color};
   for (cv::Mat& plane : frame.planes) plane.create(image.height, image.width, CV_8UC1);
@@ -172,7 +164,7 @@ Frame looked_up(const AVFrame& image, const ColorInfo& color) {
   return frame;
 }
 
-// The same range on both sides, so that swscale only moves and resamples.
+// Sets the same range on both sides, so that swscale only rearranges and resamples.
 void keep_range(SwsContext& scaler, ColorRange range) {
   const int full = range == ColorRange::full ? 1 : 0;
   const int* coefficients = sws_getCoefficients(SWS_CS_DEFAULT);
@@ -190,41 +182,55 @@ Result<FramePtr> scaled(const AVFrame& image, PixelLayout layout, ColorRange ran
                                         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,
                                         nullptr, nullptr));
   if (scaler == nullptr)
-    return fail("", std::string("the pixel format ") + av_get_pix_fmt_name(static_cast<AVPixelFormat>(image.format)) +
-                        " cannot be converted to 8-bit planes");
+    return fail("", fmt::format("the pixel format {} cannot be converted to 8-bit planes",
+                                av_get_pix_fmt_name(static_cast<AVPixelFormat>(image.format))));
   keep_range(*scaler, range);
   sws_scale(scaler.get(), image.data, image.linesize, 0, image.height, plain->data, plain->linesize);
   return plain;
 }
 
+void release_plane(void* plane, uint8_t* /*samples*/) {
+  delete static_cast<cv::Mat*>(plane);
+}
+
+// A buffer that keeps the plane's samples alive until FFmpeg drops the last reference to it.
+AVBufferRef* buffer_of(const cv::Mat& plane) {
+  auto held = std::make_unique<cv::Mat>(plane);
+  const size_t bytes = static_cast<size_t>(plane.rows - 1) * plane.step + static_cast<size_t>(plane.cols);
+  AVBufferRef* share = av_buffer_create(plane.data, bytes, release_plane, held.get(), AV_BUFFER_FLAG_READONLY);
+  if (share == nullptr) throw std::bad_alloc();
+  static_cast<void>(held.release());
+  return share;
+}
+
 }  // namespace
 
 Conversion conversion_of(AVPixelFormat pixel_format) {
-  const AVPixFmtDescriptor& format = description_of(pixel_format);
+  const AVPixFmtDescriptor& format = descriptor_of(pixel_format);
   Conversion conversion{.layout = nearest_layout(format)};
   const bool has_alpha = (format.flags & AV_PIX_FMT_FLAG_ALPHA) != 0 && (format.flags & AV_PIX_FMT_FLAG_PAL) == 0;
   if (pixel_format == AV_PIX_FMT_PAL8)
     conversion.text = "pal8 to RGB through its palette";
   else if (!can_pick(format))
     conversion.text =
-        std::string(format.name) + " to " + av_get_pix_fmt_name(plain_format(conversion.layout)) + " through swscale";
+        fmt::format("{} to {} through swscale", format.name, av_get_pix_fmt_name(plain_format(conversion.layout)));
   else if (format.comp[0].depth > 8)
-    conversion.text = std::string(format.name) + " to 8 bits, rounded";
+    conversion.text = fmt::format("{} to 8 bits, rounded", format.name);
   if (has_alpha) conversion.text += conversion.text.empty() ? "opacity is left out" : "; opacity is left out";
   return conversion;
 }
 
 Result<Frame> frame_of(const AVFrame& image, PixelLayout layout, const ColorInfo& color) {
-  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(image.format));
+  const AVPixFmtDescriptor& format = descriptor_of(static_cast<AVPixelFormat>(image.format));
   if (can_pick(format) && nearest_layout(format) == layout) return picked(image, format, layout, color);
   if (image.format == AV_PIX_FMT_PAL8 && layout == PixelLayout::rgb) return looked_up(image, color);
   const Result<FramePtr> plain = scaled(image, layout, color.range);
   if (!plain) return fail(plain.error());
-  return picked(**plain, description_of(plain_format(layout)), layout, color);
+  return picked(**plain, descriptor_of(plain_format(layout)), layout, color);
 }
 
 void fill(AVFrame& image, const Frame& frame) {
-  const AVPixFmtDescriptor& format = description_of(static_cast<AVPixelFormat>(image.format));
+  const AVPixFmtDescriptor& format = descriptor_of(static_cast<AVPixelFormat>(image.format));
   for (int i = 0; i < frame.plane_count(); ++i) {
     const AVComponentDescriptor& component = format.comp[i];
     const cv::Mat& plane = frame.planes[static_cast<size_t>(i)];
@@ -236,6 +242,24 @@ void fill(AVFrame& image, const Frame& frame) {
       else
         for (int x = 0; x < plane.cols; ++x) out[x * component.step] = in[x];
     }
+  }
+}
+
+bool can_wrap_planes(AVPixelFormat format) {
+  const AVPixFmtDescriptor& descriptor = descriptor_of(format);
+  for (int i = 0; i < descriptor.nb_components; ++i) {
+    const AVComponentDescriptor& component = descriptor.comp[i];
+    if (component.plane != i || component.step != 1 || component.offset != 0 || component.depth != 8) return false;
+  }
+  return true;
+}
+
+void wrap_planes(AVFrame& image, const Frame& frame) {
+  for (int i = 0; i < frame.plane_count(); ++i) {
+    const cv::Mat& plane = frame.planes[static_cast<size_t>(i)];
+    image.buf[i] = buffer_of(plane);
+    image.data[i] = plane.data;
+    image.linesize[i] = static_cast<int>(plane.step);
   }
 }
 

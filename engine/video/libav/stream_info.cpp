@@ -1,22 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/stream_info.h"
 
-extern "C" {
-#include <libavutil/pixdesc.h>
-}
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
+extern "C" {
+#include <libavutil/display.h>
+#include <libavutil/pixdesc.h>
+}
+
+#include "video/chroma.h"
 #include "video/libav/color_tags.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {
 namespace {
 
-// The container rounds time stamps to its tick; more than that is a rate that varies.
+const int32_t* display_matrix(const AVStream& stream) {
+  constexpr size_t kMatrixBytes = 9 * sizeof(int32_t);
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+  const AVPacketSideData* data = av_packet_side_data_get(
+      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+  return data != nullptr && data->size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data->data) : nullptr;
+#else
+  size_t size = 0;
+  const uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
+  return data != nullptr && size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data) : nullptr;
+#endif
+}
+
+// Position of a chroma sample along one axis after an optional flip, in luma samples from an even one: 0 or 0.5 before
+// the flip, also 1 or 1.5 after it.
+double flipped(double place, int luma_size, bool flip) {
+  return flip ? std::fmod(luma_size + 1 - place, 2.0) : place;
+}
+
+// Whether the times deviate from even spacing by more than the rounding of time stamps to the container's tick.
 bool is_variable(const std::vector<double>& times_s, AVRational time_base) {
   if (times_s.size() < 3) return false;
   const double mean_s = times_s.back() / static_cast<double>(times_s.size() - 1);
@@ -26,12 +51,8 @@ bool is_variable(const std::vector<double>& times_s, AVRational time_base) {
   return false;
 }
 
-std::string counted(long long declared, int there) {
-  return "header declares " + std::to_string(declared) + " frames, " + std::to_string(there) + " are there";
-}
-
-// Seconds that the header promises beyond the last frame. Sound may last longer than the image, so only video alone
-// tells; and only a header, not a guess from the bit rate.
+// Seconds that the header states beyond the last frame. Sound may last longer than the images, so this is known only of
+// files without sound; and only a header counts, not an estimate from the bit rate.
 double missing_s(const VideoInfo& info, const AVFormatContext& format) {
   if (format.nb_streams != 1 || format.duration <= 0 || info.times_s.empty() ||
       format.duration_estimation_method != AVFMT_DURATION_FROM_STREAM)
@@ -40,7 +61,7 @@ double missing_s(const VideoInfo& info, const AVFormatContext& format) {
   return promised_s - info.times_s.back() - static_cast<double>(info.frame_rate_den) / info.frame_rate_num;
 }
 
-constexpr double kMissingWorthTelling_s = 0.1;
+constexpr double kMinReportedGap_s = 0.1;
 
 // FFmpeg opens single images with a demuxer of their own: "png_pipe", "image2".
 bool is_image(const Demuxer& demuxer) {
@@ -52,16 +73,16 @@ bool is_image(const Demuxer& demuxer) {
 std::string sequence_pattern(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   const std::size_t digits = stem.size() - (stem.find_last_not_of("0123456789") + 1);  // npos + 1 is 0
-  return stem.substr(0, stem.size() - digits) + "%0" + std::to_string(std::max<std::size_t>(digits, 1)) + "d" +
-         path.extension().string();
+  return fmt::format("{}%0{}d{}", stem.substr(0, stem.size() - digits), std::max<std::size_t>(digits, 1),
+                     path.extension().string());
 }
 
 void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& table, const FrameOrder& order) {
   const auto warn = [&](std::string what) { info.warnings.push_back({info.path.string(), std::move(what)}); };
   if (info.declared_frames > 0 && info.declared_frames != table.size() && info.declared_frames != info.frame_count())
-    warn(counted(info.declared_frames, info.frame_count()));
-  else if (table.broke_off() || missing_s(info, demuxer.format()) > kMissingWorthTelling_s)
-    warn("the file ends early; " + std::to_string(info.frame_count()) + " frames are there");
+    warn(fmt::format("header declares {} frames, {} are there", info.declared_frames, info.frame_count()));
+  else if (table.broke_off() || missing_s(info, demuxer.format()) > kMinReportedGap_s)
+    warn(fmt::format("the file ends early; {} frames are there", info.frame_count()));
   if (table.any_corrupt()) warn("some packets are damaged");
   if (order.times_are_nominal)
     warn("the container tells no usable times; frames are spaced evenly at the nominal rate");
@@ -76,11 +97,95 @@ void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orient
   info.color.chroma_site = site.site;
   info.warnings.push_back(
       {info.path.string(),
-       "is " + description_of(orientation) + ", as the file asks" +
-           (site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+       fmt::format("is {}, as the file asks{}", description_of(orientation),
+                   site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
 }
 
 }  // namespace
+
+Result<Orientation> orientation_of(const AVStream& stream) {
+  const int32_t* matrix = display_matrix(stream);
+  if (matrix == nullptr) return Orientation{};
+  // x' = a x + c y, y' = b x + d y
+  const int64_t a = matrix[0];
+  const int64_t b = matrix[1];
+  const int64_t c = matrix[3];
+  const int64_t d = matrix[4];
+  const int64_t along = std::min(std::abs(a), std::abs(d));
+  const int64_t across = std::min(std::abs(b), std::abs(c));
+  constexpr int64_t kNegligible = 1000;  // ratio; files have rounded sines
+  if (std::max(std::abs(b), std::abs(c)) <= along / kNegligible && along > 0)
+    return Orientation{.flip_columns = a < 0, .flip_rows = d < 0};
+  if (std::max(std::abs(a), std::abs(d)) <= across / kNegligible && across > 0)
+    return Orientation{.transpose = true, .flip_columns = c < 0, .flip_rows = b < 0};
+  const double angle_deg = -av_display_rotation_get(matrix);
+  const std::string how =
+      std::isfinite(angle_deg) ? fmt::format("by {} degrees", std::lround(angle_deg)) : "in a way that makes no image";
+  return fail("",
+              fmt::format("asks players to rotate the image {}; only right angles can be followed: rotate it with a "
+                          "video tool first",
+                          how));
+}
+
+Result<void> check_orientation(const Orientation& orientation, PixelLayout layout) {
+  if (orientation.transpose && layout == PixelLayout::yuv422)
+    return fail("", fmt::format("is to be {}, but its 4:2:2 chroma on its side is no layout that can be written: "
+                                "convert it to 4:2:0 or 4:4:4 with a video tool first",
+                                description_of(orientation)));
+  return {};
+}
+
+cv::Size oriented(cv::Size size, const Orientation& orientation) {
+  return orientation.transpose ? cv::Size(size.height, size.width) : size;
+}
+
+Frame oriented(const Frame& frame, const Orientation& orientation) {
+  Frame upright = frame;
+  for (cv::Mat& plane : upright.planes) {
+    if (plane.empty()) continue;
+    cv::Mat moved;
+    if (orientation.transpose)
+      cv::transpose(plane, moved);
+    else
+      moved = plane;
+    if (orientation.flip_columns || orientation.flip_rows) {
+      cv::Mat in_reverse;
+      cv::flip(moved, in_reverse,
+               orientation.flip_columns && orientation.flip_rows ? -1
+               : orientation.flip_columns                        ? 1
+                                                                 : 0);
+      moved = in_reverse;
+    }
+    plane = moved;
+  }
+  return upright;
+}
+
+OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px, const Orientation& orientation) {
+  const cv::Size step = chroma_step(layout);
+  if (step == cv::Size(1, 1) || orientation == Orientation{}) return {site, true};
+  double column = step.width == 1 || chroma_on_luma_column(site) ? 0 : 0.5;
+  double row = step.height == 1 || chroma_on_luma_row(site) ? 0 : 0.5;
+  if (orientation.transpose) std::swap(column, row);
+  const cv::Size size = oriented(stored_px, orientation);
+  if (step.width > 1) column = flipped(column, size.width, orientation.flip_columns);
+  if (step.height > 1) row = flipped(row, size.height, orientation.flip_rows);
+  for (const ChromaSite named : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
+    const bool same_row = step.height == 1 || row == (chroma_on_luma_row(named) ? 0 : 0.5);
+    if (column == (chroma_on_luma_column(named) ? 0 : 0.5) && same_row) return {named, true};
+  }
+  return {ChromaSite::center, false};
+}
+
+std::string description_of(const Orientation& orientation) {
+  if (orientation == Orientation{}) return {};
+  if (!orientation.transpose && orientation.flip_columns && orientation.flip_rows) return "rotated by 180 degrees";
+  if (!orientation.transpose) return orientation.flip_columns ? "mirrored left to right" : "mirrored top to bottom";
+  if (orientation.flip_columns != orientation.flip_rows)
+    return std::string("rotated by 90 degrees ") + (orientation.flip_columns ? "clockwise" : "counterclockwise");
+  return orientation.flip_columns ? "mirrored and rotated by 90 degrees: about the other diagonal"
+                                  : "mirrored and rotated by 90 degrees: about the diagonal";
+}
 
 AVRational frame_rate_of(const Demuxer& demuxer) {
   const AVRational rate = av_guess_frame_rate(&demuxer.format(), &demuxer.stream(), nullptr);

@@ -1,19 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+#include "video/frame.h"
 #include "video/frame_source.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/frame_order.h"
-#include "video/libav/orientation.h"
+#include "video/libav/handles.h"
 #include "video/libav/packet_table.h"
 
 namespace sigs::libav {
 
-// Nominal frame rate, 25/1 where nothing tells.
+// What a container and its first image state about a video: its orientation, and everything of VideoInfo.
+
+// How a stored image becomes upright: rows and columns are exchanged, then columns and rows are reversed. All eight
+// combinations of rotations by right angles and mirrors can be written so; each sample keeps its value.
+struct Orientation {
+  bool transpose = false;
+  bool flip_columns = false;
+  bool flip_rows = false;
+
+  [[nodiscard]] bool operator==(const Orientation&) const = default;
+};
+
+// The orientation that the container's display matrix asks for (ISO/IEC 14496-12, 8.3.2.3; Matroska's projection pose).
+// Error bad_data where it is a rotation by other than right angles.
+[[nodiscard]] Result<Orientation> orientation_of(const AVStream& stream);
+
+// Error bad_data where the layout does not allow the orientation: a transposed 4:2:2 would be 4:4:0.
+[[nodiscard]] Result<void> check_orientation(const Orientation& orientation, PixelLayout layout);
+
+// The size and the samples of the upright image.
+[[nodiscard]] cv::Size oriented(cv::Size size, const Orientation& orientation);
+[[nodiscard]] Frame oriented(const Frame& frame, const Orientation& orientation);
+
+// Where the chroma samples lie in the upright image. Positions without a name (on odd columns, on rows alone) are taken
+// as midway, which is half a pixel off; exact is then false.
+struct OrientedSite {
+  ChromaSite site = ChromaSite::left;
+  bool exact = true;
+};
+[[nodiscard]] OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px,
+                                         const Orientation& orientation);
+
+// "rotated by 90 degrees clockwise", "mirrored left to right"; empty: as it is stored.
+[[nodiscard]] std::string description_of(const Orientation& orientation);
+
+// Nominal frame rate; 25/1 where the file states none.
 [[nodiscard]] AVRational frame_rate_of(const Demuxer& demuxer);
 
-// Everything but the time stamps' own warnings: from the container, and from the first image as it is decoded.
-// Sizes and sites are those of the upright image.
+// The properties of a video, from its container and its first decoded image, with warnings about what is damaged,
+// missing or assumed. Size and chroma site are those of the upright image.
 [[nodiscard]] VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxer,
                                       const PacketTable& table, const FrameOrder& order, const AVFrame& first,
                                       const Orientation& orientation);

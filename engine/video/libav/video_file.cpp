@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/video_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -8,8 +10,7 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "video/libav/encoder.h"
-#include "video/libav/plane_wrapping.h"
+#include "video/libav/encoding.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {
@@ -40,14 +41,9 @@ AVRational tick_of(const VideoFormat& format) {
   return {1, static_cast<int>(num * std::max<int64_t>(1, (kFinestTicksPerSecond + num - 1) / num))};
 }
 
-// The encoder has read an image's samples when it returns; others may hold on to them.
+// Whether the encoder has finished with an image's samples when it returns. Others may refer to them later.
 bool is_done_at_once(VideoCodec codec) {
   return codec == VideoCodec::ffv1 || codec == VideoCodec::h264;
-}
-
-Error named(Error error, const fs::path& path) {
-  if (error.where.empty()) error.where = path.string();
-  return error;
 }
 
 }  // namespace
@@ -73,7 +69,7 @@ Result<VideoFile> VideoFile::create(const fs::path& path, const VideoFormat& for
 Result<void> VideoFile::begin() {
   AVFormatContext* context = nullptr;
   if (avformat_alloc_output_context2(&context, nullptr, muxer_of(format_.container), nullptr) < 0)
-    return fail("", std::string("this FFmpeg cannot write ") + muxer_of(format_.container), ErrorKind::unavailable);
+    return fail("", fmt::format("this FFmpeg cannot write {}", muxer_of(format_.container)), ErrorKind::unavailable);
   output_.reset(context);
   context->flags |= AVFMT_FLAG_BITEXACT;  // no dates, no versions, no random identifiers
   Result<CodecPtr> encoder =
@@ -135,14 +131,14 @@ Result<void> VideoFile::write_blank(double time_s) {
   return write(frame);
 }
 
-// Every image of FFV1 here is a key image, so the same image makes the same packet.
+// All images are keyframes in FFV1 as it is set up here, so that the same image always gives the same packet.
 void VideoFile::prepare_blanks() {
   if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
   Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
   blank_ = packet_alone(frame);
 }
 
-// What the encoder makes of an image that is not written. Empty where it does not come out at once.
+// The encoded packet of an image that is not written itself. Empty where the encoder does not return it at once.
 std::vector<uint8_t> VideoFile::packet_alone(const Frame& frame) {
   const FramePtr image = av_frame_of(frame);
   image->pts = std::max<int64_t>(last_stamp_, 0);
@@ -178,7 +174,7 @@ Result<void> VideoFile::put_known(const std::vector<uint8_t>& packet, double tim
   return put(*packet_);
 }
 
-// Takes the packet's contents.
+// Writes a packet and leaves it empty.
 Result<void> VideoFile::put(AVPacket& packet) {
   const AVRational period{format_.frame_rate_den, format_.frame_rate_num};
   if (packet.duration == 0) packet.duration = av_rescale_q(1, period, tick_);
@@ -195,7 +191,7 @@ Result<void> VideoFile::finish() {
   return check(avio_closep(&output_->pb));
 }
 
-// A full disk may show only in the buffer below the muxer.
+// The result of a call of the muxer. A full disk may be reported only by the buffer below it.
 Result<void> VideoFile::check(int result) const {
   if (result >= 0 && output_->pb != nullptr) result = output_->pb->error;
   if (result >= 0) return {};

@@ -12,27 +12,36 @@
 
 namespace sigs::libav {
 
+// Closes the file and frees the context.
 struct OutputCloser {
   void operator()(AVFormatContext* context) const;
 };
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
 
-// One video stream in one container file. See video_writer.h for what it promises.
+// Writes one video stream to one container file; the part of VideoWriter (video_writer.h) that uses FFmpeg. Functions
+// and errors are those of VideoWriter.
 class VideoFile {
  public:
+  // Creates the file and writes the container's header.
   [[nodiscard]] static Result<VideoFile> create(const std::filesystem::path& path, const VideoFormat& format);
 
-  // Does now what the first images would wait for. No need to call it; the bytes are the same.
+  // Encodes in advance what write_blank() repeats. Optional: the bytes are the same without it.
   void warm_up() { prepare_blanks(); }
+
+  // Encodes a frame, or one whose samples are all 0, and writes the packets that the encoder returns.
   [[nodiscard]] Result<void> write(const Frame& frame);
   [[nodiscard]] Result<void> write_blank(double time_s);
+
+  // Writes the packets that the encoder still has, and the end of the container.
   [[nodiscard]] Result<void> finish();
 
  private:
   VideoFile(std::filesystem::path path, VideoFormat format, Encoding encoding);
 
   [[nodiscard]] Result<void> begin();
+  // The time stamp of a frame, in ticks from the first one.
   [[nodiscard]] Result<int64_t> next_stamp(double time_s);
+  // The frame as FFmpeg's image, without a copy of its samples where the codec allows it.
   [[nodiscard]] FramePtr av_frame_of(const Frame& frame) const;
   [[nodiscard]] Result<void> encode(const AVFrame* image);
   [[nodiscard]] std::vector<uint8_t> packet_alone(const Frame& frame);
@@ -45,15 +54,15 @@ class VideoFile {
   std::filesystem::path path_;
   VideoFormat format_;
   Encoding encoding_;
-  AVRational tick_{1, 1};  // of the time stamps that the encoder is given
-  OutputPtr output_;
+  AVRational tick_{1, 1};  // unit of the time stamps that the encoder is given, s
+  OutputPtr output_;       // the container
   CodecPtr encoder_;
-  PacketPtr packet_ = new_packet();
+  PacketPtr packet_ = new_packet();  // for encoded packets, reused
   bool blanks_are_prepared_ = false;
-  std::vector<uint8_t> blank_;  // what the encoder makes of a blank image, where that is always the same
-  std::optional<double> first_time_s_;
+  std::vector<uint8_t> blank_;          // the packet of a blank image, where it is always the same
+  std::optional<double> first_time_s_;  // of the first frame; none before it
   double last_time_s_ = 0;
-  int64_t last_stamp_ = -1;
+  int64_t last_stamp_ = -1;  // in ticks
 };
 
 }  // namespace sigs::libav

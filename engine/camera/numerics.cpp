@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "camera/polynomial.h"
+#include "camera/numerics.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace sigs::distortion {
 namespace {
 
-// Place between a and b where the sign of the polynomial changes, on the side of a.
+// Where the sign of the polynomial changes between a and b, by bisection; the last number on the side of a.
 double sign_change_between(const Polynomial& polynomial, double a, double b) {
   const bool positive_at_a = value_at(polynomial, a) > 0;
   for (;;) {
@@ -19,10 +19,10 @@ double sign_change_between(const Polynomial& polynomial, double a, double b) {
   }
 }
 
-// Ends of the stretches of (0, limit] on which the polynomial is monotonic, and limit itself.
+// Ends of the intervals of (0, limit] on which the polynomial is monotonic, and limit itself.
 std::vector<double> turning_points(const Polynomial& polynomial, double limit);
 
-// All places in (0, limit] where the sign changes, ascending.
+// All numbers in (0, limit] where the sign changes, ascending.
 std::vector<double> sign_changes(const Polynomial& polynomial, double limit) {
   std::vector<double> changes;
   double from = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/transfer_function.h"
+#include "video/color_space.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,6 @@
 #include "support/test_data.h"
 #include "video/clips.h"
 #include "video/frame_source.h"
-#include "video/primaries.h"
 
 namespace sigs::test {
 namespace {
@@ -48,7 +47,7 @@ TEST_CASE("sRGB's function is that of textures") {
   }
 }
 
-TEST_CASE("light and back is the identity, also beyond black and white, and every function rises") {
+TEST_CASE("conversion to light and back is the identity, also beyond black and white, and every function increases") {
   for (const TransferFunction function : kAll) {
     CAPTURE(static_cast<int>(function));
     double before = linear_of_display(function, -1.91);
@@ -56,13 +55,13 @@ TEST_CASE("light and back is the identity, also beyond black and white, and ever
       const double linear = linear_of_display(function, display);
       CHECK(linear > before);
       before = linear;
-      if (std::abs(display) < 1e-3) continue;  // PQ says nothing below 1e-6
+      if (std::abs(display) < 1e-3) continue;  // PQ is 0 below 1e-6
       CHECK(display_of_linear(function, linear) == doctest::Approx(display).epsilon(1e-6));
     }
   }
 }
 
-TEST_CASE("the least light is half an 8-bit step above black") {
+TEST_CASE("the minimum light is half an 8-bit step at black") {
   CHECK(min_light(TransferFunction::srgb) == doctest::Approx(0.5 / 255 / 12.92).epsilon(1e-12));
   for (const TransferFunction function : kAll)
     for (const double below : {-0.002, -0.001, 0.0, 0.01, 0.1, 0.5, 1.0}) {
@@ -87,7 +86,7 @@ TEST_CASE("light of BT709 has the published shares in BT2020 and white stays whi
   CHECK(!from_bt709(99));
 }
 
-TEST_CASE("footage whose light cannot be followed says so in one line and names what is assumed") {
+TEST_CASE("footage with an unsupported transfer function gives a warning in one line that names what is assumed") {
   for (const auto& [transfer, primaries, words] :
        {std::tuple{9, 1, "logarithmic"}, {17, 1, "ST 428-1"}, {1, 1, ""}, {16, 9, ""}, {18, 9, ""}, {2, 2, ""}}) {
     CAPTURE(transfer);

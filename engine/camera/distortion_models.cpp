@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "camera/brown_conrady.h"
+#include "camera/distortion_models.h"
 
 #include <array>
 #include <cmath>
@@ -21,9 +21,10 @@ Ratio ratio(const BrownConrady& m, double u) {
   return {value, (numerator_slope - value * denominator_slope) / denominator};
 }
 
-// Scheimpflug tilt: the sensor plane is turned by R = Ry(tau_y) Rx(tau_x), which takes (x'', y'', 1) to a point in its
-// own frame. Seen along the optical axis, the turned axis has to stay at (0, 0): with c = R (0, 0, 1), the third
-// column, the point (X, Y, Z) lands on c_z X / Z - c_x and c_z Y / Z - c_y. That is the first matrix below.
+// Scheimpflug tilt (OpenCV's computeTiltProjectionMatrix): the sensor plane is rotated by R = Ry(tau_y) Rx(tau_x),
+// which takes (x'', y'', 1) to a point (X, Y, Z) in the sensor's frame. The projection along the optical axis has to
+// keep the axis at (0, 0): with c = R (0, 0, 1), the third column, it is c_z X / Z - c_x and c_z Y / Z - c_y. These are
+// the rows of along_axis.
 glm::dmat3 tilt_matrix(double tau_x, double tau_y) {
   const double cx = std::cos(tau_x);
   const double sx = std::sin(tau_x);
@@ -35,6 +36,12 @@ glm::dmat3 tilt_matrix(double tau_x, double tau_y) {
   const glm::dvec3 axis = turn[2];
   const glm::dmat3 along_axis{{axis.z, 0, 0}, {0, axis.z, 0}, {-axis.x, -axis.y, 1}};
   return along_axis * turn;
+}
+
+// sin(t) / t, 1 at zero. Below the limit the next term of the series, t^4 / 120, is under the last bit.
+double sine_over(double t) {
+  constexpr double kSeriesBelow = 1e-4;
+  return t < kSeriesBelow ? 1 - t * t / 6 : std::sin(t) / t;
 }
 
 }  // namespace
@@ -121,9 +128,50 @@ glm::dvec3 BrownConrady::ray_of(const glm::dvec2& p) {
 }
 
 glm::dvec2 BrownConrady::stretch(const glm::dvec2& p) {
-  // r = tan(theta): dr/dtheta = 1 + r^2; across, a turn by dphi moves r dphi and is an angle of sin(theta) dphi.
+  // r = tan(theta): dr/dtheta = 1 + r^2. Perpendicular to the radius, a rotation by dphi about the axis moves p by r
+  // dphi and is an angle of sin(theta) dphi.
   const double secant_squared = 1 + glm::dot(p, p);
   return {secant_squared, std::sqrt(secant_squared)};
+}
+
+KannalaBrandt KannalaBrandt::of(std::span<const double> coefficients) {
+  KannalaBrandt model;
+  for (std::size_t i = 0; i < coefficients.size() && i < model.k.size(); ++i) model.k[i] = coefficients[i];
+  return model;
+}
+
+ValueAndSlope KannalaBrandt::radial(double theta_rad) const {
+  const double u = theta_rad * theta_rad;
+  return {theta_rad * (1 + u * (k[0] + u * (k[1] + u * (k[2] + u * k[3])))),
+          1 + u * (3 * k[0] + u * (5 * k[1] + u * (7 * k[2] + u * 9 * k[3])))};
+}
+
+glm::dvec2 KannalaBrandt::distorted(const glm::dvec2& p) const {
+  const double u = glm::dot(p, p);
+  return p * (1 + u * (k[0] + u * (k[1] + u * (k[2] + u * k[3]))));
+}
+
+glm::dmat2 KannalaBrandt::jacobian(const glm::dvec2& p) const {
+  const double u = glm::dot(p, p);
+  const double factor = 1 + u * (k[0] + u * (k[1] + u * (k[2] + u * k[3])));
+  const double slope = k[0] + u * (2 * k[1] + u * (3 * k[2] + u * 4 * k[3]));  // of the factor, by u
+  return factor * glm::dmat2{1} + 2 * slope * glm::outerProduct(p, p);
+}
+
+std::optional<glm::dvec2> KannalaBrandt::plane_of(const glm::dvec3& p_optical) {
+  const double off_axis = std::hypot(p_optical.x, p_optical.y);
+  if (off_axis == 0) return p_optical.z > 0 ? std::optional(glm::dvec2{0, 0}) : std::nullopt;
+  const double theta_rad = std::atan2(off_axis, p_optical.z);
+  return glm::dvec2{p_optical.x / off_axis, p_optical.y / off_axis} * theta_rad;
+}
+
+glm::dvec3 KannalaBrandt::ray_of(const glm::dvec2& p) {
+  const double theta_rad = glm::length(p);
+  return {p * sine_over(theta_rad), std::cos(theta_rad)};
+}
+
+glm::dvec2 KannalaBrandt::stretch(const glm::dvec2& p) {
+  return {1, 1 / sine_over(glm::length(p))};
 }
 
 }  // namespace sigs::distortion

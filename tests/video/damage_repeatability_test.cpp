@@ -15,49 +15,49 @@ using namespace sigs::test;
 
 namespace {
 
-// What one read of a frame gives: its samples and whether it is flagged, or the error's words.
-struct Seen {
+// The result of reading a frame: its samples and whether it is flagged, or the error's text.
+struct ReadResult {
   Samples samples{};
   bool damaged = false;
   std::string error{};
 
-  [[nodiscard]] bool operator==(const Seen&) const = default;
+  [[nodiscard]] bool operator==(const ReadResult&) const = default;
 };
 
-Seen seen(FrameSource& source, int n) {
+ReadResult result_of(FrameSource& source, int n) {
   const Result<Frame> frame = source.read(n);
   if (!frame) return {.error = frame.error().text()};
   return {.samples = samples_of(*frame), .damaged = frame->damaged};
 }
 
-std::vector<Seen> seen_in_order(const std::filesystem::path& path) {
+std::vector<ReadResult> read_in_order(const std::filesystem::path& path) {
   FrameSource source = opened(path);
-  std::vector<Seen> frames;
-  for (int n = 0; n < source.info().frame_count(); ++n) frames.push_back(seen(source, n));
+  std::vector<ReadResult> frames;
+  for (int n = 0; n < source.info().frame_count(); ++n) frames.push_back(result_of(source, n));
   return frames;
 }
 
-// How many frames are others where reading begins at them, or some frames before.
-int differing_ways(const std::filesystem::path& path, const std::vector<Seen>& in_order) {
+// How many frames differ from those read in order where reading begins at them, some frames before, or at random.
+int differing_reads(const std::filesystem::path& path, const std::vector<ReadResult>& in_order) {
   const int count = static_cast<int>(in_order.size());
   int differing = 0;
   for (int first = 0; first < count; first += 3) {
     FrameSource source = opened(path);
     if (source.info().frame_count() != count) return count;
     for (int n = first; n < std::min(first + 5, count); ++n)
-      differing += seen(source, n) == in_order[static_cast<size_t>(n)] ? 0 : 1;
+      differing += result_of(source, n) == in_order[static_cast<size_t>(n)] ? 0 : 1;
   }
   FrameSource source = opened(path);
-  for (const int n : shuffled(count)) differing += seen(source, n) == in_order[static_cast<size_t>(n)] ? 0 : 1;
+  for (const int n : shuffled(count)) differing += result_of(source, n) == in_order[static_cast<size_t>(n)] ? 0 : 1;
   return differing;
 }
 
-struct ClipKind {
+struct DamagedClip {
   const char* options;
   const char* file;
 };
 
-constexpr ClipKind kKinds[] = {
+constexpr DamagedClip kDamagedClips[] = {
     {"-c:v libx264 -bf 2 -g 10 -crf 18", "a.mp4"},
     {"-c:v libx264 -bf 3 -x264-params open-gop=1:keyint=10:min-keyint=5", "a.mkv"},
     {"-c:v libx264 -bf 2 -g 10", "a.ts"},
@@ -81,13 +81,13 @@ Bytes damaged_by(Bytes bytes, std::mt19937& random) {
       for (size_t i = 0, flips = 1 + random() % 12; i < flips; ++i)
         bytes[place(bytes.size())] ^= static_cast<uint8_t>(1 + random() % 255);
       break;
-    case 1: {  // a stretch of noise
+    case 1: {  // a part replaced by noise
       const size_t length = 1 + place(bytes.size() / 10);
       const size_t first = place(bytes.size() - length);
       for (size_t i = first; i < first + length; ++i) bytes[i] = static_cast<uint8_t>(random());
       break;
     }
-    case 2: {  // a stretch that is gone
+    case 2: {  // a part that is missing
       const size_t length = 1 + place(bytes.size() / 20);
       const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(place(bytes.size() - length));
       bytes.erase(first, first + static_cast<std::ptrdiff_t>(length));
@@ -101,13 +101,13 @@ Bytes damaged_by(Bytes bytes, std::mt19937& random) {
 
 }  // namespace
 
-// SIGS_DAMAGED_CLIPS sets how many are made of each kind.
+// The environment variable SIGS_DAMAGED_CLIPS sets how many clips of each kind are damaged.
 TEST_CASE("a frame of a damaged clip is the same in order, by itself, from the middle on and at random") {
   const TemporaryFolder folder;
   const char* asked = std::getenv("SIGS_DAMAGED_CLIPS");
   const int each = asked == nullptr ? 6 : std::atoi(asked);
   int clips = 0;
-  for (const ClipKind& kind : kKinds) {
+  for (const DamagedClip& kind : kDamagedClips) {
     CAPTURE(std::string(kind.options));
     CAPTURE(std::string(kind.file));
     if (!make_clip(kind.options, folder / kind.file, "testsrc2=size=96x64:rate=25:duration=1.6")) continue;
@@ -119,13 +119,13 @@ TEST_CASE("a frame of a damaged clip is the same in order, by itself, from the m
       write_bytes(path, damaged_by(whole, random));
       if (!FrameSource::open(path)) continue;
       ++clips;
-      CHECK(differing_ways(path, seen_in_order(path)) == 0);
+      CHECK(differing_reads(path, read_in_order(path)) == 0);
     }
   }
   CHECK(clips > 0);
 }
 
-TEST_CASE("frames dropped out of the middle of a clip are the same every way") {
+TEST_CASE("a clip from the middle of which frames are missing gives the same frames in every order of reading") {
   const TemporaryFolder folder;
   for (const char* file : {"a.mp4", "a.mkv"}) {
     CAPTURE(std::string(file));
@@ -133,18 +133,18 @@ TEST_CASE("frames dropped out of the middle of a clip are the same every way") {
     const std::string drop = "-i \"" + (folder / file).string() + "\" -c copy -bsf:v noise=drop='eq(n\\,25)' \"";
     const std::filesystem::path path = folder / (std::string("dropped_") + file);
     if (!run_ffmpeg(drop + path.string() + "\"")) return;
-    const std::vector<Seen> in_order = seen_in_order(path);
+    const std::vector<ReadResult> in_order = read_in_order(path);
     CHECK(in_order.size() < 50);
-    CHECK(differing_ways(path, in_order) == 0);
-    const auto is_damaged = [](const Seen& frame) { return frame.damaged; };
-    // All that was decoded after it up to the next key frame leans on what is gone.
+    CHECK(differing_reads(path, in_order) == 0);
+    const auto is_damaged = [](const ReadResult& frame) { return frame.damaged; };
+    // All frames decoded after it up to the next keyframe depend on the missing one.
     CHECK(std::count_if(in_order.begin(), in_order.end(), is_damaged) > 0);
     CHECK(std::count_if(in_order.begin(), in_order.begin() + 20, is_damaged) == 0);
     CHECK(std::count_if(in_order.begin() + 39, in_order.end(), is_damaged) == 0);
   }
 }
 
-TEST_CASE("FFV1 whose checksums are all wrong holds no intact frame and is refused") {
+TEST_CASE("FFV1 whose checksums are all wrong has no intact frame and is refused") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mkv";
   write_clip(path, {.size_px = {160, 120}}, 20);
@@ -157,7 +157,7 @@ TEST_CASE("FFV1 whose checksums are all wrong holds no intact frame and is refus
   CHECK(source.error().text().find("damaged") != std::string::npos);
 }
 
-TEST_CASE("FFV1 with one intact frame shows it in the place of all others, each flagged") {
+TEST_CASE("FFV1 with one intact frame gives it in place of all others, each flagged") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mkv";
   write_clip(path, {.size_px = {160, 120}}, 20);
@@ -181,7 +181,7 @@ TEST_CASE("FFV1 with one intact frame shows it in the place of all others, each 
   }
 }
 
-TEST_CASE("footage that shrinks while it is read is an error, not a frozen picture") {
+TEST_CASE("footage that shrinks while it is read is an error, not a frozen image") {
   for (const char* file : {"a.mkv", "a.avi", "a.mp4"}) {
     CAPTURE(std::string(file));
     const TemporaryFolder folder;

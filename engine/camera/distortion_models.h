@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "camera/numerics.h"
+
+namespace sigs::distortion {
+
+// The formulas of the two lens models. Each maps points p of an undistorted plane to a distorted plane, from which
+// focal length and principal point lead to pixels: pixel = focal * distorted(p) + center. The undistorted plane is the
+// model's own; plane_of() and ray_of() convert between it and directions in OpenCV's optical frame (x right, y down, z
+// forward). Neither model checks whether p lies in the field on which it is one to one: see valid_field.h.
+
+// The distortion model of OpenCV's calib3d (Brown 1966, Conrady 1919, with the rational, thin prism and tilted sensor
+// terms). Its plane is the image plane at distance 1: p = (x / z, y / z), so that |p| is the tangent of the angle from
+// the axis.
+//   u = |p|^2,  N = 1 + k1 u + k2 u^2 + k3 u^3,  D = 1 + k4 u + k5 u^2 + k6 u^3
+//   x'' = x N / D + 2 p1 x y + p2 (u + 2 x^2) + s1 u + s2 u^2
+//   y'' = y N / D + p1 (u + 2 y^2) + 2 p2 x y + s3 u + s4 u^2
+//   w (x''', y''', 1) = tilt (x'', y'', 1)
+struct BrownConrady {
+  double k1 = 0, k2 = 0, k3 = 0, k4 = 0, k5 = 0, k6 = 0;  // radial
+  double p1 = 0, p2 = 0;                                  // tangential
+  double s1 = 0, s2 = 0, s3 = 0, s4 = 0;                  // thin prism
+  glm::dmat3 tilt{1};                                     // of the sensor
+  glm::dmat3 tilt_inverse{1};
+  bool radial_only = true;  // neither p nor s: before the tilt, a circle around the axis stays a circle
+  bool tilted = false;      // tilt is not the identity
+
+  // The model of coefficients in OpenCV's order k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tau_x tau_y (the tilts in radians).
+  // Missing ones are zero.
+  [[nodiscard]] static BrownConrady of(std::span<const double> coefficients);
+
+  // Everything but the tilt: (x'', y''), and its Jacobian (column i: the derivative by p[i]).
+  [[nodiscard]] glm::dvec2 distorted_before_tilt(const glm::dvec2& p) const;
+  [[nodiscard]] glm::dmat2 jacobian_before_tilt(const glm::dvec2& p) const;
+
+  // The radial part alone, at |p| = r: r N / D and its derivative by r.
+  [[nodiscard]] ValueAndSlope radial(double r) const;
+
+  // The whole model: (x''', y'''), and its Jacobian.
+  [[nodiscard]] glm::dvec2 distorted(const glm::dvec2& p) const;
+  [[nodiscard]] glm::dmat2 jacobian(const glm::dvec2& p) const;
+
+  // (x'', y'') of (x''', y'''). Nothing where the point lies beyond the tilted sensor's horizon.
+  [[nodiscard]] std::optional<glm::dvec2> untilted(const glm::dvec2& distorted_point) const;
+
+  // The plane's point of a direction (any length); nothing where the direction does not point forward.
+  [[nodiscard]] static std::optional<glm::dvec2> plane_of(const glm::dvec3& p_optical);
+
+  // The unit direction of a point of the plane.
+  [[nodiscard]] static glm::dvec3 ray_of(const glm::dvec2& p);
+
+  // How fast p moves when the direction turns, per radian: along the radius (x) and perpendicular to it (y).
+  [[nodiscard]] static glm::dvec2 stretch(const glm::dvec2& p);
+};
+
+// The fisheye model of OpenCV (Kannala and Brandt 2006, equation 6 without the asymmetric terms). Its plane is the
+// equidistant one: p points from the axis towards the direction, and its length is the angle theta from the axis in
+// radians, so that directions beside and behind the camera have points too.
+//   distorted = p (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)
+struct KannalaBrandt {
+  std::array<double, 4> k{};
+
+  // The model of coefficients k1 k2 k3 k4. Missing ones are zero.
+  [[nodiscard]] static KannalaBrandt of(std::span<const double> coefficients);
+
+  // |distorted| at |p| = theta, and its derivative by theta.
+  [[nodiscard]] ValueAndSlope radial(double theta_rad) const;
+
+  // The whole model, and its Jacobian (column i: the derivative by p[i]).
+  [[nodiscard]] glm::dvec2 distorted(const glm::dvec2& p) const;
+  [[nodiscard]] glm::dmat2 jacobian(const glm::dvec2& p) const;
+
+  // The plane's point of a direction (any length). Nothing for the zero vector and for the direction exactly backwards,
+  // whose image is a whole circle.
+  [[nodiscard]] static std::optional<glm::dvec2> plane_of(const glm::dvec3& p_optical);
+
+  // The unit direction of a point of the plane.
+  [[nodiscard]] static glm::dvec3 ray_of(const glm::dvec2& p);
+
+  // How fast p moves when the direction turns, per radian: along the radius (x) and perpendicular to it (y).
+  [[nodiscard]] static glm::dvec2 stretch(const glm::dvec2& p);
+};
+
+}  // namespace sigs::distortion
