@@ -13,9 +13,9 @@
 #include "export/export_project.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
-#include "scene/path_conditioning.h"
+#include "scene/plausibility.h"
 #include "scene/scene.h"
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -56,7 +56,8 @@ Result<void> check(const ProjectOptions& options) {
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());
   if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
-  const Result<Scene> scene = open_scene(*project, shape_of(source->info()));
+  SceneFiles files;
+  const Result<Scene> scene = open_valid_scene(*project, shape_of(source->info()), files);
   if (!scene) return fail(scene.error());
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
   for (Warning& warning : warnings_of(*project, *scene, visibilities)) warnings.push_back(std::move(warning));

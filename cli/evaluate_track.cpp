@@ -15,7 +15,7 @@
 #include "evaluation/report.h"
 #include "evaluation/results_text.h"
 #include "project/json.h"
-#include "scene/project_inputs.h"
+#include "scene/opened_project.h"
 #include "tracked_clip.h"
 
 namespace sigs::cli {

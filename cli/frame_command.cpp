@@ -10,12 +10,10 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "created_folders.h"
-#include "export/export_project.h"
 #include "frame/compose_frame.h"
 #include "image_files.h"
 #include "scene/opened_project.h"
-#include "scene/project_inputs.h"
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {

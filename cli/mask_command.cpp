@@ -14,9 +14,9 @@
 #include "cli/mask_outputs.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "export/export_project.h"
 #include "occlusion/detect.h"
 #include "project/validate.h"
+#include "scene/opened_project.h"
 #include "scene/scene_parts.h"
 #include "video/frame_source.h"
 

@@ -9,6 +9,7 @@
 #include "accuracy/csv.h"
 #include "camera/camera.h"
 #include "project/project.h"
+#include "scene/opened_project.h"
 #include "scene/scene_at.h"
 #include "scene/scene_files.h"
 #include "truth/measure.h"

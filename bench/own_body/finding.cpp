@@ -6,7 +6,7 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/timing.h"
-#include "occlusion/intersection.h"
+#include "occlusion/mask_geometry.h"
 
 namespace sigs::bench {
 

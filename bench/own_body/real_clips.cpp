@@ -64,7 +64,7 @@ Clip with_body(const LaidOver& made, FrameSource& flight, int frames, const accu
     const Result<Frame> frame = flight.read(n);
     if (!frame) accuracy::stop(frame.error().text());
     cv::Mat image = bgr_of(*frame);
-    flights::lay_over(image, body, flights::shake_at(n, size_px, 23));
+    flights::draw_over(image, body, flights::shake_at(n, size_px, 23));
     return image;
   });
   return {.name = made.name, .path = path, .own_body = body.truth};

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "accuracy/timing.h"
-#include "occlusion/intersection.h"
+#include "occlusion/mask_geometry.h"
 #include "own_body/finding.h"
 #include "own_body/measures.h"
 

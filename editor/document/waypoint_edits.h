@@ -14,7 +14,7 @@ inline constexpr double kMinGap_frames = 1;
 
 // Adds one at a frame, where it belongs in time; its number. Where one stands within kMinGap of that frame, that one is
 // moved to the position instead. Waypoints without a frame of their own are given theirs first (frames_now: where each
-// one stands, as scene/waypoint_times.h spreads them), so that none of the others moves in time.
+// one stands, as scene/scene_parts.h spreads them), so that none of the others moves in time.
 int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
                  const std::vector<double>& frames_now);
 

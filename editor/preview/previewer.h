@@ -14,7 +14,7 @@
 #include "frame/compose_frame.h"
 #include "scene/draft.h"
 #include "scene/flight.h"
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 #include "truth/annotation.h"
 #include "video/frame_source.h"
 

@@ -10,8 +10,9 @@
 #include "export/export_project.h"
 #include "frame/compose_frame.h"
 #include "project/json.h"
+#include "scene/opened_project.h"
 #include "scene/scene.h"
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 #include "video/frame_source.h"
 
 namespace sigs::editor {

@@ -6,7 +6,7 @@
 
 #include "base/threads.h"
 #include "editor/preview/turntable.h"
-#include "scene/placeholders.h"
+#include "scene/draft.h"
 #include "scene/scene_parts.h"
 
 namespace sigs::editor {

@@ -7,7 +7,7 @@
 #include "base/pose.h"
 #include "editor/document/waypoint_edits.h"
 #include "scene/scene_at.h"
-#include "scene/waypoint_times.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::editor {
 

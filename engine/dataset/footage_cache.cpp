@@ -3,9 +3,8 @@
 
 #include <map>
 
-#include "export/export_project.h"
-#include "scene/attitude_file.h"
-#include "scene/own_body_mask.h"
+#include "scene/opened_project.h"
+#include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 #include "video/frame_source.h"
 

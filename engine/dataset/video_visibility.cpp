@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "export/export_project.h"
-#include "scene/visibility_estimate.h"
+#include "scene/opened_project.h"
+#include "scene/visibility.h"
 #include "video/frame_source.h"
 
 namespace sigs {

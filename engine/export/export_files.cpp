@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "scene/opened_project.h"
-#include "scene/project_inputs.h"
 
 namespace sigs {
 

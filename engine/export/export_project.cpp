@@ -85,22 +85,6 @@ void warn_of_missing_images(const ExportSettings& output, const ExportControl& c
                  "png, or make them with FFmpeg as docs/label-formats.md says"});
 }
 
-}  // namespace
-
-std::vector<Warning> warnings_of(const VideoInfo& video) {
-  std::vector<Warning> warnings = video.warnings;
-  if (!video.conversion.empty()) warnings.push_back({video.path.string(), "is converted: " + video.conversion});
-  return warnings;
-}
-
-FootageShape shape_of(const VideoInfo& video) {
-  return {.size_px = video.size_px,
-          .times_s = video.times_s,
-          .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
-}
-
-namespace {
-
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
   const Stopwatch watch;
   const Project& project = request.project;

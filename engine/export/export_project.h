@@ -55,11 +55,4 @@ struct ExportControl {
 // What only the footage shows to be wrong with what a project wants written: h264 of an odd size. Names the field.
 [[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
 
-// What is worth telling of a video before it is used: its own warnings, and a conversion to 8 bits.
-[[nodiscard]] std::vector<Warning> warnings_of(const VideoInfo& video);
-
-// What a scene has to know of a video.
-struct FootageShape;
-[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
-
 }  // namespace sigs

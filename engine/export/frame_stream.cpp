@@ -53,4 +53,13 @@ Result<int> FrameStream::show(int jobs, const std::function<Result<void>(const S
   return damaged;
 }
 
+FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range) {
+  return {.video = footage.path.filename().string(),
+          .size_px = footage.size_px,
+          .first_frame = range.first,
+          .last_frame = range.last,
+          .frame_rate_num = footage.frame_rate_num,
+          .frame_rate_den = footage.frame_rate_den};
+}
+
 }  // namespace sigs

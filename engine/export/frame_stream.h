@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "project/project.h"
 #include "truth/annotation.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 
@@ -45,5 +46,8 @@ class FrameStream {
   explicit FrameStream(std::unique_ptr<Inside> inside);
   std::unique_ptr<Inside> inside_;
 };
+
+// What the labels of these frames say of the footage.
+[[nodiscard]] FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range);
 
 }  // namespace sigs

@@ -16,23 +16,27 @@ namespace sigs {
 
 namespace {
 
-// What a part's evidence says for it, in natural logarithms of odds. Each says nothing at its first number, between
-// what aircraft's parts and others show, and counts as one unit at the second's distance from there. None decides
-// alone: a rim that is sharp all around outweighs some unrest inside.
-constexpr double kLoneRim =
-    0.55;  // boundaries in the rim over those just outside: a sky's or a texture's own boundaries are
-constexpr double kLoneRimUnit = 0.1;  // as many beside the rim as in it, and a world passing by shows hardly any
-constexpr double kEdgedRim = 0.6;     // of the rim, by edges that stay; abrupt ends of motion count half
+// How the evidence counts, in natural logarithms of odds: each kind is neutral at its first number, between what parts
+// of aircraft and others show, and counts one unit per distance of its second number from there. No kind decides alone:
+// an outline that is sharp all around outweighs some motion inside.
+//
+// Boundaries along the outline less those just outside it: a sky or a texture has as many beside the outline as along
+// it, and a world that passes by has hardly any.
+constexpr double kLoneRim = 0.55;
+constexpr double kLoneRimUnit = 0.1;
+// Share of the outline along edges that stay; abrupt ends of motion count half.
+constexpr double kEdgedRim = 0.6;
 constexpr double kEdgedRimUnit = 0.2;
-constexpr double kRestlessness = 3;  // times noise, the median inside; one unit for each doubling above
-constexpr double kDriftUnit = 0.25;  // the mean inside, above none
-constexpr double kMinOdds = 0.5;
-constexpr double kNever = -100;
-constexpr double kRivalry = 0.6;  // odds by which a part may be behind an overlapping one and still add to it
+constexpr double kRestlessness = 3;  // median variation inside, in units of noise; one unit for each doubling above
+constexpr double kDriftUnit = 0.25;  // mean drift inside; neutral at 0
+constexpr double kMinOdds = 0.5;     // to be kept
+constexpr double kNever = -100;      // of parts that do not touch the edge of the image
+constexpr double kRivalry = 0.6;  // a part is kept beside an overlapping one whose odds are higher by no more than this
 
-constexpr double kNext = 1.5;    // pixels: the eight next to one are less far away, the others farther
-constexpr int kBandShare = 160;  // of the width: that far off the rim, what it is made of no longer shows
-constexpr int kBandWidth = 2;    // times that
+constexpr double kNext = 1.5;  // pixels: between the distance of the eight neighbours of a pixel and that of all others
+constexpr int kBandShare =
+    160;                       // of the width: at this share of it from the outline, the blur of the outline has ended
+constexpr int kBandWidth = 2;  // in units of that distance
 
 cv::Mat square(int radius) {
   return cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
@@ -49,7 +53,7 @@ double median(const cv::Mat& values, const cv::Mat& mask) {
   return *middle;
 }
 
-// The boundaries' middles may lie on either side of the labels' border.
+// The centre lines of boundaries may lie on either side of the border of the labels.
 struct Rim {
   cv::Mat middle;
   cv::Mat edged;
@@ -66,7 +70,7 @@ Rim rim_evidence(const PartEvidence& evidence) {
   return rim;
 }
 
-// Where a part and its surroundings are looked at.
+// The pixels by which a part and its surroundings are judged.
 struct Zones {
   cv::Mat rim;      // the pixels next to it
   cv::Mat outside;  // a band off the rim
@@ -104,7 +108,7 @@ bool is_at_border(const cv::Rect& box, cv::Size size) {
 }
 
 struct Part {
-  cv::Rect box;  // with its surroundings
+  cv::Rect box;  // of the part with its surroundings
   cv::Mat mask;  // CV_8UC1, of the box
   double odds = 0;
 };

@@ -6,29 +6,30 @@
 
 namespace sigs {
 
-// What tells parts of the carrying aircraft from other parts of the image; CV_32FC1, of the labels' size.
+// What distinguishes parts of the own aircraft from other parts of the image; CV_32FC1, of the labellings' size.
 struct PartEvidence {
-  cv::Mat staying;    // 0..1: edges that stay
-  cv::Mat ending;     // 0..1: places where motion ends abruptly
-  cv::Mat variation;  // of the gradient over time; 1: as much as noise
-  cv::Mat drift;      // 0..1: what creeps
-  cv::Mat middle;     // 0..1: the middles of the edges and of the ends of motion
+  cv::Mat staying;    // Boundaries::staying: edges that stay, 0..1
+  cv::Mat ending;     // Boundaries::ending: places where motion ends abruptly, 0..1
+  cv::Mat variation;  // variance of the gradient over time; 1: as large as noise
+  cv::Mat drift;      // slow drift, 0..1
+  cv::Mat middle;     // centre lines of the edges and of the ends of motion, 0..1
 };
 
+// The connected parts of labellings, sorted into body and not.
 struct BodyParts {
-  cv::Mat kept;      // CV_8UC1, 255
-  cv::Mat doubtful;  // CV_8UC1, 255: large enough, but for another reason not kept
-  cv::Mat odds;      // CV_32FC1, natural logarithm: of the part that a pixel was kept with; 0 elsewhere
+  cv::Mat kept;      // CV_8UC1, 255: body
+  cv::Mat doubtful;  // CV_8UC1, 255: large enough, but not kept for another reason
+  cv::Mat odds;      // CV_32FC1: natural logarithm of the odds of the part that the pixel was kept with; 0 elsewhere
 };
 
-// Those connected parts of a labelling that can be the carrying aircraft's:
-// - large enough,
-// - at the image's border: the aircraft goes on to where the camera is fixed to it,
-// - of which the following together speak more for the aircraft than against it: what separates them from the rest is
-//   an edge that stays or an abrupt end of motion, with few such just outside, as a world passing by has none; they are
-//   still inside, not a road, whose faint texture passes by, and no clouds that creep.
-// labellings: one or more, CV_8UC1, non-zero: may be body. Where parts of several overlap, the more convincing one
-// stays, with what is nearly as convincing.
+// Keeps those connected parts that can belong to the own aircraft:
+// - at least min_area_px pixels,
+// - touching the edge of the image: the aircraft continues to where the camera is mounted on it,
+// - with positive odds by the sum of the evidence: an edge that stays or an abrupt end of motion all along the outline,
+//   few of these just outside it (a world that passes by has none), and an inside that neither moves (a road with a
+//   faint texture does) nor drifts (clouds do).
+//   labellings  one or more, CV_8UC1, non-zero: may be body. Where parts of several overlap, the one with the highest
+//               odds is kept, together with those whose odds are nearly as high.
 [[nodiscard]] BodyParts body_parts(const std::vector<cv::Mat>& labellings, const PartEvidence& evidence,
                                    double min_area_px);
 

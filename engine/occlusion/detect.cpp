@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "occlusion/detect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -10,7 +12,7 @@
 #include "base/ensure.h"
 #include "occlusion/convergence.h"
 #include "occlusion/luma_stream.h"
-#include "occlusion/soft_edge.h"
+#include "occlusion/mask_geometry.h"
 
 namespace sigs {
 
@@ -41,10 +43,10 @@ class Detection {
 
   [[nodiscard]] Result<OwnBody> run() {
     if (steps_.count < 2) return fail(too_few());
-    if (const Result<void> seen = process_frames(); !seen) return fail(seen.error());
+    if (const Result<void> processed = process_frames(); !processed) return fail(processed.error());
     if (used_ < 2) return fail(too_few());
     if (!anything_differs_)
-      return fail(path_, "nothing moves: all " + std::to_string(used_) + " frames are equal; take a clip in flight");
+      return fail(path_, fmt::format("nothing moves: all {} frames are equal; take a clip in flight", used_));
     if (!verdict_ || control_.stages == KeepStages::yes) verdict_ = method_->verdict(control_.stages);
     if (verdict_->undecided) return fail(undecided(*verdict_->undecided));
     return own_body();
@@ -57,14 +59,14 @@ class Detection {
       if (control_.cancel != nullptr && control_.cancel->load())
         return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
       if (!*frame) return fail(unreadable(frame->error()));
-      see(**frame);
+      add(**frame);
       if (control_.progress) control_.progress(passed_, passed_of_all());
       if (convergence_.is_converged()) break;
     }
     return {};
   }
 
-  void see(const LumaFrame& frame) {
+  void add(const LumaFrame& frame) {
     passed_ = frame.number - steps_.first + 1;
     if (frame.damaged) {
       ++damaged_;
@@ -98,8 +100,8 @@ class Detection {
                            static_cast<double>(verdict_->own_body.total())};
     verdict_->confidence.convertTo(found.confidence, CV_16U, 65535);
     if (damaged_ > 0)
-      found.warnings.push_back({path_, std::to_string(damaged_) + " of " + std::to_string(damaged_ + used_) +
-                                           " frames are damaged and were left out"});
+      found.warnings.push_back(
+          {path_, fmt::format("{} of {} frames are damaged and were left out", damaged_, damaged_ + used_)});
     return found;
   }
 
@@ -108,20 +110,20 @@ class Detection {
   [[nodiscard]] Error too_few() const {
     const int usable = used_ + damaged_ > 0 ? used_ : steps_.count;
     std::string text = usable == 1 ? "only 1 frame can be used" : "no frame can be used";
-    if (damaged_ > 0) text += ", " + std::to_string(damaged_) + " are damaged";
-    if (steps_.every > 1) text += ", each " + std::to_string(steps_.every) + "th is taken";
+    if (damaged_ > 0) text += fmt::format(", {} are damaged", damaged_);
+    if (steps_.every > 1) text += fmt::format(", each {}th is taken", steps_.every);
     return {path_, text + "; at least 2 are needed to see what moves"};
   }
 
   [[nodiscard]] Error undecided(const std::string& reason) const {
     constexpr int kFew = 9;  // fewer than half a second of any footage
-    const std::string few = used_ <= kFew ? std::to_string(used_) + " frames are too few to tell: " : "";
+    const std::string few = used_ <= kFew ? fmt::format("{} frames are too few to tell: ", used_) : "";
     return {path_, few + reason + "; take a longer part of the flight, with turns"};
   }
 
-  // A frame that cannot be made, or is of another size than those before.
+  // Of a frame that cannot be decoded or is of another size than those before.
   [[nodiscard]] Error unreadable(Error error) const {
-    if (used_ >= 2) error.what += "; own_body.frames = " + std::to_string(passed_) + " ends before it";
+    if (used_ >= 2) error.what += fmt::format("; own_body.frames = {} ends before it", passed_);
     return error;
   }
 
@@ -137,10 +139,15 @@ class Detection {
   int used_ = 0;
   int damaged_ = 0;
   int passed_ = 0;
-  std::optional<Verdict> verdict_;  // after the last frame seen, where it was asked for
+  std::optional<Verdict> verdict_;  // after the last frame added, where it was asked for
 };
 
 }  // namespace
+
+std::unique_ptr<DetectionMethod> detection_method(const OwnBodySettings& settings, cv::Size size_px) {
+  if (settings.method == OwnBodyMethod::paper) return paper_method(settings.paper, size_px);
+  return stable_method(settings.stable, size_px);
+}
 
 Result<OwnBody> detect_own_body(FrameSource& footage, int first_frame, const OwnBodySettings& settings,
                                 const DetectionControl& control) {

@@ -7,27 +7,33 @@
 
 #include "base/bounded_queue.h"
 #include "base/result.h"
+#include "video/frame.h"
 #include "video/frame_source.h"
 
 namespace sigs {
 
-// Which frames of the footage: first, first + every, ..., count of them.
+// The luma of a frame, CV_8UC1. Of footage with luma: plane 0 itself, whose samples are shared. Of RGB: the weighted
+// sum of ITU-R BT.709, full range, with weights rounded to 1/256.
+[[nodiscard]] cv::Mat luma_of(const Frame& frame);
+
+// The frames of the footage that are used: first, first + every, ..., `count` of them.
 struct FrameSteps {
   int first = 0;
   int every = 1;
   int count = 0;
 
+  // Number of the i-th frame used, from 0.
   [[nodiscard]] int at(int i) const { return first + i * every; }
 };
 
 struct LumaFrame {
-  int number = 0;
-  cv::Mat luma;  // CV_8UC1
-  bool damaged = false;
+  int number = 0;        // of the frame in the footage
+  cv::Mat luma;          // CV_8UC1
+  bool damaged = false;  // as Frame::damaged
 };
 
-// The luma of frames in order, decoded on a thread of its own some frames ahead of the caller. The footage may be used
-// by nobody else meanwhile.
+// Decodes frames on a thread of its own, up to 8 ahead of the caller, and gives their luma in order. Nobody else may
+// use the footage while the stream exists.
 class LumaStream {
  public:
   LumaStream(FrameSource& footage, const FrameSteps& steps);
@@ -35,7 +41,7 @@ class LumaStream {
   LumaStream(const LumaStream&) = delete;
   LumaStream& operator=(const LumaStream&) = delete;
 
-  // Nothing after the last one, or after an error.
+  // The next frame, or the error that ended the decoding; nothing after the last frame or after an error.
   [[nodiscard]] std::optional<Result<LumaFrame>> next();
 
  private:
@@ -43,7 +49,7 @@ class LumaStream {
   void give_up(const Error& error);
 
   BoundedQueue<Result<LumaFrame>> ahead_;
-  std::optional<Error> failure_;  // the thread's, until the queue is closed; then the caller's
+  std::optional<Error> failure_;  // written by the thread until the queue is closed, then read by the caller
   std::thread thread_;
 };
 

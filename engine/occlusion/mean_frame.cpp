@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "base/ensure.h"
 
@@ -10,10 +11,10 @@ namespace sigs {
 
 namespace {
 
-constexpr int kWidest = 640;          // finer means cost time and move no edge
-constexpr int kLargestBox = 4;        // 4 * 4 pixels * 8 frames * 255 still fit 16 bits
+constexpr int kMaxWidth = 640;        // pixels; finer means cost time and do not make edges more exact
+constexpr int kMaxBox = 4;            // 4 * 4 pixels * 8 frames * 255 still fit 16 bits
 constexpr int kMaxFramesPerMean = 8;  // frames
-constexpr int kMeansAtFirst = 8;      // of one frame each, before they grow
+constexpr int kMeansAtFirst = 8;      // number of means of one frame each, before they grow
 
 void add_row(const std::uint8_t* luma, std::uint16_t* sums, int count) {
   for (int x = 0; x < count; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + luma[x]);
@@ -31,12 +32,26 @@ void add_row_of_boxes(const std::uint8_t* luma, std::uint16_t* sums, int count, 
   }
 }
 
+constexpr std::size_t kMaxSegments = 48;
+
+MeanFrame merged(const MeanFrame& a, const MeanFrame& b) {
+  const int frames = a.frames + b.frames;
+  return {a.luma * (1.0 * a.frames / frames) + b.luma * (1.0 * b.frames / frames), frames};
+}
+
+void append(std::vector<MeanFrame>& segments, const MeanFrame& image, int max_frames) {
+  if (segments.empty() || segments.back().frames + image.frames > max_frames)
+    segments.push_back(image);
+  else
+    segments.back() = merged(segments.back(), image);
+}
+
 }  // namespace
 
 FrameAverager::FrameAverager(cv::Size size_px)
     : size_px_(size_px),
-      scale_(std::min({(size_px.width + kWidest - 1) / kWidest, size_px.width, size_px.height})),
-      box_(std::min(scale_, kLargestBox)) {
+      scale_(std::min({(size_px.width + kMaxWidth - 1) / kMaxWidth, size_px.width, size_px.height})),
+      box_(std::min(scale_, kMaxBox)) {
   ENSURE(size_px.width > 0 && size_px.height > 0);
   sum_ = cv::Mat::zeros(size_px.height / scale_, size_px.width / scale_, CV_16UC1);
 }
@@ -70,6 +85,16 @@ MeanFrame FrameAverager::image() const {
 void FrameAverager::clear() {
   sum_.setTo(0);
   waiting_ = 0;
+}
+
+void FootageSegments::add(const MeanFrame& image) {
+  append(segments_, image, max_frames_);
+  while (segments_.size() > kMaxSegments) {
+    max_frames_ *= 2;
+    std::vector<MeanFrame> longer;
+    for (const MeanFrame& segment : segments_) append(longer, segment, max_frames_);
+    segments_ = std::move(longer);
+  }
 }
 
 }  // namespace sigs

@@ -9,16 +9,17 @@
 #include <opencv2/imgproc/detail/gcgraph.hpp>
 
 #include "base/ensure.h"
+#include "occlusion/mask_geometry.h"
 
 namespace sigs {
 
 namespace {
 
-// Whole numbers, so that sums do not depend on their order.
+// Costs are whole multiples of 1 / kUnit, so that sums do not depend on their order.
 constexpr double kUnit = 20000;
-constexpr double kBoundaryCost = 0.001;  // of the border's length, on a sure boundary: the shorter of two is the better
+constexpr double kBoundaryCost = 0.001;  // of a border's length on a sure boundary: of two the shorter one is chosen
 
-constexpr int kSmall = 240;  // pixels: an image as small as this is cut in one go
+constexpr int kSmall = 240;  // pixels: smaller images are cut at full size at once
 constexpr int kBand = 4;     // pixels beside a coarser border in which the finer one lies
 
 int whole(double cost) {
@@ -27,7 +28,7 @@ int whole(double cost) {
 
 struct Neighbour {
   int dx, dy;
-  double length;  // of border that one crossed link stands for
+  double length;  // of border that a cut link stands for
 };
 
 // Eight neighbours, so that a slanting border costs about its length (Boykov and Kolmogorov, 2003).
@@ -40,7 +41,7 @@ double border_cost(float boundary, float other_boundary) {
 
 using Graph = cv::detail::GCGraph<int>;
 
-// What is known before: the labels of pixels that are not free stay.
+// A labelling of which only the free pixels are labelled anew.
 struct Known {
   cv::Mat labels;  // CV_8UC1
   cv::Mat free;    // CV_8UC1, non-zero: to be labelled
@@ -68,9 +69,9 @@ cv::Mat cut(const CutCosts& costs, const Known& known) {
   const cv::Rect image({}, costs.boundary.size());
   const cv::Mat numbers = numbered(known.free);
   const auto pixels = static_cast<unsigned>(cv::countNonZero(known.free));
-  Graph graph(pixels + 2, (pixels + 1) * 2 * kNeighbours.size());
+  Graph graph(pixels + 2, (pixels + 1) * 2 * static_cast<unsigned>(kNeighbours.size()));
   for (unsigned i = 0; i < pixels + 2; ++i) graph.addVtx();
-  graph.addEdges(static_cast<int>(pixels), static_cast<int>(pixels) + 1, 0, 0);  // no graph without a link is allowed
+  graph.addEdges(static_cast<int>(pixels), static_cast<int>(pixels) + 1, 0, 0);  // GCGraph needs at least one link
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const int number = numbers.at<int>(y, x);
@@ -92,28 +93,27 @@ cv::Mat cut(const CutCosts& costs, const Known& known) {
   return labels;
 }
 
-cv::Mat halved(const cv::Mat& values, cv::Size size) {
-  cv::Mat half;
-  cv::resize(values, half, size, 0, 0, cv::INTER_AREA);
-  return half;
+cv::Mat resized(const cv::Mat& values, cv::Size size) {
+  cv::Mat out;
+  cv::resize(values, out, size, 0, 0, cv::INTER_AREA);
+  return out;
 }
 
-// Pixels twice as large: an area's costs are fourfold and a border's length twofold, so that in the larger unit areas
-// cost twice as much. A boundary stays a boundary, however thin.
+// The costs for pixels twice as large: the costs of an area are fourfold and the length of a border is twofold, so that
+// in the larger unit an area costs twice as much. A boundary stays a boundary, however thin.
 CutCosts halved(const CutCosts& costs) {
   const cv::Size half(costs.boundary.cols / 2, costs.boundary.rows / 2);
   cv::Mat thick;
   cv::dilate(costs.boundary, thick, cv::Mat::ones(2, 2, CV_8UC1), {0, 0});
-  CutCosts coarse{halved(costs.as_body, half) * 2, halved(costs.as_world, half) * 2};
+  CutCosts coarse{resized(costs.as_body, half) * 2, resized(costs.as_world, half) * 2};
   cv::resize(thick, coarse.boundary, half, 0, 0, cv::INTER_NEAREST);
   return coarse;
 }
 
-// Pixels near the border of labels.
+// Pixels within the radius of the border between the labels.
 cv::Mat band_along(const cv::Mat& labels, int radius) {
-  const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
   cv::Mat band;
-  cv::morphologyEx(labels, band, cv::MORPH_GRADIENT, element);
+  cv::morphologyEx(labels, band, cv::MORPH_GRADIENT, disc(radius));
   return band;
 }
 

@@ -5,24 +5,25 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
+#include "occlusion/stable_motion.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr int kScale = 2;                 // of the images worked on: shifts are of things, not of pixels
-constexpr int kWindow = 9;                // pixels of these that share a shift
-constexpr int kSpill = 3;                 // pixels of the mean images beside what moves that do not count either
-constexpr double kMinBend = 0.1;          // gray levels per pixel and pixel, squared: below, noise bends as much
+constexpr int kShrink = 2;                // by which the means are shrunk: what drifts is larger than a pixel
+constexpr int kShiftWindow = 9;           // pixels of the shrunk images that share a shift
+constexpr int kMovingMargin = 3;          // pixels of the means around what moves that are left out too
+constexpr double kMinCurvature = 0.1;     // gray levels per pixel and pixel, squared: noise has as much
 constexpr double kMinSlope = 0.05;        // gray levels per pixel, squared
 constexpr double kMinChange = 0.01;       // likewise, per segment
 constexpr double kMinShiftSquare = 1e-4;  // pixels
-constexpr double kStays = 0.1;            // pixels of the mean images
-constexpr double kCreeps = 0.3;
-constexpr double kByChance = 0.3;     // correlation of successive shifts: of two dozen vibrating ones below,
-constexpr double kSteady = 0.6;       // of ones that creep one way above
-constexpr double kUnexplained = 0.3;  // share of the change that a shift explains: the border of a body before a
-constexpr double kExplained = 0.6;    // moving world stays below, clouds are above
+constexpr double kStays_px = 0.1;         // pixels of the mean images
+constexpr double kDrifts_px = 0.3;
+constexpr double kChanceAgreement = 0.3;  // correlation of successive shifts: of two dozen vibrating ones below,
+constexpr double kSteadyAgreement = 0.6;  // of ones that drift one way above
+constexpr double kUnexplained = 0.3;      // share of the change that a shift explains: the border of a body before a
+constexpr double kExplained = 0.6;        // moving world stays below, clouds are above
 
 struct Slope {
   cv::Mat x, y;
@@ -36,33 +37,30 @@ Slope slope_of(const cv::Mat& image) {
   return slope;
 }
 
-cv::Mat halved(const cv::Mat& image) {
+cv::Mat shrunk(const cv::Mat& image) {
   cv::Mat small;
-  cv::resize(image, small, {std::max(1, image.cols / kScale), std::max(1, image.rows / kScale)}, 0, 0, cv::INTER_AREA);
+  cv::resize(image, small, {std::max(1, image.cols / kShrink), std::max(1, image.rows / kShrink)}, 0, 0,
+             cv::INTER_AREA);
   return small;
 }
 
-cv::Mat small_picture(const MeanFrame& segment) {
-  cv::Mat small = halved(segment.luma);
+cv::Mat small_image(const MeanFrame& segment) {
+  cv::Mat small = shrunk(segment.luma);
   cv::GaussianBlur(small, small, {5, 5}, 0);
   return small;
 }
 
-cv::Mat clamped(const cv::Mat& values, double zero_at, double one_at) {
-  return cv::min(cv::max((values - zero_at) / (one_at - zero_at), 0.0), 1.0);
-}
-
-// The normal equations of a window's shift: what belongs to the mean image is worked out once.
+// The normal equations of a window's shift. What depends on the mean image alone is computed once.
 class ShiftFinder {
  public:
   ShiftFinder(const cv::Mat& mean, cv::Mat weight) : weight_(std::move(weight)), slope_(slope_of(mean)) {
     const Slope along_x = slope_of(slope_.x);
-    bend_xx_ = along_x.x;
-    bend_xy_ = along_x.y;
-    bend_yy_ = slope_of(slope_.y).y;
-    xx_ = windowed(bend_xx_.mul(bend_xx_) + bend_xy_.mul(bend_xy_)) + kMinBend;
-    yy_ = windowed(bend_yy_.mul(bend_yy_) + bend_xy_.mul(bend_xy_)) + kMinBend;
-    xy_ = windowed(bend_xy_.mul(bend_xx_ + bend_yy_));
+    second_xx_ = along_x.x;
+    second_xy_ = along_x.y;
+    second_yy_ = slope_of(slope_.y).y;
+    xx_ = windowed(second_xx_.mul(second_xx_) + second_xy_.mul(second_xy_)) + kMinCurvature;
+    yy_ = windowed(second_yy_.mul(second_yy_) + second_xy_.mul(second_xy_)) + kMinCurvature;
+    xy_ = windowed(second_xy_.mul(second_xx_ + second_yy_));
     determinant_ = xx_.mul(yy_) - xy_.mul(xy_);
     slope_square_ = windowed(slope_.x.mul(slope_.x) + slope_.y.mul(slope_.y)) + kMinSlope;
   }
@@ -78,8 +76,8 @@ class ShiftFinder {
     const cv::Mat contrast = windowed(change.x.mul(slope_.x) + change.y.mul(slope_.y)) / slope_square_;
     change.x -= contrast.mul(slope_.x);
     change.y -= contrast.mul(slope_.y);
-    const cv::Mat to_x = windowed(bend_xx_.mul(change.x) + bend_xy_.mul(change.y));
-    const cv::Mat to_y = windowed(bend_xy_.mul(change.x) + bend_yy_.mul(change.y));
+    const cv::Mat to_x = windowed(second_xx_.mul(change.x) + second_xy_.mul(change.y));
+    const cv::Mat to_y = windowed(second_xy_.mul(change.x) + second_yy_.mul(change.y));
     Shift shift{.x = cv::Mat(yy_.mul(to_x) - xy_.mul(to_y)) / determinant_,
                 .y = cv::Mat(xx_.mul(to_y) - xy_.mul(to_x)) / determinant_};
     shift.explained = shift.x.mul(to_x) + shift.y.mul(to_y);
@@ -90,22 +88,22 @@ class ShiftFinder {
  private:
   [[nodiscard]] cv::Mat windowed(const cv::Mat& values) const {
     cv::Mat sums;
-    cv::boxFilter(values.mul(weight_), sums, CV_32F, {kWindow, kWindow}, {-1, -1}, true, cv::BORDER_REFLECT);
+    cv::boxFilter(values.mul(weight_), sums, CV_32F, {kShiftWindow, kShiftWindow}, {-1, -1}, true, cv::BORDER_REFLECT);
     return sums;
   }
 
   cv::Mat weight_;
   Slope slope_;
-  cv::Mat bend_xx_, bend_xy_, bend_yy_;
+  cv::Mat second_xx_, second_xy_, second_yy_;
   cv::Mat xx_, xy_, yy_, determinant_;
   cv::Mat slope_square_;
 };
 
-// Pixels close to what moves do not count either: there, what moves shows through a blurred border.
+// Pixels close to what moves get little weight too: there, what moves shows through a blurred border.
 cv::Mat weight_of(const cv::Mat& ratio) {
   cv::Mat near;
-  cv::dilate(ratio, near, cv::Mat::ones(kSpill, kSpill, CV_8UC1));
-  return halved(1.0 / cv::Mat(near.mul(near) + 1.0));
+  cv::dilate(ratio, near, cv::Mat::ones(kMovingMargin, kMovingMargin, CV_8UC1));
+  return shrunk(1.0 / cv::Mat(near.mul(near) + 1.0));
 }
 
 cv::Mat mean_of(const std::vector<cv::Mat>& images) {
@@ -119,7 +117,7 @@ cv::Mat mean_of(const std::vector<cv::Mat>& images) {
 cv::Mat drifting(const std::vector<MeanFrame>& segments, const cv::Mat& ratio) {
   ENSURE(!segments.empty());
   std::vector<cv::Mat> images;
-  for (const MeanFrame& segment : segments) images.push_back(small_picture(segment));
+  for (const MeanFrame& segment : segments) images.push_back(small_image(segment));
   const cv::Mat mean = mean_of(images);
   const ShiftFinder finder(mean, weight_of(ratio));
   const cv::Size size = mean.size();
@@ -139,14 +137,14 @@ cv::Mat drifting(const std::vector<MeanFrame>& segments, const cv::Mat& ratio) {
   const double pairs = std::max(1.0, static_cast<double>(segments.size()) - 1);
   cv::Mat shift;
   cv::sqrt(cv::max(agreeing / pairs, 0.0), shift);
-  shift *= kScale;
-  const cv::Mat steady = clamped(agreeing / square, kByChance, kSteady);
-  const cv::Mat is_shift = clamped(explained / change, kUnexplained, kExplained);
-  const cv::Mat creeps = clamped(shift, kStays, kCreeps).mul(steady).mul(is_shift);
+  shift *= kShrink;
+  const cv::Mat steady = linear_step(agreeing / square, kChanceAgreement, kSteadyAgreement);
+  const cv::Mat is_shift = linear_step(explained / change, kUnexplained, kExplained);
+  const cv::Mat drifts = linear_step(shift, kStays_px, kDrifts_px).mul(steady).mul(is_shift);
   cv::Mat full;
-  cv::resize(creeps, full, ratio.size(), 0, 0, cv::INTER_LINEAR);
-  // Only where all windows around agree: a window at a body's border sees the world too.
-  cv::erode(full, full, cv::Mat::ones(kWindow, kWindow, CV_8UC1));
+  cv::resize(drifts, full, ratio.size(), 0, 0, cv::INTER_LINEAR);
+  // Only where all windows around agree: a window at the border of a body contains world too.
+  cv::erode(full, full, cv::Mat::ones(kShiftWindow, kShiftWindow, CV_8UC1));
   return full;
 }
 

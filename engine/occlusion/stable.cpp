@@ -1,21 +1,203 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/stable.h"
-
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "occlusion/footage_segments.h"
-#include "occlusion/gradient_sums.h"
+#include "occlusion/body_parts.h"
+#include "occlusion/mask_geometry.h"
 #include "occlusion/mean_frame.h"
-#include "occlusion/stable_decision.h"
+#include "occlusion/method.h"
+#include "occlusion/region_cut.h"
+#include "occlusion/slow_drift.h"
+#include "occlusion/stable_motion.h"
+#include "project/project.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr int kMinFrames = 2;
-constexpr double kSmoothing = 0.7;  // pixels of the means; takes the steps out of a border, moves no straight one
+// How the method `stable` decides, step by step; images of the means' size.
+struct StableDecision {
+  MotionEvidence motion;
+  cv::Mat drift;   // drifting() (slow_drift.h)
+  cv::Mat moving;  // the maximum of motion.moving and drift, 0..1
+  Boundaries boundaries;
+  cv::Mat labels;      // CV_8UC1, 255: may be body, by the first of several cuts
+  cv::Mat body;        // CV_8UC1, 255: body
+  cv::Mat confidence;  // CV_32FC1: 0 surely world, 0.5 undecided, 1 surely body
+  std::optional<std::string> undecided;
+};
+
+// Costs in the unit of CutCosts: one pixel of border.
+constexpr double kMovingCost = 0.3;     // of labelling a pixel body that surely moves
+constexpr double kDriftingCost = 0.05;  // that drifts: less, as drift is known for windows, not pixels
+constexpr double kStillCost = 1;        // of labelling a still column of the image world
+constexpr double kStayingCost = 0.05;   // of labelling an edge world that stays
+
+// Plain sky is still too: stillness alone says little, but much where everything around moves.
+constexpr int kNear = 33;           // pixels: side of the surroundings
+constexpr double kFarShare = 0.25;  // of the surroundings that moves: drift there may be the moving world at a border
+
+// How far the evidence is trusted in a cut. First the whole image is cut with care, in several ways: plain sky beside a
+// body is taken along with it unless labelling a pixel body costs something, and a slender body is lost if it does.
+// Then the borders of what was found are placed with more trust: an edge within a body, such as a line of rivets, is
+// not a border as long as nothing moves directly beside it.
+struct Trust {
+  int sure_reach = 0;           // pixels around a pixel that must move too, so that it counts as moving
+  bool is_doubt_still = false;  // a pixel that does not count as moving counts as still
+  double still_near_cost = 0;   // of labelling a still pixel world where everything around moves
+  double lone_boundary = 1;     // share that is left of a boundary beside which nothing moves
+  double body_cost = 0;         // of labelling any pixel body
+};
+constexpr Trust kCareful{.sure_reach = 3, .still_near_cost = 0.04};
+constexpr Trust kSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.01};
+constexpr Trust kMaxSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.02};
+constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_boundary = 0.7};
+constexpr int kTrustReach = 10;  // pixels beside the borders
+
+constexpr double kStrong = 4;   // gray levels per pixel: edges of this strength hide half of the drift beside them
+constexpr int kDriftSpill = 6;  // pixels
+
+constexpr double kMaxShare = 0.85;      // of the image that a body can fill
+constexpr double kDoubtfulShare = 0.6;  // of the image that stays, though nothing in it looks like a body
+constexpr double kNothingPercent = 0.1;
+constexpr double kUnsureBorder = 3;  // pixels beside the border where its position is uncertain
+constexpr double kPlainWorld = 0.5;  // certainty of world that does not move
+
+// From odds to likelihood: fitted to the parts of the synthetic flights and of reflections. Reflections that stay in
+// the image are mostly kept with odds below 3, bodies with 3 and more (docs/own-body.md).
+constexpr double kEvenOdds = 2.6;  // as often body as not
+constexpr double kOddsUnit = 0.5;  // more odds by which its likelihood grows e-fold
+
+// 0 near strong edges that stay .. 1 elsewhere: what passes beside such edges changes them more than a drift would.
+cv::Mat away_from_edges(const StableDecision& decision) {
+  const cv::Mat& square = decision.motion.mean_square;
+  cv::Mat near = decision.boundaries.staying.mul(square / cv::Mat(square + kStrong * kStrong));
+  cv::dilate(near, near, disc(kDriftSpill));
+  return 1.0 - near;
+}
+
+cv::Mat boundary_of(const Boundaries& boundaries, const cv::Mat& moving, const Trust& trust) {
+  cv::Mat beside;
+  cv::dilate(moving, beside, disc(trust.sure_reach + 1));
+  return cv::max(boundaries.ridge, boundaries.motion).mul(beside * (1 - trust.lone_boundary) + trust.lone_boundary);
+}
+
+CutCosts costs_of(const StableDecision& decision, const cv::Mat& drift, const Trust& trust) {
+  cv::Mat moving;
+  cv::erode(decision.motion.moving, moving, disc(trust.sure_reach));
+  cv::Mat near;
+  cv::boxFilter(moving, near, CV_32F, {kNear, kNear}, {-1, -1}, true, cv::BORDER_REFLECT);
+  const cv::Mat still = 1.0 - (trust.is_doubt_still ? moving : decision.motion.moving);
+  const cv::Mat far = cv::max(1.0 - near / kFarShare, 0.0);
+  return {.as_body = moving.mul(moving).mul(moving) * kMovingCost + drift.mul(far) * kDriftingCost + trust.body_cost,
+          .as_world = still.mul(near * trust.still_near_cost + kStillCost / moving.rows) +
+                      decision.boundaries.staying.mul(1.0 - decision.moving) * kStayingCost,
+          .boundary = boundary_of(decision.boundaries, moving, trust)};
+}
+
+// Drift beside strong edges may be a highlight that drifts over the body, or a cloud that ends there: cuts with it and
+// without it.
+std::vector<cv::Mat> labellings_of(const StableDecision& decision, const cv::Mat& drift_away) {
+  return {cheapest_cut(costs_of(decision, decision.drift, kCareful)),
+          cheapest_cut(costs_of(decision, drift_away, kCareful)),
+          cheapest_cut(costs_of(decision, decision.drift, kSparing)),
+          cheapest_cut(costs_of(decision, drift_away, kMaxSparing))};
+}
+
+// How much more likely than not a part is body, 0..1: 0 where it is not.
+cv::Mat certainty_of_parts(const cv::Mat& odds) {
+  cv::Mat against;
+  cv::exp((kEvenOdds - odds) / kOddsUnit, against);
+  return cv::max(2.0 / cv::Mat(1.0 + against) - 1.0, 0.0);
+}
+
+// The final border lies up to kTrustReach away from that of the parts: pixels added to a part get the part's odds.
+cv::Mat odds_nearby(const cv::Mat& odds, const cv::Mat& body) {
+  cv::Mat near;
+  cv::dilate(odds, near, disc(kTrustReach));
+  odds.copyTo(near, odds > 0);
+  near.setTo(0, ~body);
+  return near;
+}
+
+cv::Mat confidence_of(const cv::Mat& moving, const cv::Mat& body, const BodyParts& parts) {
+  cv::Mat inside;
+  cv::Mat outside;
+  cv::distanceTransform(body, inside, cv::DIST_L2, 3);
+  cv::distanceTransform(~body, outside, cv::DIST_L2, 3);
+  cv::Mat certainty = cv::max(moving, kPlainWorld) * -0.5;
+  const cv::Mat odds = odds_nearby(parts.odds, body);
+  cv::Mat((1.0 - moving).mul(certainty_of_parts(odds)) * 0.5).copyTo(certainty, body);
+  certainty.setTo(0, parts.doubtful & ~body);
+  return certainty.mul(cv::min(cv::Mat(inside + outside) / kUnsureBorder, 1.0)) + 0.5;
+}
+
+std::optional<std::string> why_undecided(const StableDecision& decision, const StableOwnBodySettings& settings) {
+  const auto pixels = static_cast<double>(decision.moving.total());
+  const double moving_percent = 100 * cv::countNonZero(decision.moving > 0.5) / pixels;
+  if (moving_percent < kNothingPercent) return "nothing moves";
+  if (moving_percent < settings.least_moving_percent) return "too little moves";
+  if (cv::countNonZero(decision.body) > kMaxShare * pixels) return "nearly everything stays";
+  if (cv::countNonZero(decision.body) == 0 && cv::countNonZero(decision.labels) > kDoubtfulShare * pixels)
+    return "too little moves";
+  return std::nullopt;
+}
+
+cv::Mat as_image(const cv::Mat& values, double white_at) {
+  cv::Mat image;
+  values.convertTo(image, CV_8U, 255 / white_at);
+  return image;
+}
+
+cv::Mat root(const cv::Mat& values) {
+  cv::Mat roots;
+  cv::sqrt(values, roots);
+  return roots;
+}
+
+// settings: lengths in pixels of the means.
+StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanFrame>& segments,
+                               const StableOwnBodySettings& settings) {
+  StableDecision decision{.motion = motion_of(moments, settings.vibration_px)};
+  decision.boundaries = boundaries_of(decision.motion);
+  decision.drift = drifting(segments, decision.motion.ratio);
+  decision.moving = cv::max(decision.motion.moving, decision.drift);
+  const cv::Mat away = decision.drift.mul(away_from_edges(decision));
+  const std::vector<cv::Mat> labellings = labellings_of(decision, away);
+  decision.labels = labellings.front();
+  const PartEvidence inside{.staying = decision.boundaries.staying,
+                            .ending = decision.boundaries.ending,
+                            .variation = decision.motion.variation / decision.motion.noise,
+                            .drift = decision.drift,
+                            .middle = cv::max(decision.boundaries.ridge, decision.boundaries.motion)};
+  const BodyParts parts =
+      body_parts(labellings, inside, settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
+  decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, away, kTrusting));
+  decision.confidence = confidence_of(decision.moving, decision.body, parts);
+  decision.undecided = why_undecided(decision, settings);
+  return decision;
+}
+
+// The steps as images, CV_8UC1 of the means' size, without the result.
+std::vector<DetectionStage> stage_images(const StableDecision& decision) {
+  constexpr double kWhiteGradient = 20;  // gray levels per pixel
+  return {
+      {"mean_gradient", "Mean gradient: edges that stay", as_image(root(decision.motion.mean_square), kWhiteGradient)},
+      {"coherence", "Coherence of the gradient over time", as_image(coherence_of(decision.motion), 1)},
+      {"variation", "Variation of the gradient: what passes by",
+       as_image(root(decision.motion.variation), kWhiteGradient)},
+      {"drift", "Slow drift", as_image(decision.drift, 1)},
+      {"moving", "What moves", as_image(decision.moving, 1)},
+      {"walls", "Where a body can end", as_image(cv::max(decision.boundaries.ridge, decision.boundaries.motion), 1)},
+      {"labels", "What the cheapest cut calls body", decision.labels}};
+}
+
+constexpr double kSmoothing =
+    0.7;  // pixels of the means; removes the steps from a border and does not move a straight one
 
 cv::Mat gaussian_blurred(const cv::Mat& mask, int scale) {
   cv::Mat soft;
@@ -71,8 +253,8 @@ Verdict StableMethod::undecided(std::string reason) const {
           .undecided = std::move(reason)};
 }
 
-// A pixel of the means is a square of the footage's; what these leave over at the right and the bottom is as its
-// neighbour.
+// A pixel of the means is a square of the footage's pixels. Rows and columns left over at the bottom and at the right
+// are copies of their neighbours.
 cv::Mat StableMethod::at_full_size(const cv::Mat& small) const {
   if (averager_.scale() == 1) return small;
   cv::Mat large;
@@ -94,7 +276,7 @@ std::vector<DetectionStage> StableMethod::stages_of(const StableDecision& decisi
 }
 
 Verdict StableMethod::verdict(KeepStages keep) const {
-  if (averager_.frames() < kMinFrames) return undecided("fewer than 2 frames");
+  if (averager_.frames() < 2) return undecided("fewer than 2 frames");
   const StableDecision decided = decision();
   Verdict verdict = decided.undecided
                         ? undecided(*decided.undecided)

@@ -6,13 +6,16 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "base/ensure.h"
+#include "occlusion/mask_geometry.h"
+
 namespace sigs {
 
 namespace {
 
 constexpr double kQuietShare = 0.05;     // of the image that at least shows nothing but noise
 constexpr double kQuietestShare = 0.01;  // of the image, shown by any body that is worth masking
-constexpr double kNothing = 5e-4;        // less variation than any camera's: letterbox bars, clipped black
+constexpr double kNoSignal = 5e-4;       // less variation than any camera's: letterbox bars, clipped black
 constexpr double kMinNoise = 0.005;      // rounding to whole gray levels alone gives as much
 constexpr double kMaxGrain = 8;          // gray levels, of a frame: what varies more than such grain does moves
 constexpr double kGrainEnergy = 0.117;   // of white noise of variance 1: its blurred gradient's variance, both ways
@@ -41,29 +44,147 @@ cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
   return kept;
 }
 
-// Variation where the image is stillest. Where everything moves alike, no part of it is still, and the stillest part
-// tells of the world: then it is no more than the strongest grain gives, a mean of some frames having the less of it.
+// Variation in the stillest part of the image. Where everything moves alike no part is still, and the stillest one
+// belongs to the world: the result is therefore limited to what the strongest grain gives, less in a mean of frames.
 double stillest(const cv::Mat& variation, double share, double frames_per_mean) {
   const double most = kMaxGrain * kMaxGrain * kGrainEnergy / frames_per_mean;
-  return std::clamp<double>(quantile(variation, share, kNothing), kMinNoise, std::max(most, kMinNoise));
+  return std::clamp<double>(quantile(variation, share, kNoSignal), kMinNoise, std::max(most, kMinNoise));
 }
 
-// How much more a shaken spot's gradient varies than its mean has energy: spread by the shaking, that falls with the
-// variance. A mean of some frames shakes the less.
+// Variation of the gradient of a shaken spot by the energy of its mean gradient: shaking spreads the spot, and its
+// energy falls with the variance. A mean of frames shakes less.
 double shaken_share(double vibration, double frames_per_mean) {
   return kShakenMargin * kShakeSquare * vibration * vibration / (kSpotSquare * frames_per_mean);
 }
 
-// The ratio from which it surely moves: half way, as factors go, between noise and what the world does typically.
+// The ratio from which a pixel surely moves: the geometric mean of the noise and of the world's median.
 double sure_ratio(const cv::Mat& variation, const cv::Mat& ratio, double noise) {
   const double typical = quantile(where(variation, ratio > 1), 0.5, 0);
   return std::max(kMinSpan, std::sqrt(typical / (kNoiseMargin * noise)));
 }
 
+constexpr double kPassesCoherence = 0.3;  // coherence of edges that pass by the same place again and again: below
+constexpr double kStaysCoherence = 0.8;   // of edges that stay before a changing background: above
+constexpr double kFaint = 1.5;            // gray levels per pixel: half a boundary
+constexpr int kReach = 2;                 // pixels: a border blurred by vibration and the images' blur is about 4 wide
+constexpr double kMinFall = 2;   // powers of two by which variation falls over 2 * kReach pixels: a texture's own
+constexpr double kSureFall = 6;  // spottiness gives less than the first, a hidden world more than the second
+constexpr double kMotionBoundary = 0.9;  // motion's end is a less exact boundary than an edge
+constexpr double kEndShare = 0.4;        // of the strongest motion around: what is left of it at a border, blurred
+constexpr double kNoCrest = 1;  // energy over the mean around: along a border whose contrast changes its sign the
+constexpr double kCrest = 2;    // gradient's energy is highest, though its mean may vanish
+constexpr int kAround = 9;      // pixels
+
+cv::Mat staying_edges(const MotionEvidence& motion) {
+  const cv::Mat strength = motion.mean_square / cv::Mat(motion.mean_square + kFaint * kFaint);
+  return linear_step(coherence_of(motion), kPassesCoherence, kStaysCoherence).mul(strength);
+}
+
+// Squared share of the strongest around: 1 along the middle of a ridge.
+cv::Mat ridge_share(const cv::Mat& square) {
+  cv::Mat strongest;
+  cv::dilate(square, strongest, disc(2));
+  return square / cv::Mat(strongest + 1e-9);
+}
+
+// Squared length of the difference over 2 * radius pixels.
+cv::Mat slope_square(const cv::Mat& values, int radius) {
+  cv::Mat slope(values.size(), CV_32FC1);
+  for (int y = 0; y < values.rows; ++y) {
+    const auto* above = values.ptr<float>(std::max(0, y - radius));
+    const auto* here = values.ptr<float>(y);
+    const auto* below = values.ptr<float>(std::min(values.rows - 1, y + radius));
+    for (int x = 0; x < values.cols; ++x) {
+      const float along_x = here[std::min(values.cols - 1, x + radius)] - here[std::max(0, x - radius)];
+      const float along_y = below[x] - above[x];
+      slope.at<float>(y, x) = along_x * along_x + along_y * along_y;
+    }
+  }
+  return slope;
+}
+
+// Base 2, of the variation over a floor.
+cv::Mat level_of(const cv::Mat& variation, const cv::Mat& floor) {
+  cv::Mat level;
+  cv::log(variation + floor, level);
+  return level / std::log(2.0);
+}
+
+// How sharply motion ends is measured down to the noise. Where it ends is measured at a share of the motion around:
+// below that only the last traces of a blurred border vanish, some pixels inside the body.
+void find_ends_of_motion(const MotionEvidence& motion, Boundaries& boundaries) {
+  cv::Mat variation;
+  cv::GaussianBlur(motion.variation, variation, {3, 3}, 0);
+  const cv::Mat noise(variation.size(), CV_32FC1, cv::Scalar(motion.quietest));
+  cv::Mat fall;
+  const cv::Mat level = level_of(variation, noise);
+  cv::sqrt(slope_square(level, kReach), fall);
+  boundaries.ending = linear_step(fall, kMinFall + 1, kSureFall + 1) * kMotionBoundary;
+  cv::Mat sharp = linear_step(fall, kMinFall, kSureFall);
+  cv::dilate(sharp, sharp, disc(kReach + 1));
+  cv::Mat around;
+  cv::dilate(variation, around, cv::Mat::ones(kAround, kAround, CV_8UC1));
+  cv::boxFilter(around, around, CV_32F, {kAround, kAround}, {-1, -1}, true, cv::BORDER_REFLECT);
+  const cv::Mat place = ridge_share(slope_square(level_of(variation, noise + around * kEndShare), 1));
+  cv::Mat energy;
+  cv::GaussianBlur(motion.variation + motion.mean_square, energy, {3, 3}, 0);
+  cv::boxFilter(energy, around, CV_32F, {kAround, kAround}, {-1, -1}, true, cv::BORDER_REFLECT);
+  const cv::Mat crest = ridge_share(energy).mul(linear_step(energy / cv::Mat(around + motion.noise), kNoCrest, kCrest));
+  boundaries.motion = sharp.mul(cv::max(place, crest)) * kMotionBoundary;
+}
+
 }  // namespace
 
-Motion motion_of(const GradientMoments& moments, double vibration) {
-  Motion motion;
+GradientSums::GradientSums(cv::Size size)
+    : sum_x_(cv::Mat::zeros(size, CV_32FC1)),
+      sum_y_(cv::Mat::zeros(size, CV_32FC1)),
+      sum_square_(cv::Mat::zeros(size, CV_32FC1)) {}
+
+void GradientSums::add(const MeanFrame& image) {
+  ENSURE(image.luma.size() == sum_x_.size() && image.luma.type() == CV_32FC1);
+  cv::Mat blurred;
+  cv::GaussianBlur(image.luma, blurred, {3, 3}, 0);
+  const auto weight = static_cast<float>(image.frames);
+  const int right = blurred.cols - 1;
+  const int bottom = blurred.rows - 1;
+  for (int y = 0; y <= bottom; ++y) {
+    const auto* above = blurred.ptr<float>(std::max(0, y - 1));
+    const auto* here = blurred.ptr<float>(y);
+    const auto* below = blurred.ptr<float>(std::min(bottom, y + 1));
+    auto* sum_x = sum_x_.ptr<float>(y);
+    auto* sum_y = sum_y_.ptr<float>(y);
+    auto* sum_square = sum_square_.ptr<float>(y);
+    const auto add_at = [&](int x, int before, int after) {
+      const float gx = (here[after] - here[before]) * 0.5F;
+      const float gy = (below[x] - above[x]) * 0.5F;
+      sum_x[x] += weight * gx;
+      sum_y[x] += weight * gy;
+      sum_square[x] += weight * (gx * gx + gy * gy);
+    };
+    add_at(0, 0, std::min(1, right));
+    for (int x = 1; x < right; ++x) add_at(x, x - 1, x + 1);
+    if (right > 0) add_at(right, right - 1, right);
+  }
+  frames_ += image.frames;
+  ++mean_frames_;
+}
+
+GradientSums GradientSums::clone() const {
+  GradientSums copy(*this);
+  copy.sum_x_ = sum_x_.clone();
+  copy.sum_y_ = sum_y_.clone();
+  copy.sum_square_ = sum_square_.clone();
+  return copy;
+}
+
+GradientMoments GradientSums::moments() const {
+  ENSURE(frames_ > 0);
+  const double share = 1.0 / frames_;
+  return {sum_x_ * share, sum_y_ * share, sum_square_ * share, 1.0 * frames_ / mean_frames_};
+}
+
+MotionEvidence motion_of(const GradientMoments& moments, double vibration) {
+  MotionEvidence motion;
   motion.mean_square = moments.mean_x.mul(moments.mean_x) + moments.mean_y.mul(moments.mean_y);
   motion.variation = cv::max(moments.mean_square - motion.mean_square, 0.0);
   cv::Mat variation;
@@ -80,8 +201,19 @@ Motion motion_of(const GradientMoments& moments, double vibration) {
   return motion;
 }
 
-cv::Mat coherence_of(const Motion& motion) {
+cv::Mat linear_step(const cv::Mat& values, double zero_at, double one_at) {
+  return cv::min(cv::max((values - zero_at) / (one_at - zero_at), 0.0), 1.0);
+}
+
+cv::Mat coherence_of(const MotionEvidence& motion) {
   return motion.mean_square / cv::Mat(motion.mean_square + motion.variation + 2 * kMinNoise);
+}
+
+Boundaries boundaries_of(const MotionEvidence& motion) {
+  Boundaries boundaries{.staying = staying_edges(motion)};
+  boundaries.ridge = boundaries.staying.mul(ridge_share(motion.mean_square));
+  find_ends_of_motion(motion, boundaries);
+  return boundaries;
 }
 
 }  // namespace sigs

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "base/ensure.h"
-#include "scene/placeholders.h"
+#include "project/fields.h"
+#include "project/validate.h"
 #include "scene/plausibility.h"
 #include "scene/scene_parts.h"
 
@@ -20,19 +22,19 @@ constexpr double kCrossLength_m = 10;
 constexpr int kPlaceholderWidth_px = 1280;
 constexpr int kPlaceholderHeight_px = 960;
 constexpr double kPlaceholderInterval_s = 1.0 / 25;
-constexpr int kMinFrames = 250;
-constexpr int kMaxFrames = 100'000;
+constexpr int kMinPlaceholderFrames = 250;
+constexpr int kMaxPlaceholderFrames = 100'000;
 
-// "intruders[1]" holds "intruders[1].model.file", but not "intruders[12]".
-bool holds(std::string_view outer, std::string_view inner) {
+// "intruders[1]" contains "intruders[1].model.file", but not "intruders[12]".
+bool contains(std::string_view outer, std::string_view inner) {
   return inner.starts_with(outer) &&
          (inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[');
 }
 
-// What opening finds is often what checking has named: of the same field, or of a part of it.
+// Opening often finds again what validating has found, in the same field or in a part of it.
 bool is_known(const std::vector<Problem>& problems, const Problem& found) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
-    return holds(known.field, found.field) || holds(found.field, known.field);
+    return contains(known.field, found.field) || contains(found.field, known.field);
   });
 }
 
@@ -40,8 +42,8 @@ void note(std::vector<Problem>& problems, const Problem& found) {
   if (!is_known(problems, found)) problems.push_back(found);
 }
 
-// Of several in one field, the first.
-std::vector<Problem> checked(const Project& project) {
+// Of several problems in one field only the first.
+std::vector<Problem> validated(const Project& project) {
   std::vector<Problem> problems;
   for (Problem& found : validate(project)) {
     const auto is_same = [&](const Problem& known) { return known.field == found.field; };
@@ -51,9 +53,9 @@ std::vector<Problem> checked(const Project& project) {
 }
 
 template <class T>
-T made_or_fallback(OrProblem<T> made, T placeholder, std::vector<Problem>& problems) {
-  if (made) return *std::move(made);
-  note(problems, made.error());
+T part_or_placeholder(OrProblem<T> part, T placeholder, std::vector<Problem>& problems) {
+  if (part) return *std::move(part);
+  note(problems, part.error());
   return placeholder;
 }
 
@@ -69,7 +71,8 @@ bool is_finite(const WaypointSettings& waypoint) {
          (!waypoint.frame || std::isfinite(*waypoint.frame));
 }
 
-// As written: a number that is none was sanitized in `clean`, but nobody wants to fly through its default.
+// By the project as written: `clean` has a default in place of a number that is not finite, and a trajectory through
+// that default is not meant.
 bool can_be_flown(const Project& written, std::size_t intruder) {
   const std::vector<WaypointSettings>& waypoints = written.intruders[intruder].trajectory.waypoints;
   return std::all_of(waypoints.begin(), waypoints.end(), is_finite);
@@ -82,8 +85,8 @@ Trajectory hovering(const Project& clean, std::size_t intruder) {
 
 Trajectory drafted_trajectory(const Project& written, const Project& clean, std::size_t intruder, DraftScene& draft) {
   if (!can_be_flown(written, intruder)) return hovering(clean, intruder);
-  OrProblem<Trajectory> made = scene_trajectory(clean, intruder, draft.scene);
-  return made_or_fallback(std::move(made), hovering(clean, intruder), draft.problems);
+  OrProblem<Trajectory> trajectory = scene_trajectory(clean, intruder, draft.scene);
+  return part_or_placeholder(std::move(trajectory), hovering(clean, intruder), draft.problems);
 }
 
 std::shared_ptr<const Model> drafted_model(const Project& clean, std::size_t intruder, DraftScene& draft,
@@ -95,22 +98,74 @@ std::shared_ptr<const Model> drafted_model(const Project& clean, std::size_t int
   return files.cross(length_m > 0 ? length_m : kCrossLength_m);
 }
 
+void sanitize(const Field& field, double& number, double plain) {
+  number = std::isfinite(number) ? std::clamp(number, field.minimum, field.maximum) : plain;
+}
+
+void sanitize(const Field& field, int& number) {
+  // Compared as doubles: a field's ends need not be whole numbers that an int holds.
+  if (number < field.minimum) number = static_cast<int>(field.minimum);
+  if (number > field.maximum) number = static_cast<int>(field.maximum);
+}
+
+// plain: the same field of a project with defaults.
+void sanitize(const Field& field, const Field& plain) {
+  if (auto* const number = std::get_if<double*>(&field.value))
+    sanitize(field, **number, *std::get<double*>(plain.value));
+  if (auto* const number = std::get_if<int*>(&field.value)) sanitize(field, **number);
+  if (auto* const number = std::get_if<std::optional<int>*>(&field.value); number && **number)
+    sanitize(field, ***number);
+  if (auto* const number = std::get_if<std::optional<double>*>(&field.value); number && **number) {
+    if (std::isfinite(***number)) {
+      sanitize(field, ***number, 0);
+    } else {
+      **number = std::nullopt;
+    }
+  }
+  if (auto* const vector = std::get_if<glm::dvec3*>(&field.value))
+    for (int i = 0; i < 3; ++i) sanitize(field, (**vector)[i], (*std::get<glm::dvec3*>(plain.value))[i]);
+}
+
+// A project of defaults with as many intruders and waypoints.
+Project plain_like(const Project& project) {
+  Project plain;
+  for (const IntruderSettings& intruder : project.intruders)
+    plain.intruders.emplace_back().trajectory.waypoints.resize(intruder.trajectory.waypoints.size());
+  return plain;
+}
+
+Camera placeholder_camera(cv::Size size_px) {
+  const double focal_px = 0.5 * size_px.width / std::tan(std::numbers::pi / 6);
+  return {
+      *Lens::make({.fx = focal_px, .fy = focal_px, .cx = (size_px.width - 1) / 2.0, .cy = (size_px.height - 1) / 2.0}),
+      size_px};
+}
+
 }  // namespace
+
+Project sanitized(Project project) {
+  Project plain = plain_like(project);
+  const std::vector<Field> fields = fields_of(project);
+  const std::vector<Field> plain_fields = fields_of(plain);
+  ENSURE(fields.size() == plain_fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) sanitize(fields[i], plain_fields[i]);
+  return project;
+}
 
 DraftScene draft_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
   ENSURE(!footage.times_s.empty() && !footage.size_px.empty());
   const Project clean = sanitized(project);
-  DraftScene draft{.scene = bare_scene(clean, footage), .problems = checked(project)};
+  DraftScene draft{.scene = bare_scene(clean, footage), .problems = validated(project)};
   Scene& scene = draft.scene;
   const FrameRange range =
-      made_or_fallback(scene_range(clean.footage, footage), clamped_range(clean.footage, footage), draft.problems);
+      part_or_placeholder(scene_range(clean.footage, footage), clamped_range(clean.footage, footage), draft.problems);
   scene.first_frame = range.first;
   scene.last_frame = range.last;
-  scene.camera = made_or_fallback(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
-                                  draft.problems);
-  scene.motion.turns =
-      made_or_fallback(scene_carrier_attitudes(clean, footage, files), std::vector<CarrierAttitude>(), draft.problems);
-  scene.own_body = made_or_fallback(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
+  scene.camera = part_or_placeholder(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
+                                     draft.problems);
+  scene.motion.turns = part_or_placeholder(scene_carrier_attitudes(clean, footage, files),
+                                           std::vector<CarrierAttitude>(), draft.problems);
+  scene.own_body = part_or_placeholder(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
   for (std::size_t i = 0; i < clean.intruders.size(); ++i) {
     const bool has_waypoint = !clean.intruders[i].trajectory.waypoints.empty();
     draft.intruder_of_project.push_back(has_waypoint ? static_cast<int>(scene.intruders.size()) : -1);
@@ -118,7 +173,7 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
     if (has_waypoint) add_intruder(scene, clean.intruders[i].name, model, drafted_trajectory(project, clean, i, draft));
   }
   scene.issues = plausibility_issues(clean, scene, draft.intruder_of_project);
-  // Of what is wrong there is nothing to doubt.
+  // A field with a problem is not reported as implausible too.
   std::erase_if(scene.issues, [&](const Problem& issue) { return is_known(draft.problems, issue); });
   return draft;
 }
@@ -129,8 +184,8 @@ FootageShape placeholder_footage(const Project& project) {
   for (const IntruderSettings& intruder : clean.intruders)
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
       last = std::max(last, std::ceil(waypoint.frame.value_or(0)));
-  const int count = static_cast<int>(std::clamp<double>(last + 1, kMinFrames, kMaxFrames));
-  // The size that the calibration is made for: else a second fault would be seen where there is one.
+  const int count = static_cast<int>(std::clamp<double>(last + 1, kMinPlaceholderFrames, kMaxPlaceholderFrames));
+  // With another size than the calibration's, a second problem would be reported.
   const Result<Camera> camera =
       read_calibration(resolved(clean, clean.footage.calibration), {}, lens_model_of(clean.footage.lens_model));
   FootageShape footage{.size_px = camera ? camera->size_px : cv::Size(kPlaceholderWidth_px, kPlaceholderHeight_px),

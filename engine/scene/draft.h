@@ -3,27 +3,39 @@
 
 #include <vector>
 
+#include "project/project.h"
 #include "project/validate.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
 
 namespace sigs {
 
-// A scene for authoring. What cannot be opened is stood in for and named, so that everything else can be seen and
-// edited: a calibration by a pinhole that sees 60 degrees across, an attitude file and an own-body mask by none, a
-// model by a cross of its true size (length_m, else 10 m), a trajectory that cannot be flown by hovering at its first
-// waypoint.
+// A scene for authoring, which exists for every project, however incomplete. What cannot be opened is replaced by a
+// placeholder and named in `problems`, so that everything else can be shown and edited:
+//   calibration             a pinhole with a horizontal field of view of 60 degrees, principal point in the middle
+//   attitude file           a carrier that is always level
+//   own-body mask           no mask
+//   model                   a cross (cross_mesh) of its length: length_m where it is set, else 10 m
+//   trajectory              hovering at its first waypoint, where the waypoints make no trajectory
+//   number                  as in sanitized()
 struct DraftScene {
   Scene scene;
-  std::vector<int> intruder_of_project;  // number in scene.intruders of each of the project's; -1: has no waypoint
-  std::vector<Problem> problems;         // empty: the scene is what open_scene gives, bit for bit
+  std::vector<int> intruder_of_project;  // for each of the project's intruders its index in scene.intruders; -1: it has
+                                         // no waypoint and is left out
+  std::vector<Problem> problems;         // at most one a field; empty: the scene equals that of open_scene bit for bit
 };
 
-// Never fails. The range is clamped to the footage, which must have at least one frame.
+// Never fails. The range of frames is clamped to the footage, which must have at least one frame. Validates the project
+// by itself: `problems` begin with what validate() finds.
 [[nodiscard]] DraftScene draft_scene(const Project& project, const FootageShape& footage, SceneFiles& files);
 
-// The footage of a project whose video cannot be opened: of the size that its calibration states, else 1280x960; 25
-// frames a second, as long as the project's last frame or waypoint asks for, at least 250 and at most 100000 frames.
+// The placeholder for footage that cannot be opened: of the size that the project's calibration states, else 1280x960;
+// 25 frames a second; as many frames as the project's last frame or waypoint asks for, at least 250, at most 100000.
 [[nodiscard]] FootageShape placeholder_footage(const Project& project);
+
+// The project with each number that is not finite replaced by its default (an optional one by none), and each number
+// outside its field's range by the nearer end of the range. The order of the waypoints' times is not touched. A project
+// without problems is returned unchanged.
+[[nodiscard]] Project sanitized(Project project);
 
 }  // namespace sigs

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "scene/flight.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/ensure.h"
 #include "scene/scene_at.h"
@@ -15,25 +19,116 @@ namespace sigs {
 
 namespace {
 
+constexpr int kDistanceSamplesPerFrame = 4;
+constexpr int kMaxDistanceSamples = 20'000;
+constexpr std::size_t kMaxMinima = 16;  // minima of the sampled distance that are refined: the lowest ones
+constexpr int kGoldenSteps = 60;        // narrow the distance of two samples to 1e-12 of it
+constexpr double kEqual_m = 1e-6;       // distances that differ by less count as equal
+
+struct DistanceSample {
+  double frame = 0;
+  double distance_m = 0;
+};
+
+// From the camera to the reference point of an intruder.
+class Distance {
+ public:
+  Distance(const Scene& scene, const SceneIntruder& intruder) : scene_(scene), intruder_(intruder) {}
+
+  [[nodiscard]] DistanceSample at(double frame) const {
+    const double time_s = time_of_frame_s(scene_.footage, frame);
+    const glm::dvec3 camera_m = camera_at(scene_.motion, time_s).translation_m;
+    return {frame, glm::distance(intruder_.trajectory.position_m(time_s), camera_m)};
+  }
+
+ private:
+  const Scene& scene_;
+  const SceneIntruder& intruder_;
+};
+
+std::vector<DistanceSample> sampled_distances(const Distance& distance, int first_frame, int last_frame) {
+  const int frames = std::max(0, last_frame - first_frame);
+  const int steps = frames <= kMaxDistanceSamples / kDistanceSamplesPerFrame ? frames * kDistanceSamplesPerFrame
+                                                                             : kMaxDistanceSamples;
+  std::vector<DistanceSample> samples;
+  for (int i = 0; i <= steps; ++i)
+    samples.push_back(distance.at(first_frame + (steps > 0 ? double(frames) * i / steps : 0)));
+  return samples;
+}
+
+// Indices of the local minima, in the order of time; of very many the lowest ones.
+std::vector<std::size_t> minima_of(const std::vector<DistanceSample>& samples) {
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool falls = i == 0 || samples[i].distance_m < samples[i - 1].distance_m;
+    const bool rises = i + 1 == samples.size() || samples[i].distance_m <= samples[i + 1].distance_m;
+    if (falls && rises) minima.push_back(i);
+  }
+  if (minima.size() > kMaxMinima) {
+    std::stable_sort(minima.begin(), minima.end(),
+                     [&](std::size_t a, std::size_t b) { return samples[a].distance_m < samples[b].distance_m; });
+    minima.resize(kMaxMinima);
+    std::sort(minima.begin(), minima.end());
+  }
+  return minima;
+}
+
+// Golden section search (Kiefer 1953).
+DistanceSample lowest_between(const Distance& distance, double low_frame, double high_frame) {
+  constexpr double kShare = 1 / std::numbers::phi;
+  DistanceSample a = distance.at(high_frame - kShare * (high_frame - low_frame));
+  DistanceSample b = distance.at(low_frame + kShare * (high_frame - low_frame));
+  for (int i = 0; i < kGoldenSteps; ++i) {
+    if (a.distance_m <= b.distance_m) {
+      high_frame = b.frame;
+      b = a;
+      a = distance.at(high_frame - kShare * (high_frame - low_frame));
+    } else {
+      low_frame = a.frame;
+      a = b;
+      b = distance.at(low_frame + kShare * (high_frame - low_frame));
+    }
+  }
+  return a.distance_m <= b.distance_m ? a : b;
+}
+
+}  // namespace
+
+ClosestApproach closest_approach(const Scene& scene, int intruder) {
+  ENSURE(intruder >= 0 && static_cast<std::size_t>(intruder) < scene.intruders.size());
+  const Distance distance(scene, scene.intruders[static_cast<std::size_t>(intruder)]);
+  const std::vector<DistanceSample> samples = sampled_distances(distance, scene.first_frame, scene.last_frame);
+  DistanceSample best = samples.front();
+  for (const std::size_t i : minima_of(samples)) {
+    const DistanceSample found =
+        lowest_between(distance, samples[i > 0 ? i - 1 : i].frame, samples[std::min(i + 1, samples.size() - 1)].frame);
+    const DistanceSample& lowest = found.distance_m < samples[i].distance_m ? found : samples[i];
+    if (lowest.distance_m < best.distance_m - kEqual_m || i == 0) best = lowest;
+  }
+  return {best.frame, time_of_frame_s(scene.footage, best.frame), best.distance_m};
+}
+
+namespace {
+
 constexpr double kLargeAircraft_m = 18;
-constexpr int kSamplesAFrame = 3;
-constexpr int kMaxSamples = 6000;
-constexpr double kRounding = 1e-9;  // of a value that lies on its limit, relative
+constexpr int kFlightSamplesPerFrame = 3;
+constexpr int kMaxFlightSamples = 6000;
+constexpr double kRounding = 1e-9;  // relative: a value that exceeds its limit by less is on it
 
 const SceneIntruder& intruder_of(const Scene& scene, int intruder) {
   ENSURE(intruder >= 0 && static_cast<std::size_t>(intruder) < scene.intruders.size());
   return scene.intruders[static_cast<std::size_t>(intruder)];
 }
 
-// One thing that can be too large. value and limit are turned so that larger is worse; sign turns them back.
-struct Watch {
+// One quantity with an upper limit. A lower limit is the upper one of the negated quantity; sign restores it.
+struct LimitedQuantity {
   FlightFault fault;
   double sign;
   double limit;
   std::function<double(const FlightState&)> value;
 };
 
-std::vector<Watch> watches_of(const FlightLimits& limits) {
+std::vector<LimitedQuantity> limited_quantities(const FlightLimits& limits) {
   const auto speed = [](const FlightState& state) { return state.speed_mps; };
   const auto climb = [](const FlightState& state) { return state.climb_rate_mps; };
   const auto descent = [](const FlightState& state) { return -state.climb_rate_mps; };
@@ -49,20 +144,21 @@ std::vector<Watch> watches_of(const FlightLimits& limits) {
 }
 
 // What lies below the limit by no more than rounding is not beyond it.
-bool is_beyond(const Watch& watch, double value) {
-  return value - watch.limit > kRounding * std::max(1.0, std::abs(watch.limit));
+bool is_beyond(const LimitedQuantity& quantity, double value) {
+  return value - quantity.limit > kRounding * std::max(1.0, std::abs(quantity.limit));
 }
 
-struct Sample {
+struct FlightSample {
   double frame = 0;
   FlightState state;
 };
 
-std::vector<Sample> samples_of(const Scene& scene, const SceneIntruder& intruder) {
+std::vector<FlightSample> samples_of(const Scene& scene, const SceneIntruder& intruder) {
   const int frames = std::max(0, scene.last_frame - scene.first_frame);
   // Whole frames stay on the grid as long as it is fine enough for them.
-  const int steps = frames <= kMaxSamples / kSamplesAFrame ? frames * kSamplesAFrame : kMaxSamples;
-  std::vector<Sample> samples;
+  const int steps =
+      frames <= kMaxFlightSamples / kFlightSamplesPerFrame ? frames * kFlightSamplesPerFrame : kMaxFlightSamples;
+  std::vector<FlightSample> samples;
   for (int i = 0; i <= steps; ++i) {
     const double frame = scene.first_frame + (steps > 0 ? double(frames) * i / steps : 0);
     samples.push_back({frame, flight_at(intruder, time_of_frame_s(scene.footage, frame))});
@@ -70,21 +166,21 @@ std::vector<Sample> samples_of(const Scene& scene, const SceneIntruder& intruder
   return samples;
 }
 
-std::vector<FlightFlag> flags_of(const Watch& watch, const std::vector<Sample>& samples) {
+std::vector<FlightFlag> flags_of(const LimitedQuantity& quantity, const std::vector<FlightSample>& samples) {
   std::vector<FlightFlag> flags;
   bool goes_on = false;
-  for (const Sample& sample : samples) {
-    const double value = watch.value(sample.state);
-    const bool beyond = is_beyond(watch, value);
+  for (const FlightSample& sample : samples) {
+    const double value = quantity.value(sample.state);
+    const bool beyond = is_beyond(quantity, value);
     if (beyond && !goes_on)
-      flags.push_back({.fault = watch.fault,
+      flags.push_back({.fault = quantity.fault,
                        .first_frame = sample.frame,
-                       .worst = watch.sign * value,
-                       .limit = watch.sign * watch.limit});
+                       .worst = quantity.sign * value,
+                       .limit = quantity.sign * quantity.limit});
     if (beyond) {
       FlightFlag& flag = flags.back();
       flag.last_frame = sample.frame;
-      flag.worst = watch.sign * std::max(watch.sign * flag.worst, value);
+      flag.worst = quantity.sign * std::max(quantity.sign * flag.worst, value);
     }
     goes_on = beyond;
   }
@@ -92,11 +188,10 @@ std::vector<FlightFlag> flags_of(const Watch& watch, const std::vector<Sample>& 
 }
 
 // Hundredths, rounded away from zero so that what is beyond a limit also reads so.
-std::string number_text(double value) {
+std::string rounded_up_text(double value) {
   const double hundredths = std::copysign(std::ceil(std::abs(value) * 100 * (1 - kRounding)), value);
-  char text[64];
-  std::snprintf(text, sizeof text, std::abs(value) < 1e9 ? "%.2f" : "%.3g", hundredths / 100);
-  std::string shown = text;
+  std::string shown =
+      std::abs(value) < 1e9 ? fmt::format("{:.2f}", hundredths / 100) : fmt::format("{:.3g}", hundredths / 100);
   if (shown.find('e') == std::string::npos) {
     shown.erase(shown.find_last_not_of('0') + 1);
     if (shown.back() == '.') shown.pop_back();
@@ -129,17 +224,17 @@ FlightLimits limits_of(double length_m) {
 }
 
 std::string FlightFlag::text() const {
-  const std::string value = number_text(std::abs(worst));
-  const std::string most = number_text(std::abs(limit));
-  const std::string end = " for an aircraft of this size";
+  const std::string value = rounded_up_text(std::abs(worst));
+  const std::string most = rounded_up_text(std::abs(limit));
   switch (fault) {
     case FlightFault::speed:
-      return "speed " + value + " m/s, at most " + most + " m/s" + end;
+      return fmt::format("speed {} m/s, at most {} m/s for an aircraft of this size", value, most);
     case FlightFault::climb:
-      return (worst < 0 ? "descent " : "climb ") + value + " m/s, at most " + most + " m/s" + end;
+      return fmt::format("{} {} m/s, at most {} m/s for an aircraft of this size", worst < 0 ? "descent" : "climb",
+                         value, most);
     case FlightFault::load:
-      return "load factor " + number_text(worst) + (worst < limit ? ", at least " : ", at most ") + number_text(limit) +
-             end;
+      return fmt::format("load factor {}, {} {} for an aircraft of this size", rounded_up_text(worst),
+                         worst < limit ? "at least" : "at most", rounded_up_text(limit));
     case FlightFault::underground:
       return value + " m below the ground";
   }
@@ -149,10 +244,10 @@ std::string FlightFlag::text() const {
 std::vector<FlightFlag> flight_flags(const Scene& scene, int intruder) {
   const SceneIntruder& flown = intruder_of(scene, intruder);
   const double length_m = flown.model ? double(flown.model->mesh.high_m.x) - double(flown.model->mesh.low_m.x) : 0;
-  const std::vector<Sample> samples = samples_of(scene, flown);
+  const std::vector<FlightSample> samples = samples_of(scene, flown);
   std::vector<FlightFlag> flags;
-  for (const Watch& watch : watches_of(limits_of(length_m))) {
-    const std::vector<FlightFlag> found = flags_of(watch, samples);
+  for (const LimitedQuantity& quantity : limited_quantities(limits_of(length_m))) {
+    const std::vector<FlightFlag> found = flags_of(quantity, samples);
     flags.insert(flags.end(), found.begin(), found.end());
   }
   std::stable_sort(flags.begin(), flags.end(),

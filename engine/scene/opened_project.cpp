@@ -1,14 +1,66 @@
 // SPDX-License-Identifier: MIT
 #include "scene/opened_project.h"
 
-#include <string>
-#include <utility>
+#include <fmt/format.h>
 
-#include "export/export_project.h"
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "base/paths.h"
+#include "mesh/textures.h"
+#include "project/fields.h"
 #include "project/validate.h"
-#include "scene/visibility_estimate.h"
+#include "scene/plausibility.h"
+#include "scene/scene_parts.h"
 
 namespace sigs {
+
+namespace fs = std::filesystem;
+
+Result<void> check_valid(const Project& project) {
+  const std::vector<Problem> problems = validate(project);
+  return problems.empty() ? Result<void>() : fail(error_of(project, problems.front()));
+}
+
+Result<Scene> open_valid_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
+  const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
+  Scene scene = bare_scene(project, footage);
+  const OrProblem<FrameRange> range = scene_range(project.footage, footage);
+  if (!range) return failed(range.error());
+  scene.first_frame = range->first;
+  scene.last_frame = range->last;
+  OrProblem<Camera> camera = scene_camera(project, footage.size_px, files);
+  if (!camera) return failed(camera.error());
+  scene.camera = *std::move(camera);
+  OrProblem<std::vector<CarrierAttitude>> turns = scene_carrier_attitudes(project, footage, files);
+  if (!turns) return failed(turns.error());
+  scene.motion.turns = *std::move(turns);
+  const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
+  if (!own_body) return failed(own_body.error());
+  scene.own_body = *own_body;
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const OrProblem<std::shared_ptr<const Model>> model = scene_model(project, i, files);
+    if (!model) return failed(model.error());
+    const OrProblem<Trajectory> trajectory = scene_trajectory(project, i, scene);
+    if (!trajectory) return failed(trajectory.error());
+    add_intruder(scene, project.intruders[i].name, *model, *trajectory);
+  }
+  scene.issues = plausibility_issues(project, scene);
+  return scene;
+}
+
+Result<Scene> open_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
+  if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
+  return open_valid_scene(project, footage, files);
+}
+
+Result<Scene> open_scene(const Project& project, const FootageShape& footage) {
+  SceneFiles files;
+  return open_scene(project, footage, files);
+}
 
 Result<void> check_interrupt(const std::atomic<bool>* cancel) {
   if (cancel != nullptr && cancel->load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
@@ -16,18 +68,30 @@ Result<void> check_interrupt(const std::atomic<bool>* cancel) {
 }
 
 Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
-  if (const std::vector<Problem> problems = validate(project); !problems.empty())
-    return fail(error_of(project, problems.front()));
+  if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
   Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), cancel);
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
-  Result<Scene> scene = open_scene(project, shape_of(source->info()));
+  SceneFiles files;
+  Result<Scene> scene = open_valid_scene(project, shape_of(source->info()), files);
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!scene) return fail(scene.error());
   std::vector<Warning> warnings = warnings_of(source->info());
   for (Warning& warning : warnings_of(project, *scene, estimated_visibilities(*scene, kVisibilitySampleFrames)))
     warnings.push_back(std::move(warning));
   return OpenedProject{std::move(*source), std::move(*scene), std::move(warnings)};
+}
+
+FootageShape shape_of(const VideoInfo& video) {
+  return {.size_px = video.size_px,
+          .times_s = video.times_s,
+          .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
+}
+
+std::vector<Warning> warnings_of(const VideoInfo& video) {
+  std::vector<Warning> warnings = video.warnings;
+  if (!video.conversion.empty()) warnings.push_back({video.path.string(), "is converted: " + video.conversion});
+  return warnings;
 }
 
 std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
@@ -44,20 +108,34 @@ std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
 
 Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for) {
   const FrameRange range = asked_for.value_or(FrameRange{scene.first_frame, scene.last_frame});
-  const std::string held =
-      "the project has frames " + std::to_string(scene.first_frame) + " to " + std::to_string(scene.last_frame);
   if (range.first > range.last || range.first < scene.first_frame || range.last > scene.last_frame)
-    return fail("frames " + std::to_string(range.first) + "-" + std::to_string(range.last), held, ErrorKind::usage);
+    return fail(fmt::format("frames {}-{}", range.first, range.last),
+                fmt::format("the project has frames {} to {}", scene.first_frame, scene.last_frame), ErrorKind::usage);
   return range;
 }
 
-FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range) {
-  return {.video = footage.path.filename().string(),
-          .size_px = footage.size_px,
-          .first_frame = range.first,
-          .last_frame = range.last,
-          .frame_rate_num = footage.frame_rate_num,
-          .frame_rate_den = footage.frame_rate_den};
+std::vector<fs::path> files_read_by(const Project& project) {
+  std::vector<fs::path> files{project.file};
+  Project copy = project;
+  for (const Field& field : fields_of(copy)) {
+    if (!field.is_path) continue;
+    const fs::path file = resolved(project, *std::get<std::string*>(field.value));
+    if (file.empty()) continue;
+    files.push_back(file);
+    if (!field.key.ends_with("model.file")) continue;
+    if (const Result<std::vector<fs::path>> more = files_of_model(file))
+      files.insert(files.end(), more->begin(), more->end());
+  }
+  return files;
+}
+
+Result<void> check_inputs_not_overwritten(const Project& project, const std::vector<fs::path>& outputs,
+                                          std::string_view reader) {
+  const bool any_there = std::any_of(outputs.begin(), outputs.end(), [](const fs::path& output) {
+    std::error_code code;
+    return fs::exists(fs::symlink_status(output, code));
+  });
+  return any_there ? check_inputs_not_overwritten(outputs, files_read_by(project), reader) : Result<void>();
 }
 
 }  // namespace sigs

@@ -2,44 +2,74 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
 #include "project/project.h"
 #include "scene/scene.h"
+#include "scene/scene_files.h"
 #include "scene/visibility.h"
-#include "truth/annotation.h"
 #include "video/frame_source.h"
 
+// The way from a project to a scene: validate, open the footage, open what else the project names.
 namespace sigs {
 
-// A project whose images can be made.
+// The project's first problem (project/validate.h) as an error "x.json: intruders[0].model.file: no such file".
+// Every way from a project to a scene validates it once: open_project and open_scene by this function, `sigs check` and
+// draft_scene by validate(), as they list all problems.
+[[nodiscard]] Result<void> check_valid(const Project& project);
+
+// The scene of a project that has been validated. footage: size and times of the project's video. files: files that
+// were read before are taken from it. Errors name project file and field.
+[[nodiscard]] Result<Scene> open_valid_scene(const Project& project, const FootageShape& footage, SceneFiles& files);
+
+// check_valid, then open_valid_scene; without `files` all files are read anew.
+[[nodiscard]] Result<Scene> open_scene(const Project& project, const FootageShape& footage, SceneFiles& files);
+[[nodiscard]] Result<Scene> open_scene(const Project& project, const FootageShape& footage);
+
+// A project that is ready for its frames to be composed.
 struct OpenedProject {
   FrameSource source;
   Scene scene;
   std::vector<Warning> warnings;  // of the footage, then of the rest
 };
 
-// Checks the project and opens all that it names. Errors name the project file and the field.
-//   cancel  set: ends soon with the error interrupted; null or longer alive than what is opened
+// Validates the project and opens all that it names. Errors name the project file and the field.
+//   cancel  set to true: ends soon with the error `interrupted`. May be null; must outlive the opened project.
 [[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel);
 
-// Error interrupted once cancel is set; null: never.
+// The error `interrupted` once *cancel is true. cancel may be null: never.
 [[nodiscard]] Result<void> check_interrupt(const std::atomic<bool>* cancel);
 
-// How many frames are sampled to find intruders that are never visible, where somebody is seen at once.
-inline constexpr int kVisibilitySampleFrames = 20;
+// What a scene has to know of a video.
+[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
 
-// All that is worth telling of a scene before its images are made: of the files that were read, what is hardly meant
-// (scene/plausibility.h), and who is never visible. visibilities: of each intruder; empty: not looked at.
+// Warnings to be given before a video is used: its own, and that its samples are converted to 8 bits.
+[[nodiscard]] std::vector<Warning> warnings_of(const VideoInfo& video);
+
+// Warnings to be given before the frames of a scene are composed: those of the files that were read, implausible
+// settings (Scene::issues), and intruders that are never visible.
+//   visibilities  of each intruder of the scene; empty: not looked at
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);
 
-// Which frames are made; none asked for: the scene's own. Error usage: they do not lie in the scene's.
+// Number of frames sampled to find intruders that are never visible, where each is visible in one of these.
+inline constexpr int kVisibilitySampleFrames = 20;
+
+// The frames to compose: those asked for, else the scene's range. Error `usage`: they are not within that range.
 [[nodiscard]] Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for);
 
-// What labels of these frames say of the footage.
-[[nodiscard]] FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range);
+// The files that a project is read from: its own, those that its fields name, and those that its models name (MTL
+// files, images). Of a model that cannot be read only the model file itself.
+[[nodiscard]] std::vector<std::filesystem::path> files_read_by(const Project& project);
+
+// check_inputs_not_overwritten() (base/overwrite_check.h) with files_read_by(project) as the inputs. Reads no file
+// where none of the outputs exists.
+[[nodiscard]] Result<void> check_inputs_not_overwritten(const Project& project,
+                                                        const std::vector<std::filesystem::path>& outputs,
+                                                        std::string_view reader = "command");
 
 }  // namespace sigs

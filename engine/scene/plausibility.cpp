@@ -1,51 +1,53 @@
 // SPDX-License-Identifier: MIT
 #include "scene/plausibility.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "scene/path_conditioning.h"
 #include "scene/scene_parts.h"
+#include "scene/visibility.h"
+#include "spline/conditioning.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr float kHides = 0.5F;          // opacity of a mask that hides
-constexpr double kHidesAll = 0.95;      // share of the image
-constexpr int kSamplesOfAll = 200'000;  // of all flights together
-constexpr int kMaxSamples = 6000;       // of each
-constexpr int kMinSamples = 8;
-constexpr double kUnits_m[] = {1e-3, 1e-2, 0.0254};  // that models are drawn in where it is not metres
+constexpr double kOccludesAll = 0.95;                // share of the image: beyond it, the mask is likely inverted
+constexpr int kSamplesOfAll = 200'000;               // of all trajectories together
+constexpr int kMaxSamples = 6000;                    // of each trajectory
+constexpr int kMinSamples = 8;                       // of each trajectory
+constexpr double kUnits_m[] = {1e-3, 1e-2, 0.0254};  // common units of models that are not in metres
 constexpr const char* kUnitNames[] = {"millimetres", "centimetres", "inches"};
-constexpr double kUsual_m[] = {1, 100};  // length of most intruders
+constexpr double kUsualLength_m[] = {1, 100};  // of most intruders
 
+// Three significant digits, from 1000 to 1e7 a whole number.
 std::string short_text(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return std::abs(number) >= 1000 && std::abs(number) < 1e7 ? std::to_string(std::llround(number)) : text;
+  const bool is_whole = std::abs(number) >= 1000 && std::abs(number) < 1e7;
+  return is_whole ? fmt::format("{}", std::llround(number)) : fmt::format("{:.3g}", number);
 }
 
 std::string length_text(double length_m) {
   return length_m >= 1000 ? short_text(length_m / 1000) + " km" : short_text(length_m) + " m";
 }
 
-std::string frame_text(double frame) {
-  return "frame " + std::to_string(std::lround(frame));
+std::string nearest_frame_text(double frame) {
+  return fmt::format("frame {}", std::lround(frame));
 }
 
 void check_mask(const cv::Mat& own_body, std::vector<Problem>& issues) {
   if (own_body.empty()) return;
   const double share =
-      static_cast<double>(cv::countNonZero(own_body >= kHides)) / static_cast<double>(own_body.total());
+      static_cast<double>(cv::countNonZero(own_body >= kOccludingOpacity)) / static_cast<double>(own_body.total());
   const auto add = [&](std::string what) { issues.push_back({"footage.own_body_mask", std::move(what)}); };
-  if (share > kHidesAll)
-    add("is white in " + short_text(100 * share) +
-        " % of the image and hides every intruder there; white is the own body, black is what lies behind it");
+  if (share > kOccludesAll)
+    add(fmt::format(
+        "is white in {} % of the image and hides every intruder there; white is the own body, black is what "
+        "lies behind it",
+        short_text(100 * share)));
   else if (cv::countNonZero(own_body) == 0)
     add("is black all over and hides nothing; it can be left out");
 }
@@ -55,9 +57,9 @@ std::string likely_units(const ModelSettings& model, double length_m) {
   std::string units;
   for (std::size_t i = 0; i < std::size(kUnits_m); ++i) {
     const double other_m = length_m / model.scale * kUnits_m[i];
-    if (other_m < kUsual_m[0] || other_m > kUsual_m[1]) continue;
-    units += std::string(units.empty() ? "" : " or ") + "in " + kUnitNames[i] + " (scale " + short_text(kUnits_m[i]) +
-             ": " + length_text(other_m) + " long)";
+    if (other_m < kUsualLength_m[0] || other_m > kUsualLength_m[1]) continue;
+    units += fmt::format("{}in {} (scale {}: {} long)", units.empty() ? "" : " or ", kUnitNames[i],
+                         short_text(kUnits_m[i]), length_text(other_m));
   }
   return units;
 }
@@ -67,7 +69,8 @@ void check_model(const ModelSettings& settings, const Model& model, const std::s
   const glm::vec3 size_m = model.mesh.high_m - model.mesh.low_m;
   const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
   if (largest_m >= kMinAircraft_m && largest_m <= kMaxAircraft_m) return;
-  const std::string what = "makes the model " + length_text(size_m.x) + " long and " + length_text(size_m.y) + " wide";
+  const std::string what =
+      fmt::format("makes the model {} long and {} wide", length_text(size_m.x), length_text(size_m.y));
   if (settings.length_m > 0) return issues.push_back({key + ".length_m", what});
   const std::string units = likely_units(settings, size_m.x);
   issues.push_back({key + ".scale", what + (units.empty() ? "; set it, or length_m, to what the model measures"
@@ -102,17 +105,62 @@ void check_flight(const Scene& scene, const SceneIntruder& intruder, const std::
   const int samples = std::clamp(kSamplesOfAll / intruders, kMinSamples, kMaxSamples);
   const Extremes extremes = extremes_of(scene, intruder, samples);
   if (extremes.fastest_mps > kFastestAircraft_mps)
-    issues.push_back({key, "\"" + intruder.name + "\" flies at " + short_text(extremes.fastest_mps) + " m/s at " +
-                               frame_text(extremes.fastest_frame) +
-                               ", faster than any aircraft; move its waypoints nearer together or their frames apart"});
+    issues.push_back(
+        {key,
+         fmt::format("\"{}\" flies at {} m/s at {}, faster than any aircraft; move its waypoints nearer "
+                     "together or their frames apart",
+                     intruder.name, short_text(extremes.fastest_mps), nearest_frame_text(extremes.fastest_frame))});
   // Where the camera itself lies below z = 0, the project's world has its ground elsewhere.
   if (extremes.lowest_z_m > 0 && scene.motion.world_from_camera_at_start.translation_m.z <= 0)
-    issues.push_back({key, "\"" + intruder.name + "\" is " + short_text(extremes.lowest_z_m) +
-                               " m below the ground at " + frame_text(extremes.lowest_frame) +
-                               "; the ground is z = 0, and heights are negative z"});
+    issues.push_back(
+        {key, fmt::format("\"{}\" is {} m below the ground at {}; the ground is z = 0, and heights are negative z",
+                          intruder.name, short_text(extremes.lowest_z_m), nearest_frame_text(extremes.lowest_frame))});
+}
+
+// The waypoints of a path whose shape depends on their times; none of an approximating spline.
+std::vector<TimedWaypoint> shaping_waypoints(const TrajectoryPlan& plan, const Scene& scene) {
+  if (plan.spline != SplineChoice::interpolating) return {};
+  return timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame);
+}
+
+// The first of equals.
+const Overshoot& farthest(const std::vector<Overshoot>& overshoots) {
+  return *std::max_element(overshoots.begin(), overshoots.end(),
+                           [](const Overshoot& a, const Overshoot& b) { return a.overshoot_m < b.overshoot_m; });
+}
+
+std::string overshoot_text(const Overshoot& worst, std::size_t others, const std::string& name,
+                           const std::vector<double>& frames) {
+  const std::string elsewhere =
+      others > 0 ? fmt::format(" (and in {} other {})", others, others == 1 ? "leg" : "legs") : std::string();
+  return fmt::format(
+      "\"{}\" overshoots {:g} m off the straight way between its waypoints of frames {:.10g} and {:.10g}, where no leg "
+      "is longer than {:g} m{}: the frames do not go with the distances; leave them out to spread them evenly, add "
+      "waypoints in between, or set trajectory.spline to approximating",
+      name, worst.overshoot_m, frames[worst.leg], frames[worst.leg + 1], worst.max_leg_m, elsewhere);
+}
+
+// A problem where the path overshoots farther off the straight line between two waypoints than any leg around is long.
+// It names the worst leg and counts the others.
+std::optional<Problem> overshoot_issue(const Project& project, std::size_t intruder, const Scene& scene) {
+  const IntruderSettings& settings = project.intruders[intruder];
+  const std::vector<TimedWaypoint> waypoints = shaping_waypoints(settings.trajectory, scene);
+  if (waypoints.empty()) return std::nullopt;
+  const std::vector<Overshoot> overshoots = overshoots_of(waypoints);
+  if (overshoots.empty()) return std::nullopt;
+  const std::vector<double> frames =
+      waypoint_frames(settings.trajectory.waypoints, scene.first_frame, scene.last_frame);
+  return Problem{key_of_intruder(intruder) + ".trajectory",
+                 overshoot_text(farthest(overshoots), overshoots.size() - 1, settings.name, frames)};
 }
 
 }  // namespace
+
+std::optional<double> path_condition(const Project& project, std::size_t intruder, const Scene& scene) {
+  const std::vector<TimedWaypoint> waypoints = shaping_waypoints(project.intruders[intruder].trajectory, scene);
+  if (waypoints.empty()) return std::nullopt;
+  return interpolation_condition(waypoints);
+}
 
 std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene,
                                          const std::vector<int>& intruder_of_project) {

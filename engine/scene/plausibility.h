@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "project/project.h"
@@ -9,21 +10,28 @@
 
 namespace sigs {
 
-// No aircraft is faster: the fastest with a crew and jet engines, the SR-71, reached some 980 m/s.
+// Bounds of what counts as an aircraft. The fastest aircraft with a crew and jet engines, the SR-71, reached some
+// 980 m/s; airships were up to 245 m long, aeroplanes up to 120 m wide.
 inline constexpr double kFastestAircraft_mps = 1000;
-inline constexpr double kMaxAircraft_m = 300;  // airships were up to 245 m, aeroplanes up to 120 m
+inline constexpr double kMaxAircraft_m = 300;
 inline constexpr double kMinAircraft_m = 0.1;
 
-// What can be used but is hardly meant, in the project's order of fields: doubtful calibrations, an own-body mask that
-// hides everything or nothing, models of no aircraft's size, flights faster than any aircraft or below the ground
-// (z > 0), paths that overshoot far beyond their waypoints. Looks at what is opened alone; what takes a look through
-// the lens is in outlook.h. Flights are looked at at each frame, at less of them where intruders or frames are very
-// many.
-//   intruder_of_project  number in scene.intruders of each of the project's; -1: it is not there
+// Settings that can be used but are implausible, in the project's order of fields: calibrations with warnings, an
+// own-body mask that covers nearly everything or nothing, a camera below the ground (z > 0), models larger or smaller
+// than any aircraft, trajectories faster than any aircraft or below the ground, and paths that overshoot farther off
+// the straight line between two waypoints than the legs around are long. Trajectories are sampled at each frame, at
+// fewer frames where intruders or frames are very many. Whether an intruder is ever visible: scene/visibility.h.
+//   intruder_of_project  for each of the project's intruders its index in scene.intruders; -1: it is not in the scene
 [[nodiscard]] std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene,
                                                        const std::vector<int>& intruder_of_project);
 
-// The same where all are there in order, as open_scene has them.
+// The same for a scene that has all intruders in the project's order, as open_scene gives it.
 [[nodiscard]] std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene);
+
+// Condition number of the interpolation through the intruder's waypoints over the scene's range of frames
+// (spline/conditioning.h): large where neighbouring legs last very differently long. None for an approximating
+// spline, whose shape does not depend on times. The waypoints must make a trajectory.
+//   intruder  index in project.intruders
+[[nodiscard]] std::optional<double> path_condition(const Project& project, std::size_t intruder, const Scene& scene);
 
 }  // namespace sigs

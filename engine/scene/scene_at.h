@@ -8,30 +8,32 @@
 
 namespace sigs {
 
+// Where an intruder is at one moment.
 struct PlacedIntruder {
-  int id = 0;  // number in Scene::intruders
+  int id = 0;  // index in Scene::intruders
   Pose<frame::Camera, frame::Body> camera_from_body;
   Attitude attitude;  // in the world
 
+  // From the camera to the intruder's reference point.
   [[nodiscard]] double distance_m() const { return glm::length(camera_from_body.translation_m); }
 };
 
-// One moment of a scene.
+// Where everything is at one moment.
 struct SceneMoment {
   double time_s = 0;
   Pose<frame::World, frame::Camera> world_from_camera;
-  glm::dvec3 light_in_camera{0, 0, 0};    // metres, camera frame
-  std::vector<PlacedIntruder> intruders;  // far to near, equal distances by id
+  glm::dvec3 light_in_camera{0, 0, 0};    // position in metres, camera frame
+  std::vector<PlacedIntruder> intruders;  // far to near; equal distances by id
 };
 
-// Between two known turns at constant rate about one axis, the shorter way; before the first as the first, after the
-// last as the last; none: level.
+// Attitude of the carrier: between two known ones by spherical linear interpolation (slerp), before the first and after
+// the last as these; level where none is known.
 [[nodiscard]] glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s);
 
-// The carrier's turn on top of the constant attitude: R = world_from_carrier * R at start.
+// Pose of the camera. Its attitude is world_from_carrier_at(time_s) * attitude at the start.
 [[nodiscard]] Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s);
 
-// frame counts the footage's frames from 0.
+// The scene at a frame of the footage, counted from 0.
 [[nodiscard]] SceneMoment scene_at(const Scene& scene, int frame);
 
 }  // namespace sigs

@@ -1,95 +1,167 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene_files.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
-#include "scene/measuring_points.h"
-#include "scene/own_body_mask.h"
-#include "scene/placeholders.h"
+#include "base/pose.h"
+#include "base/threads.h"
+#include "base/image.h"
+#include "base/input_file.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
 
 namespace sigs {
 
 namespace {
 
-// How many things of a kind are kept that no scene holds any more. A size that is dragged makes a model at every step.
-constexpr std::size_t kKeptOfAKind = 8;
+constexpr std::array<std::string_view, 4> kColumns{"frame", "roll_deg", "pitch_deg", "yaw_deg"};
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr double kMaxFrame = 1e9;
+constexpr double kMaxAngle_deg = 360;
 
-// What tells one state of a file from another without reading it.
-struct Stamp {
-  std::uintmax_t size = std::numeric_limits<std::uintmax_t>::max();  // such: there is none
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    cells.push_back(trimmed(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+  }
+  cells.push_back(trimmed(line));
+  return cells;
+}
+
+bool is_header(std::string_view line) {
+  const std::vector<std::string_view> cells = cells_of(line);
+  return std::equal(cells.begin(), cells.end(), kColumns.begin(), kColumns.end());
+}
+
+std::optional<double> number_of(std::string_view text) {
+  double number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+Result<AttitudeAtFrame> attitude_in(std::string_view line, const std::string& where) {
+  const std::vector<std::string_view> cells = cells_of(line);
+  if (cells.size() != kColumns.size())
+    return fail(where, fmt::format("expected 4 numbers between commas, found {}", cells.size()));
+  std::array<double, kColumns.size()> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::optional<double> number = number_of(cells[i]);
+    const std::string cell = fmt::format("{}: {}", where, kColumns[i]);
+    if (!number) return fail(cell, "is not a number such as -0.25");
+    if (i == 0 && std::abs(*number) > kMaxFrame) return fail(cell, "must lie between -1e9 and 1e9");
+    if (i > 0 && std::abs(*number) > kMaxAngle_deg) return fail(cell, "must lie between -360 and 360 degrees");
+    numbers[i] = *number;
+  }
+  return AttitudeAtFrame{numbers[0], {rad_of_deg(numbers[1]), rad_of_deg(numbers[2]), rad_of_deg(numbers[3])}};
+}
+
+cv::Mat gray_of(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
+  cv::Mat gray;
+  cv::cvtColor(image, gray, image.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
+cv::Mat image_in(const std::filesystem::path& path) {
+  try {
+    return cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    if (is_out_of_memory()) throw;
+    return {};
+  }
+}
+
+// Number of entries of each kind that are kept though no scene uses them. Dragging a size makes a model at every step.
+constexpr std::size_t kMaxUnused = 8;
+
+// Whether a value is held outside the cache, which shared ownership shows.
+template <class T>
+bool is_used(const T&) {
+  return false;
+}
+bool is_used(const std::shared_ptr<const Model>& model) {
+  return model.use_count() > 1;
+}
+
+}  // namespace
+
+// Distinguishes states of a file without reading it.
+struct FileStamp {
+  std::uintmax_t size = std::numeric_limits<std::uintmax_t>::max();  // this value: no such file
   std::filesystem::file_time_type changed{};
 
-  [[nodiscard]] bool operator==(const Stamp&) const = default;
+  [[nodiscard]] bool operator==(const FileStamp&) const = default;
 };
 
-Stamp stamp_of(const std::filesystem::path& file) {
+// Values by key, each with the state of its file when it was read. Those unused for longest are dropped.
+template <class Key, class T>
+class FileCache {
+ public:
+  template <class Read>
+  Result<T> take(const Key& key, const FileStamp& stamp, const Read& read) {
+    ++clock_;
+    if (const auto known = entries_.find(key); known != entries_.end() && known->second.stamp == stamp) {
+      known->second.last_used = clock_;
+      return known->second.value;
+    }
+    Result<T> value = read();
+    entries_.erase(key);
+    // A file that cannot be read is tried again each time: a change of permissions does not show in the stamp.
+    if (value || value.error().kind != ErrorKind::cannot_read) entries_.emplace(key, Entry{stamp, value, clock_});
+    drop_unused();
+    return value;
+  }
+
+ private:
+  struct Entry {
+    FileStamp stamp;
+    Result<T> value;
+    std::uint64_t last_used = 0;
+  };
+
+  void drop_unused() {
+    std::map<std::uint64_t, Key> unused;  // unused for longest first
+    for (const auto& [key, entry] : entries_)
+      if (entry.last_used != clock_ && !(entry.value && is_used(*entry.value))) unused.emplace(entry.last_used, key);
+    while (unused.size() > kMaxUnused) {
+      entries_.erase(unused.begin()->second);
+      unused.erase(unused.begin());
+    }
+  }
+
+  std::map<Key, Entry> entries_;
+  std::uint64_t clock_ = 0;
+};
+
+namespace {
+
+FileStamp stamp_of(const std::filesystem::path& file) {
   std::error_code code;
-  Stamp stamp;
+  FileStamp stamp;
   stamp.size = std::filesystem::file_size(file, code);
   stamp.changed = std::filesystem::last_write_time(file, code);
   return stamp;
 }
 
-bool is_held(const std::shared_ptr<const Model>& model) {
-  return model.use_count() > 1;
-}
-bool is_held(const Camera&) {
-  return false;
-}
-bool is_held(const cv::Mat&) {
-  return false;
-}
-bool is_held(const std::vector<AttitudeAtFrame>&) {
-  return false;
-}
-
-// Things by key, each with the state of its file when it was read; the longest unused ones are let go of.
-template <class Key, class T>
-class FileCache {
- public:
-  template <class Read>
-  Result<T> take(const Key& key, const Stamp& stamp, const Read& read) {
-    ++clock_;
-    if (const auto known = things_.find(key); known != things_.end() && known->second.stamp == stamp) {
-      known->second.used = clock_;
-      return known->second.thing;
-    }
-    Result<T> thing = read();
-    things_.erase(key);
-    // What could not be opened may be opened at the next try: permissions leave no trace in the stamp.
-    if (thing || thing.error().kind != ErrorKind::cannot_read) things_.emplace(key, Entry{stamp, thing, clock_});
-    let_go();
-    return thing;
-  }
-
- private:
-  struct Entry {
-    Stamp stamp;
-    Result<T> thing;
-    std::uint64_t used = 0;
-  };
-
-  void let_go() {
-    std::map<std::uint64_t, Key> idle;  // longest unused first
-    for (const auto& [key, entry] : things_)
-      if (entry.used != clock_ && !(entry.thing && is_held(*entry.thing))) idle.emplace(entry.used, key);
-    while (idle.size() > kKeptOfAKind) {
-      things_.erase(idle.begin()->second);
-      idle.erase(idle.begin());
-    }
-  }
-
-  std::map<Key, Entry> things_;
-  std::uint64_t clock_ = 0;
-};
-
-// Numbers by their bits: NaN too then has its place.
+// Numbers by their bits, so that NaN has a place in the order too.
 using ModelKey = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool>;
 using ImageKey = std::tuple<std::string, int, int>;
 using CameraKey = std::tuple<std::string, int, int, std::optional<LensModel>>;
@@ -118,6 +190,46 @@ Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& fil
 }
 
 }  // namespace
+
+Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::path& path) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return fail(text.error());
+  std::string_view rest = *text;
+  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
+  if (!is_header(next_line(rest)))
+    return fail(path.string() + ": line 1", "expected the header frame,roll_deg,pitch_deg,yaw_deg");
+  std::vector<AttitudeAtFrame> attitudes;
+  for (int line_number = 2; !rest.empty(); ++line_number) {
+    const std::string_view line = next_line(rest);
+    if (trimmed(line).empty()) continue;
+    const std::string where = fmt::format("{}: line {}", path.string(), line_number);
+    const Result<AttitudeAtFrame> attitude = attitude_in(line, where);
+    if (!attitude) return fail(attitude.error());
+    if (!attitudes.empty() && attitude->frame <= attitudes.back().frame)
+      return fail(where + ": frame", "is not after the frame of the line before; frames must rise");
+    attitudes.push_back(*attitude);
+  }
+  if (attitudes.empty()) return fail(path.string(), "has no line below its header; expected one for each frame");
+  return attitudes;
+}
+
+Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px) {
+  if (const Result<void> file = check_input_file(path, "image"); !file) return fail(file.error());
+  const std::optional<cv::Size> stated_px = image_size_px(path);  // before anything is decoded
+  const bool is_other_size = stated_px && *stated_px != footage_size_px;
+  const cv::Mat image = is_other_size ? cv::Mat() : image_in(path);
+  if (image.empty() && !is_other_size)
+    return fail(path.string(), "is not an image that can be read (png, jpeg, bmp, tiff, ...)");
+  const cv::Size size_px = is_other_size ? *stated_px : image.size();
+  if (size_px != footage_size_px)
+    return fail(path.string(), fmt::format("is {}x{}, the footage is {}x{}; they must agree", size_px.width,
+                                           size_px.height, footage_size_px.width, footage_size_px.height));
+  if (image.depth() != CV_8U && image.depth() != CV_16U)
+    return fail(path.string(), "has neither 8 nor 16 bits a sample");
+  cv::Mat mask;
+  gray_of(image).convertTo(mask, CV_32F, image.depth() == CV_8U ? 1.0 / 255.0 : 1.0 / 65535.0);
+  return mask;
+}
 
 struct SceneFiles::Caches {
   FileCache<ModelKey, std::shared_ptr<const Model>> models;
@@ -156,7 +268,7 @@ std::shared_ptr<const Model> SceneFiles::cross(double length_m) {
   const auto make = [&]() -> Result<std::shared_ptr<const Model>> {
     return std::make_shared<const Model>(model_of(cross_mesh(length_m)));
   };
-  return *caches_->crosses.take(std::bit_cast<std::uint64_t>(length_m), Stamp{}, make);
+  return *caches_->crosses.take(std::bit_cast<std::uint64_t>(length_m), FileStamp{}, make);
 }
 
 }  // namespace sigs

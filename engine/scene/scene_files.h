@@ -7,18 +7,35 @@
 #include <optional>
 #include <vector>
 
+#include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
-#include "scene/attitude_file.h"
-#include "scene/scene.h"
+#include "mesh/mesh.h"
+#include "scene/model.h"
 
 namespace sigs {
 
-// The files that scenes are made of, each read once: a scene that is opened anew after an edit reads only what has
-// changed. A file is read again when its size or time of change on disk differ; an OBJ's materials and textures are
-// read with it. For one thread at a time. Errors are those of the rooms that read; they are remembered too, until the
-// file changes, but a file that cannot be opened is tried again each time. Keeps what scenes hold, and the last few
-// things that none holds any more.
+// Attitude in the world of the aircraft that carries the camera, at one frame of the footage.
+struct AttitudeAtFrame {
+  double frame = 0;  // from 0; may be fractional
+  Attitude attitude;
+};
+
+// Reads an attitude file (docs/frames-and-units.md): text with the header line frame,roll_deg,pitch_deg,yaw_deg, then
+// one line of four numbers (decimal point, angles from -360 to 360 degrees) for each frame, by rising frame. A byte
+// order mark and blank lines are skipped. The result is never empty. Errors name file and line: cannot_read; bad_data.
+[[nodiscard]] Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::path& path);
+
+// Reads a mask of the UAV's own body: any image that OpenCV reads, 8 or 16 bits a sample, of the footage's size, white
+// where the own body is; soft edges are kept, of a colour image the luma is taken. Returns CV_32FC1, 0..1. Errors:
+// cannot_read; bad_data (not an image, another depth, or another size: both sizes are named).
+[[nodiscard]] Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px);
+
+// A cache of the files that scenes are made from: a scene that is opened again after an edit reads only what has
+// changed. A file is read again when its size or its time of change differs; an OBJ file is read with its materials and
+// textures. Errors are those of the functions that read; they are cached too, except cannot_read, as permissions can
+// change without a trace. The cache keeps what scenes use, and of each kind the 8 last used of the rest. For one thread
+// at a time.
 class SceneFiles {
  public:
   SceneFiles();
@@ -26,15 +43,20 @@ class SceneFiles {
   SceneFiles& operator=(SceneFiles&&) noexcept;
   ~SceneFiles();
 
-  // Two calls with the same file and axes give the same object, which lives as long as anybody holds it.
+  // The same file and axes give the same object for as long as anybody holds it.
   [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes);
+
+  // read_calibration (camera/camera.h). model: none: taken from the file.
   [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                       std::optional<LensModel> model = std::nullopt);
+
+  // read_attitude_file
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);
-  // Shared: not to be written to.
+
+  // read_own_body_mask. The samples are shared with the cache: not to be written to.
   [[nodiscard]] Result<cv::Mat> own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px);
 
-  // What stands in for a model (scene/placeholders.h): the same object for the same length. length_m > 0.
+  // The placeholder of a model (cross_mesh). The same length gives the same object. length_m > 0.
   [[nodiscard]] std::shared_ptr<const Model> cross(double length_m);
 
  private:

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene_parts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <sstream>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -12,13 +14,41 @@
 
 namespace sigs {
 
+std::vector<double> waypoint_frames(const std::vector<WaypointSettings>& waypoints, int first_frame, int last_frame) {
+  if (waypoints.empty()) return {};
+  std::vector<std::optional<double>> frames;
+  for (const WaypointSettings& waypoint : waypoints) frames.push_back(waypoint.frame);
+  if (!frames.front()) frames.front() = first_frame;
+  if (!frames.back()) frames.back() = last_frame;
+
+  std::vector<double> spread(frames.size(), *frames.front());
+  std::size_t known = 0;  // the last waypoint that carries a frame
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    if (!frames[i]) continue;
+    const double step = (*frames[i] - *frames[known]) / static_cast<double>(i - known);
+    for (std::size_t j = known + 1; j < i; ++j) spread[j] = *frames[known] + step * static_cast<double>(j - known);
+    spread[i] = *frames[i];
+    known = i;
+  }
+  return spread;
+}
+
+std::vector<TimedWaypoint> timed_waypoints(const std::vector<WaypointSettings>& waypoints, const FootageShape& footage,
+                                           int first_frame, int last_frame) {
+  const std::vector<double> frames = waypoint_frames(waypoints, first_frame, last_frame);
+  std::vector<TimedWaypoint> timed;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    timed.push_back({time_of_frame_s(footage, frames[i]), waypoints[i].position_m});
+  return timed;
+}
+
 namespace {
 
 tl::unexpected<Problem> problem(std::string field, std::string what, ErrorKind kind = ErrorKind::bad_project) {
   return tl::unexpected<Problem>(Problem{std::move(field), std::move(what), kind});
 }
 
-// What a room says of a file, said of the field that names the file.
+// The error of a file as a problem of the field that names the file.
 tl::unexpected<Problem> in_field(std::string field, const Error& error) {
   return problem(std::move(field), error.text(), error.kind);
 }
@@ -37,16 +67,14 @@ bool is_axes_setting(const std::string& where) {
   return std::find(kSettings.begin(), kSettings.end(), where) != kSettings.end();
 }
 
-std::string frame_text(const WaypointSettings& waypoint, double frame) {
-  std::ostringstream text;
-  text << frame << (waypoint.frame ? "" : " (spread over the project's frames)");
-  return text.str();
+std::string waypoint_frame_text(const WaypointSettings& waypoint, double frame) {
+  return fmt::format("{:g}{}", frame, waypoint.frame ? "" : " (spread over the project's frames)");
 }
 
 }  // namespace
 
 std::string key_of_intruder(std::size_t intruder) {
-  return "intruders[" + std::to_string(intruder) + "]";
+  return fmt::format("intruders[{}]", intruder);
 }
 
 Scene bare_scene(const Project& project, const FootageShape& footage) {
@@ -63,9 +91,9 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
 OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage) {
   const int count = static_cast<int>(footage.times_s.size());
   const FrameRange range{settings.first_frame, settings.last_frame.value_or(count - 1)};
-  const std::string held = "the footage has " + std::to_string(count) + " frames, 0 to " + std::to_string(count - 1);
-  if (range.first < 0 || range.first >= count) return problem("footage.first_frame", held);
-  if (range.last < range.first || range.last >= count) return problem("footage.last_frame", held);
+  const std::string available = fmt::format("the footage has {} frames, 0 to {}", count, count - 1);
+  if (range.first < 0 || range.first >= count) return problem("footage.first_frame", available);
+  if (range.last < range.first || range.last >= count) return problem("footage.last_frame", available);
   return range;
 }
 
@@ -122,9 +150,10 @@ OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intru
   const std::vector<double> frames = waypoint_frames(plan.waypoints, scene.first_frame, scene.last_frame);
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (frames[i] <= frames[i - 1])
-      return problem(key + "waypoints[" + std::to_string(i) + "].frame",
-                     "is " + frame_text(plan.waypoints[i], frames[i]) + ", not after waypoints[" +
-                         std::to_string(i - 1) + "], which has " + frame_text(plan.waypoints[i - 1], frames[i - 1]));
+      return problem(
+          fmt::format("{}waypoints[{}].frame", key, i),
+          fmt::format("is {}, not after waypoints[{}], which has {}", waypoint_frame_text(plan.waypoints[i], frames[i]),
+                      i - 1, waypoint_frame_text(plan.waypoints[i - 1], frames[i - 1])));
   Result<Trajectory> trajectory = Trajectory::make(
       timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame), trajectory_settings(plan));
   if (!trajectory) return problem(key + trajectory.error().where, trajectory.error().what);

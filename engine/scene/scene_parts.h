@@ -5,7 +5,6 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -15,42 +14,58 @@
 #include "scene/scene.h"
 #include "scene/scene_files.h"
 
+// The steps in which a scene is made from a project. open_valid_scene fails at the first problem; draft_scene takes a
+// placeholder for the part that has it and goes on.
 namespace sigs {
 
-// The steps in which a scene is made of a project. open_scene stops at the first problem, draft_scene stands in for
-// what could not be made and goes on.
+// The part, or what is wrong with it, by the project's field.
 template <class T>
 using OrProblem = tl::expected<T, Problem>;
-
-// What needs no file and cannot fail: motion with the carrier level, light, compositing, footage; no lens yet.
-[[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
-
-[[nodiscard]] OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage);
-[[nodiscard]] OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
-
-// None: as the file says, or as it looks.
-[[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
-
-// Empty where the project names no attitude file.
-[[nodiscard]] OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& project,
-                                                                              const FootageShape& footage,
-                                                                              SceneFiles& files);
-
-// Empty where the project names none.
-[[nodiscard]] OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
-
-[[nodiscard]] OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder,
-                                                                  SceneFiles& files);
-
-// Of the project's intruder, over the scene's footage and range.
-[[nodiscard]] OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene);
-
-[[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan);
 
 // "intruders[3]"
 [[nodiscard]] std::string key_of_intruder(std::size_t intruder);
 
-// Gives the scene an intruder, and its model with its warnings where the scene has not got it yet.
+// What needs no file and cannot fail: camera motion with the carrier level, light, compositing, footage. The lens is a
+// default one, there are no intruders, and the range is not set.
+[[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
+
+// First and last frame; a problem where they are not frames of the footage or not in order.
+[[nodiscard]] OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage);
+
+// The calibrated camera, scaled to the footage's size.
+[[nodiscard]] OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+
+// None for `automatic`: the lens model is then taken from the calibration file.
+[[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
+
+// Attitudes of the carrier, by rising time; empty where the project names no attitude file.
+[[nodiscard]] OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& project,
+                                                                              const FootageShape& footage,
+                                                                              SceneFiles& files);
+
+// Scene::own_body; empty where the project names no mask.
+[[nodiscard]] OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+
+// The model of an intruder, by its index in the project.
+[[nodiscard]] OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder,
+                                                                  SceneFiles& files);
+
+// The trajectory of an intruder, by its index in the project, over the footage and range of the scene.
+[[nodiscard]] OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene);
+
+// A project's trajectory settings in the form of spline/trajectory.h.
+[[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan);
+
+// The frame of each waypoint: its own; where it has none, spread evenly between the nearest waypoints that have one.
+// The first and the last waypoint without a frame get the first and the last frame of the range.
+[[nodiscard]] std::vector<double> waypoint_frames(const std::vector<WaypointSettings>& waypoints, int first_frame,
+                                                  int last_frame);
+
+// The waypoints with their times (waypoint_frames, time_of_frame_s), ready for Trajectory::make.
+[[nodiscard]] std::vector<TimedWaypoint> timed_waypoints(const std::vector<WaypointSettings>& waypoints,
+                                                         const FootageShape& footage, int first_frame, int last_frame);
+
+// Appends an intruder to the scene. A model that the scene does not have yet is added, with its mesh's warnings.
 void add_intruder(Scene& scene, const std::string& name, const std::shared_ptr<const Model>& model,
                   const Trajectory& trajectory);
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "scene/attitude_file.h"
+#include "scene/scene_files.h"
 #include "support/test_data.h"
 #include "video/frame_source.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/pose.h"
 #include "scene/scene_at.h"
-#include "scene/waypoint_times.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::test {
 

@@ -9,7 +9,7 @@
 
 #include "extremes/validity.h"
 #include "mesh/mesh.h"
-#include "scene/measuring_points.h"
+#include "scene/model.h"
 
 namespace sigs::test {
 namespace {

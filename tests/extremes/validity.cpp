@@ -12,16 +12,13 @@
 #include <pugixml.hpp>
 
 #include "labels/sigs_xml.h"
+#include "spline/flights.h"
 
 namespace sigs::test {
 
 namespace {
 
 constexpr double kRounding = 1e-3;  // of sums of floats; far blur may swing by a thousandth below nothing
-
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 bool is_share(double value) {
   return value >= 0 && value <= 1;  // false for NaN

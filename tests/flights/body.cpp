@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "flights/body_paint.h"
+#include "flights/mosaic.h"
 #include "flights/random.h"
 
 namespace sigs::flights {
@@ -73,7 +74,7 @@ Shake shake_at(int frame, cv::Size size_px, std::uint32_t seed) {
           .gloss_codes = 28 + 14 * slow(0.21, 5)};
 }
 
-void lay_over(cv::Mat& image, const Body& body, const Shake& shake) {
+void draw_over(cv::Mat& image, const Body& body, const Shake& shake) {
   if (body.where.empty()) return;
   const int reach_px = cvCeil(std::max(std::abs(shake.shift_px.x), std::abs(shake.shift_px.y))) + 1;
   const cv::Rect shown =
@@ -93,9 +94,8 @@ void lay_over(cv::Mat& image, const Body& body, const Shake& shake) {
               static_cast<float>(shake.gloss_codes) * down[static_cast<std::size_t>(y)]);
 }
 
-void lay_over(cv::Mat& image, const Propeller& propeller, int frame) {
+void draw_over(cv::Mat& image, const Propeller& propeller, int frame) {
   if (propeller.radius <= 0) return;
-  constexpr int kShift = 4;
   constexpr double kTurnAFrame_rad = 2.4, kCover = 0.42;
   const double radius_px = propeller.radius * image.cols;
   const cv::Point2d middle_px(propeller.middle.x * image.cols, propeller.middle.y * image.rows);
@@ -106,8 +106,8 @@ void lay_over(cv::Mat& image, const Propeller& propeller, int frame) {
   const cv::Point2d middle_of_disc = middle_px - cv::Point2d(disc.tl());
   for (int blade = 0; blade < propeller.blades; ++blade) {
     const double angle = kTurnAFrame_rad * frame + 2 * std::numbers::pi * blade / propeller.blades;
-    cv::fillConvexPoly(cover, trace(middle_of_disc, radius_px, angle, kShift), cv::Scalar(255 * kCover), cv::LINE_AA,
-                       kShift);
+    cv::fillConvexPoly(cover, trace(middle_of_disc, radius_px, angle, kDrawingShift), cv::Scalar(255 * kCover),
+                       cv::LINE_AA, kDrawingShift);
   }
   cv::blur(cover, cover, {5, 5});
   for (int y = 0; y < disc.height; ++y)

@@ -47,7 +47,7 @@ struct Shake {
 // 0.5..2 px (less in images below 640 wide) in any direction, from frame to frame; light and gloss change slowly.
 [[nodiscard]] Shake shake_at(int frame, cv::Size size_px, std::uint32_t seed);
 
-void lay_over(cv::Mat& image, const Body& body, const Shake& shake);
-void lay_over(cv::Mat& image, const Propeller& propeller, int frame);
+void draw_over(cv::Mat& image, const Body& body, const Shake& shake);
+void draw_over(cv::Mat& image, const Propeller& propeller, int frame);
 
 }  // namespace sigs::flights

@@ -12,7 +12,6 @@ namespace sigs::flights {
 namespace {
 
 constexpr int kFine = 4;  // drawn so many times larger, then averaged
-constexpr int kShift = 4;
 
 // From shares of the image to pixels of the fine canvas.
 struct Canvas {
@@ -27,7 +26,7 @@ struct Canvas {
   }
   [[nodiscard]] cv::Point fixed(cv::Point2d share) const {
     const cv::Point2d p = place(share);
-    return {cvRound((p.x - 0.5) * (1 << kShift)), cvRound((p.y - 0.5) * (1 << kShift))};
+    return {cvRound((p.x - 0.5) * (1 << kDrawingShift)), cvRound((p.y - 0.5) * (1 << kDrawingShift))};
   }
 };
 
@@ -52,7 +51,7 @@ cv::Mat filled(const std::vector<Part::Outline>& outlines, bool round_off, const
     for (const cv::Point2d& p : round_off ? rounded(outline) : outline) polygons.back().push_back(canvas.fixed(p));
   }
   cv::Mat fine = cv::Mat::zeros(canvas.fine(), CV_8UC1), cover;
-  if (!polygons.empty()) cv::fillPoly(fine, polygons, cv::Scalar(255), cv::LINE_8, kShift);
+  if (!polygons.empty()) cv::fillPoly(fine, polygons, cv::Scalar(255), cv::LINE_8, kDrawingShift);
   cv::resize(fine, cover, {}, 1.0 / kFine, 1.0 / kFine, cv::INTER_AREA);
   return cover;
 }
@@ -79,12 +78,12 @@ cv::Mat panel_lines(const cv::Mat& cover, int count, double scale, std::uint32_t
         upright ? cv::Point2d(where.x + a * where.width, where.y) : cv::Point2d(where.x, where.y + a * where.height);
     const cv::Point2d end = upright ? cv::Point2d(where.x + b * where.width, where.br().y)
                                     : cv::Point2d(where.br().x, where.y + b * where.height);
-    cv::line(lines, fixed(begin), fixed(end), cv::Scalar(70), std::max(1, cvRound(scale)), cv::LINE_AA, kShift);
+    cv::line(lines, fixed(begin), fixed(end), cv::Scalar(70), std::max(1, cvRound(scale)), cv::LINE_AA, kDrawingShift);
     const double length = cv::norm(end - begin), step = 9 * scale;
     const cv::Point2d along = (end - begin) / length, aside = 3 * scale * cv::Point2d(-along.y, along.x);
     for (double s = 0; s < length; s += step)
       cv::circle(lines, fixed(begin + s * along + aside), cvRound(0.8 * scale * 16), cv::Scalar(55), cv::FILLED,
-                 cv::LINE_AA, kShift);
+                 cv::LINE_AA, kDrawingShift);
   }
   return lines;
 }

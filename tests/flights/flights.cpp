@@ -48,8 +48,8 @@ cv::Mat drawn(const Case& scene, const Terrain& terrain, const Body& body, const
               const cv::Mat& reflection, cv::Size size_px, int frame) {
   cv::Mat image = scenery(terrain, view_at(scene.path, size_px, frame), scene.cloudiness);
   if (scene.small_mover) draw_mover(image, frame);
-  lay_over(image, scene.propeller, frame);
-  lay_over(image, body, shake_of(scene, size_px, frame));
+  draw_over(image, scene.propeller, frame);
+  draw_over(image, body, shake_of(scene, size_px, frame));
   add_to(image, reflection, scene.reflection, frame);
   if (scene.exposure_drifts) image *= drifting_gain(frame);
   grain.add_to(image, frame);

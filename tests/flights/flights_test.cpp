@@ -35,7 +35,7 @@ cv::Mat mean_cover(const Body& body, int frames, std::uint32_t seed) {
     shake.light = 0;  // the body's own colour would clip
     shake.gloss_codes = 0;
     cv::Mat white(body.size_px, CV_8UC3, cv::Scalar::all(255)), channel;
-    lay_over(white, body, shake);
+    draw_over(white, body, shake);
     cv::extractChannel(white, channel, 0);
     cv::accumulate(255 - channel, sum);
   }
@@ -135,7 +135,7 @@ TEST_CASE("the world shows outside of the truth and not within") {
   for (int n = 0; n < 60; ++n) {
     const View view = view_at({.pitch_deg = -45, .first_pitch_deg = -45, .seed = 2}, size_px, 5 * n);
     cv::Mat a = scenery(ours, view, 1), b = scenery(theirs, view, 1);
-    for (cv::Mat* image : {&a, &b}) lay_over(*image, body, Shake{});
+    for (cv::Mat* image : {&a, &b}) draw_over(*image, body, Shake{});
     cv::Mat apart;
     cv::extractChannel(cv::abs(a - b), apart, 1);
     differs |= apart > 12;

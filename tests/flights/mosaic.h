@@ -9,6 +9,9 @@
 
 namespace sigs::flights {
 
+// Binary places of the fixed-point coordinates that OpenCV's drawing functions take.
+inline constexpr int kDrawingShift = 4;
+
 // Four channels at once, as codes 0..255.
 using Codes = cv::v_float32x4;
 

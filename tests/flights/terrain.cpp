@@ -6,6 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "flights/mosaic.h"
 #include "flights/random.h"
 
 namespace sigs::flights {
@@ -68,14 +69,14 @@ float furrows(std::uint32_t id, float x_m, float y_m) {
 void paint_fields(cv::Mat& ground, double cell_m, std::uint32_t seed) {
   constexpr int kLattice = 8;
   const int size = ground.rows;
-  const cv::Mat rough = tiled_noise(size, 32, 7, 0.72, seed + 10), bent = tiled_noise(size, 8, 3, 0.5, seed + 30);
+  const cv::Mat rough = tiled_noise(size, 32, 7, 0.72, seed + 10), warp = tiled_noise(size, 8, 3, 0.5, seed + 30);
   const cv::Mat woods = tiled_noise(size, 4, 6, 0.6, seed + 50);
   cv::parallel_for_({0, size}, [&](const cv::Range& rows) {
     for (int i = rows.start; i < rows.end; ++i)
       for (int j = 0; j < size; ++j) {
         const float x_m = static_cast<float>((i + 0.5) * cell_m), y_m = static_cast<float>((j + 0.5) * cell_m);
-        const float per_m = static_cast<float>(kLattice / kSide_m), bend = 0.08F * bent.at<float>(i, j);
-        const Field field = field_at(x_m * per_m + bend, y_m * per_m - bend, kLattice, seed);
+        const float per_m = static_cast<float>(kLattice / kSide_m), offset = 0.08F * warp.at<float>(i, j);
+        const Field field = field_at(x_m * per_m + offset, y_m * per_m - offset, kLattice, seed);
         const float noise = rough.at<float>(i, j);
         cv::Vec3f color = crop_color(field.id) * (furrows(field.id, x_m, y_m) * (1 + 0.22F * noise));
         if (field.to_border < 0.018F) color = cv::Vec3f(120, 140, 150) * (1 + 0.15F * noise);
@@ -99,15 +100,14 @@ void on_all_sides(const cv::Mat& ground, cv::Point2d at_px, double reach_px,
     }
 }
 
-constexpr int kShift = 4;  // binary places of OpenCV's drawing coordinates
-
 cv::Point fixed(cv::Point2d p) {
-  return {cvRound(p.x * (1 << kShift)), cvRound(p.y * (1 << kShift))};
+  return {cvRound(p.x * (1 << kDrawingShift)), cvRound(p.y * (1 << kDrawingShift))};
 }
 
 void draw_disc(cv::Mat& ground, cv::Point2d at_px, double radius_px, const cv::Scalar& color) {
   on_all_sides(ground, at_px, 2 * radius_px + 2, [&](cv::Point2d p) {
-    cv::circle(ground, fixed(p), cvRound(radius_px * (1 << kShift)), color, cv::FILLED, cv::LINE_AA, kShift);
+    cv::circle(ground, fixed(p), cvRound(radius_px * (1 << kDrawingShift)), color, cv::FILLED, cv::LINE_AA,
+               kDrawingShift);
   });
 }
 
@@ -146,7 +146,7 @@ void draw_houses(cv::Mat& ground, double cell_m, std::uint32_t seed) {
         cv::RotatedRect(middle, size_px, turn_deg).points(corners.data());
         std::vector<cv::Point> polygon;
         for (const cv::Point2f& corner : corners) polygon.push_back(fixed(corner));
-        cv::fillConvexPoly(ground, polygon, color, cv::LINE_AA, kShift);
+        cv::fillConvexPoly(ground, polygon, color, cv::LINE_AA, kDrawingShift);
       };
       block(p + cv::Point2d(3, 2) / cell_m, cv::Scalar(30, 34, 34));
       block(p, kRoofs[static_cast<std::size_t>(k) % kRoofs.size()]);
@@ -161,7 +161,8 @@ void draw_road(cv::Mat& ground, double cell_m, double width_m, const std::functi
     const cv::Point2d a = (point_m(double(k) / kPieces) + shift_m) / cell_m;
     const cv::Point2d b = (point_m(double(k + 1) / kPieces) + shift_m) / cell_m;
     on_all_sides(ground, a, 60 / cell_m, [&](cv::Point2d p) {
-      cv::line(ground, fixed(p), fixed(p + b - a), color, std::max(1, cvRound(wide_m / cell_m)), cv::LINE_AA, kShift);
+      cv::line(ground, fixed(p), fixed(p + b - a), color, std::max(1, cvRound(wide_m / cell_m)), cv::LINE_AA,
+               kDrawingShift);
     });
   };
   for (int k = 0; k < kPieces; ++k) piece(k, width_m + 4, {}, cv::Scalar(92, 128, 132));
@@ -176,7 +177,7 @@ void draw_edge_lines(cv::Mat& ground, double cell_m, double width_m) {
   for (const double side : {-1.0, 1.0})
     on_all_sides(ground, {side * 0.44 * width_m / cell_m, 0.0}, 20 / cell_m, [&](cv::Point2d p) {
       cv::line(ground, fixed({p.x, 0.0}), fixed({p.x, double(ground.rows)}), cv::Scalar(205, 205, 205),
-               std::max(1, cvRound(0.5 / cell_m)), cv::LINE_AA, kShift);
+               std::max(1, cvRound(0.5 / cell_m)), cv::LINE_AA, kDrawingShift);
     });
 }
 

@@ -13,6 +13,7 @@
 #include "frame/render_plan.h"
 #include "frame/synthetic_scenes.h"
 #include "project/json.h"
+#include "scene/opened_project.h"
 
 namespace sigs::test {
 namespace {

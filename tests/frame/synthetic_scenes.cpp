@@ -10,6 +10,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "scene/opened_project.h"
 #include "video/video_writer.h"
 
 namespace sigs::test {

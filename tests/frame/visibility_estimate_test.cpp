@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +11,7 @@
 
 #include "frame/render_plan.h"
 #include "frame/synthetic_scenes.h"
+#include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 #include "scene/scene_at.h"
 #include "truth/measure.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "occlusion/paper_steps.h"
+#include "occlusion/paper.h"
 #include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {

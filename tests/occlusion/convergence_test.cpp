@@ -72,7 +72,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "nothing settles while a patch of the image is in doubt, in the mask or beside it; a border's doubt is no "
+    "nothing converges while a patch of the image is undecided, in the mask or beside it; an undecided border is no "
     "patch") {
   const auto with_doubt = [](const cv::Rect& where, double confidence) {
     Verdict verdict = verdict_with(50);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/intersection.h"
+#include "occlusion/mask_geometry.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/paper_steps.h"
+#include "occlusion/paper.h"
 
 #include <doctest/doctest.h>
 

@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "flights/flights.h"
-#include "occlusion/intersection.h"
-#include "occlusion/paper_steps.h"
+#include "occlusion/mask_geometry.h"
 #include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
@@ -101,7 +100,7 @@ TEST_CASE("light that changes all over an even image has no edges and gives no b
   CHECK(all_are(verdict.confidence, 0));
 }
 
-TEST_CASE("the bodies of made flights that shake are found") {
+TEST_CASE("the bodies of synthetic flights that shake are found") {
   for (const std::string name : {"nose", "tail boom"}) {
     CAPTURE(name);
     // Until the outline is brighter all along than the world's differences, it has gaps. At 40 frames the nose has one.
@@ -195,7 +194,7 @@ TEST_CASE("the verdict is the same on one thread as on all of the machine's") {
   CHECK(same_bytes(alone.confidence, shared.confidence));
 }
 
-TEST_CASE("where no frame differs from the one before, nothing can be told") {
+TEST_CASE("where no frame differs from the one before, nothing can be decided") {
   for (const int frames : {0, 1, 2, 30}) {
     const auto method = paper_method({}, kSize_px);
     for (int n = 0; n < frames; ++n) method->add(shaking(nose(), 1).front());

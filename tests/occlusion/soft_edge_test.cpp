@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/soft_edge.h"
+#include "occlusion/mask_geometry.h"
 
 #include <doctest/doctest.h>
 

@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "flights/flights.h"
-#include "occlusion/stable.h"
+#include "occlusion/method.h"
 
 namespace {
 
 using namespace sigs;
 
-constexpr int kFrames = 150;
+constexpr int kReflectionFrames = 150;
 
-Verdict verdict_on(const flights::Flight& flight) {
+Verdict verdict_on_flight(const flights::Flight& flight) {
   const auto method = stable_method({}, flight.size_px);
-  for (int n = 0; n < kFrames; ++n) {
+  for (int n = 0; n < kReflectionFrames; ++n) {
     cv::Mat luma;
     cv::cvtColor(flight.bgr(n), luma, cv::COLOR_BGR2GRAY);
     method->add(luma);
@@ -31,14 +31,14 @@ flights::Flight named(const std::vector<flights::Flight>& all, const std::string
 
 }  // namespace
 
-TEST_CASE("a reflection that is taken for body is not said to be surely body, one seen beside it is") {
-  const std::vector<flights::Flight> reflecting = flights::reflecting({.frames = kFrames});
-  const Verdict mirrored = verdict_on(named(reflecting, "sharp reflection"));
+TEST_CASE("a reflection that is taken for body does not get the confidence of a body, a body beside one does") {
+  const std::vector<flights::Flight> reflecting = flights::reflecting({.frames = kReflectionFrames});
+  const Verdict mirrored = verdict_on_flight(named(reflecting, "sharp reflection"));
   const double masked = cv::countNonZero(mirrored.own_body);
   REQUIRE(masked > 0);  // else this says nothing
   CHECK(cv::mean(mirrored.confidence, mirrored.own_body)[0] < 0.8);
   CHECK(cv::countNonZero(mirrored.confidence > 0.9) < 0.15 * masked);
   const flights::Flight nose = named(reflecting, "nose, reflection");
-  const Verdict body = verdict_on(nose);
+  const Verdict body = verdict_on_flight(nose);
   CHECK(cv::mean(body.confidence, nose.own_body)[0] > 0.9);
 }

@@ -6,9 +6,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "occlusion/footage_segments.h"
-#include "occlusion/gradient_sums.h"
 #include "occlusion/mean_frame.h"
+#include "occlusion/stable_motion.h"
 
 namespace {
 

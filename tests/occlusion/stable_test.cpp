@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/stable.h"
+#include "occlusion/method.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "flights/flights.h"
-#include "occlusion/intersection.h"
+#include "occlusion/mask_geometry.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
-TEST_CASE("what stays put is found in made flights") {
+TEST_CASE("what stays put is found in synthetic flights") {
   for (const char* name : {"nose", "wing tip left", "white before bright sky", "propeller", "letterbox",
                            "cockpit frame", "exposure drift", "straight road below", "grey on grey"}) {
     CAPTURE(name);

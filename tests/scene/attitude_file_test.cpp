@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/attitude_file.h"
+#include "scene/scene_files.h"
 
 #include <doctest/doctest.h>
 

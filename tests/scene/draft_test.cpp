@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "project/fields.h"
+#include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 #include "scene/scene_at.h"
 
@@ -120,7 +121,7 @@ TEST_CASE("the draft of a project without problems is what open_scene gives") {
   }
 }
 
-TEST_CASE("a missing calibration is stood in for by a pinhole that sees 60 degrees across") {
+TEST_CASE("the placeholder of a missing calibration is a pinhole with a horizontal field of view of 60 degrees") {
   Project project = sample_project("crossing");
   SUBCASE("missing") {
     project.footage.calibration = "none.xml";
@@ -332,7 +333,7 @@ TEST_CASE("any number in any field gives a scene that can be looked at") {
   }
 }
 
-TEST_CASE("stand-in footage is as long as the project asks for") {
+TEST_CASE("placeholder footage is as long as the project asks for") {
   Project project;
   FootageShape footage = placeholder_footage(project);
   CHECK(footage.size_px == cv::Size(1280, 960));
@@ -348,7 +349,7 @@ TEST_CASE("stand-in footage is as long as the project asks for") {
   CHECK(placeholder_footage(project).times_s.size() == 1202);
 }
 
-TEST_CASE("stand-in footage has the size that the calibration is made for") {
+TEST_CASE("placeholder footage has the size that the calibration is made for") {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "lens.yaml") << "%YAML:1.0\n---\nimage_width: 854\nimage_height: 480\n"
                                          "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 #include "spline/directions.h"
 
@@ -126,7 +127,7 @@ TEST_CASE("a hit between two frames is found") {
   CHECK(closest.distance_m < 1e-4);
 }
 
-TEST_CASE("of equal distances the earliest is told") {
+TEST_CASE("of equal distances the earliest is given") {
   CHECK(closest_approach(scene_of(flying({{0, {50, 0, -1000}}}), 100), 0).frame == 0);
   // Round the camera: always as far, but for rounding.
   std::vector<TimedWaypoint> there_and_back;

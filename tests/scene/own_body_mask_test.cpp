@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/own_body_mask.h"
+#include "scene/scene_files.h"
 
 #include <doctest/doctest.h>
 

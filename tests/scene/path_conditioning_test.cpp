@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/path_conditioning.h"
+#include "scene/plausibility.h"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/draft.h"
+#include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 
 namespace sigs::test {
@@ -40,7 +41,7 @@ Scene opened(const Project& project) {
 
 }  // namespace
 
-TEST_CASE("a path that overshoots far beyond its waypoints is told with intruder and frames and what to do") {
+TEST_CASE("a path that overshoots far beyond its waypoints is reported with intruder and frames and what to do") {
   const Scene scene = opened(ill_conditioned_project());
   REQUIRE(scene.issues.size() == 1);
   CHECK(scene.issues.front().field == "intruders[0].trajectory");

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/own_body_mask.h"
+#include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 #include "support/test_data.h"
 
@@ -145,7 +145,7 @@ TEST_CASE("a scene that is opened again after a waypoint moved shares everything
   CHECK(before.intruders[1].trajectory.position_m(4).z > after.intruders[1].trajectory.position_m(4).z);
 }
 
-TEST_CASE("a mesh's warnings are told each time a scene is opened, once however many fly it") {
+TEST_CASE("a mesh's warnings are given each time a scene is opened, once however many fly it") {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "mtllib none.mtl\n" + triangle_obj("4"));
   Project project = sample_project("two-intruders");

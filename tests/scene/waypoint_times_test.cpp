@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/waypoint_times.h"
+#include "scene/scene_parts.h"
 
 #include <doctest/doctest.h>
 

@@ -14,7 +14,7 @@
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
-#include "export/export_project.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 

@@ -8,8 +8,8 @@
 
 #include "editor/document/field_texts.h"
 #include "editor/document/moved_paths.h"
-#include "occlusion/soft_edge.h"
-#include "scene/own_body_mask.h"
+#include "occlusion/mask_geometry.h"
+#include "scene/scene_files.h"
 
 namespace sigs::editor {
 

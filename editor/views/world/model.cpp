@@ -8,7 +8,7 @@
 
 #include "editor/geometry/round_steps.h"
 #include "scene/scene_at.h"
-#include "scene/waypoint_times.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::editor {
 

@@ -17,6 +17,7 @@
 #include "export/export_project.h"
 #include "preview_client.h"
 #include "project/json.h"
+#include "scene/opened_project.h"
 
 namespace sigs::test {
 

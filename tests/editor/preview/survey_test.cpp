@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "editor/preview/survey_builder.h"
-#include "export/export_project.h"
 #include "preview_client.h"
+#include "scene/opened_project.h"
 
 using namespace sigs;
 using namespace sigs::editor;

@@ -9,7 +9,7 @@
 
 #include "base/transfer.h"
 #include "mesh/mesh.h"
-#include "scene/placeholders.h"
+#include "scene/draft.h"
 #include "support/test_data.h"
 
 using namespace sigs;

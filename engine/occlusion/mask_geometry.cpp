@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/soft_edge.h"
+#include "occlusion/mask_geometry.h"
 
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -17,9 +17,9 @@ cv::Mat distance_px(const cv::Mat& mask) {
 }
 
 cv::Mat signed_distance_px(const cv::Mat& mask) {
-  constexpr double kMiddleToBorder_px = 0.5;
-  cv::Mat inside = distance_px(mask == 0) - kMiddleToBorder_px;
-  const cv::Mat outside = kMiddleToBorder_px - distance_px(mask);
+  constexpr double kCenterToBorder_px = 0.5;
+  cv::Mat inside = distance_px(mask == 0) - kCenterToBorder_px;
+  const cv::Mat outside = kCenterToBorder_px - distance_px(mask);
   outside.copyTo(inside, mask == 0);
   return inside;
 }
@@ -33,6 +33,19 @@ cv::Mat soft_edged(const cv::Mat& mask, double width_px) {
   cv::Mat out;
   inward_px.convertTo(out, CV_8U, 255 / width_px, 0.5 * 255);
   return out;
+}
+
+cv::Mat disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+}
+
+double intersection_over_union(const cv::Mat& a, const cv::Mat& b) {
+  ENSURE(a.type() == CV_8UC1 && b.type() == CV_8UC1 && a.size() == b.size());
+  constexpr double kHalf = 128;
+  const cv::Mat in_a = a >= kHalf;
+  const cv::Mat in_b = b >= kHalf;
+  const int either = cv::countNonZero(in_a | in_b);
+  return either == 0 ? 1.0 : static_cast<double>(cv::countNonZero(in_a & in_b)) / either;
 }
 
 }  // namespace sigs

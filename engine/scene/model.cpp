@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "scene/measuring_points.h"
+#include "scene/model.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
+
+#include "base/ensure.h"
 
 namespace sigs {
 
 namespace {
 
 constexpr double kGapsAlongDiagonal = 100;
-constexpr int kDirections = 100;  // twice: farthest along, and farthest along a curve
+constexpr int kDirections = 100;  // each used twice: with a plane and with a paraboloid
 
 bool before(const glm::vec3& a, const glm::vec3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -27,7 +30,7 @@ void add_between(glm::vec3 from, glm::vec3 to, double gap_m, std::vector<glm::ve
   for (int i = 1; i < steps; ++i) points.emplace_back(glm::dvec3(from) + along * (double(i) / steps));
 }
 
-// Evenly over the sphere: Fibonacci's lattice (Swinbank and Purser 2006, "Fibonacci grids").
+// Evenly spread over the sphere: Fibonacci grid (Swinbank and Purser 2006, "Fibonacci grids").
 glm::vec3 direction(int index) {
   const double z = 1 - (2 * index + 1.0) / kDirections;
   const double turn = index * std::numbers::pi * (3 - std::sqrt(5.0));
@@ -35,10 +38,10 @@ glm::vec3 direction(int index) {
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-// The point where a paraboloid that opens backwards, of this curvature at its top, touches the body from outside;
-// without curvature a plane.
-std::size_t touched(const std::vector<glm::vec3>& points, const glm::vec3& center, const glm::vec3& direction,
-                    float curvature) {
+// Index of the point that is touched first by a paraboloid moving in from `direction`, its apex ahead; curvature: at
+// the apex, 1/m; 0: a plane.
+std::size_t first_touched(const std::vector<glm::vec3>& points, const glm::vec3& center, const glm::vec3& direction,
+                          float curvature) {
   std::size_t best = 0;
   float farthest = -std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -51,6 +54,32 @@ std::size_t touched(const std::vector<glm::vec3>& points, const glm::vec3& cente
     }
   }
   return best;
+}
+
+constexpr double kLengthOverWidth = 30;                // of the cross' beams
+constexpr glm::vec3 kMagentaRed{0.95F, 0.15F, 0.55F};  // display code values
+
+// One side of a beam, two triangles: corner, then its two edges, counter-clockwise seen from outside.
+void add_side(Mesh& mesh, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const glm::vec3 normal = glm::normalize(glm::cross(u, v));
+  for (const glm::vec3& position : {corner, corner + u, corner + u + v, corner + v})
+    mesh.vertices.push_back({position, normal, {0, 0}});
+  for (const std::uint32_t index : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + index);
+}
+
+void add_beam(Mesh& mesh, const glm::vec3& half_m) {
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 u(0);
+    glm::vec3 v(0);
+    glm::vec3 out(0);
+    out[axis] = half_m[axis];
+    u[(axis + 1) % 3] = 2 * half_m[(axis + 1) % 3];
+    v[(axis + 2) % 3] = 2 * half_m[(axis + 2) % 3];
+    const glm::vec3 middle = 0.5F * (u + v);
+    add_side(mesh, out - middle, u, v);
+    add_side(mesh, -out - middle, v, u);
+  }
 }
 
 }  // namespace
@@ -82,7 +111,7 @@ std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
   const float curvature = diagonal_m > 0 ? 1 / diagonal_m : 0;
   std::vector<std::size_t> chosen;
   for (int i = 0; i < kDirections; ++i)
-    for (const float bend : {0.0F, curvature}) chosen.push_back(touched(points, center, direction(i), bend));
+    for (const float k : {0.0F, curvature}) chosen.push_back(first_touched(points, center, direction(i), k));
   std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   std::vector<glm::vec3> outermost;
@@ -95,6 +124,23 @@ Model model_of(Mesh mesh) {
   model.points_m = measuring_points(model.mesh);
   model.outermost_m = outermost_points(model.points_m);
   return model;
+}
+
+Mesh cross_mesh(double length_m) {
+  ENSURE(length_m > 0 && std::isfinite(length_m));
+  Mesh mesh;
+  const auto half_m = static_cast<float>(length_m / 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 half(half_m / static_cast<float>(kLengthOverWidth));
+    half[axis] = half_m;
+    add_beam(mesh, half);
+  }
+  mesh.parts = {{.material = 0, .first_index = 0, .index_count = static_cast<std::uint32_t>(mesh.indices.size())}};
+  mesh.materials = {{.name = "stand-in", .diffuse = kMagentaRed}};
+  mesh.low_m = glm::vec3(-half_m);
+  mesh.high_m = glm::vec3(half_m);
+  for (const Vertex& vertex : mesh.vertices) mesh.radius_m = std::max(mesh.radius_m, glm::length(vertex.position_m));
+  return mesh;
 }
 
 }  // namespace sigs
