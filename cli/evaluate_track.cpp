@@ -13,7 +13,7 @@
 #include "cli/interrupt.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
-#include "evaluation/results_text.h"
+#include "evaluation/results.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
 #include "tracked_clip.h"

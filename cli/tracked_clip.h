@@ -8,7 +8,7 @@
 
 #include "base/result.h"
 #include "evaluation/results.h"
-#include "evaluation/track_start.h"
+#include "evaluation/track_score.h"
 #include "options.h"
 
 namespace sigs::cli {

@@ -8,7 +8,7 @@
 #include "base/threads.h"
 #include "editor/preview/outline_truth.h"
 #include "editor/preview/thread_priority.h"
-#include "evaluation/track_start.h"
+#include "evaluation/track_score.h"
 
 namespace sigs::editor {
 

@@ -5,7 +5,7 @@
 #include "base/nesting.h"
 #include "dataset/line_reader.h"
 #include "dataset/merge_formats.h"
-#include "labels/text_file.h"
+#include "labels/label_files.h"
 
 namespace sigs {
 

@@ -4,10 +4,8 @@
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "dataset/merge_formats.h"
-#include "labels/hard_link.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
-#include "labels/text_file.h"
-#include "labels/yaml_text.h"
 
 namespace sigs {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/line_reader.h"
 #include "dataset/merge_formats.h"
-#include "labels/text_file.h"
+#include "labels/label_files.h"
 
 namespace sigs {
 

@@ -12,51 +12,57 @@
 
 namespace sigs {
 
-// One intruder in one frame, as far as scoring needs it. Boxes are edges in pixels (base/image.h): of the annotation's
-// whole-pixel box x, y, width, height the left edge is x - 0.5.
+// The truth of a whole clip, from an annotation file or from composed frames, reduced to what scoring needs.
+
+// One intruder in one frame. Boxes are edges in pixels (base/image.h): the left edge of an annotation's box of whole
+// pixels is x - 0.5.
 struct TargetFrame {
-  std::optional<Box> visible;     // around its visible pixels; none: nothing of it can be seen
-  std::optional<Box> amodal_box;  // the whole of it, hidden or not
-  double visible_fraction = 0;
-  int visible_pixels = 0;  // 0 where the file does not say
+  std::optional<Box> visible;     // around its visible pixels; nullopt: none is visible
+  std::optional<Box> amodal_box;  // around the whole of it, hidden or not; nullopt: no part of it has an image
+  double visible_fraction = 0;    // of the whole, 0 to 1
+  int visible_pixels = 0;         // number of them; 0 also where a file does not give it
   double distance_m = 0;
   HorizonSide horizon = HorizonSide::unknown;
 };
 
+// One intruder in all frames.
 struct TargetTruth {
   int id = 0;
   std::string name;
   std::vector<TargetFrame> frames;  // one for each of ClipTruth::times_s
 };
 
-// The truth of a clip: frames ClipTruth::footage.first_frame to last_frame.
+// The truth of a clip: frames footage.first_frame to last_frame.
 struct ClipTruth {
   FootageTruth footage;
-  std::vector<double> times_s;
+  std::vector<double> times_s;       // of each frame
   std::vector<TargetTruth> targets;  // by id
 
   [[nodiscard]] int frames() const { return static_cast<int>(times_s.size()); }
 };
 
+// What scoring needs of an intruder's truth.
 [[nodiscard]] TargetFrame target_frame_of(const IntruderTruth& truth);
 
-// Edges of a rectangle of whole pixels.
+// The edges of a rectangle of whole pixels.
 [[nodiscard]] Box box_of(const cv::Rect& pixels);
 
+// An intruder with its truth in one frame.
 struct TargetInFrame {
   int id = 0;
   std::string name;
   TargetFrame frame;
 };
 
-// Adds the next frame; the first says which targets there are. Error bad_data, without a place: it is not the next one
-// of footage.first_frame, ..., or its intruders are not those of the frames before.
+// Appends the next frame; the first one defines the targets, in rising order of their ids. index is the footage's
+// number. Error bad_data, without a place: it is not the frame after the last one (or footage.first_frame), or its
+// intruders are not those of the frames before.
 [[nodiscard]] Result<void> add_frame(ClipTruth& clip, const FrameTruth& truth);
 [[nodiscard]] Result<void> add_frame(ClipTruth& clip, int index, double time_s,
                                      const std::vector<TargetInFrame>& targets);
 
-// Reads a SIGS annotation file (NAME.xml). Errors name the file and the line. The frames are those that its footage
-// element says, without a gap.
+// Reads a SIGS annotation file (NAME.xml, docs/annotation-format.md). It must have each frame of the range in its
+// element footage. Errors: cannot_read; bad_data with file and line.
 [[nodiscard]] Result<ClipTruth> read_truth(const std::filesystem::path& path);
 
 }  // namespace sigs

@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "base/ensure.h"
-#include "evaluation/detection_match.h"
-#include "evaluation/encounters.h"
+#include "evaluation/airborne_metrics.h"
 
 namespace sigs {
 
@@ -132,12 +131,12 @@ void add_clip(DetectionScore& sum, Pairs& pairs, const DetectedClip& clip, const
 
 double mean_first_range_m(const std::vector<EncounterScore>& encounters) {
   double sum_m = 0;
-  int seen = 0;
+  int detected = 0;
   for (const EncounterScore& encounter : encounters) {
     sum_m += encounter.first_detection_range_m.value_or(0);
-    seen += encounter.first_detection_range_m.has_value();
+    detected += encounter.first_detection_range_m.has_value();
   }
-  return ratio(sum_m, seen);
+  return ratio(sum_m, detected);
 }
 
 }  // namespace

@@ -10,29 +10,33 @@
 
 namespace sigs {
 
-// The airborne metrics, as published with the Airborne Object Tracking challenge; docs/evaluation.md defines each, and
-// says where this differs. What is published in frames at 10 Hz is in seconds here.
+// How well a detector finds intruders: the metrics published with the Airborne Object Tracking challenge, the encounter
+// detection rate (EDR) and the hourly false alarm rate (HFAR). docs/evaluation.md defines each and says where SIGS
+// differs. What is published in frames at 10 Hz is in seconds here.
+
+// The parameters of the metrics.
 struct DetectionPolicy {
-  double min_area_px2 = 100;         // extended overlap: where the truth's box is smaller, both boxes are grown to it
-  double match_overlap = 0.2;        // extended overlap of a match, or more
-  double false_overlap = 0.02;       // less with every truth: a false alarm; between the two: neither
-  double min_score = 0;              // reports below it are left out
-  double max_range_m = 700;          // an encounter is within it
-  double max_closest_range_m = 330;  // ... and comes at least so near
-  double min_encounter_s = 3;
-  double max_gap_s = 0.3;       // not visible or out of range, within an encounter
-  double detect_range_m = 300;  // an encounter counts as detected where it is before it comes nearer than this, or
+  double min_area_px2 = 100;         // extended overlap: where the true box is smaller, both boxes are enlarged to it
+  double match_overlap = 0.2;        // minimum extended overlap of a match
+  double false_overlap = 0.02;       // less with every true box: a false alarm; between the two: neither
+  double min_score = 0;              // reports with a lower score are ignored
+  double max_range_m = 700;          // from the camera, in an encounter
+  double max_closest_range_m = 330;  // the minimum range of a counted encounter is this or less
+  double min_encounter_s = 3;        // duration of a counted encounter
+  double max_gap_s = 0.3;            // not visible or out of range without ending an encounter
+  double detect_range_m = 300;  // an encounter is detected in time where it is before it comes nearer than this, or
   double window_s = 3;          // in its first window: by one track in a share of the frames of a window of this length
   double min_window_share = 0.5;
 };
 
-// One clip and what a detector says of it.
+// One clip and the results of a detector on it.
 struct DetectedClip {
   std::string name;
   ClipTruth truth;
   Results results;
 };
 
+// An encounter: consecutive frames in which one target is visible and in range. Frames are the footage's numbers.
 struct EncounterScore {
   std::string clip;
   int target = 0;
@@ -41,20 +45,22 @@ struct EncounterScore {
   HorizonSide horizon = HorizonSide::unknown;  // above or below: in all its frames; unknown: in any
   double min_range_m = 0;
   bool is_detected = false;                       // in time
-  std::optional<double> first_detection_range_m;  // of its first match
+  std::optional<double> first_detection_range_m;  // range at its first match
   std::optional<double> first_detection_time_s;   // from the encounter's first frame
-  std::optional<double> confirmed_range_m;        // at the end of the first window with matches enough, in time or not
+  std::optional<double> confirmed_range_m;        // at the end of the first window with enough matches, in time or not
   std::optional<double> confirmed_time_s;         // from the encounter's first frame
   int frames_visible = 0;                         // within max_range_m
   int frames_matched = 0;                         // of these
 };
 
+// Counted encounters and how many of them were detected in time.
 struct DetectionRate {
   int encounters = 0;
   int detected = 0;
   [[nodiscard]] double rate() const;  // detected / encounters; NaN where there is none
 };
 
+// The figures of one detector over all clips. The rates by horizon are by the side on which the encounter lies.
 struct DetectionScore {
   std::string name;
   std::vector<EncounterScore> encounters;
@@ -63,11 +69,11 @@ struct DetectionScore {
   DetectionRate on_horizon;
   DetectionRate below_horizon;
   DetectionRate unknown_horizon;
-  int encounters_too_short = 0;  // shorter than min_encounter_s, however near: not counted, not listed
-  int encounters_too_far = 0;    // of the others, those that never come within max_closest_range_m: nor are these
+  int encounters_too_short = 0;  // shorter than min_encounter_s, at any range: not counted, not listed
+  int encounters_too_far = 0;    // of the others, those that never come within max_closest_range_m: not counted either
   int frames = 0;
   double hours = 0;
-  int false_alarm_tracks = 0;  // tracks of the reporter with at least one false alarm; a box without one is its own
+  int false_alarm_tracks = 0;        // tracks with at least one false alarm; a box without a track counts as one
   double false_alarms_per_hour = 0;  // HFAR: false_alarm_tracks / hours; NaN for no hours
   int false_alarm_boxes = 0;
   double false_boxes_per_frame = 0;  // FPPI; NaN for no frames
@@ -75,7 +81,7 @@ struct DetectionScore {
   double mean_first_range_m = 0;     // first_detection_range_m over encounters with one; NaN where there is none
 };
 
-// Names of clips tell their tracks apart: two clips may both have a track 7.
+// Scores the results of one detector. Track numbers are per clip: two clips may both have a track 7.
 [[nodiscard]] DetectionScore score_detections(const std::string& name, const std::vector<DetectedClip>& clips,
                                               const DetectionPolicy& policy);
 

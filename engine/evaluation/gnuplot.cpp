@@ -2,14 +2,18 @@
 #include "evaluation/gnuplot.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "base/staged_outputs.h"
@@ -18,9 +22,121 @@ namespace sigs {
 
 namespace {
 
+// Okabe and Ito, "Color universal design" (2008), without yellow, which is hard to see on white.
+constexpr std::array<std::string_view, 7> kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                  "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array<std::string_view, 5> kDashes{"solid", "(10,4)", "(3,3)", "(12,4,3,4)", "(16,4,3,4,3,4)"};
+constexpr std::array<int, 7> kMarks{7, 5, 9, 13, 11, 2, 3};
+
+// gnuplot runs nothing within single quotes. It reads a doubled quote as one in some places alone, so a quote in a name
+// becomes an apostrophe.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : line_text(text)) out += c == '\'' ? std::string("\xE2\x80\x99") : std::string(1, c);
+  return out + "'";
+}
+
+std::string range_text(const PlotSpan& range) {
+  return fmt::format("[{}:{}]", exact_text(range.first), exact_text(range.last));
+}
+
+std::string terminal(const Plot& plot, PlotFormat kind) {
+  if (kind == PlotFormat::svg)
+    return "set terminal svg noenhanced size 960,500 font 'DejaVu Sans,Verdana,Arial,sans-serif,13' background "
+           "'#ffffff' name " +
+           quoted(plot.name) + "\n";
+  return "if (strstrt(GPVAL_TERMINALS, 'pngcairo')) { set terminal pngcairo noenhanced size 1440,750 fontscale 1.2 "
+         "linewidth 1.5 background '#ffffff' } else { set terminal png noenhanced size 1440,750 }\n";
+}
+
+std::string blocks(const PlotSeries& series, std::size_t number) {
+  std::string lines = "$runs" + std::to_string(number) + " << END\n";
+  std::string lone = "$lone" + std::to_string(number) + " << END\n";
+  for (const std::vector<PlotPoint>& run : series.runs) {
+    const bool is_isolated = series.is_scatter || run.size() == 1;  // a line needs two
+    for (const PlotPoint& point : run)
+      (is_isolated ? lone : lines) += exact_text(point.x) + " " + exact_text(point.y) + "\n";
+    if (!is_isolated) lines += "\n";
+  }
+  return lines + "END\n" + lone + "END\n";
+}
+
+bool has_lines(const PlotSeries& series) {
+  return !series.is_scatter &&
+         std::any_of(series.runs.begin(), series.runs.end(), [](const auto& r) { return r.size() > 1; });
+}
+
+bool has_isolated_points(const PlotSeries& series) {
+  return std::any_of(series.runs.begin(), series.runs.end(),
+                     [&](const auto& run) { return run.size() == 1 || (series.is_scatter && !run.empty()); });
+}
+
+// A series and its entry in the key, which it has even where it has no points.
+std::string plot_entries(const PlotSeries& series, std::size_t number) {
+  const std::string color = " linecolor rgb '" + std::string(kColors[number % kColors.size()]) + "'";
+  const std::size_t dash = (number + number / kColors.size()) % kDashes.size();
+  const std::string line = " with lines linewidth 2 dashtype " + std::string(kDashes[dash]) + color;
+  const int mark = kMarks[(number + number / kColors.size()) % kMarks.size()];
+  const std::string points = " with points pointsize " + std::string(series.is_scatter ? "1.4" : "0.4") +
+                             " pointtype " + std::to_string(series.is_scatter ? mark : 7) + " linewidth 2" + color;
+  std::string text = ", \\\n  keyentry" + (series.is_scatter ? points : line) + " title " + quoted(series.title);
+  const std::string n = std::to_string(number);
+  if (has_lines(series)) text += ", \\\n  $runs" + n + " using 1:2" + line + " notitle";
+  if (has_isolated_points(series)) text += ", \\\n  $lone" + n + " using 1:2" + points + " notitle";
+  return text;
+}
+
+// Ticks beside 0, from it outwards; one too near the previous one for both labels to be read is left out.
+std::vector<double> symlog_ticks(const PlotSpan& range) {
+  constexpr double kMinTickGap = 0.035;  // of the axis; about a label's height
+  const auto place = [](double value) { return std::asinh(value / 10); };
+  const double gap = kMinTickGap * (place(range.last) - place(range.first));
+  std::vector<double> ticks;
+  double last = 0;
+  for (const double tick : {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}) {
+    if (place(tick) - last < gap) continue;
+    last = place(tick);
+    if (tick <= range.last) ticks.push_back(tick);
+    if (-tick >= range.first) ticks.push_back(-tick);
+  }
+  return ticks;
+}
+
+std::string axes(const Plot& plot) {
+  std::string text = "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
+                     quoted(plot.y_label) + "\nset xrange " + range_text(plot.x_range) + "\nset yrange " +
+                     range_text(plot.y_range) + "\n";
+  if (plot.y_scale == PlotScale::symlog) {
+    text += "set nonlinear y via asinh(y/10.) inverse 10.*sinh(y)\nset ytics (0";
+    for (const double tick : symlog_ticks(plot.y_range)) text.append(",").append(exact_text(tick));
+    text += ")\n";
+  }
+  int object = 0;
+  for (const PlotSpan& span : plot.shaded)
+    text += fmt::format(
+        "set object {} rectangle from first {}, graph 0 to first {}, graph 1 fillcolor rgb '#ececec' fillstyle solid "
+        "noborder behind\n",
+        ++object, exact_text(span.first), exact_text(span.last));
+  return text;
+}
+
+}  // namespace
+
+std::string gnuplot_program(const Plot& plot, PlotFormat kind) {
+  std::string text = "set encoding utf8\n" + terminal(plot, kind) + axes(plot) +
+                     "set grid linecolor rgb '#d0d0d0' linewidth 1 dashtype solid\nset border linecolor rgb '#404040'\n"
+                     "set key below left Left reverse samplen 4 width 2 spacing 1.2\nset tics nomirror\n";
+  for (std::size_t i = 0; i < plot.series.size(); ++i) text += blocks(plot.series[i], i);
+  text += "plot NaN notitle";
+  for (std::size_t i = 0; i < plot.series.size(); ++i) text += plot_entries(plot.series[i], i);
+  return text + "\n";
+}
+
+namespace {
+
 namespace fs = std::filesystem;
 
-// A folder for one run's files, gone afterwards.
+// A folder for the files of one run, removed afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -36,7 +152,7 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  [[nodiscard]] const fs::path& path() const { return path_; }  // empty: none could be made
+  [[nodiscard]] const fs::path& path() const { return path_; }  // empty: none could be created
 
  private:
   fs::path path_;
@@ -66,7 +182,7 @@ int run(const fs::path& program, const fs::path& out, const fs::path& err) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-// What it complains of, in one line.
+// Its error message, on one line.
 std::string error_line(const fs::path& err) {
   std::string text = read_text(err).value_or("");
   text.erase(0, text.find_first_not_of("\n "));

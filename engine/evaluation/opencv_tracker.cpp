@@ -20,8 +20,8 @@ namespace sigs {
 
 namespace {
 
-// OpenCV has two interfaces to its trackers, of whole pixels and of fractions; this is what they have in common. Boxes
-// are in OpenCV's way: x is the number of the first column covered.
+// What OpenCV's two interfaces to its trackers, with whole and with fractional pixels, have in common. In OpenCV's
+// boxes x is the first column covered.
 class TrackerAdapter {
  public:
   virtual ~TrackerAdapter() = default;
@@ -60,7 +60,7 @@ class LegacyTracker : public TrackerAdapter {
   cv::Ptr<cv::legacy::Tracker> tracker_;
 };
 
-constexpr std::array<std::string_view, 7> kNames{"csrt", "kcf", "mil", "mosse", "medianflow", "tld", "boosting"};
+constexpr std::array<std::string_view, 7> kTrackerNames{"csrt", "kcf", "mil", "mosse", "medianflow", "tld", "boosting"};
 
 std::unique_ptr<TrackerAdapter> new_tracker(std::string_view name) {
   namespace legacy = cv::legacy;
@@ -75,18 +75,18 @@ std::unique_ptr<TrackerAdapter> new_tracker(std::string_view name) {
 
 std::string known_names() {
   std::string names;
-  for (const std::string_view name : kNames) names.append(names.empty() ? "" : ", ").append(name);
+  for (const std::string_view name : kTrackerNames) names.append(names.empty() ? "" : ", ").append(name);
   return names;
 }
 
-// OpenCV's trackers draw from the thread's generator, the boosting ones from the C library's too. Both are set anew for
-// each image, so that no tracker sees what another has drawn.
+// OpenCV's trackers use the thread's random generator, the boosting ones the C library's too. Both are seeded for each
+// image, so that no tracker depends on the others.
 void seed(int frame) {
   cv::theRNG().state = 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
   std::srand(static_cast<unsigned>(frame) + 1U);
 }
 
-// The pixels that the box covers, edges to the nearest border between pixels, at least one each way.
+// The box in whole pixels: edges rounded to the nearest border between pixels, at least one pixel wide and high.
 cv::Rect pixels_of(const Box& box, cv::Size size) {
   const auto border = [](double edge, int end) {
     return static_cast<int>(std::lround(std::clamp(edge + 0.5, 0.0, static_cast<double>(end))));
@@ -100,7 +100,7 @@ cv::Rect pixels_of(const Box& box, cv::Size size) {
 
 // MIL and boosting look for rectangles of 9 px or more that fit into the box, at random and without end where none
 // does: one of 3 by 3, twice beside or below itself, must fit. TLD enlarges the image until the box's shorter side
-// has 20 px, and looks everywhere in it: on a box of 2 px that takes minutes a frame.
+// has 20 px and searches all of it: with a box of 2 px that takes minutes for each frame.
 bool is_large_enough(std::string_view name, const cv::Rect& box) {
   if (name != "mil" && name != "boosting" && name != "tld") return true;
   return std::min(box.width, box.height) >= 4 && std::max(box.width, box.height) >= 8;
@@ -113,14 +113,14 @@ bool lies_in(const Box& box, cv::Size size) {
          box.x + box.width > -0.5 && box.y + box.height > -0.5;
 }
 
-std::optional<Box> box_of(const std::optional<cv::Rect2d>& found) {
+std::optional<Box> reported_box(const std::optional<cv::Rect2d>& found) {
   if (!found || !(found->width > 0) || !(found->height > 0)) return std::nullopt;
   for (const double number : {found->x, found->y, found->width, found->height})
     if (!std::isfinite(number)) return std::nullopt;
   return Box{found->x - 0.5, found->y - 0.5, found->width, found->height};
 }
 
-// The message of an exception in one line: OpenCV's has the place in its sources before it and a line end behind.
+// The message of an exception on one line, without OpenCV's prefix (place in its sources) and line break.
 std::string one_line(const std::exception& thrown) {
   const auto* const of_opencv = dynamic_cast<const cv::Exception*>(&thrown);
   std::string text = of_opencv != nullptr ? of_opencv->err : thrown.what();
@@ -159,11 +159,11 @@ OpenCvTracker& OpenCvTracker::operator=(OpenCvTracker&&) noexcept = default;
 OpenCvTracker::~OpenCvTracker() = default;
 
 std::span<const std::string_view> tracker_names() {
-  return kNames;
+  return kTrackerNames;
 }
 
 Result<OpenCvTracker> OpenCvTracker::make(std::string_view name) {
-  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
+  if (std::find(kTrackerNames.begin(), kTrackerNames.end(), name) == kTrackerNames.end())
     return fail(std::string(name), "no such tracker; there are " + known_names(), ErrorKind::usage);
   auto impl = std::make_unique<Impl>();
   impl->results.name = name;
@@ -186,7 +186,7 @@ Result<void> OpenCvTracker::start(int frame, const cv::Mat& image, const Box& bo
     if (!tracker->init(image, pixels))
       return fail(in.results.name + ": " + frame_text(frame), "OpenCV cannot start on it");
     in.tracker = std::move(tracker);
-    in.results.frames[frame] = {{.box = *box_of(cv::Rect2d(pixels))}};
+    in.results.frames[frame] = {{.box = *reported_box(cv::Rect2d(pixels))}};
     return {};
   });
 }
@@ -197,7 +197,7 @@ Result<void> OpenCvTracker::follow(int frame, const cv::Mat& image) {
   ENSURE(in.tracker);
   return in.guarded(frame, "follow in", [&]() -> Result<void> {
     const Stopwatch watch;
-    const std::optional<Box> box = box_of(in.tracker->update(image));
+    const std::optional<Box> box = reported_box(in.tracker->update(image));
     in.spent_s += watch.elapsed_s();
     ++in.followed;
     if (in.spent_s > 0) in.results.frames_per_s = in.followed / in.spent_s;
@@ -208,6 +208,44 @@ Result<void> OpenCvTracker::follow(int frame, const cv::Mat& image) {
 
 const Results& OpenCvTracker::results() const {
   return impl_->results;
+}
+
+Result<TrackerGroup> TrackerGroup::make(const std::vector<std::string>& names) {
+  TrackerGroup group;
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    Result<OpenCvTracker> tracker = OpenCvTracker::make(*name);
+    if (!tracker) return fail(tracker.error());
+    if (std::find(names.begin(), name, *name) != name) return fail(*name, "is named twice", ErrorKind::usage);
+    group.members_.push_back({.tracker = std::move(*tracker)});
+  }
+  return group;
+}
+
+void TrackerGroup::start(int frame, const cv::Mat& image, const Box& box) {
+  ENSURE(!is_started_);
+  is_started_ = true;
+  for (Member& member : members_) {
+    const Result<void> step = member.tracker.start(frame, image, box);
+    member.has_started = step.has_value();
+    if (!step) remarks_.push_back(step.error().text() + "; it is left out");
+  }
+}
+
+void TrackerGroup::follow(int frame, const cv::Mat& image) {
+  ENSURE(is_started_);
+  for (Member& member : members_) {
+    if (!member.has_started || member.has_failed) continue;
+    const Result<void> step = member.tracker.follow(frame, image);
+    member.has_failed = !step.has_value();
+    if (!step) remarks_.push_back(step.error().text() + "; it reports nothing from there on");
+  }
+}
+
+std::vector<Results> TrackerGroup::results() const {
+  std::vector<Results> results;
+  for (const Member& member : members_)
+    if (member.has_started) results.push_back(member.tracker.results());
+  return results;
 }
 
 }  // namespace sigs

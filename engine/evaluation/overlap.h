@@ -5,10 +5,12 @@
 
 namespace sigs {
 
-// Intersection over union of two boxes' areas, 0 to 1. 0 where they do not meet or one has no area.
+// Intersection over union (Jaccard index) of the areas of two boxes, 0 to 1. 0 where they do not intersect or one has
+// no area.
 [[nodiscard]] double overlap(const Box& a, const Box& b);
 
-// Whether value is more than threshold by more than rounding: numbers read as decimals leave 5 px at 5.000000000000001.
+// Whether value is greater than threshold by more than 1e-9, so that rounding of decimals does not matter: 5 px may be
+// stored as 5.000000000000001.
 [[nodiscard]] bool exceeds(double value, double threshold);
 
 }  // namespace sigs

@@ -11,17 +11,19 @@
 
 namespace sigs {
 
-// Several trackers on one clip.
+// The report of an evaluation: a table, and a folder with CSV and JSON files, plots and a page.
+
+// The scores of several trackers on one clip.
 struct TrackReport {
   std::string clip;  // the project's or label file's name
   FootageTruth footage;
-  std::string target;
+  std::string target;  // name of the intruder that was followed
   TrackPolicy policy;
   std::vector<TrackScore> scores;
   std::vector<std::string> remarks;  // a tracker that could not be started, ...
 };
 
-// Several detectors on the same clips.
+// The scores of several detectors on the same clips.
 struct DetectionReport {
   std::vector<std::string> clips;
   DetectionPolicy policy;
@@ -32,28 +34,30 @@ struct DetectionReport {
 [[nodiscard]] std::string table_text(const TrackReport& report);
 [[nodiscard]] std::string table_text(const DetectionReport& report);
 
-// What the figures count and what they do not, one sentence each; docs/evaluation.md says why.
+// What the figures count and what they leave out, as sentences; docs/evaluation.md gives the reasons.
 [[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);
 
-// Why fewer encounters count than a reader may look for, one sentence for each reason; empty: all count.
+// Why encounters are not counted, a sentence for each reason; empty: all are.
 [[nodiscard]] std::vector<std::string> uncounted_in(const DetectionReport& report);
 
+// What write_report() has written.
 struct WrittenReport {
   std::vector<std::filesystem::path> files;
   std::vector<Warning> warnings;  // gnuplot is missing: no plots
 };
 
-// Writes into folder, which is there: summary.csv, frames.csv, evaluation.json; where gnuplot is installed
-// center_error, x_error, y_error, precision, success and normalized_precision as .svg and .png; report.html, which
-// holds all it shows and opens from disk. The same report gives the same bytes; speeds in it are measured, so they
-// differ from run to run.
+// Writes into a folder, which must exist; files of the same name are replaced. The files are summary.csv, frames.csv
+// and evaluation.json; the plots center_error, x_error, y_error, precision, success and normalized_precision as .svg
+// and .png where gnuplot is installed; and report.html, a page that needs no other file. The same report gives the same
+// bytes; measured speeds in it differ from run to run. Errors cannot_create, write_failed.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const TrackReport& report);
 
-// The same with summary.csv, encounters.csv, evaluation.json, the plots detection_rate and first_range, report.html.
+// The same with summary.csv, encounters.csv, evaluation.json, the plots detection_rate and first_range, and
+// report.html.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const DetectionReport& report);
 
-// Whether a file of this name in a report's folder may be one that write_report wrote.
+// Whether write_report() writes files of this name.
 [[nodiscard]] bool is_report_file(const std::string& name);
 
 }  // namespace sigs

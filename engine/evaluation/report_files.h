@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/gnuplot.h"
 #include "evaluation/report.h"
-#include "evaluation/report_plot.h"
 
 namespace sigs {
 
-// What the files of a report hold. Numbers are the shortest that read back the same; what there is none of is empty in
-// CSV and null in JSON.
+// The contents of the files of a report (report.h), each as text. Numbers are the shortest that read back the same;
+// what does not exist is empty in CSV and null in JSON.
 
 [[nodiscard]] std::string summary_csv(const TrackReport& report);      // a row for each tracker
 [[nodiscard]] std::string frames_csv(const TrackReport& report);       // a row for each tracker and frame
@@ -20,18 +20,48 @@ namespace sigs {
 [[nodiscard]] std::string encounters_csv(const DetectionReport& report);  // a row for each detector and encounter
 [[nodiscard]] std::string evaluation_json(const DetectionReport& report);
 
-// An image as an SVG file has it, and what it is called.
+// A plot as the content of an SVG file.
 struct ReportPlot {
   std::string name;   // of its files, without extension
-  std::string title;  // for those who cannot see it
+  std::string title;  // its description for screen readers
   std::string svg;
 };
 
-// One page without anything from elsewhere.
+// A page that refers to no other file.
 [[nodiscard]] std::string report_html(const TrackReport& report, const std::vector<ReportPlot>& images);
 [[nodiscard]] std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images);
 
+// What is drawn: errors over frames and curves of a tracker, rates and ranges of a detector.
 [[nodiscard]] std::vector<Plot> plots_of(const TrackReport& report);
 [[nodiscard]] std::vector<Plot> plots_of(const DetectionReport& report);
+
+// A column of a report's table; the cells of all columns are in the same order.
+struct TableColumn {
+  std::string title;
+  std::string unit;  // "" where it has none
+  std::vector<std::string> cells;
+  std::vector<bool> is_best;          // of its column, as shown
+  std::vector<bool> is_partial = {};  // no mean, since few frames have a report; empty: none
+};
+
+// The table of a report, a row for each tracker or detector. The first column has the names.
+[[nodiscard]] std::vector<TableColumn> table_of(const TrackReport& report);
+[[nodiscard]] std::vector<TableColumn> table_of(const DetectionReport& report);
+
+// A row for each detector and encounter.
+[[nodiscard]] std::vector<TableColumn> encounters_of(const DetectionReport& report);
+
+// The mark behind a cell: "*" best, "?" partial, or nothing.
+[[nodiscard]] std::string mark_of(const TableColumn& column, std::size_t row);
+
+// A sentence on each kind of mark that the columns have.
+[[nodiscard]] std::vector<std::string> notes_on(const std::vector<TableColumn>& columns);
+
+// The columns side by side as lines of text: the first aligned left, the others right, marks behind the cells.
+[[nodiscard]] std::string aligned(const std::vector<TableColumn>& columns);
+
+// Whether each value, rounded to `decimals`, is the best of its column. All false where there are fewer than two values
+// or all look alike; NaN is never the best.
+[[nodiscard]] std::vector<bool> best_of(const std::vector<double>& values, bool larger_is_better, int decimals);
 
 }  // namespace sigs

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <string_view>
 
+#include "base/text.h"
 #include "evaluation/report_files.h"
-#include "evaluation/report_numbers.h"
-#include "evaluation/report_table.h"
+#include "labels/label_text.h"
 
 namespace sigs {
 
 namespace {
 
-// System colours follow the reader's light or dark scheme; the plots have a white ground of their own.
+// System colours follow the reader's light or dark scheme; the plots have a white background of their own.
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark; }
 body { margin: 0; background: Canvas; color: CanvasText; font: 16px/1.5 system-ui, sans-serif; }
@@ -28,31 +30,11 @@ footer { margin-top: 2rem; font-size: .85rem; }
 )";
 
 std::string html(const std::string& text) {
-  std::string made;
-  for (const char c : line_text(text)) switch (c) {
-      case '&':
-        made += "&amp;";
-        break;
-      case '<':
-        made += "&lt;";
-        break;
-      case '>':
-        made += "&gt;";
-        break;
-      case '"':
-        made += "&quot;";
-        break;
-      case '\'':
-        made += "&#39;";
-        break;
-      default:
-        made += c;
-    }
-  return made;
+  return escaped_text(line_text(text), "'");
 }
 
 std::string element(const std::string& name, const std::string& text) {
-  return "<" + name + ">" + html(text) + "</" + name + ">";
+  return fmt::format("<{0}>{1}</{0}>", name, html(text));
 }
 
 std::string table_html(const std::vector<TableColumn>& columns) {
@@ -78,7 +60,7 @@ std::string replaced(std::string text, std::string_view from, const std::string&
   return text;
 }
 
-// Within a page, names are shared by all images; each gets its own.
+// An SVG image as part of the page. All images of a page share one space of ids, so the plot's name goes before each.
 std::string inlined(const ReportPlot& image) {
   const std::size_t begin = image.svg.find("<svg");
   if (begin == std::string::npos) return "";
@@ -113,10 +95,9 @@ std::string page(const std::string& title, const std::string& body) {
 
 std::string clip_text(const TrackReport& report) {
   const FootageTruth& footage = report.footage;
-  return footage.video + ", " + std::to_string(footage.size_px.width) + " x " + std::to_string(footage.size_px.height) +
-         " pixels, frames " + std::to_string(footage.first_frame) + " to " + std::to_string(footage.last_frame) + ", " +
-         fixed_text(double(footage.frame_rate_num) / footage.frame_rate_den, 2) +
-         " frames/s. Followed: " + report.target + ", from frame " + std::to_string(report.policy.from_frame) + ".";
+  return fmt::format("{}, {} x {} pixels, frames {} to {}, {} frames/s. Followed: {}, from frame {}.", footage.video,
+                     footage.size_px.width, footage.size_px.height, footage.first_frame, footage.last_frame,
+                     fixed_text(rate_hz(footage), 2), report.target, report.policy.from_frame);
 }
 
 }  // namespace

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
 
+#include "base/text.h"
 #include "evaluation/report_files.h"
-#include "evaluation/report_numbers.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr double kMaxLinear_px = 60;  // beyond it, small errors would lie on the axis
+constexpr double kMaxLinear_px = 60;  // of a linear scale: beyond it small errors could not be told from 0
 
 using ErrorOf = std::function<std::optional<double>(const FrameScore&)>;
 
@@ -28,7 +30,7 @@ std::vector<std::vector<PlotPoint>> runs_of(const TrackScore& score, const Error
   return runs;
 }
 
-// Stretches of frames that no tracker is scored in.
+// Ranges of frames in which no tracker is scored.
 std::vector<PlotSpan> unscored(const TrackReport& report) {
   std::vector<PlotSpan> spans;
   if (report.scores.empty()) return spans;
@@ -45,7 +47,7 @@ std::vector<PlotSpan> unscored(const TrackReport& report) {
   return spans;
 }
 
-// All points and zero, with a margin.
+// The range of all values and zero, with a margin.
 PlotSpan range_around(const std::vector<PlotSeries>& series) {
   PlotSpan range;
   for (const PlotSeries& one : series)
@@ -55,12 +57,11 @@ PlotSpan range_around(const std::vector<PlotSeries>& series) {
   return {range.first < 0 ? range.first - margin : 0.0, range.last + margin};
 }
 
-// A mean over a part of the frames alone says so; of fewer than half there is none.
+// A mean over only a part of the frames is marked as such; over fewer than half of them none is given.
 std::string title_of(const TrackScore& score, double mean_px) {
-  const std::string mean = score.name + ", mean " + fixed_text(mean_px, 2) + " px";
+  const std::string mean = fmt::format("{}, mean {} px", score.name, fixed_text(mean_px, 2));
   if (score.reported == score.scored) return mean;
-  const std::string frames =
-      " (in " + std::to_string(score.reported) + " of " + std::to_string(score.scored) + " frames)";
+  const std::string frames = fmt::format(" (in {} of {} frames)", score.reported, score.scored);
   return 2 * score.reported < score.scored ? score.name + frames : mean + frames;
 }
 
@@ -116,7 +117,7 @@ Plot curve_plot(const TrackReport& report, const CurvePlot& kind) {
   return plot;
 }
 
-// How many of the encounters were seen by the time the range had come down to x: a staircase from far to near.
+// The share of the encounters detected before the range has decreased to x: a step function from far to near.
 PlotSeries first_ranges(const DetectionScore& score, double max_range_m) {
   std::vector<double> ranges_m;
   for (const EncounterScore& encounter : score.encounters)

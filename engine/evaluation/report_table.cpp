@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/report_table.h"
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include "base/ensure.h"
@@ -18,13 +20,13 @@ enum class Best { none, least, most };
 template <class Score>
 TableColumn column(const std::vector<Score>& scores, std::string title, std::string unit, int decimals, Best best,
                    const std::function<double(const Score&)>& value) {
-  TableColumn made{.title = std::move(title), .unit = std::move(unit)};
+  TableColumn out{.title = std::move(title), .unit = std::move(unit)};
   std::vector<double> values;
   for (const Score& score : scores) values.push_back(value(score));
-  for (const double one : values) made.cells.push_back(fixed_text(one, decimals));
-  made.is_best =
+  for (const double one : values) out.cells.push_back(fixed_text(one, decimals));
+  out.is_best =
       best == Best::none ? std::vector<bool>(values.size(), false) : best_of(values, best == Best::most, decimals);
-  return made;
+  return out;
 }
 
 template <class Score>
@@ -35,22 +37,22 @@ TableColumn names_of(const std::vector<Score>& scores, std::string title) {
 }
 
 TableColumn rates(const std::vector<DetectionScore>& scores, std::string title, DetectionRate DetectionScore::*rate) {
-  TableColumn made = column<DetectionScore>(scores, std::move(title), "EDR", 3, Best::most, [rate](const auto& score) {
+  TableColumn out = column<DetectionScore>(scores, std::move(title), "EDR", 3, Best::most, [rate](const auto& score) {
     const DetectionRate& of = score.*rate;
     return of.encounters > 0 ? of.rate() : std::numeric_limits<double>::quiet_NaN();
   });
   for (std::size_t i = 0; i < scores.size(); ++i)
-    made.cells[i] +=
-        " (" + std::to_string((scores[i].*rate).detected) + "/" + std::to_string((scores[i].*rate).encounters) + ")";
-  return made;
+    out.cells[i] += fmt::format(" ({}/{})", (scores[i].*rate).detected, (scores[i].*rate).encounters);
+  return out;
 }
 
 bool any_of(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
-// What stands in a column, titles first. Marks take a place of their own, so that points stay below points.
-std::vector<std::string> lines_of(const TableColumn& column) {
+// The lines of a column, its title and unit first. Marks have a character of their own, so that decimal points are
+// aligned.
+std::vector<std::string> column_lines(const TableColumn& column) {
   const std::string none = any_of(column.is_best) || any_of(column.is_partial) ? " " : "";
   std::vector<std::string> lines{column.title + none, column.unit + none};
   for (std::size_t i = 0; i < column.cells.size(); ++i) {
@@ -71,24 +73,24 @@ bool has_few_reports(const TrackScore& score) {
   return score.reported > 0 && 2 * score.reported < score.scored;
 }
 
-// An error is the mean of those frames that have a report. Of few frames none is shown: a tracker that follows for one
-// frame and gives up would look best.
+// An error is the mean over the frames that have a report. It is not shown for few such frames: a tracker that follows
+// for one frame and gives up would look best.
 TableColumn error_column(const std::vector<TrackScore>& scores, std::string title, std::string unit,
                          double TrackScore::*error) {
-  TableColumn made =
+  TableColumn out =
       column<TrackScore>(scores, std::move(title), std::move(unit), 2, Best::none, [error](const TrackScore& score) {
         return has_few_reports(score) ? std::numeric_limits<double>::quiet_NaN() : score.*error;
       });
-  for (const TrackScore& score : scores) made.is_partial.push_back(has_few_reports(score));
-  return made;
+  for (const TrackScore& score : scores) out.is_partial.push_back(has_few_reports(score));
+  return out;
 }
 
 TableColumn text_column(std::string title, std::string unit) {
   return {.title = std::move(title), .unit = std::move(unit)};
 }
 
-std::string frames_text(const EncounterScore& encounter) {
-  return std::to_string(encounter.first_frame) + " to " + std::to_string(encounter.last_frame);
+std::string frame_range_text(const EncounterScore& encounter) {
+  return fmt::format("{} to {}", encounter.first_frame, encounter.last_frame);
 }
 
 std::string padded(const std::string& text, std::size_t width, bool to_left) {
@@ -106,7 +108,7 @@ std::string right_trimmed(std::string line) {
 std::vector<TableColumn> table_of(const TrackReport& report) {
   using Score = TrackScore;
   const std::vector<Score>& scores = report.scores;
-  // A tracker that gives up early has small errors: those of the frames that it reports. Nothing is best there.
+  // A tracker that gives up early has small errors, those of the frames that it reports, so no error is marked as best.
   return {names_of(scores, "tracker"),
           error_column(scores, "CLE", "mean px", &Score::mean_center_error_px),
           error_column(scores, "CLE", "median", &Score::median_center_error_px),
@@ -142,7 +144,7 @@ std::vector<TableColumn> table_of(const DetectionReport& report) {
       column<Score>(scores, "first seen", "mean m", 0, Best::none, [](const Score& s) { return s.mean_first_range_m; }),
       column<Score>(scores, "frames", "", 0, Best::none, [](const Score& s) { return double(s.frames); }),
       column<Score>(scores, "time", "h", 4, Best::none, [](const Score& s) { return s.hours; })};
-  // Most clips say where their horizon lies.
+  // Of most clips it is known where the horizon lies.
   const bool has_unknown = std::any_of(scores.begin(), scores.end(),
                                        [](const Score& score) { return score.unknown_horizon.encounters > 0; });
   if (has_unknown) columns.insert(columns.begin() + 5, rates(scores, "unknown", &Score::unknown_horizon));
@@ -161,7 +163,7 @@ std::vector<TableColumn> encounters_of(const DetectionReport& report) {
       const std::vector<std::string> cells{line_text(score.name),
                                            line_text(encounter.clip),
                                            std::to_string(encounter.target),
-                                           frames_text(encounter),
+                                           frame_range_text(encounter),
                                            std::string(name_of(encounter.horizon)),
                                            fixed_text(encounter.min_range_m, 0),
                                            encounter.is_detected ? "yes" : "no",
@@ -196,7 +198,7 @@ std::string aligned(const std::vector<TableColumn>& columns) {
   ENSURE(!columns.empty());
   std::vector<std::string> rows(columns.front().cells.size() + 2);
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const std::vector<std::string> lines = lines_of(columns[c]);
+    const std::vector<std::string> lines = column_lines(columns[c]);
     ENSURE(lines.size() == rows.size());
     std::size_t width = 0;
     for (const std::string& line : lines) width = std::max(width, columns_of(line));
@@ -206,6 +208,19 @@ std::string aligned(const std::vector<TableColumn>& columns) {
   std::string text;
   for (const std::string& row : rows) text += right_trimmed(row) + "\n";
   return text;
+}
+
+std::vector<bool> best_of(const std::vector<double>& values, bool larger_is_better, int decimals) {
+  std::vector<bool> best(values.size(), false);
+  std::vector<double> finite;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+               [](double value) { return std::isfinite(value); });
+  if (values.size() < 2 || finite.empty()) return best;
+  const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
+  const std::string wanted = fixed_text(larger_is_better ? *most : *least, decimals);
+  for (std::size_t i = 0; i < values.size(); ++i) best[i] = fixed_text(values[i], decimals) == wanted;
+  if (std::all_of(best.begin(), best.end(), [](bool is_best) { return is_best; })) best.assign(values.size(), false);
+  return best;
 }
 
 std::string table_text(const TrackReport& report) {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/results.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "base/staged_outputs.h"
 #include "evaluation/numbers.h"
 #include "evaluation/results_formats.h"
-#include "evaluation/text_lines.h"
+#include "evaluation/text_parsing.h"
 
 namespace sigs {
 
@@ -30,7 +33,7 @@ std::optional<TextLine> first_line(const std::string& text) {
   return line;
 }
 
-// A text that no reader could make anything of.
+// Refuses a file that is not text, or has no line.
 Result<void> check_text(const ResultsFile& file) {
   const std::string& text = file.text;
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
@@ -44,14 +47,13 @@ Result<void> check_text(const ResultsFile& file) {
 }
 
 Result<ResultsFormat> detected_format(const ResultsFile& file) {
-  const TextLine first = *first_line(file.text);  // check_text has seen that there is one
+  const TextLine first = *first_line(file.text);  // check_text() has found that there is one
   if (lower_case(file.path.extension().string()) == ".json" || first.text.starts_with('[') ||
       first.text.starts_with('{'))
     return json_format(file);
-  std::vector<std::string_view> fields;
-  split_values(first.text, fields);
-  if (std::ranges::find(fields, "frame") != fields.end()) return ResultsFormat::csv;
-  split_numbers(first.text, fields);
+  const std::vector<std::string_view> columns = csv_fields(first.text);
+  if (std::ranges::find(columns, "frame") != columns.end()) return ResultsFormat::csv;
+  const std::vector<std::string_view> fields = number_fields(first.text);
   const auto is_number = [](std::string_view field) { return number_of(field).has_value(); };
   const auto wrong = std::ranges::find_if_not(fields, is_number);
   if (wrong != fields.end())
@@ -117,6 +119,88 @@ Result<Results> read_results(const std::filesystem::path& path, const FootageTru
 
 std::string results_name(const std::filesystem::path& path) {
   return path.stem().string();
+}
+
+namespace {
+
+constexpr double kMaxReported_px = 1e9;  // larger numbers make areas inexact
+
+Result<void> wrong_number(const ResultsFile& file, int line, const char* name, double number) {
+  if (std::isnan(number))
+    return file.wrong(line, std::string(name) +
+                                " is NaN: leave out a frame without a box (mot, csv, aot, coco), or write nan "
+                                "alone on its line (vot)");
+  if (std::isinf(number)) return file.wrong(line, std::string(name) + " is infinite");
+  return file.wrong(line, std::string(name) + " is beyond a billion pixels");
+}
+
+}  // namespace
+
+tl::unexpected<Error> ResultsFile::wrong(int line, const std::string& what) const {
+  return fail(fmt::format("{}: line {}", path.string(), line), what);
+}
+
+std::string frames_text(const FootageTruth& clip) {
+  return fmt::format("frames {} to {}", clip.first_frame, clip.last_frame);
+}
+
+Result<void> ResultsBuilder::add(int frame, const ReportedBox& reported) {
+  if (const Result<void> good = check_box(reported); !good) return good;
+  if (const Result<void> good = check_place(frame, reported); !good) return good;
+  results_.frames[frame].push_back(reported);
+  return {};
+}
+
+std::string ResultsBuilder::frame_text(int frame) const {
+  if (first_number_ == file_.clip.first_frame) return std::to_string(frame);
+  return fmt::format("{} ({} of the footage)", frame - file_.clip.first_frame + first_number_, frame);
+}
+
+Result<void> ResultsBuilder::check_box(const ReportedBox& reported) const {
+  const Box& box = reported.box;
+  const std::pair<const char*, double> numbers[] = {
+      {"x", box.x}, {"y", box.y}, {"width", box.width}, {"height", box.height}};
+  for (const auto& [name, number] : numbers)
+    if (!(std::abs(number) <= kMaxReported_px)) return wrong_number(file_, reported.line, name, number);
+  if (!std::isfinite(reported.score)) return wrong_number(file_, reported.line, "score", reported.score);
+  if (box.width > 0 && box.height > 0) return {};
+  return file_.wrong(
+      reported.line,
+      fmt::format("the box is {} wide and {} high: both must be more than 0; where nothing is reported, leave out the "
+                  "frame (mot, csv, aot, coco) or write nan alone on its line (vot)",
+                  number_text(box.width, 6), number_text(box.height, 6)));
+}
+
+Result<void> ResultsBuilder::check_place(int frame, const ReportedBox& reported) const {
+  const FootageTruth& clip = file_.clip;
+  if (frame < clip.first_frame || frame > clip.last_frame)
+    return file_.wrong(reported.line, fmt::format("frame {} of the footage is not of this clip, which is {}", frame,
+                                                  frames_text(clip)));
+  const auto found = results_.frames.find(frame);
+  if (found == results_.frames.end()) return {};
+  const std::vector<ReportedBox>& there = found->second;
+  if (!file_.options.multiple_per_frame)
+    return file_.wrong(reported.line,
+                       fmt::format("a second box for frame {}, first in line {}: a tracker reports one a frame",
+                                   frame_text(frame), there.front().line));
+  const auto duplicate = std::ranges::find(there, reported.track, &ReportedBox::track);
+  if (reported.track == kNoTrack || duplicate == there.end()) return {};
+  return file_.wrong(reported.line, fmt::format("id {} a second time in frame {}, first in line {}", reported.track,
+                                                frame_text(frame), duplicate->line));
+}
+
+std::string csv_text(const Results& results) {
+  std::string text = "frame,x,y,width,height,score,track\n";
+  for (const auto& [frame, boxes] : results.frames)
+    for (const ReportedBox& reported : boxes) {
+      text += std::to_string(frame);
+      // The file counts pixels: x is the first column covered.
+      for (const double number :
+           {reported.box.x + 0.5, reported.box.y + 0.5, reported.box.width, reported.box.height, reported.score})
+        text.append(",").append(exact_text(number));
+      text.append(",").append(std::to_string(reported.track)).append("\n");
+    }
+  return text;
 }
 
 }  // namespace sigs

@@ -1,200 +1,137 @@
 // SPDX-License-Identifier: MIT
-// Results of the Airborne Object Tracking challenge: [{"img_name": ..., "detections": [{"x": ...}, ...]}, ...].
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "evaluation/counting_iterator.h"
-#include "evaluation/numbers.h"
-#include "evaluation/results_formats.h"
+#include "evaluation/results_json.h"
+#include "evaluation/text_parsing.h"
 
 namespace sigs {
 
 namespace {
 
-enum Field { x_field, y_field, w_field, h_field, score_field, track_field, kFields };
-constexpr const char* kFieldNames[kFields] = {"x", "y", "w", "h", "s", "track_id"};
+enum AotField { x_field, y_field, w_field, h_field, score_field, track_field, kAotFields };
+constexpr const char* kAotFieldNames[kAotFields] = {"x", "y", "w", "h", "s", "track_id"};
 
-struct Detection {
-  std::optional<double> values[kFields];
+struct AotDetection {
+  std::optional<double> values[kAotFields];
   int line = 0;
 };
 
-// One element of the list: the detections may come before the image's name.
+// One entry of the list. Its boxes are added at its end, since the detections may come before the image's name.
 struct AotImage {
   std::optional<std::string> name;
-  std::vector<Detection> detections;
+  std::vector<AotDetection> detections;
+  std::optional<int> checked;  // position of the detection that is being added
   int line = 0;
 };
 
-// Told of one token after the other.
-class AotHandler : public nlohmann::json_sax<nlohmann::json> {
+// Results of the Airborne Object Tracking challenge:
+// [{"img_name": ..., "detections": [{"x": ..., "y": ..., "w": ..., "h": ..., "s": ...}, ...]}, ...].
+class AotReader : public JsonListReader {
  public:
-  AotHandler(const ResultsFile& file, const int& line) : file_(file), line_(line), builder_(file) {}
-
-  [[nodiscard]] Results results() {
-    Results results = builder_.results();
-    results.clip = clip_;
-    return results;
-  }
-  [[nodiscard]] const Error& error() const { return error_; }
-
-  bool null() override { return unexpected_value("null"); }
-  bool boolean(bool) override { return unexpected_value("true or false"); }
-  bool binary(binary_t&) override { return unexpected_value("binary"); }
-  bool number_integer(number_integer_t number) override { return on_number(static_cast<double>(number)); }
-  bool number_unsigned(number_unsigned_t number) override { return on_number(static_cast<double>(number)); }
-  bool number_float(number_float_t number, const string_t&) override { return on_number(number); }
-  bool key(string_t& name) override {
-    key_ = name;
-    return true;
-  }
-  bool string(string_t& text) override;
-  bool start_object(std::size_t) override;
-  bool end_object() override;
-  bool start_array(std::size_t) override;
-  bool end_array() override;
-  bool parse_error(std::size_t position, const std::string& token, const nlohmann::json::exception&) override;
+  explicit AotReader(const ResultsFile& results) : JsonListReader(results, results.clip.first_frame) {}
 
  private:
   enum class State { outside, list, image, detections, detection };
 
-  bool fails(int line, const std::string& what) {
-    error_ = file_.wrong(line, what).value();
-    if (is_one_line_) error_.where += entry_text(static_cast<int>(image_.detections.size()) - 1);
-    return false;
+  bool on_number(double number) override;
+  bool on_text(const std::string& text) override;
+  bool starts_object() override;
+  bool starts_list() override;
+  bool on_object_end() override;
+  void on_list_end() override { state_ = state_ == State::detections ? State::image : State::outside; }
+  [[nodiscard]] bool skips_object() const override {
+    return (state_ == State::image && key() != "detections") || (state_ == State::detection && !field());
   }
-  [[nodiscard]] std::optional<Field> field() const;
-  bool on_number(double number);
-  bool unexpected_value(const char* what);
+  bool unexpected_value(const char* what) override;
+  [[nodiscard]] std::string place_in_list() const override;
+
+  [[nodiscard]] std::optional<AotField> field() const;
   bool add_image();
-  bool add_detection(int frame, const Detection& detection);
+  bool add_detection(int frame, const AotDetection& detection);
 
-  // ", [17].detections[0]": where a line number tells nothing.
-  [[nodiscard]] std::string entry_text(int detection) const {
-    if (images_ == 0 || state_ == State::list || state_ == State::outside) return "";
-    const std::string image = ", [" + std::to_string(images_ - 1) + "]";
-    return detection < 0 ? image : image + ".detections[" + std::to_string(detection) + "]";
-  }
-
-  const ResultsFile& file_;
-  const int& line_;
-  bool is_one_line_ = file_.text.find('\n') >= file_.text.find_last_not_of(" \r\n");
-  int images_ = 0;
-  std::string clip_;
-  ResultsBuilder builder_;
-  Error error_;
   State state_ = State::outside;
-  int skipped_depth_ = 0;  // in how many objects and arrays of keys that are not read
-  std::string key_;
+  int images_ = 0;  // begun so far
   AotImage image_;
   std::map<int, int> line_of_frame_;
 };
 
-std::optional<Field> AotHandler::field() const {
-  if (state_ != State::detection || skipped_depth_ > 0) return std::nullopt;
-  if (key_ == "object_id") return track_field;
-  const auto found = std::ranges::find(kFieldNames, key_);
-  if (found == std::end(kFieldNames)) return std::nullopt;
-  return static_cast<Field>(found - std::begin(kFieldNames));
+// ", [17].detections[0]"
+std::string AotReader::place_in_list() const {
+  if (images_ == 0 || state_ == State::list || state_ == State::outside) return "";
+  const std::string image = ", [" + std::to_string(images_ - 1) + "]";
+  const int detection = image_.checked.value_or(static_cast<int>(image_.detections.size()) - 1);
+  return detection < 0 ? image : image + ".detections[" + std::to_string(detection) + "]";
 }
 
-bool AotHandler::on_number(double number) {
-  if (const std::optional<Field> at = field()) {
-    image_.detections.back().values[*at] = number;
-    return true;
-  }
-  return unexpected_value("a number");
+std::optional<AotField> AotReader::field() const {
+  if (state_ != State::detection) return std::nullopt;
+  if (key() == "object_id") return track_field;
+  const auto found = std::ranges::find(kAotFieldNames, key());
+  if (found == std::end(kAotFieldNames)) return std::nullopt;
+  return static_cast<AotField>(found - std::begin(kAotFieldNames));
 }
 
-bool AotHandler::unexpected_value(const char* what) {
-  if (skipped_depth_ > 0) return true;
-  if (field()) return fails(line_, key_ + " is " + what + ", not a number");
-  if (state_ == State::image && key_ == "img_name") return fails(line_, std::string("img_name is ") + what);
-  if (state_ == State::image && key_ == "detections")
-    return fails(line_, std::string("detections is ") + what + ", not a list");
+bool AotReader::on_number(double number) {
+  const std::optional<AotField> at = field();
+  if (!at) return unexpected_value("a number");
+  image_.detections.back().values[*at] = number;
+  return true;
+}
+
+bool AotReader::on_text(const std::string& text) {
+  if (state_ != State::image || key() != "img_name") return unexpected_value("text");
+  image_.name = text;
+  return true;
+}
+
+bool AotReader::unexpected_value(const char* what) {
+  if (field()) return fails(line(), key() + " is " + what + ", not a number");
+  if (state_ == State::image && key() == "img_name") return fails(line(), std::string("img_name is ") + what);
+  if (state_ == State::image && key() == "detections")
+    return fails(line(), std::string("detections is ") + what + ", not a list");
   if (state_ == State::image || state_ == State::detection) return true;
-  return fails(line_,
+  return fails(line(),
                std::string("is ") + what +
                    "; results are [{\"img_name\": ..., \"detections\": [{...}]}, ...] (aot) or [{\"image_id\": ..., "
                    "\"bbox\": [x, y, w, h], \"score\": ...}, ...] (coco)");
 }
 
-bool AotHandler::string(string_t& text) {
-  if (state_ == State::image && skipped_depth_ == 0 && key_ == "img_name") {
-    image_.name = text;
-    return true;
-  }
-  return unexpected_value("text");
-}
-
-bool AotHandler::start_object(std::size_t) {
-  if (skipped_depth_ > 0 || (state_ == State::image && key_ != "detections") ||
-      (state_ == State::detection && !field())) {
-    ++skipped_depth_;
-    return true;
-  }
+bool AotReader::starts_object() {
   if (state_ == State::list) {
-    image_ = {.line = line_};
+    image_ = {.line = line()};
     ++images_;
     state_ = State::image;
-    key_.clear();
     return true;
   }
-  if (state_ == State::detections) {
-    image_.detections.push_back({.line = line_});
-    state_ = State::detection;
-    key_.clear();
-    return true;
-  }
-  return unexpected_value("an object");
+  if (state_ != State::detections) return false;
+  image_.detections.push_back({.line = line()});
+  state_ = State::detection;
+  return true;
 }
 
-bool AotHandler::end_object() {
-  if (skipped_depth_ > 0) {
-    --skipped_depth_;
-    return true;
-  }
-  if (state_ == State::detection) {
-    state_ = State::detections;
-    return true;
-  }
-  const bool taken = add_image();
-  state_ = State::list;
-  return taken;
-}
-
-bool AotHandler::start_array(std::size_t) {
+bool AotReader::starts_list() {
   if (state_ == State::outside) {
     state_ = State::list;
     return true;
   }
-  if (state_ == State::image && skipped_depth_ == 0 && key_ == "detections") {
+  if (state_ != State::image || key() != "detections") return false;
+  state_ = State::detections;
+  return true;
+}
+
+bool AotReader::on_object_end() {
+  if (state_ == State::detection) {
     state_ = State::detections;
     return true;
   }
-  if (!unexpected_value("a list")) return false;
-  ++skipped_depth_;
-  return true;
+  const bool is_added = add_image();
+  state_ = State::list;
+  return is_added;
 }
 
-bool AotHandler::end_array() {
-  if (skipped_depth_ > 0) {
-    --skipped_depth_;
-  } else {
-    state_ = state_ == State::detections ? State::image : State::outside;
-  }
-  return true;
-}
-
-bool AotHandler::parse_error(std::size_t position, const std::string& token, const nlohmann::json::exception&) {
-  const std::size_t at = std::min(position > 0 ? position - 1 : 0, file_.text.size());
-  return fails(line_at(file_.text, at), "is not JSON from here on" + (token.empty() ? "" : ", at " + in_quotes(token)));
-}
-
-bool AotHandler::add_image() {
+bool AotReader::add_image() {
   if (!image_.name) return fails(image_.line, "has no img_name");
   const std::optional<int> frame = frame_of_image(*image_.name);
   if (!frame)
@@ -204,42 +141,29 @@ bool AotHandler::add_image() {
   if (!is_first)
     return fails(image_.line,
                  "frame " + std::to_string(*frame) + " a second time, first in line " + std::to_string(there->second));
-  if (clip_.empty()) clip_ = folder_of_image(*image_.name);
+  set_clip_of_image(*image_.name);
   for (std::size_t i = 0; i < image_.detections.size(); ++i) {
-    if (add_detection(*frame, image_.detections[i])) continue;
-    if (is_one_line_) error_.where = file_.wrong(image_.line, "").value().where + entry_text(static_cast<int>(i));
-    return false;
+    image_.checked = static_cast<int>(i);
+    if (!add_detection(*frame, image_.detections[i])) return false;
   }
   return true;
 }
 
-bool AotHandler::add_detection(int frame, const Detection& detection) {
-  for (const Field needed : {x_field, y_field, w_field, h_field})
-    if (!detection.values[needed]) return fails(detection.line, std::string("has no ") + kFieldNames[needed]);
+bool AotReader::add_detection(int frame, const AotDetection& detection) {
+  for (const AotField needed : {x_field, y_field, w_field, h_field})
+    if (!detection.values[needed]) return fails(detection.line, std::string("has no ") + kAotFieldNames[needed]);
   const auto& values = detection.values;
-  const std::optional<int> track = integer_of(values[track_field].value_or(kNoTrack));
-  if (!track) return fails(detection.line, "track_id is no whole number");
   const double width = *values[w_field];
   const double height = *values[h_field];
-  const Result<void> added = builder_.add(frame, {.box = {*values[x_field] - width / 2 - kEdgeFrom0,
-                                                          *values[y_field] - height / 2 - kEdgeFrom0, width, height},
-                                                  .score = values[score_field].value_or(1),
-                                                  .track = *track < 0 ? kNoTrack : *track,
-                                                  .line = detection.line});
-  if (!added) error_ = added.error();
-  return added.has_value();
+  // x and y are the centre of the box; the origin is the upper left corner of the first pixel.
+  const Box box{*values[x_field] - width / 2 - kEdgeFrom0, *values[y_field] - height / 2 - kEdgeFrom0, width, height};
+  return add_box(frame, box, values[score_field].value_or(1), values[track_field].value_or(kNoTrack), detection.line);
 }
 
 }  // namespace
 
 Result<Results> read_aot(const ResultsFile& file) {
-  int line = 1;
-  AotHandler handler(file, line);
-  const char* begin = file.text.data();
-  const char* end = begin + file.text.size();
-  if (!nlohmann::json::sax_parse(CountingIterator(begin, &line), CountingIterator(end, &line), &handler))
-    return fail(handler.error());
-  return handler.results();
+  return AotReader(file).read();
 }
 
 }  // namespace sigs

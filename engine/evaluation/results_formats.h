@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How results.cpp reads each layout; docs/evaluation.md defines them.
-
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -14,32 +12,40 @@
 
 namespace sigs {
 
-// One file on its way in.
+// The readers of the layouts of results, one function for each, which read_results() (results.cpp) chooses from. They
+// give every box to a ResultsBuilder. docs/evaluation.md defines the layouts.
+
+// A file of results that is being read.
 struct ResultsFile {
-  std::filesystem::path path;
-  std::string text;
-  FootageTruth clip;
+  std::filesystem::path path;  // for messages
+  std::string text;            // all of it
+  FootageTruth clip;           // that it is about
   ResultsOptions options;
 
-  // "scores.txt: line 12: what"
+  // Error bad_data: "scores.txt: line 12: what". line counts from 1.
   [[nodiscard]] tl::unexpected<Error> wrong(int line, const std::string& what) const;
 };
 
-// Where a layout counts pixels from: its x, less this, is the left edge of base/image.h.
-inline constexpr double kEdgeFrom0 = 0.5;  // x is the first column, counted from 0
-inline constexpr double kEdgeFrom1 = 1.5;  // ... from 1
+// Subtracted from a layout's x, these give the left edge of a Box (base/image.h); likewise for y.
+inline constexpr double kEdgeFrom0 = 0.5;  // x is the first column of the box, counted from 0
+inline constexpr double kEdgeFrom1 = 1.5;  // ... counted from 1
 
-// Takes boxes in and looks at each, whatever the layout.
+// Collects the boxes of a file and checks each of them, whatever its layout.
 class ResultsBuilder {
  public:
   explicit ResultsBuilder(const ResultsFile& file) : ResultsBuilder(file, file.clip.first_frame) {}
-  // first_number: what the file calls the clip's first frame, for messages.
+
+  // first_number: the file's number of the clip's first frame, for messages.
   ResultsBuilder(const ResultsFile& file, int first_number) : file_(file), first_number_(first_number) {}
 
-  // frame: the footage's number.
+  // Adds a box. frame: the footage's number. Error bad_data: numbers that are NaN, infinite or beyond a billion pixels,
+  // no area, a frame outside the clip, a second box or a second use of a track id in the frame.
   [[nodiscard]] Result<void> add(int frame, const ReportedBox& reported);
+
+  // The frame's box was given to the tracker (Results::initializations).
   void mark_initialization(int frame) { results_.initializations.insert(frame); }
 
+  // What was added; call it once, at the end.
   [[nodiscard]] Results results() { return std::move(results_); }
 
  private:
@@ -56,16 +62,11 @@ class ResultsBuilder {
 // "frames 0 to 99"
 [[nodiscard]] std::string frames_text(const FootageTruth& clip);
 
-// Frame number at the end of an image's name without extension: "flight/frame_000123.png" is 123.
-[[nodiscard]] std::optional<int> frame_of_image(std::string_view image);
-
-// The folder that an image lies in: of "flights/one/frame_000123.png" it is "one"; empty: it says none.
-[[nodiscard]] std::string folder_of_image(const std::string& image);
-
-// Which of the layouts in JSON a text has: told by the first entry's keys. An empty list is both; aot is said.
-// Error bad_data: its entries have the keys of neither.
+// Which layout a file in JSON has (aot or coco), judged by the keys of its first entry; aot for an empty list, which is
+// valid in both. Error bad_data: the entry has the keys of neither.
 [[nodiscard]] Result<ResultsFormat> json_format(const ResultsFile& file);
 
+// One reader for each layout. Error bad_data names file and line.
 [[nodiscard]] Result<Results> read_otb(const ResultsFile& file);
 [[nodiscard]] Result<Results> read_vot(const ResultsFile& file);
 [[nodiscard]] Result<Results> read_mot(const ResultsFile& file);

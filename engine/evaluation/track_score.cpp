@@ -19,7 +19,7 @@ const std::optional<Box>& true_box(const TargetFrame& truth, const TrackPolicy& 
   return policy.truth == TruthBox::visible ? truth.visible : truth.amodal_box;
 }
 
-// Whether there is something to follow: a silhouette of which nothing can be seen is not.
+// Whether the target can be followed: some of it must be visible.
 bool is_trackable(const TargetFrame& truth, const TrackPolicy& policy) {
   return truth.visible.has_value() && true_box(truth, policy).has_value();
 }
@@ -29,7 +29,7 @@ bool is_counted(int frame, const TargetFrame& truth, const TrackPolicy& policy) 
          truth.visible_fraction >= policy.min_visible_fraction;
 }
 
-// An error of nothing is nothing, also of a box without width.
+// 0 for an error of 0, also of a box without width.
 double share_of(double error, double size) {
   return error == 0 ? 0 : error / size;
 }
@@ -164,6 +164,14 @@ std::optional<int> first_frame_to_track(const ClipTruth& clip, const TargetTruth
     if (std::min(box.width, box.height) >= min_side_px) return frame;
   }
   return std::nullopt;
+}
+
+std::optional<TrackPolicy> policy_from_start(const ClipTruth& clip, const TargetTruth& target, TrackPolicy policy,
+                                             double min_side_px) {
+  const std::optional<int> first = first_frame_to_track(clip, target, policy, min_side_px);
+  if (!first) return std::nullopt;
+  policy.from_frame = *first;
+  return policy;
 }
 
 }  // namespace sigs

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "labels/aot.h"
+#include "labels/formats.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
@@ -9,29 +11,26 @@
 
 #include "base/text.h"
 #include "labels/label_text.h"
-#include "labels/text_file.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr int kDecimals = 6;
-
-// A text as JSON has it, quotes and all; what is no UTF-8 becomes U+FFFD.
-std::string json_text(const std::string& text) {
+// A text as a JSON string, with its quotes; bytes that are not UTF-8 become U+FFFD.
+std::string json_string(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// "Airplane1": the category, its first letter large as in the data set, and the intruder's number from 1. A category
-// that ends in a digit keeps apart from the number.
+// "Airplane1": the category with a capital letter, as in the data set, and the intruder's number from 1, with an
+// underscore between them where the category ends in a digit.
 std::string object_id(const LabelledIntruder& intruder) {
   std::string name = line_name(intruder.category);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   if (name.front() >= 'a' && name.front() <= 'z') name.front() = static_cast<char>(name.front() - 'a' + 'A');
-  return name + (is_digit(name.back()) ? "_" : "") + std::to_string(intruder.id + 1);
+  return fmt::format("{}{}{}", name, is_digit(name.back()) ? "_" : "", intruder.id + 1);
 }
 
-// The data set marks 0 where it is unclear.
+// The data set has 0 where it is not clear.
 int horizon_code(HorizonSide side) {
   if (side == HorizonSide::on || side == HorizonSide::unknown) return 0;
   return side == HorizonSide::above ? 1 : -1;
@@ -39,13 +38,12 @@ int horizon_code(HorizonSide side) {
 
 std::string metadata_text(const LabelSequence& sequence) {
   const FootageTruth& footage = sequence.footage;
-  const double rate_hz = static_cast<double>(footage.frame_rate_num) / footage.frame_rate_den;
-  const int frames = footage.last_frame - footage.first_frame + 1;
-  return "{\"data_path\": " + json_text(sequence.images + "/") + ", \"fps\": " + number_text(rate_hz, kDecimals) +
-         ", \"number_of_frames\": " + std::to_string(frames) +
-         ", \"duration\": " + number_text(1000.0 * frames / rate_hz, kDecimals) +
-         ", \"resolution\": {\"height\": " + std::to_string(footage.size_px.height) +
-         ", \"width\": " + std::to_string(footage.size_px.width) + "}}";
+  const int frames = frame_count(footage);
+  return fmt::format(R"({{"data_path": {}, "fps": {}, "number_of_frames": {}, "duration": {}, )"
+                     R"("resolution": {{"height": {}, "width": {}}}}})",
+                     json_string(sequence.images + "/"), number_text(rate_hz(footage), kLabelDecimals), frames,
+                     number_text(1000.0 * frames / rate_hz(footage), kLabelDecimals), footage.size_px.height,
+                     footage.size_px.width);
 }
 
 class AotLabels : public LabelWriter {
@@ -56,7 +54,7 @@ class AotLabels : public LabelWriter {
     std::string text;
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds)) text += entity(truth, &intruder);
-    // A frame without objects stands there all the same: the metrics count the frames that were looked at.
+    // A frame without objects has an entity too: the metrics count the frames that were examined.
     return file_.put(text.empty() ? entity(truth, nullptr) : text);
   }
 
@@ -66,22 +64,24 @@ class AotLabels : public LabelWriter {
   }
 
  private:
+  // nullptr: the frame has no object.
   [[nodiscard]] std::string entity(const FrameTruth& truth, const IntruderTruth* labelled) {
     const auto time_ns = static_cast<std::int64_t>(std::llround(truth.time_s * 1e9));
-    std::string text = is_first_ ? "\n" : ",\n";
+    const char* const separator = is_first_ ? "\n" : ",\n";
     is_first_ = false;
-    text += "{\"time\": " + std::to_string(time_ns) + ", \"blob\": {\"frame\": " + std::to_string(truth.index);
-    if (labelled != nullptr)
-      text += ", \"range_distance_m\": " + number_text(glm::length(labelled->position_m), kDecimals) +
-              "}, \"id\": " + json_text(object_id(labelled_intruder(sequence_, labelled->id))) + ", \"bb\": [" +
-              joined({labelled->visible_box->x, labelled->visible_box->y, labelled->visible_box->width,
-                      labelled->visible_box->height},
-                     ", ") +
-              "], \"labels\": {\"is_above_horizon\": " + std::to_string(horizon_code(labelled->horizon)) + "}";
-    else
-      text += "}, \"labels\": {}";
-    return text + ", \"flight_id\": " + json_text(sequence_.name) +
-           ", \"img_name\": " + json_text(sequence_.images + "/" + image_name(truth.index)) + "}";
+    return fmt::format(R"({}{{"time": {}, "blob": {{"frame": {}{}, "flight_id": {}, "img_name": {}}})", separator,
+                       time_ns, truth.index, labelled == nullptr ? "}, \"labels\": {}" : object_text(*labelled),
+                       json_string(sequence_.name), json_string(sequence_.images + "/" + image_name(truth.index)));
+  }
+
+  // The rest of "blob", and what else an entity has that is an object.
+  [[nodiscard]] std::string object_text(const IntruderTruth& labelled) const {
+    const cv::Rect& box = *labelled.visible_box;
+    return fmt::format(
+        R"(, "range_distance_m": {}}}, "id": {}, "bb": [{}, {}, {}, {}], "labels": {{"is_above_horizon": {}}})",
+        number_text(glm::length(labelled.position_m), kLabelDecimals),
+        json_string(object_id(labelled_intruder(sequence_, labelled.id))), box.x, box.y, box.width, box.height,
+        horizon_code(labelled.horizon));
   }
 
   TextFile file_;
@@ -95,7 +95,7 @@ Result<std::unique_ptr<LabelWriter>> open_aot(const std::filesystem::path& path,
   Result<TextFile> file = TextFile::create(path);
   if (!file) return fail(file.error());
   const std::string head = "{\"metadata\": {\"description\": \"made with SIGS\"},\n\"samples\": {" +
-                           json_text(sequence.name) + ": {\"metadata\": " + metadata_text(sequence) +
+                           json_string(sequence.name) + ": {\"metadata\": " + metadata_text(sequence) +
                            ",\n\"entities\": [";
   if (const Result<void> put = file->put(head); !put) return fail(put.error());
   return std::make_unique<AotLabels>(std::move(*file), sequence);

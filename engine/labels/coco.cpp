@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/coco.h"
+#include "labels/formats.h"
 
 #include <cmath>
 #include <cstdint>
@@ -9,9 +9,6 @@
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "labels/label_text.h"
-#include "labels/own_body_parts.h"
-#include "labels/run_length.h"
-#include "labels/text_file.h"
 
 namespace sigs {
 
@@ -21,11 +18,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVideoId = 1;
 
-// What is no UTF-8 becomes U+FFFD.
-std::string text_of(const Json& json) {
+// On one line; bytes that are not UTF-8 become U+FFFD.
+std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+// To the digits of the other formats.
 double rounded(double number) {
   ENSURE(std::isfinite(number));
   return std::round(number * 1e6) / 1e6 + 0.0;  // no sign on a zero
@@ -35,7 +33,7 @@ Json json_of(const cv::Rect& box) {
   return {box.x, box.y, box.width, box.height};
 }
 
-// Truth counts from the first pixel's centre, COCO from its corner.
+// The origin is the centre of the first pixel in Box, its upper left corner in COCO.
 Json json_of(const Box& box) {
   return {rounded(box.x + 0.5), rounded(box.y + 0.5), rounded(box.width), rounded(box.height)};
 }
@@ -68,8 +66,8 @@ Json video_of(const LabelSequence& sequence) {
              {"name", sequence.name},
              {"width", footage.size_px.width},
              {"height", footage.size_px.height},
-             {"length", footage.last_frame - footage.first_frame + 1},
-             {"fps", rounded(double(footage.frame_rate_num) / footage.frame_rate_den)}};
+             {"length", frame_count(footage)},
+             {"fps", rounded(rate_hz(footage))}};
   if (!sequence.video.empty()) video["file_name"] = sequence.video;
   video["footage"] = {
       {"file_name", footage.video}, {"first_frame", footage.first_frame}, {"last_frame", footage.last_frame}};
@@ -97,15 +95,15 @@ class CocoLabels : public LabelWriter {
   }
 
   Result<void> begin() {
-    return file_.put("{\n\"info\": " + text_of(info_of(sequence_)) + ",\n\"licenses\": [],\n\"videos\": [\n" +
-                     text_of(video_of(sequence_)) + "\n],\n\"categories\": " + text_of(categories_of(sequence_)) +
-                     ",\n\"tracks\": " + text_of(tracks()) + ",\n\"annotations\": [");
+    return file_.put("{\n\"info\": " + dumped(info_of(sequence_)) + ",\n\"licenses\": [],\n\"videos\": [\n" +
+                     dumped(video_of(sequence_)) + "\n],\n\"categories\": " + dumped(categories_of(sequence_)) +
+                     ",\n\"tracks\": " + dumped(tracks()) + ",\n\"annotations\": [");
   }
 
   Result<void> write(const FrameTruth& truth) override {
     const int frame = truth.index - sequence_.footage.first_frame;
     const int image_id = frame + 1;
-    images_ += (images_.empty() ? "\n" : ",\n") + text_of(image_of(truth, frame, image_id));
+    images_ += (images_.empty() ? "\n" : ",\n") + dumped(image_of(truth, frame, image_id));
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds))
         if (const Result<void> put = put_annotation(annotation_of(intruder, image_id)); !put) return put;
@@ -115,7 +113,7 @@ class CocoLabels : public LabelWriter {
     return {};
   }
 
-  // The images come last, since they are known in full only with the last frame.
+  // The list of images comes last, since it is complete only after the last frame.
   Result<void> finish(const std::filesystem::path&) override {
     const Result<void> put = file_.put("\n],\n\"images\": [" + images_ + "\n]\n}\n");
     return put ? file_.close() : put;
@@ -174,7 +172,7 @@ class CocoLabels : public LabelWriter {
   Result<void> put_annotation(const Json& annotation) {
     Json numbered{{"id", ++annotations_}};
     numbered.update(annotation);
-    return file_.put((annotations_ == 1 ? "\n" : ",\n") + text_of(numbered));
+    return file_.put((annotations_ == 1 ? "\n" : ",\n") + dumped(numbered));
   }
 
   TextFile file_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/csv.h"
+#include "labels/formats.h"
 
 #include <string>
 #include <utility>
@@ -8,18 +8,12 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "labels/label_text.h"
-#include "labels/text_file.h"
-#include "labels/xml_text.h"
 
 namespace sigs {
 
 namespace {
 
-// As in the XML file.
-constexpr int kDecimals = 6;
-constexpr int kPixelDecimals = 4;
-
-constexpr std::string_view kHeader =
+constexpr std::string_view kCsvHeader =
     "frame,time_s,camera_x_m,camera_y_m,camera_z_m,camera_roll_deg,camera_pitch_deg,camera_yaw_deg,"
     "id,name,category,in_picture,inside_fraction,visible_fraction,horizon,"
     "x_m,y_m,z_m,distance_m,roll_deg,pitch_deg,yaw_deg,"
@@ -27,13 +21,14 @@ constexpr std::string_view kHeader =
     "silhouette_x_px,silhouette_y_px,silhouette_width_px,silhouette_height_px,"
     "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted\r\n";
 
-class Row {
+// One line, field by field.
+class CsvRow {
  public:
   void add(std::string_view text) {
     if (!text_.empty()) text_ += ',';
     text_ += csv_field(text);
   }
-  void add(double number, int decimals = kDecimals) { add(number_text(number, decimals)); }
+  void add(double number, int decimals = kLabelDecimals) { add(number_text(number, decimals)); }
   void add(int number) { add(std::to_string(number)); }
   void add(const glm::dvec3& position_m) {
     for (int i = 0; i < 3; ++i) add(position_m[i]);
@@ -48,7 +43,7 @@ class Row {
   std::string text_;
 };
 
-void add_boxes(Row& row, const IntruderTruth& truth) {
+void add_box_fields(CsvRow& row, const IntruderTruth& truth) {
   if (truth.visible_box) {
     for (const int number :
          {truth.visible_box->x, truth.visible_box->y, truth.visible_box->width, truth.visible_box->height})
@@ -59,7 +54,7 @@ void add_boxes(Row& row, const IntruderTruth& truth) {
   }
   if (!truth.amodal_box) return row.add_empty(4);
   const Box& box = *truth.amodal_box;
-  for (const double number : {box.x, box.y, box.width, box.height}) row.add(number, kPixelDecimals);
+  for (const double number : {box.x, box.y, box.width, box.height}) row.add(number, kLabelPixelDecimals);
 }
 
 class CsvLabels : public LabelWriter {
@@ -76,7 +71,7 @@ class CsvLabels : public LabelWriter {
 
  private:
   [[nodiscard]] std::string row_of(const FrameTruth& frame, const IntruderTruth& truth) const {
-    Row row;
+    CsvRow row;
     row.add(frame.index);
     row.add(frame.time_s);
     row.add(frame.camera_position_m);
@@ -91,13 +86,13 @@ class CsvLabels : public LabelWriter {
     row.add(truth.position_m);
     row.add(glm::length(truth.position_m));
     row.add(truth.attitude);
-    add_boxes(row, truth);
+    add_box_fields(row, truth);
     add_footage(row);
     row.add(frame.substituted ? "true" : "false");
     return row.line();
   }
 
-  void add_footage(Row& row) const {
+  void add_footage(CsvRow& row) const {
     const FootageTruth& footage = sequence_.footage;
     row.add(xml_text(sequence_.name));
     row.add(xml_text(footage.video));
@@ -115,7 +110,7 @@ class CsvLabels : public LabelWriter {
 Result<std::unique_ptr<LabelWriter>> open_csv(const std::filesystem::path& path, const LabelSequence& sequence) {
   Result<TextFile> file = TextFile::create(path);
   if (!file) return fail(file.error());
-  if (const Result<void> head = file->put(kHeader); !head) return fail(head.error());
+  if (const Result<void> head = file->put(kCsvHeader); !head) return fail(head.error());
   return std::make_unique<CsvLabels>(std::move(*file), sequence);
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "labels/cvat.h"
+#include "labels/formats.h"
+
+#include <fmt/format.h>
 
 #include <map>
 #include <pugixml.hpp>
 #include <sstream>
 #include <utility>
 
+#include "labels/label_files.h"
 #include "labels/label_text.h"
 #include "labels/text_file.h"
 #include "labels/xml_elements.h"
@@ -16,16 +19,18 @@ namespace sigs {
 
 namespace {
 
+// A box of a track in one frame.
 struct TrackBox {
   int frame = 0;
-  bool is_outside = false;
+  bool is_outside = false;  // the intruder has left; the box is its last one
   bool is_occluded = false;
   cv::Rect box;
 };
 
-std::string head_of(const LabelSequence& sequence) {
+// The declaration, the opening tag of the document and its element "meta".
+std::string cvat_head(const LabelSequence& sequence) {
   const FootageTruth& footage = sequence.footage;
-  const int last = footage.last_frame - footage.first_frame;
+  const int last = frame_count(footage) - 1;
   pugi::xml_document document;
   pugi::xml_node meta = document.append_child("meta");
   pugi::xml_node task = meta.append_child("task");
@@ -59,54 +64,20 @@ std::string head_of(const LabelSequence& sequence) {
   return text.str();
 }
 
-// An attribute's text between double quotes (XML 1.0 sections 2.3 and 3.3.3).
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : xml_text(text)) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\t':
-      case '\n':
-      case '\r':  // raw, a reader makes a space of it
-        out += "&#" + std::to_string(static_cast<int>(c)) + ";";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
-
-std::string attribute(const char* name, int number) {
-  return std::string(" ") + name + "=\"" + std::to_string(number) + "\"";
-}
-
-// CVAT writes places with two digits after the point.
-std::string place(const char* name, int pixels) {
-  return std::string(" ") + name + "=\"" + std::to_string(pixels) + ".00\"";
-}
-
-std::string text_of(const TrackBox& shape) {
-  return "    <box" + attribute("frame", shape.frame) + attribute("keyframe", 1) +
-         attribute("outside", shape.is_outside ? 1 : 0) + attribute("occluded", shape.is_occluded ? 1 : 0) +
-         place("xtl", shape.box.x) + place("ytl", shape.box.y) + place("xbr", shape.box.x + shape.box.width) +
-         place("ybr", shape.box.y + shape.box.height) + attribute("z_order", 0) + "/>\n";
+// CVAT writes coordinates with two digits after the point.
+std::string box_element(const TrackBox& shape) {
+  const cv::Rect& box = shape.box;
+  return fmt::format(
+      "    <box frame=\"{}\" keyframe=\"1\" outside=\"{:d}\" occluded=\"{:d}\" "
+      "xtl=\"{}.00\" ytl=\"{}.00\" xbr=\"{}.00\" ybr=\"{}.00\" z_order=\"0\"/>\n",
+      shape.frame, shape.is_outside, shape.is_occluded, box.x, box.y, box.x + box.width, box.y + box.height);
 }
 
 class CvatLabels : public LabelWriter {
  public:
   CvatLabels(TextFile file, const LabelSequence& sequence) : file_(std::move(file)), sequence_(sequence) {}
 
-  // Frame by frame they come, track by track they are written.
+  // Frames arrive in order; the file has one track after the other, so all boxes are kept until the end.
   Result<void> write(const FrameTruth& truth) override {
     const int frame = truth.index - sequence_.footage.first_frame;
     for (const IntruderTruth& intruder : truth.intruders) {
@@ -120,7 +91,7 @@ class CvatLabels : public LabelWriter {
   }
 
   Result<void> finish(const std::filesystem::path&) override {
-    if (const Result<void> put = file_.put(head_of(sequence_)); !put) return put;
+    if (const Result<void> put = file_.put(cvat_head(sequence_)); !put) return put;
     for (const auto& [id, boxes] : tracks_)
       if (const Result<void> put = put_track(id, boxes); !put) return put;
     if (const Result<void> put = file_.put("</annotations>\n"); !put) return put;
@@ -130,11 +101,12 @@ class CvatLabels : public LabelWriter {
  private:
   Result<void> put_track(int id, const std::vector<TrackBox>& boxes) {
     const std::string& category = sequence_.categories[static_cast<std::size_t>(category_index(sequence_, id))];
-    const std::string head =
-        "  <track" + attribute("id", id) + " label=\"" + escaped(category) + "\" source=\"file\">\n";
+    // A reader would turn line breaks and tabs of an attribute into blanks (XML 1.0 section 3.3.3).
+    const std::string head = fmt::format("  <track id=\"{}\" label=\"{}\" source=\"file\">\n", id,
+                                         escaped_text(xml_text(category), "\t\n\r"));
     if (const Result<void> put = file_.put(head); !put) return put;
     for (const TrackBox& box : boxes)
-      if (const Result<void> put = file_.put(text_of(box)); !put) return put;
+      if (const Result<void> put = file_.put(box_element(box)); !put) return put;
     return file_.put("  </track>\n");
   }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "labels/kitti.h"
+#include "labels/formats.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,14 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDecimals = 6;
-
-// 0 wholly in the image, 1 less than half of it beyond, 2 more. The benchmark names the levels, not their limits.
+// 0 entirely in the image, 1 up to half of it outside, 2 more. The benchmark names the levels, not their limits.
 int truncation_level(const IntruderTruth& truth) {
-  constexpr double kMinBeyond = 0.01;
-  const double beyond = 1 - truth.inside_fraction;
-  if (beyond <= kMinBeyond) return 0;
-  return beyond <= 0.5 ? 1 : 2;
+  constexpr double kMinOutside = 0.01;
+  const double outside = 1 - truth.inside_fraction;
+  if (outside <= kMinOutside) return 0;
+  return outside <= 0.5 ? 1 : 2;
 }
 
 // 0 fully visible, 1 partly occluded, 2 largely occluded.
@@ -36,28 +38,29 @@ int occlusion_level(const IntruderTruth& truth) {
   return occluded_fraction(truth) <= 0.5 ? 1 : 2;
 }
 
-// left top right bottom; right and bottom are edges, so that their difference is the size.
-std::string box_text(const cv::Rect& box) {
-  return joined({box.x, box.y, box.x + box.width, box.y + box.height}, " ");
+// left top right bottom; all are edges, so that right - left is the width.
+std::string edges_text(const cv::Rect& box) {
+  return fmt::format("{} {} {} {}", box.x, box.y, box.x + box.width, box.y + box.height);
 }
 
+// Each with a blank before it.
 std::string numbers_text(std::initializer_list<double> numbers) {
   std::string text;
-  for (const double number : numbers) text.append(" ").append(number_text(number, kDecimals));
+  for (const double number : numbers) text.append(" ").append(number_text(number, kLabelDecimals));
   return text;
 }
 
-// What is not known of a region to ignore has the values that the benchmark gives it.
+// A region to ignore: what is not known of it has the benchmark's placeholder values.
 std::string region_row(int frame, const cv::Rect& box) {
-  return std::to_string(frame) + " -1 DontCare -1 -1 -10 " + box_text(box) + " -1 -1 -1 -1000 -1000 -1000 -10\n";
+  return fmt::format("{} -1 DontCare -1 -1 -10 {} -1 -1 -1 -1000 -1000 -1000 -10\n", frame, edges_text(box));
 }
 
 std::string calibration(const LensParameters& lens) {
   const std::string matrix = numbers_text({lens.fx, 0, lens.cx, 0, 0, lens.fy, lens.cy, 0, 0, 0, 1, 0}) + "\n";
   std::string text;
   for (const char* camera : {"P0:", "P1:", "P2:", "P3:"}) text += camera + matrix;
-  // The tracking benchmark's names, without colons. A laser scanner's axes are X forward, Y left, Z up; here it is
-  // where the camera is, and so is the inertial unit.
+  // The tracking benchmark's names, without colons. The laser scanner (axes X forward, Y left, Z up) and the inertial
+  // unit are at the camera's position.
   return text +
          "R_rect 1 0 0 0 1 0 0 0 1\nTr_velo_cam 0 -1 0 0 0 0 -1 0 1 0 0 0\nTr_imu_velo 1 0 0 0 0 1 0 0 0 0 1 0\n";
 }
@@ -89,12 +92,11 @@ class KittiLabels : public LabelWriter {
   [[nodiscard]] std::string row(int frame, const FrameTruth& truth, const IntruderTruth& intruder) const {
     const LabelledIntruder& labelled = labelled_intruder(sequence_, intruder.id);
     const KittiBox box = kitti_box(truth, intruder, labelled.low_m, labelled.high_m);
-    return std::to_string(frame) + " " + std::to_string(intruder.id) + " " + word_name(labelled.category) + " " +
-           std::to_string(truncation_level(intruder)) + " " + std::to_string(occlusion_level(intruder)) +
-           numbers_text({box.alpha_rad}) + " " + box_text(*intruder.visible_box) +
-           numbers_text({box.height_m, box.width_m, box.length_m, box.bottom_optical_m.x, box.bottom_optical_m.y,
-                         box.bottom_optical_m.z, box.rotation_y_rad}) +
-           "\n";
+    return fmt::format("{} {} {} {} {}{} {}{}\n", frame, intruder.id, word_name(labelled.category),
+                       truncation_level(intruder), occlusion_level(intruder), numbers_text({box.alpha_rad}),
+                       edges_text(*intruder.visible_box),
+                       numbers_text({box.height_m, box.width_m, box.length_m, box.bottom_optical_m.x,
+                                     box.bottom_optical_m.y, box.bottom_optical_m.z, box.rotation_y_rad}));
   }
 
   fs::path folder_;
@@ -106,20 +108,39 @@ class KittiLabels : public LabelWriter {
 
 // TrackEval's list of sequences: name, "empty", first frame, number of frames.
 std::string seqmap(const std::string& name, const FootageTruth& footage) {
-  const std::string frames = std::to_string(footage.last_frame - footage.first_frame + 1);
-  return name + " empty 000000 " + std::string(frames.size() < 6 ? 6 - frames.size() : 0, '0') + frames + "\n";
+  return fmt::format("{} empty 000000 {:06}\n", name, frame_count(footage));
 }
 
 }  // namespace
 
+KittiBox kitti_box(const FrameTruth& frame, const IntruderTruth& intruder, const glm::dvec3& low_m,
+                   const glm::dvec3& high_m) {
+  const glm::dquat camera_from_body =
+      glm::conjugate(rotation_of(frame.camera_attitude)) * rotation_of(intruder.attitude);
+  const glm::dvec3 size_m = high_m - low_m;
+  const glm::dvec3 center_optical_m = optical_of(intruder.position_m + camera_from_body * (0.5 * (low_m + high_m)));
+  const glm::dvec3 nose_optical = optical_of(camera_from_body * glm::dvec3(1, 0, 0));
+  KittiBox box{.height_m = size_m.z,
+               .width_m = size_m.y,
+               .length_m = size_m.x,
+               .bottom_optical_m = center_optical_m + glm::dvec3(0, 0.5 * size_m.z, 0)};
+  // The horizontal component of a nose along y is rounding error and has no direction.
+  constexpr double kVertical_m = 1e-9;
+  const bool is_upright = std::hypot(nose_optical.x, nose_optical.z) < kVertical_m;
+  box.rotation_y_rad = is_upright ? 0 : std::atan2(-nose_optical.z, nose_optical.x);
+  const double sight_rad = std::atan2(box.bottom_optical_m.x, box.bottom_optical_m.z);
+  box.alpha_rad = std::remainder(box.rotation_y_rad - sight_rad, 2 * std::numbers::pi);
+  return box;
+}
+
 Result<std::unique_ptr<LabelWriter>> open_kitti(const fs::path& path, const LabelSequence& sequence) {
   const std::string name = word_name(sequence.name);
-  if (const Result<void> made = make_inner_folder(path / "label_02"); !made) return fail(made.error());
+  if (const Result<void> created = make_inner_folder(path / "label_02"); !created) return fail(created.error());
   const Result<void> map =
       write_text(path / "evaluate_tracking.seqmap.training", seqmap(name, sequence.footage), false);
   if (!map) return fail(map.error());
   if (sequence.camera) {
-    if (const Result<void> made = make_inner_folder(path / "calib"); !made) return fail(made.error());
+    if (const Result<void> created = make_inner_folder(path / "calib"); !created) return fail(created.error());
     const Result<void> calib =
         write_text(path / "calib" / (name + ".txt"), calibration(sequence.camera->lens.parameters()), false);
     if (!calib) return fail(calib.error());

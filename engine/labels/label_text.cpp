@@ -1,32 +1,87 @@
 // SPDX-License-Identifier: MIT
 #include "labels/label_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include "base/ensure.h"
-#include "labels/xml_text.h"
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <pugixml.hpp>
 
 namespace sigs {
 
-const LabelledIntruder& labelled_intruder(const LabelSequence& sequence, int intruder) {
-  const auto found = std::find_if(sequence.intruders.begin(), sequence.intruders.end(),
-                                  [intruder](const LabelledIntruder& one) { return one.id == intruder; });
-  ENSURE(found != sequence.intruders.end());
-  return *found;
+namespace {
+
+struct DecodedCharacter {
+  std::uint32_t point = 0;
+  std::size_t bytes = 1;
+};
+
+// The first code point of well-formed UTF-8 (RFC 3629): no overlong forms, no surrogates, none above U+10FFFF.
+std::optional<DecodedCharacter> decoded_character(std::string_view text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return DecodedCharacter{first, 1};
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < bytes) return std::nullopt;
+  std::uint32_t point = first & (0x7FU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return std::nullopt;
+    point = point << 6U | (byte(i) & 0x3FU);
+  }
+  const std::uint32_t min_point = bytes == 2 ? 0x80 : bytes == 3 ? 0x800 : 0x10000;
+  const bool is_surrogate = point >= 0xD800 && point <= 0xDFFF;
+  if (point < min_point || point > 0x10FFFF || is_surrogate) return std::nullopt;
+  return DecodedCharacter{point, bytes};
 }
 
-int category_index(const LabelSequence& sequence, int intruder) {
-  const std::string& wanted = labelled_intruder(sequence, intruder).category;
-  const auto category = std::find(sequence.categories.begin(), sequence.categories.end(), wanted);
-  ENSURE(category != sequence.categories.end());
-  return static_cast<int>(category - sequence.categories.begin());
+bool is_allowed_in_xml(std::uint32_t point) {
+  if (point < 0x20) return point == 0x9 || point == 0xA || point == 0xD;
+  return point != 0xFFFE && point != 0xFFFF;
 }
 
-std::string line_name(std::string_view text) {
+}  // namespace
+
+int frame_count(const FootageTruth& footage) {
+  return footage.last_frame - footage.first_frame + 1;
+}
+
+double rate_hz(const FootageTruth& footage) {
+  return static_cast<double>(footage.frame_rate_num) / footage.frame_rate_den;
+}
+
+std::string rate_text(const FootageTruth& footage) {
+  return fmt::format("{}/{}", footage.frame_rate_num, footage.frame_rate_den);
+}
+
+int whole_rate_hz(const FootageTruth& footage) {
+  return std::max(1, static_cast<int>(std::lround(rate_hz(footage))));
+}
+
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::optional<DecodedCharacter> character = decoded_character(text.substr(i));
+    if (character && is_allowed_in_xml(character->point))
+      out += text.substr(i, character->bytes);
+    else
+      out += "\xEF\xBF\xBD";
+    i += character ? character->bytes : 1;
+  }
+  return out;
+}
+
+std::string line_text(std::string_view text) {
   std::string line = xml_text(text);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
+  return line;
+}
+
+std::string line_name(std::string_view text) {
+  const std::string line = line_text(text);
   const std::size_t first = line.find_first_not_of(' ');
   if (first == std::string::npos) return "unnamed";
   return line.substr(first, line.find_last_not_of(' ') - first + 1);
@@ -38,29 +93,48 @@ std::string word_name(std::string_view text) {
   return word;
 }
 
-std::string joined(std::initializer_list<int> numbers, std::string_view separator) {
-  std::string text;
-  for (const int number : numbers) {
-    if (!text.empty()) text += separator;
-    text += std::to_string(number);
+std::string escaped_text(std::string_view text, std::string_view also) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (also.find(c) != std::string_view::npos)
+      out += fmt::format("&#{};", static_cast<int>(c));
+    else
+      out += c;
   }
-  return text;
+  return out;
 }
 
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + '"';
+// A double-quoted scalar of YAML has JSON's escapes, except for surrogate pairs of \u, which YAML does not join. So
+// other characters are written as they are, except for those that YAML forbids: what XML forbids, DEL, the C1 controls.
+std::string yaml_text(std::string_view text) {
+  const std::string quoted = nlohmann::json(xml_text(text)).dump();
+  std::string out;
+  for (std::size_t i = 0; i < quoted.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(quoted[i]);
+    const bool is_c1 = byte == 0xC2 && static_cast<unsigned char>(quoted[i + 1]) < 0xA0;
+    const unsigned code = is_c1 ? static_cast<unsigned char>(quoted[++i]) : byte;
+    if (is_c1 || code == 0x7F)
+      out += fmt::format("\\x{:02x}", code);
+    else
+      out += quoted[i];
+  }
+  return out;
 }
 
-std::string rate_text(const FootageTruth& footage) {
-  return std::to_string(footage.frame_rate_num) + "/" + std::to_string(footage.frame_rate_den);
+void add_element(pugi::xml_node node, const char* name, const std::string& text) {
+  node.append_child(name).text() = xml_text(text).c_str();
 }
 
-int whole_rate_hz(const FootageTruth& footage) {
-  const double rate_hz = static_cast<double>(footage.frame_rate_num) / footage.frame_rate_den;
-  return std::max(1, static_cast<int>(std::lround(rate_hz)));
+void add_element(pugi::xml_node node, const char* name, int number) {
+  add_element(node, name, std::to_string(number));
 }
 
 }  // namespace sigs

@@ -1,36 +1,55 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
-#include "labels/labels.h"
+#include "truth/annotation.h"
+
+namespace pugi {
+class xml_node;
+}
 
 namespace sigs {
 
-// What is the same for all frames of an intruder, by its id, which must be there.
-[[nodiscard]] const LabelledIntruder& labelled_intruder(const LabelSequence& sequence, int intruder);
+// Names, numbers and rates as the text of label files. Names of files, projects and intruders come from users and may
+// contain any bytes.
 
-// Place of an intruder's category in LabelSequence::categories, from 0.
-[[nodiscard]] int category_index(const LabelSequence& sequence, int intruder);
+// Digits after the point of metres, degrees, seconds and fractions in text formats, and of an amodal box in pixels.
+inline constexpr int kLabelDecimals = 6;
+inline constexpr int kLabelPixelDecimals = 4;
 
-// A name as one line of UTF-8: what is no UTF-8 becomes U+FFFD, what breaks lines or cannot be seen a blank, and blanks
-// around it go, since readers of lists drop them. "unnamed" where nothing is left. Fit for a folder.
-[[nodiscard]] std::string line_name(std::string_view text);
-
-// The same without blanks, for columns that blanks divide: "light aircraft" is light_aircraft.
-[[nodiscard]] std::string word_name(std::string_view text);
-
-// Whole numbers with a separator between: "1,2,3".
-[[nodiscard]] std::string joined(std::initializer_list<int> numbers, std::string_view separator);
-
-// A field of comma-separated text (RFC 4180): in quotes where it has to be.
-[[nodiscard]] std::string csv_field(std::string_view text);
-
-// The nominal frames a second as a ratio, "30000/1001", and as the nearest whole number above 0, which is all that some
-// readers take.
+// How many frames the footage's range has, and its nominal rate in frames a second: as a number, as a ratio
+// "30000/1001", and as the nearest whole number above 0, which is all that some readers accept.
+[[nodiscard]] int frame_count(const FootageTruth& footage);
+[[nodiscard]] double rate_hz(const FootageTruth& footage);
 [[nodiscard]] std::string rate_text(const FootageTruth& footage);
 [[nodiscard]] int whole_rate_hz(const FootageTruth& footage);
+
+// Text that an XML 1.0 file may contain: bytes that are not UTF-8 and the characters that XML forbids (control
+// characters, U+FFFE, U+FFFF; XML 1.0 section 2.2) become U+FFFD. Markup is not escaped.
+[[nodiscard]] std::string xml_text(std::string_view text);
+
+// The same on one line: line breaks, tabs and DEL become blanks too.
+[[nodiscard]] std::string line_text(std::string_view text);
+
+// A name on one line without blanks at its ends, since readers of lists drop them. "unnamed" where nothing is left.
+// It can be the name of a folder where `text` can.
+[[nodiscard]] std::string line_name(std::string_view text);
+
+// The same with underscores for blanks, for columns separated by blanks: "light aircraft" becomes light_aircraft.
+[[nodiscard]] std::string word_name(std::string_view text);
+
+// Text for an element or a quoted attribute of XML or HTML (XML 1.0 section 2.4): & < > " become entities, and each
+// character in `also` a numeric reference, as &#39;. The text itself must be allowed (xml_text, line_text).
+[[nodiscard]] std::string escaped_text(std::string_view text, std::string_view also = {});
+
+// A text as a double-quoted scalar of YAML 1.2, with its quotes. Characters that XML forbids become U+FFFD, as in
+// xml_text.
+[[nodiscard]] std::string yaml_text(std::string_view text);
+
+// Appends <name>text</name> to the children of a node; the text goes through xml_text.
+void add_element(pugi::xml_node node, const char* name, const std::string& text);
+void add_element(pugi::xml_node node, const char* name, int number);
 
 }  // namespace sigs

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "labels/labels.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
 
-#include "labels/aot.h"
-#include "labels/coco.h"
-#include "labels/csv.h"
-#include "labels/cvat.h"
-#include "labels/kitti.h"
-#include "labels/mot.h"
-#include "labels/sigs_xml.h"
-#include "labels/voc.h"
-#include "labels/vot.h"
-#include "labels/yolo.h"
+#include <algorithm>
+
+#include "base/ensure.h"
+#include "labels/formats.h"
 
 namespace sigs {
 
@@ -36,15 +28,27 @@ constexpr LabelFormat kFormats[] = {
 
 }  // namespace
 
+const LabelledIntruder& labelled_intruder(const LabelSequence& sequence, int id) {
+  const auto found = std::find_if(sequence.intruders.begin(), sequence.intruders.end(),
+                                  [id](const LabelledIntruder& one) { return one.id == id; });
+  ENSURE(found != sequence.intruders.end());
+  return *found;
+}
+
+int category_index(const LabelSequence& sequence, int id) {
+  const std::string& wanted = labelled_intruder(sequence, id).category;
+  const auto category = std::find(sequence.categories.begin(), sequence.categories.end(), wanted);
+  ENSURE(category != sequence.categories.end());
+  return static_cast<int>(category - sequence.categories.begin());
+}
+
 bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds) {
   return truth.visible_box && truth.visible_pixels >= thresholds.min_pixels &&
          truth.visible_fraction >= thresholds.min_visible_fraction;
 }
 
 std::string image_name(int frame) {
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "frame_%06d.png", frame);
-  return name.data();
+  return fmt::format("frame_{:06}.png", frame);
 }
 
 std::span<const LabelFormat> label_formats() {

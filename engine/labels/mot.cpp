@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "labels/mot.h"
+#include "labels/formats.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
@@ -9,9 +11,6 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "labels/label_text.h"
-#include "labels/numbered_images.h"
-#include "labels/own_body_boxes.h"
-#include "labels/text_file.h"
 
 namespace sigs {
 
@@ -19,10 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFractionDecimals = 6;
-
 // MOT16's class "distractor" (Milan et al. 2016, table 2): a report that matches one counts neither for nor against a
-// tracker. Where so many categories are counted that 8 is one of them, the number behind them.
+// tracker. Where the categories reach the number 8, the own body has the number after the last of them.
 constexpr int kDistractor = 8;
 
 int own_body_class(const LabelSequence& sequence) {
@@ -31,14 +28,12 @@ int own_body_class(const LabelSequence& sequence) {
 }
 
 // frame, id, left, top, width, height, 1 to count or 0 to ignore, class, visibility. The first pixel is 1, 1.
-std::string row(int frame, int id, const cv::Rect& box, bool counts, int category, double visibility) {
-  std::string text;
-  for (const int number : {frame, id, box.x + 1, box.y + 1, box.width, box.height, counts ? 1 : 0, category})
-    text += std::to_string(number) + ",";
-  return text + number_text(visibility, kFractionDecimals) + "\n";
+std::string mot_row(int frame, int id, const cv::Rect& box, bool counts, int category, double visibility) {
+  return fmt::format("{},{},{},{},{},{},{:d},{},{}\n", frame, id, box.x + 1, box.y + 1, box.width, box.height, counts,
+                     category, number_text(visibility, kLabelDecimals));
 }
 
-// Behind the ids of the intruders.
+// After the ids of the intruders.
 int first_own_body_id(const LabelSequence& sequence) {
   int last = 0;
   for (const LabelledIntruder& intruder : sequence.intruders) last = std::max(last, intruder.id + 1);
@@ -47,14 +42,14 @@ int first_own_body_id(const LabelSequence& sequence) {
 
 std::string seqinfo(const LabelSequence& sequence, const std::string& name) {
   const FootageTruth& footage = sequence.footage;
-  std::string text = "[Sequence]\nname=" + name + "\nimDir=img1\nframeRate=" + std::to_string(whole_rate_hz(footage)) +
-                     "\nseqLength=" + std::to_string(footage.last_frame - footage.first_frame + 1) +
-                     "\nimWidth=" + std::to_string(footage.size_px.width) +
-                     "\nimHeight=" + std::to_string(footage.size_px.height) +
-                     "\nimExt=.png\nexactFrameRate=" + rate_text(footage) + "\n\n[Classes]\n";
+  std::string text = fmt::format(
+      "[Sequence]\nname={}\nimDir=img1\nframeRate={}\nseqLength={}\nimWidth={}\nimHeight={}\nimExt=.png\n"
+      "exactFrameRate={}\n\n[Classes]\n",
+      name, whole_rate_hz(footage), frame_count(footage), footage.size_px.width, footage.size_px.height,
+      rate_text(footage));
   for (std::size_t i = 0; i < sequence.categories.size(); ++i)
-    text += std::to_string(i + 1) + "=" + line_name(sequence.categories[i]) + "\n";
-  if (!sequence.own_body.empty()) text += std::to_string(own_body_class(sequence)) + "=own body, ignored\n";
+    text += fmt::format("{}={}\n", i + 1, line_name(sequence.categories[i]));
+  if (!sequence.own_body.empty()) text += fmt::format("{}=own body, ignored\n", own_body_class(sequence));
   return text;
 }
 
@@ -71,10 +66,10 @@ class MotLabels : public LabelWriter {
     std::string text;
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds))
-        text += row(frame, intruder.id + 1, *intruder.visible_box, true, category_index(sequence_, intruder.id) + 1,
-                    intruder.visible_fraction);
+        text += mot_row(frame, intruder.id + 1, *intruder.visible_box, true, category_index(sequence_, intruder.id) + 1,
+                        intruder.visible_fraction);
     int id = first_own_body_id(sequence_);
-    for (const cv::Rect& box : own_body_) text += row(frame, id++, box, false, own_body_class(sequence_), 1);
+    for (const cv::Rect& box : own_body_) text += mot_row(frame, id++, box, false, own_body_class(sequence_), 1);
     return truth_.put(text);
   }
 
@@ -95,7 +90,7 @@ class MotLabels : public LabelWriter {
 Result<std::unique_ptr<LabelWriter>> open_mot(const fs::path& path, const LabelSequence& sequence) {
   const std::string name = line_name(sequence.name);
   for (const fs::path& folder : {path / "seqmaps", path / name / "gt"})
-    if (const Result<void> made = make_inner_folder(folder); !made) return fail(made.error());
+    if (const Result<void> created = make_inner_folder(folder); !created) return fail(created.error());
   const Result<void> map = write_text(path / "seqmaps" / (name + ".txt"), "name\n" + csv_field(name) + "\n", false);
   if (!map) return fail(map.error());
   const Result<void> info = write_text(path / name / "seqinfo.ini", seqinfo(sequence, name), false);

@@ -14,29 +14,23 @@ namespace sigs {
 
 namespace {
 
-constexpr int kMetreDecimals = 6;
-constexpr int kDegreeDecimals = 6;
-constexpr int kPixelDecimals = 4;
-constexpr int kFractionDecimals = 6;
-constexpr int kSecondDecimals = 6;
-
-void set(pugi::xml_node node, const char* name, double number, int decimals) {
+void set(pugi::xml_node node, const char* name, double number, int decimals = kLabelDecimals) {
   node.append_attribute(name) = number_text(number, decimals).c_str();
 }
 
 void set_position(pugi::xml_node node, const glm::dvec3& position_m) {
-  set(node, "x_m", position_m.x, kMetreDecimals);
-  set(node, "y_m", position_m.y, kMetreDecimals);
-  set(node, "z_m", position_m.z, kMetreDecimals);
+  set(node, "x_m", position_m.x);
+  set(node, "y_m", position_m.y);
+  set(node, "z_m", position_m.z);
 }
 
 void set_attitude(pugi::xml_node node, const Attitude& attitude) {
-  set(node, "roll_deg", deg_of_rad(attitude.roll_rad), kDegreeDecimals);
-  set(node, "pitch_deg", deg_of_rad(attitude.pitch_rad), kDegreeDecimals);
-  set(node, "yaw_deg", deg_of_rad(attitude.yaw_rad), kDegreeDecimals);
+  set(node, "roll_deg", deg_of_rad(attitude.roll_rad));
+  set(node, "pitch_deg", deg_of_rad(attitude.pitch_rad));
+  set(node, "yaw_deg", deg_of_rad(attitude.yaw_rad));
 }
 
-void add_boxes(pugi::xml_node node, const IntruderTruth& truth) {
+void add_box_elements(pugi::xml_node node, const IntruderTruth& truth) {
   if (truth.visible_box) {
     pugi::xml_node box = node.append_child("box");
     box.append_attribute("x") = truth.visible_box->x;
@@ -47,10 +41,10 @@ void add_boxes(pugi::xml_node node, const IntruderTruth& truth) {
   }
   if (truth.amodal_box) {
     pugi::xml_node silhouette = node.append_child("silhouette");
-    set(silhouette, "x", truth.amodal_box->x, kPixelDecimals);
-    set(silhouette, "y", truth.amodal_box->y, kPixelDecimals);
-    set(silhouette, "width", truth.amodal_box->width, kPixelDecimals);
-    set(silhouette, "height", truth.amodal_box->height, kPixelDecimals);
+    set(silhouette, "x", truth.amodal_box->x, kLabelPixelDecimals);
+    set(silhouette, "y", truth.amodal_box->y, kLabelPixelDecimals);
+    set(silhouette, "width", truth.amodal_box->width, kLabelPixelDecimals);
+    set(silhouette, "height", truth.amodal_box->height, kLabelPixelDecimals);
   }
 }
 
@@ -59,15 +53,16 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   node.append_attribute("id") = truth.id;
   node.append_attribute("name") = xml_text(truth.name).c_str();
   node.append_attribute("in_picture") = truth.in_image;
-  set(node, "visible_fraction", truth.visible_fraction, kFractionDecimals);
+  set(node, "visible_fraction", truth.visible_fraction);
   node.append_attribute("horizon") = name_of(truth.horizon).data();
   set_position(node.append_child("position"), truth.position_m);
-  set(node.append_child("distance"), "m", glm::length(truth.position_m), kMetreDecimals);
+  set(node.append_child("distance"), "m", glm::length(truth.position_m));
   set_attitude(node.append_child("attitude"), truth.attitude);
-  add_boxes(node, truth);
+  add_box_elements(node, truth);
 }
 
-std::string head_of(const FootageTruth& footage) {
+// The declaration, the opening tag of the document and its element "footage".
+std::string sigs_head(const FootageTruth& footage) {
   pugi::xml_document document;
   pugi::xml_node node = document.append_child("footage");
   node.append_attribute("video") = xml_text(footage.video).c_str();
@@ -75,8 +70,7 @@ std::string head_of(const FootageTruth& footage) {
   node.append_attribute("height") = footage.size_px.height;
   node.append_attribute("first_frame") = footage.first_frame;
   node.append_attribute("last_frame") = footage.last_frame;
-  node.append_attribute("frame_rate") =
-      (std::to_string(footage.frame_rate_num) + "/" + std::to_string(footage.frame_rate_den)).c_str();
+  node.append_attribute("frame_rate") = rate_text(footage).c_str();
   std::ostringstream text;
   text << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<sigs version=\"1\">\n";
   node.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);
@@ -89,7 +83,7 @@ std::string xml_of(const FrameTruth& truth) {
   pugi::xml_document document;
   pugi::xml_node frame = document.append_child("frame");
   frame.append_attribute("index") = truth.index;
-  set(frame, "time_s", truth.time_s, kSecondDecimals);
+  set(frame, "time_s", truth.time_s);
   if (truth.substituted) frame.append_attribute("substituted") = true;
   pugi::xml_node camera = frame.append_child("camera");
   set_position(camera, truth.camera_position_m);
@@ -103,7 +97,7 @@ std::string xml_of(const FrameTruth& truth) {
 Result<SigsXmlWriter> SigsXmlWriter::open(const std::filesystem::path& path, const FootageTruth& footage) {
   Result<TextFile> file = TextFile::create(path);
   if (!file) return fail(file.error());
-  if (const Result<void> head = file->put(head_of(footage)); !head) return fail(head.error());
+  if (const Result<void> head = file->put(sigs_head(footage)); !head) return fail(head.error());
   return SigsXmlWriter(std::move(*file));
 }
 

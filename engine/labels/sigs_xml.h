@@ -2,28 +2,30 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 
 #include "base/result.h"
-#include "labels/labels.h"
-#include "labels/text_file.h"
+#include "labels/label_files.h"
 #include "truth/annotation.h"
 
 namespace sigs {
 
-// The truth of one frame as an element of the file, indented, with its line end.
+// Positions are in metres, angles in degrees, boxes in pixels with the first pixel at 0, 0. Numbers have up to six
+// digits after the point, those of an amodal box up to four.
+
+// The truth of one frame as the element <frame> of a SIGS annotation file, indented, with a line break at its end.
 [[nodiscard]] std::string xml_of(const FrameTruth& truth);
 
-// Writes a SIGS annotation file (docs/annotation-format.md, docs/sigs-annotations.xsd) frame by frame: memory does not
-// grow with the video.
+// Writes a SIGS annotation file (docs/annotation-format.md, docs/sigs-annotations.xsd) frame by frame, so that memory
+// does not grow with the video. open_sigs_xml() (labels/formats.h) is the same as one of the label formats.
 class SigsXmlWriter {
  public:
-  // Error cannot_create. path is the place to write to; the caller gives it its final name.
+  // Creates the file and writes its beginning. The caller gives it its final name when it is complete. Errors
+  // cannot_create, write_failed.
   [[nodiscard]] static Result<SigsXmlWriter> open(const std::filesystem::path& path, const FootageTruth& footage);
 
-  // Error write_failed.
+  // Appends the next frame; finish() closes the document and the file. Errors write_failed.
   [[nodiscard]] Result<void> write(const FrameTruth& truth);
   [[nodiscard]] Result<void> finish();
 
@@ -32,9 +34,5 @@ class SigsXmlWriter {
 
   TextFile file_;
 };
-
-// The same as one of the label formats.
-[[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path,
-                                                                 const LabelSequence& sequence);
 
 }  // namespace sigs

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "labels/voc.h"
+#include "labels/formats.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
 #include <utility>
 
-#include "labels/hard_link.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
 #include "labels/text_file.h"
 #include "labels/xml_elements.h"
@@ -18,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTruncated = 0.15;  // the guidelines say 15 to 20 %
-constexpr double kDifficult = 0.2;   // of which less than 10 to 20 % can be seen they do not label
+constexpr double kTruncated = 0.15;  // outside the image; the guidelines say 15 to 20 %
+constexpr double kDifficult = 0.2;   // visible; the guidelines leave out what is visible by less than 10 to 20 %
 
 bool is_difficult(const IntruderTruth& truth) {
   return truth.visible_fraction < kDifficult;
@@ -66,15 +68,15 @@ std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence
 // Whether an image shows a category, as VOC's lists say it.
 enum class Presence { no = -1, difficult = 0, yes = 1 };
 
-// A category as part of a file's name; the number keeps apart those that become alike.
+// Each category as part of a file's name; a number is appended where two become the same.
 std::vector<std::string> file_names_of(const std::vector<std::string>& categories) {
-  constexpr std::size_t kMaxBytes = 200;  // bytes; a name with what follows may have 255
+  constexpr std::size_t kMaxBytes = 200;  // file systems allow 255, and more text follows
   std::vector<std::string> names;
   for (const std::string& category : categories) {
     std::string name = category.substr(0, kMaxBytes);
     std::replace(name.begin(), name.end(), '/', '_');
     const bool is_taken = std::find(names.begin(), names.end(), name) != names.end();
-    names.push_back(is_taken ? name + "_" + std::to_string(names.size()) : name);
+    names.push_back(is_taken ? fmt::format("{}_{}", name, names.size()) : name);
   }
   return names;
 }
@@ -85,7 +87,7 @@ class VocLabels : public LabelWriter {
       : root_(std::move(root)), sequence_(sequence), presence_(sequence.categories.size()) {}
 
   Result<void> begin() {
-    if (const Result<void> made = make_inner_folder(root_ / "Annotations"); !made) return made;
+    if (const Result<void> created = make_inner_folder(root_ / "Annotations"); !created) return created;
     return make_inner_folder(root_ / "ImageSets" / "Main");
   }
 
@@ -93,14 +95,14 @@ class VocLabels : public LabelWriter {
     images_.emplace_back(image_name(truth.index));
     for (std::vector<Presence>& shown : presence_) shown.push_back(Presence::no);
     for (const IntruderTruth& intruder : truth.intruders)
-      if (is_labelled(intruder, sequence_.thresholds)) remember(intruder);
+      if (is_labelled(intruder, sequence_.thresholds)) note_presence(intruder);
     const fs::path file = fs::path(images_.back()).replace_extension(".xml");
     return write_text_file(root_ / "Annotations" / file, annotation_of(truth, sequence_));
   }
 
   Result<void> finish(const fs::path& images) override {
     if (const Result<void> written = write_lists(); !written || images.empty()) return written;
-    if (const Result<void> made = make_inner_folder(root_ / "JPEGImages"); !made) return made;
+    if (const Result<void> created = make_inner_folder(root_ / "JPEGImages"); !created) return created;
     for (const fs::path& image : images_)
       if (const Result<void> linked = link_or_copy(images / image, root_ / "JPEGImages" / image); !linked)
         return linked;
@@ -108,7 +110,7 @@ class VocLabels : public LabelWriter {
   }
 
  private:
-  void remember(const IntruderTruth& intruder) {
+  void note_presence(const IntruderTruth& intruder) {
     Presence& presence = presence_[static_cast<std::size_t>(category_index(sequence_, intruder.id))].back();
     presence = std::max(presence, is_difficult(intruder) ? Presence::difficult : Presence::yes);
   }
@@ -126,8 +128,7 @@ class VocLabels : public LabelWriter {
   [[nodiscard]] std::string list_of(const std::vector<Presence>& shown) const {
     std::string list;
     for (std::size_t i = 0; i < shown.size(); ++i)
-      list += images_[i].stem().string() + (shown[i] == Presence::no ? " " : "  ") +
-              std::to_string(static_cast<int>(shown[i])) + "\n";
+      list += fmt::format("{} {:2}\n", images_[i].stem().string(), static_cast<int>(shown[i]));
     return list;
   }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "labels/vot.h"
+#include "labels/formats.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -20,9 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDecimals = 6;
-
-// A value of a line "key=value": the toolkit takes a backslash to say that the next letter is meant as it is.
+// A value of a line "key=value": the toolkit reads a backslash as the escape of the next character.
 std::string value_text(const std::string& text) {
   std::string value;
   for (const char c : text) {
@@ -33,23 +33,22 @@ std::string value_text(const std::string& text) {
 }
 
 std::string sequence_text(const FootageTruth& footage, const std::string& name) {
-  return "channels.color=color/%08d.png\nfps=" + std::to_string(whole_rate_hz(footage)) +
-         "\nframe_rate=" + rate_text(footage) + "\nheight=" + std::to_string(footage.size_px.height) +
-         "\nlength=" + std::to_string(footage.last_frame - footage.first_frame + 1) + "\nname=" + value_text(name) +
-         "\nwidth=" + std::to_string(footage.size_px.width) + "\n";
+  return fmt::format("channels.color=color/%08d.png\nfps={}\nframe_rate={}\nheight={}\nlength={}\nname={}\nwidth={}\n",
+                     whole_rate_hz(footage), rate_text(footage), footage.size_px.height, frame_count(footage),
+                     value_text(name), footage.size_px.width);
 }
 
-// The toolkit writes and reads an absent target as four numbers that are none, as its long-term challenges do.
+// The toolkit writes and reads an absent target as four NaN, as in its long-term challenges.
 std::string region_text(const cv::Rect* box) {
   if (box == nullptr) return "nan,nan,nan,nan";
-  return joined({box->x, box->y, box->width, box->height}, ",");
+  return fmt::format("{},{},{},{}", box->x, box->y, box->width, box->height);
 }
 
-// One target's own sequence: files with a line for each frame.
+// The sequence of one target: files with a line for each frame.
 class VotSequence {
  public:
   static Result<VotSequence> create(fs::path folder, const LabelSequence& sequence) {
-    if (const Result<void> made = make_inner_folder(folder); !made) return fail(made.error());
+    if (const Result<void> created = make_inner_folder(folder); !created) return fail(created.error());
     const std::string text = sequence_text(sequence.footage, folder.filename().string());
     if (const Result<void> head = write_text(folder / "sequence", text, false); !head) return fail(head.error());
     std::vector<TextFile> files;
@@ -68,8 +67,8 @@ class VotSequence {
     const std::array<std::string, kFiles.size()> lines{
         region_text(is_there ? &*truth->visible_box : nullptr), is_there ? "0" : "1",
         is_there && is_occluded(*truth) ? "1" : "0",
-        number_text(truth == nullptr ? 0 : glm::length(truth->position_m), kDecimals),
-        number_text(truth == nullptr ? 0 : truth->visible_fraction, kDecimals)};
+        number_text(truth == nullptr ? 0 : glm::length(truth->position_m), kLabelDecimals),
+        number_text(truth == nullptr ? 0 : truth->visible_fraction, kLabelDecimals)};
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (const Result<void> put = files_[i].put(lines[i] + "\n"); !put) return put;
     return {};
@@ -132,7 +131,7 @@ Result<std::unique_ptr<LabelWriter>> open_vot(const fs::path& path, const LabelS
   const std::string name = line_name(sequence.name);
   std::vector<VotSequence> targets;
   for (const LabelledIntruder& intruder : sequence.intruders) {
-    const std::string folder = sequence.intruders.size() == 1 ? name : name + "-" + std::to_string(intruder.id);
+    const std::string folder = sequence.intruders.size() == 1 ? name : fmt::format("{}-{}", name, intruder.id);
     Result<VotSequence> target = VotSequence::create(path / folder, sequence);
     if (!target) return fail(target.error());
     targets.push_back(std::move(*target));

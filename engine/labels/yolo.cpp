@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "labels/yolo.h"
+#include "labels/formats.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +11,6 @@
 #include "base/text.h"
 #include "labels/hard_link.h"
 #include "labels/label_text.h"
-#include "labels/text_file.h"
-#include "labels/yaml_text.h"
 
 namespace sigs {
 
@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Readers put labels/ in the place of the path's last images/, so none may follow.
+// Readers replace the last images/ of a path by labels/, so the sequence's folder must not be called that.
 std::string folder_name_of(const std::string& name) {
   return name == "images" ? "images-" : name;
 }
 
-// A box along one axis, in units of the last decimal written. What the numbers written say never leaves the image,
-// which some readers check to the last digit.
+// A box along one axis, in units of the last decimal written. The rounded numbers never describe a box that leaves the
+// image, which some readers check to the last digit.
 struct Span {
   static constexpr int kDecimals = 8;
   static constexpr double kUnit = 1e8;
@@ -49,14 +49,13 @@ class YoloLabels : public LabelWriter {
       : root_(std::move(root)), folder_(folder_name_of(sequence.name)), sequence_(sequence) {}
 
   Result<void> begin() {
-    if (const Result<void> made = make_inner_folder(root_ / "labels" / folder_); !made) return made;
+    if (const Result<void> created = make_inner_folder(root_ / "labels" / folder_); !created) return created;
     const std::vector<std::string>& categories = sequence_.categories;
     std::string text = "# One video: train and val are the same pictures. Point val elsewhere to measure a detector.\n";
     for (const char* const part : {"train", "val"})
-      text += std::string(part) + ": " + yaml_text("images/" + folder_) + "\n";
-    text += "nc: " + std::to_string(categories.size()) + "\nnames:" + (categories.empty() ? " {}" : "") + "\n";
-    for (std::size_t i = 0; i < categories.size(); ++i)
-      text += "  " + std::to_string(i) + ": " + yaml_text(categories[i]) + "\n";
+      text += fmt::format("{}: {}\n", part, yaml_text("images/" + folder_));
+    text += fmt::format("nc: {}\nnames:{}\n", categories.size(), categories.empty() ? " {}" : "");
+    for (std::size_t i = 0; i < categories.size(); ++i) text += fmt::format("  {}: {}\n", i, yaml_text(categories[i]));
     return write_text_file(root_ / "data.yaml", text);
   }
 
@@ -71,7 +70,7 @@ class YoloLabels : public LabelWriter {
   Result<void> finish(const fs::path& images) override {
     if (images.empty()) return {};
     const fs::path folder = root_ / "images" / folder_;
-    if (const Result<void> made = make_inner_folder(folder); !made) return made;
+    if (const Result<void> created = make_inner_folder(folder); !created) return created;
     for (const std::string& image : images_)
       if (const Result<void> linked = link_or_copy(images / image, folder / image); !linked) return linked;
     return {};
@@ -82,8 +81,8 @@ class YoloLabels : public LabelWriter {
     const cv::Size size_px = sequence_.footage.size_px;
     const Span across = span_of(intruder.visible_box->x, intruder.visible_box->width, size_px.width);
     const Span down = span_of(intruder.visible_box->y, intruder.visible_box->height, size_px.height);
-    return std::to_string(category_index(sequence_, intruder.id)) + " " + decimal(across.centre) + " " +
-           decimal(down.centre) + " " + decimal(across.length) + " " + decimal(down.length) + "\n";
+    return fmt::format("{} {} {} {} {}\n", category_index(sequence_, intruder.id), decimal(across.centre),
+                       decimal(down.centre), decimal(across.length), decimal(down.length));
   }
 
   fs::path root_;

@@ -135,7 +135,7 @@ TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
       if (face.material != "fuselage" && face.material != "fin") continue;
       const glm::dvec3 normal = glm::normalize(winding_normal(s.obj, face));
       const double area = uv_area(s.obj, face);
-      if (std::abs(normal.y) < 0.5 || std::abs(area) < 1e-6) continue;  // seen from above, or rounded to nothing
+      if (std::abs(normal.y) < 0.5 || std::abs(area) < 1e-6) continue;  // nearly horizontal, or without area
       // Counter-clockwise in the image as on the body: turned at most, never mirrored.
       REQUIRE(area > 0);
       ++(normal.y > 0 ? left : right);
@@ -162,7 +162,7 @@ TEST_CASE("every texture of the models is there and of moderate size") {
   }
 }
 
-TEST_CASE("the light aircraft has glass that lets a third of the light through to be seen") {
+TEST_CASE("the glass of the light aircraft lets a third of the light through") {
   const Sample light = sample("light-aircraft");
   CHECK(light.mtl.materials.at("glass").opacity == 0.35);
   CHECK(std::ranges::count(light.obj.faces, "glass", &ObjText::Face::material) > 50);

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
+std::vector<std::string> ordered_matches(const std::string& text, const std::regex& pattern) {
   std::vector<std::string> found;
   for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.push_back((*it)[1]);
   return found;
@@ -26,7 +26,7 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
 TEST_CASE("every link in the documentation leads to a file") {
   for (const fs::path& path : pages()) {
     const std::string text = *read_text(path);
-    for (const std::string& target : matches(text, std::regex("\\]\\(([^)#]+)[^)]*\\)"))) {
+    for (const std::string& target : ordered_matches(text, std::regex("\\]\\(([^)#]+)[^)]*\\)"))) {
       if (target.starts_with("http")) continue;
       CHECK_MESSAGE(fs::exists(path.parent_path() / target), path.filename() << " links to " << target);
     }
@@ -37,7 +37,7 @@ TEST_CASE("every file of ours that the documentation names is there") {
   int named = 0;
   for (const fs::path& path : pages()) {
     const std::string text = *read_text(path);
-    for (const std::string& name : matches(text, std::regex("`((?:engine|editor|cli|tests|docs)/[A-Za-z0-9_./-]+)`"))) {
+    for (const std::string& name : ordered_matches(text, std::regex("`((?:engine|editor|cli|tests|docs)/[A-Za-z0-9_./-]+)`"))) {
       CHECK_MESSAGE(fs::exists(source_dir() / name), path.filename() << " names " << name);
       ++named;
     }

@@ -95,7 +95,7 @@ TEST_CASE("a box of whole pixels has its edges half a pixel before its first col
   CHECK_FALSE(target_frame_of(some_frame(7).intruders[1]).amodal_box);
 }
 
-TEST_CASE("the annotation file of the documentation is read as the documentation says") {
+TEST_CASE("the annotation file of the documentation is read as documented") {
   const Result<std::string> page = read_text(source_dir() / "docs" / "annotation-format.md");
   REQUIRE(page);
   const std::size_t begin = page->find("<?xml");

@@ -35,4 +35,8 @@ Box moved(const Box& box, double dx, double dy) {
   return {box.x + dx, box.y + dy, box.width, box.height};
 }
 
+FootageTruth three_frames() {
+  return {.video = "clip.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
+}
+
 }  // namespace sigs::test

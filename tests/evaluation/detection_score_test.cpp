@@ -7,15 +7,14 @@
 
 #include <cmath>
 
+#include "evaluation/airborne_metrics.h"
 #include "evaluation/clips.h"
-#include "evaluation/detection_match.h"
-#include "evaluation/encounters.h"
 
 namespace sigs::test {
 namespace {
 
 constexpr double kRate_hz = 10;  // the published frame counts are of clips at this rate
-const Box kBox{599.5, 399.5, 20, 10};
+const Box kTarget{599.5, 399.5, 20, 10};
 const Box kElsewhere{99.5, 99.5, 20, 10};
 
 // Comes nearer by 5 m a frame from 600 m on: nearer than 300 m from frame 61 on, 1 m at the end of 120 frames.
@@ -24,13 +23,13 @@ double approaching_m(int frame) {
 }
 
 ClipTruth approach(int frames = 120) {
-  return clip_of(frames, kRate_hz, [](int i) { return visible_at(kBox, approaching_m(i)); });
+  return clip_of(frames, kRate_hz, [](int i) { return visible_at(kTarget, approaching_m(i)); });
 }
 
 // The intruder matched in frames first to last.
 Results matched(int first, int last, int track = 0) {
   Results results{.name = "some"};
-  for (int frame = first; frame <= last; ++frame) report(results, frame, kBox, track);
+  for (int frame = first; frame <= last; ++frame) report(results, frame, kTarget, track);
   return results;
 }
 
@@ -94,7 +93,7 @@ TEST_CASE("half the frames of the last window before 300 m are enough, one less 
   CHECK_FALSE(is_detected(approach(), matched(46, 59)));
   // Every other frame will do: 15 of 30.
   Results half;
-  for (int frame = 31; frame <= 60; frame += 2) report(half, frame, kBox);
+  for (int frame = 31; frame <= 60; frame += 2) report(half, frame, kTarget);
   CHECK(is_detected(approach(), half));
 }
 
@@ -108,31 +107,31 @@ TEST_CASE("what is late has a range and a time all the same") {
 
 TEST_CASE("matches of different tracks do not add up to one that is followed") {
   Results broken;
-  for (int frame = 31; frame <= 60; ++frame) report(broken, frame, kBox, frame);
+  for (int frame = 31; frame <= 60; ++frame) report(broken, frame, kTarget, frame);
   CHECK_FALSE(is_detected(approach(), broken));
   // A reporter that has no tracks is held to its matches alone.
   CHECK(is_detected(approach(), matched(31, 60, kNoTrack)));
   // One that half the time calls it something else still has it in half the frames.
   Results two = matched(31, 45, 1);
-  for (int frame = 46; frame <= 60; ++frame) report(two, frame, kBox, 2);
+  for (int frame = 46; frame <= 60; ++frame) report(two, frame, kTarget, 2);
   CHECK(is_detected(approach(), two));
 }
 
 TEST_CASE("an encounter that begins near is detected in its first three seconds, or not at all") {
-  const ClipTruth clip = clip_of(60, kRate_hz, [](int i) { return visible_at(kBox, 200 - i); });
+  const ClipTruth clip = clip_of(60, kRate_hz, [](int i) { return visible_at(kTarget, 200 - i); });
   CHECK(is_detected(clip, matched(0, 29)));
   CHECK(is_detected(clip, matched(15, 40)));
   CHECK_FALSE(is_detected(clip, matched(16, 59)));
 }
 
-TEST_CASE("an intruder that flies away must be seen before it first is near: in the first window") {
-  const ClipTruth clip = clip_of(80, kRate_hz, [](int i) { return visible_at(kBox, 200.0 + 5 * i); });
+TEST_CASE("an intruder that flies away must be detected before it is near, which is in the first window") {
+  const ClipTruth clip = clip_of(80, kRate_hz, [](int i) { return visible_at(kTarget, 200.0 + 5 * i); });
   CHECK(is_detected(clip, matched(10, 40)));
   CHECK_FALSE(is_detected(clip, matched(30, 79)));  // beyond 300 m again by then, but it has been near
 }
 
 TEST_CASE("just 300 m is not nearer than 300 m") {
-  const ClipTruth clip = clip_of(60, kRate_hz, [](int i) { return visible_at(kBox, i < 59 ? 300 : 299); });
+  const ClipTruth clip = clip_of(60, kRate_hz, [](int i) { return visible_at(kTarget, i < 59 ? 300 : 299); });
   CHECK(is_detected(clip, matched(29, 58)));
   CHECK(is_detected(clip, matched(44, 58)));
   CHECK_FALSE(is_detected(clip, matched(45, 59)));
@@ -140,22 +139,23 @@ TEST_CASE("just 300 m is not nearer than 300 m") {
 
 TEST_CASE("a gap of three frames lies within an encounter, one of four ends it") {
   const auto with_gap = [](int length) {
-    return [length](int i) { return i >= 50 && i < 50 + length ? TargetFrame{} : visible_at(kBox, 250); };
+    return [length](int i) { return i >= 50 && i < 50 + length ? TargetFrame{} : visible_at(kTarget, 250); };
   };
   CHECK(encounters(with_gap(0)) == 1);
   CHECK(encounters(with_gap(3)) == 1);
   CHECK(encounters(with_gap(4)) == 2);
   // Out of range is a gap as well.
   const auto far_amid = [](int length) {
-    return [length](int i) { return visible_at(kBox, i >= 50 && i < 50 + length ? 701 : 250); };
+    return [length](int i) { return visible_at(kTarget, i >= 50 && i < 50 + length ? 701 : 250); };
   };
   CHECK(encounters(far_amid(3)) == 1);
   CHECK(encounters(far_amid(4)) == 2);
 }
 
 TEST_CASE("frames of a gap are not asked for") {
-  const ClipTruth clip = clip_of(
-      33, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{.distance_m = 250} : visible_at(kBox, 250); });
+  const ClipTruth clip = clip_of(33, kRate_hz, [](int i) {
+    return i >= 10 && i < 13 ? TargetFrame{.distance_m = 250} : visible_at(kTarget, 250);
+  });
   // The first window, 0 to 29, has 27 frames to be matched in: 14 are enough, 13 are not.
   CHECK(is_detected(clip, matched(16, 29)));
   CHECK_FALSE(is_detected(clip, matched(17, 29)));
@@ -164,7 +164,7 @@ TEST_CASE("frames of a gap are not asked for") {
 
 TEST_CASE("an encounter lasts three seconds or is none") {
   const auto for_frames = [](int count) {
-    return [count](int i) { return i < count ? visible_at(kBox, 250) : TargetFrame{}; };
+    return [count](int i) { return i < count ? visible_at(kTarget, 250) : TargetFrame{}; };
   };
   CHECK(encounters(for_frames(29)) == 0);
   CHECK(encounters(for_frames(30)) == 1);
@@ -177,7 +177,7 @@ TEST_CASE("an encounter lasts three seconds or is none") {
 TEST_CASE("times of six digits do not cost an encounter a frame, nor a window") {
   const auto with_last_time = [](double last_s) {
     ClipTruth clip =
-        clip_of(30, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{} : visible_at(kBox, 250); });
+        clip_of(30, kRate_hz, [](int i) { return i >= 10 && i < 13 ? TargetFrame{} : visible_at(kTarget, 250); });
     clip.times_s.back() = last_s;
     return score_of(clip, {}).all.encounters;
   };
@@ -185,12 +185,12 @@ TEST_CASE("times of six digits do not cost an encounter a frame, nor a window") 
   CHECK(with_last_time(2.899999) == 1);  // 10.000003 Hz: 3 s would be 30.00001 frames
   CHECK(with_last_time(2.900001) == 1);  // 9.999997 Hz: 0.3 s would be 2.999999 frames
   // 30.3 frames are 30: half of them are 15.
-  const ClipTruth clip = clip_of(60, 10.1, [](int) { return visible_at(kBox, 250); });
+  const ClipTruth clip = clip_of(60, 10.1, [](int) { return visible_at(kTarget, 250); });
   CHECK(is_detected(clip, matched(15, 29)));
 }
 
 TEST_CASE("what never comes near is not asked for, and is counted apart") {
-  const ClipTruth clip = clip_of(60, kRate_hz, [](int) { return visible_at(kBox, 331); });
+  const ClipTruth clip = clip_of(60, kRate_hz, [](int) { return visible_at(kTarget, 331); });
   const DetectionScore score = score_of(clip, matched(0, 59));
   CHECK(score.all.encounters == 0);
   CHECK(std::isnan(score.all.rate()));
@@ -199,7 +199,8 @@ TEST_CASE("what never comes near is not asked for, and is counted apart") {
   CHECK(score.false_alarm_boxes == 0);
   CHECK(score_of(clip, {}, {.max_closest_range_m = 331}).all.encounters == 1);
   // Beyond the longest range nothing is asked for, and nothing is false that is there.
-  const DetectionScore far = score_of(clip_of(60, kRate_hz, [](int) { return visible_at(kBox, 701); }), matched(0, 59));
+  const DetectionScore far =
+      score_of(clip_of(60, kRate_hz, [](int) { return visible_at(kTarget, 701); }), matched(0, 59));
   CHECK(far.encounters_too_far == 0);
   CHECK(std::isnan(far.frame_detection_rate));
   CHECK(far.false_alarm_boxes == 0);
@@ -209,7 +210,7 @@ TEST_CASE("an encounter's side of the horizon is that of all its frames, or on i
   const auto side = [](HorizonSide first, HorizonSide last) {
     return score_of(clip_of(60, kRate_hz,
                             [=](int i) {
-                              TargetFrame frame = visible_at(kBox, 250);
+                              TargetFrame frame = visible_at(kTarget, 250);
                               frame.horizon = i < 59 ? first : last;
                               return frame;
                             }),
@@ -250,8 +251,8 @@ TEST_CASE("between a match and a false alarm lies what is neither") {
   // Boxes 20 wide, shifted by d: overlap (20 - d) / (20 + d).
   const auto at_overlap = [](double overlap) {
     Results results;
-    report(results, 0, moved(kBox, 20 * (1 - overlap) / (1 + overlap), 0));
-    return score_of(clip_of(1, kRate_hz, [](int) { return visible_at(kBox); }), results);
+    report(results, 0, moved(kTarget, 20 * (1 - overlap) / (1 + overlap), 0));
+    return score_of(clip_of(1, kRate_hz, [](int) { return visible_at(kTarget); }), results);
   };
   CHECK(at_overlap(0.2).frame_detection_rate == 1);
   CHECK(at_overlap(0.199).frame_detection_rate == 0);
@@ -262,7 +263,7 @@ TEST_CASE("between a match and a false alarm lies what is neither") {
 
 TEST_CASE("a report where a hidden intruder is raises no false alarm, and detects nothing") {
   const ClipTruth clip = clip_of(40, kRate_hz, [](int) {
-    TargetFrame frame = visible_at(kBox, 250);
+    TargetFrame frame = visible_at(kTarget, 250);
     frame.visible.reset();
     return frame;
   });
@@ -285,7 +286,7 @@ TEST_CASE("reports of a low score are as if they were not") {
 
 TEST_CASE("one report may match two intruders that are close together") {
   ClipTruth clip = approach();
-  add_target(clip, [](int i) { return visible_at(moved(kBox, 3, 0), approaching_m(i)); });
+  add_target(clip, [](int i) { return visible_at(moved(kTarget, 3, 0), approaching_m(i)); });
   const DetectionScore score = score_of(clip, matched(0, 59));
   CHECK(score.all.encounters == 2);
   CHECK(score.all.detected == 2);
@@ -335,7 +336,7 @@ TEST_CASE("the rate of a clip is that of its times, or the nominal one") {
   CHECK(rate_hz_of(clip) == 10);
 }
 
-TEST_CASE("an encounter that is too short is counted by itself, and said in words with its option") {
+TEST_CASE("an encounter that is too short is counted separately, and a sentence names the option") {
   const ClipTruth clip = approach();
   DetectionPolicy policy;
   policy.min_encounter_s = 1000;

@@ -6,14 +6,44 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
-#include "evaluation/moving_square.h"
-#include "evaluation/tracker_group.h"
+#include "base/image.h"
 
 namespace sigs::test {
+
 namespace {
+
+cv::Mat texture(cv::Size size, int low, int high, double sigma_px, std::uint64_t seed) {
+  cv::Mat image(size, CV_8UC3);
+  cv::RNG(seed).fill(image, cv::RNG::UNIFORM, low, high);
+  cv::GaussianBlur(image, image, {}, sigma_px);
+  return image;
+}
+
+cv::Rect square_pixels(int frame) {
+  return {60 + 2 * frame, 50 + frame, 40, 30};
+}
+
+Box square_box(int frame) {
+  const cv::Rect pixels = square_pixels(frame);
+  return {pixels.x - 0.5, pixels.y - 0.5, double(pixels.width), double(pixels.height)};
+}
+
+// The ground alone. CV_8UC3.
+cv::Mat background_image() {
+  return texture({200, 150}, 90, 140, 2, 7);
+}
+
+// A textured patch that crosses the ground, in each frame one pixel down and two to the right. CV_8UC3.
+cv::Mat square_image(int frame) {
+  cv::Mat image = background_image();
+  texture(square_pixels(0).size(), 0, 255, 1.5, 3).copyTo(image(square_pixels(frame)));
+  return image;
+}
 
 constexpr int kFrames = 6;
 
@@ -21,7 +51,7 @@ std::vector<std::string> all_names() {
   return {tracker_names().begin(), tracker_names().end()};
 }
 
-// What the trackers say of the moving square, fed in turn.
+// The results of the trackers on the moving square, run in turn.
 std::vector<Results> tracked(const std::vector<std::string>& names) {
   TrackerGroup group = TrackerGroup::make(names).value();
   group.start(0, square_image(0), square_box(0));
@@ -69,7 +99,7 @@ TEST_CASE("a patch that moves by whole pixels is found where it is by trackers t
       CHECK_MESSAGE(center_distance_px(boxes.front().box, square_box(frame)) < 0.5, results.name << " frame " << frame);
 }
 
-TEST_CASE("a tracker says the same again, alone, in other company and on one thread") {
+TEST_CASE("a tracker has the same results when repeated, alone, among others and on one thread") {
   const std::vector<Results> together = tracked(all_names());
   std::vector<std::string> backwards = all_names();
   std::reverse(backwards.begin(), backwards.end());
@@ -94,7 +124,7 @@ TEST_CASE("a tracker's report in its first frame is the box that it was started 
   CHECK_FALSE(results.frames_per_s.has_value());
 }
 
-TEST_CASE("a box that reaches over the image's edge is cut there, a box outside it starts nothing") {
+TEST_CASE("a box across the image's edge is clipped, and a box outside the image starts no tracker") {
   OpenCvTracker cut = tracker("medianflow");
   REQUIRE(cut.start(0, square_image(0), {-10.5, -0.5, 50, 400}).has_value());
   CHECK(cut.results().frames.at(0).front().box == Box{-0.5, -0.5, 40, 150});
@@ -110,7 +140,7 @@ TEST_CASE("a box that reaches over the image's edge is cut there, a box outside 
   }
 }
 
-TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or says that it cannot") {
+TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or returns an error") {
   const cv::Mat image = square_image(0);
   for (const std::string& name : all_names())
     for (const cv::Size size :
@@ -139,7 +169,7 @@ TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
   CHECK_FALSE(results[0].frames.contains(3));
 }
 
-TEST_CASE("a tracker that says that it has lost its target reports nothing") {
+TEST_CASE("a tracker that declares its target lost has no result") {
   OpenCvTracker mosse = tracker("mosse");
   REQUIRE(mosse.start(0, square_image(0), square_box(0)).has_value());
   REQUIRE(mosse.follow(1, square_image(1)).has_value());
@@ -148,7 +178,7 @@ TEST_CASE("a tracker that says that it has lost its target reports nothing") {
   CHECK_FALSE(mosse.results().frames.contains(2));
 }
 
-TEST_CASE("an unknown tracker is named with those there are, one named twice is refused") {
+TEST_CASE("an unknown tracker is an error that lists the known ones, and so is a name given twice") {
   const Result<OpenCvTracker> unknown = OpenCvTracker::make("goturn");
   REQUIRE_FALSE(unknown.has_value());
   CHECK(unknown.error().text() ==

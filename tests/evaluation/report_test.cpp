@@ -194,7 +194,7 @@ TEST_CASE("a name comes back from CSV, JSON and the page as it is") {
   CHECK(page.select_node("//h1").node().text().get() == std::string("Trackers on clip <1>"));
 }
 
-TEST_CASE("the page needs nothing from elsewhere, says its policies and remarks, and no name is taken twice") {
+TEST_CASE("the page refers to no other file, contains policies and remarks, and has no id twice") {
   const Written written(synthetic_track_report());
   const pugi::xml_document page = parsed(written.text("report.html"));
   check_self_contained(page.document_element());
@@ -244,7 +244,7 @@ TEST_CASE("without gnuplot one warning is given and everything else is written")
   CHECK(names == std::set<std::string>{"summary.csv", "frames.csv", "evaluation.json", "report.html"});
 }
 
-TEST_CASE("a report cannot be written where there is no folder") {
+TEST_CASE("a report cannot be written into a folder that does not exist") {
   const TemporaryFolder folder;
   const Result<WrittenReport> written = write_report(folder / "nowhere", synthetic_track_report());
   REQUIRE_FALSE(written.has_value());
@@ -266,7 +266,7 @@ TEST_CASE("the best of a column is marked where there is one, and errors have no
   CHECK(table_text(report).find('*') == std::string::npos);
 }
 
-TEST_CASE("no mean error stands where fewer than half of the frames have a report, and a note says why") {
+TEST_CASE("no mean error is shown where fewer than half of the frames have a report, and a note gives the reason") {
   TrackReport report = synthetic_track_report();
   report.scores[1].reported = 3;  // of 25
   const std::string text = table_text(report);
@@ -292,7 +292,7 @@ TEST_CASE("a table's columns end below each other, whatever the letters of the n
   CHECK(places.size() == 1);
 }
 
-TEST_CASE("a report of detectors says the same in the table, in CSV and in JSON") {
+TEST_CASE("a report of detectors has the same figures in the table, in CSV and in JSON") {
   const DetectionReport report = synthetic_detection_report();
   const std::string table = table_text(report);
   CHECK(table.find("1.000 (1/1)*") != std::string::npos);

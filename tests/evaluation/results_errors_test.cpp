@@ -9,10 +9,6 @@ namespace sigs::test {
 namespace {
 
 // Frames 100 to 102.
-FootageTruth three_frames() {
-  return {.video = "clip.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
-}
-
 struct BadFile {
   const char* name;
   std::string text;
@@ -167,7 +163,7 @@ TEST_CASE("what is no result file is refused") {
   check_refused({"a.json", "[] []", "line 1: ", "is not JSON from here on"});
 }
 
-TEST_CASE("a file that is not there cannot be read") {
+TEST_CASE("a file that does not exist cannot be read") {
   CHECK(read_results("/nowhere/a.txt", three_frames()).error().kind == ErrorKind::cannot_read);
 }
 

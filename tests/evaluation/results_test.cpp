@@ -12,11 +12,6 @@
 namespace sigs::test {
 namespace {
 
-// Frames 100 to 102.
-FootageTruth three_frames() {
-  return {.video = "clip.mp4", .size_px = {1280, 960}, .first_frame = 100, .last_frame = 102};
-}
-
 Result<Results> read(const std::string& text, const std::string& name = "tracker.txt",
                      const ResultsOptions& options = {}, const FootageTruth& clip = three_frames()) {
   const TemporaryFolder folder;
@@ -38,7 +33,7 @@ Box box_at(const Results& results, int frame) {
 }
 
 // Columns 10 to 19 and rows 20 to 24, counted from 0.
-const Box kBox{9.5, 19.5, 10, 5};
+const Box kReportedBox{9.5, 19.5, 10, 5};
 
 }  // namespace
 
@@ -84,7 +79,7 @@ TEST_CASE("each layout's way to say columns 10 to 19 and rows 20 to 24 gives the
     const CommaLocale comma;
     const Results results = good(file.text, file.name);
     CHECK(results.frames.size() == 3);
-    for (int frame = 100; frame <= 102; ++frame) CHECK(box_at(results, frame) == kBox);
+    for (int frame = 100; frame <= 102; ++frame) CHECK(box_at(results, frame) == kReportedBox);
     CHECK(results.name + std::filesystem::path(file.name).extension().string() == file.name);
   }
 }
@@ -131,11 +126,11 @@ TEST_CASE("of equal scores the first is the best") {
   CHECK(results.best_at(5) == nullptr);
 }
 
-TEST_CASE("VOT's special lines report nothing, and 1 says that the truth was given") {
+TEST_CASE("VOT's special lines report no box, and 1 marks an initialization") {
   const FootageTruth clip{.first_frame = 0, .last_frame = 6};
   const Results results = good("1\n10,20,10,5\n2\n0\n1\nnan,nan,nan,nan\nnan\n", "run.txt", {}, clip);
   CHECK(results.frames.size() == 1);
-  CHECK(box_at(results, 1) == kBox);
+  CHECK(box_at(results, 1) == kReportedBox);
   CHECK(results.initializations == std::set<int>{0, 4});
   // Absent in the first frame already: still seen to be VOT's.
   CHECK(good("nan,nan,nan,nan\nnan,nan,nan,nan\n10,20,10,5\n").frames.size() == 1);
@@ -167,8 +162,8 @@ TEST_CASE("one coco file tells of several clips by the number of their first ima
   const Results results = good(text, "a.json", second);
   CHECK(results.frames.size() == 2);
   CHECK(results.frames.at(100).size() == 2);
-  CHECK(box_at(results, 100) == kBox);
-  CHECK(box_at(results, 102) == kBox);
+  CHECK(box_at(results, 100) == kReportedBox);
+  CHECK(box_at(results, 102) == kReportedBox);
 
   const Result<Results> beyond =
       read(text, "a.json", {.multiple_per_frame = true, .first_image_id = 4, .last_image_id = 6});
@@ -179,7 +174,7 @@ TEST_CASE("one coco file tells of several clips by the number of their first ima
   CHECK(other.error().text().find("coco") != std::string::npos);
 }
 
-TEST_CASE("what a detector says when it sees nothing is no error") {
+TEST_CASE("the files of a detector without detections are not errors") {
   CHECK(good("frame,x,y,width,height\n", "none.csv").frames.empty());
   CHECK(good("[]", "none.json").frames.empty());
   CHECK(good("[{\"img_name\": \"frame_000101.png\", \"detections\": []}]", "none.json").frames.empty());
@@ -187,11 +182,11 @@ TEST_CASE("what a detector says when it sees nothing is no error") {
 
 TEST_CASE("a stated format is believed") {
   const ResultsOptions vot{.format = ResultsFormat::vot};
-  CHECK(box_at(good("10,20,10,5\n10,20,10,5\n10,20,10,5\n", "a.txt", vot), 100) == kBox);
+  CHECK(box_at(good("10,20,10,5\n10,20,10,5\n10,20,10,5\n", "a.txt", vot), 100) == kReportedBox);
   const ResultsOptions mot{.format = ResultsFormat::mot};
-  CHECK(box_at(good("1,7,11,21,10,5,1,1\n", "a.txt", mot), 100) == kBox);
+  CHECK(box_at(good("1,7,11,21,10,5,1,1\n", "a.txt", mot), 100) == kReportedBox);
   const ResultsOptions csv{.format = ResultsFormat::csv};
-  CHECK(box_at(good("frame,x,y,width,height\n100,10,20,10,5\n", "a.txt", csv), 100) == kBox);
+  CHECK(box_at(good("frame,x,y,width,height\n100,10,20,10,5\n", "a.txt", csv), 100) == kReportedBox);
   CHECK_FALSE(read("10,20,10,5\n", "a.csv", csv));
   CHECK(results_format_names().size() == 7);
   CHECK(results_format_names()[static_cast<std::size_t>(ResultsFormat::aot)] == "aot");
@@ -205,7 +200,7 @@ TEST_CASE("numbers keep their last digit whatever the layout") {
   CHECK(box_at(results, 100) == Box{x - 0.5, -1000.5, 0.001, 1e6});
 }
 
-TEST_CASE("three hundred thousand lines are all there") {
+TEST_CASE("three hundred thousand lines are all read") {
   constexpr int kFrames = 100'000;
   std::string text;
   for (int frame = 1; frame <= kFrames; ++frame)
@@ -215,6 +210,37 @@ TEST_CASE("three hundred thousand lines are all there") {
       good(text, "many.txt", {.multiple_per_frame = true}, {.first_frame = 0, .last_frame = kFrames - 1});
   REQUIRE(results.frames.size() == kFrames);
   CHECK(results.frames.at(kFrames - 1)[2].line == 3 * kFrames);
+}
+
+TEST_CASE("results that are written are read back as they were") {
+  Results written{.name = "mine"};
+  report(written, 3, {0.1, -7.25, 1.0 / 3, 20}, 0, 0.75);
+  report(written, 3, {5.5, 6.5, 7, 8}, 4, -2);
+  report(written, 9, {1e6, 2e-3, 1e-9, 400}, kNoTrack);
+  const TemporaryFolder folder;
+  REQUIRE(write_text(folder / "mine.csv", csv_text(written), false).has_value());
+  const FootageTruth clip{.size_px = {640, 480}, .last_frame = 9};
+  const Result<Results> read = read_results(folder / "mine.csv", clip, {.multiple_per_frame = true});
+  REQUIRE_MESSAGE(read.has_value(), read.error().text());
+  CHECK(read->name == "mine");
+  REQUIRE(read->frames.size() == 2);
+  for (const auto& [frame, boxes] : written.frames) {
+    REQUIRE(read->frames.at(frame).size() == boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const ReportedBox& back = read->frames.at(frame)[i];
+      // The file's x is the edge and half a pixel: a rounding each way.
+      CHECK(back.box.x == doctest::Approx(boxes[i].box.x).epsilon(1e-12));
+      CHECK(back.box.y == doctest::Approx(boxes[i].box.y).epsilon(1e-12));
+      CHECK(back.box.width == boxes[i].box.width);
+      CHECK(back.box.height == boxes[i].box.height);
+      CHECK(back.score == boxes[i].score);
+      CHECK(back.track == boxes[i].track);
+    }
+  }
+}
+
+TEST_CASE("results without a box are a header alone") {
+  CHECK(csv_text({.name = "silent"}) == "frame,x,y,width,height,score,track\n");
 }
 
 }  // namespace sigs::test

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kExact = 1e-9;  // what sums of a hundred doubles leave, by far
 
-const Box kBox{299.5, 199.5, 40, 10};
+const Box kTrueBox{299.5, 199.5, 40, 10};
 
 ClipTruth still_clip(int frames = 100) {
-  return clip_of(frames, 25, [](int) { return visible_at(kBox); });
+  return clip_of(frames, 25, [](int) { return visible_at(kTrueBox); });
 }
 
 // The tracker says the truth, moved by (dx, dy) in frame i.
@@ -83,7 +83,7 @@ TEST_CASE("boxes of one size, shifted by a share s of their width, overlap by (1
   for (const double share : {0.0, 0.1, 0.25, 0.5, 0.9, 0.999, 1.0, 1.5}) {
     CAPTURE(share);
     const double expected = share >= 1 ? 0 : (1 - share) / (1 + share);
-    const TrackScore score = score_moved(still_clip(), [&](int) { return std::pair(share * kBox.width, 0.0); });
+    const TrackScore score = score_moved(still_clip(), [&](int) { return std::pair(share * kTrueBox.width, 0.0); });
     CHECK(near(score.mean_overlap, expected));
     CHECK(score.lost == (share >= 1 ? 100 : 0));
     // Thresholds k / 20 that are less than the overlap, over 21.
@@ -175,13 +175,13 @@ TEST_CASE("the share of lost frames is what the success curve lacks at zero") {
 
 TEST_CASE("frames without the intruder are not scored, and what is reported in them is counted") {
   const ClipTruth clip = clip_of(10, 25, [](int i) {
-    TargetFrame frame = visible_at(kBox);
+    TargetFrame frame = visible_at(kTrueBox);
     if (i % 2 == 1) frame.visible.reset();  // hidden wholly: the silhouette stays
     if (i == 9) frame.amodal_box.reset();
     return frame;
   });
   Results results;
-  for (const int frame : {0, 1, 2, 3, 9}) report(results, frame, kBox);
+  for (const int frame : {0, 1, 2, 3, 9}) report(results, frame, kTrueBox);
   for (const TruthBox box : {TruthBox::visible, TruthBox::amodal}) {
     const TrackScore score = score_track(clip, clip.targets[0], results, {.truth = box});
     CHECK(score.scored == 5);
@@ -199,18 +199,18 @@ TEST_CASE("frames without the intruder are not scored, and what is reported in t
   CHECK(score_track(clip, clip.targets[0], results, {.from_frame = 2}).reported_absent == 2);
 }
 
-TEST_CASE("the policy says which frames count and against which box") {
+TEST_CASE("the policy determines which frames are scored and against which box") {
   const ClipTruth clip = clip_of(
       10, 25,
       [](int i) {
-        TargetFrame frame = visible_at(kBox);
-        frame.amodal_box = moved(kBox, -10, 0);
+        TargetFrame frame = visible_at(kTrueBox);
+        frame.amodal_box = moved(kTrueBox, -10, 0);
         frame.visible_fraction = i / 10.0;
         return frame;
       },
       50);
   Results results;
-  for (int frame = 50; frame < 60; ++frame) report(results, frame, kBox);
+  for (int frame = 50; frame < 60; ++frame) report(results, frame, kTrueBox);
   results.initializations = {59};
   const TrackScore all = score_track(clip, clip.targets[0], results, {});
   CHECK(all.scored == 9);  // frame 59 was given
@@ -261,7 +261,7 @@ TEST_CASE("one frame has its mean, median and 95 % in one") {
 
 TEST_CASE("a truth without width has errors without end, and none where it is met") {
   const ClipTruth clip = clip_of(2, 25, [](int) {
-    TargetFrame frame = visible_at(kBox);
+    TargetFrame frame = visible_at(kTrueBox);
     frame.amodal_box = Box{10, 10, 0, 5};
     return frame;
   });

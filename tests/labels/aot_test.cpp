@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/aot.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -17,7 +17,7 @@ using namespace labels;
 
 namespace {
 
-nlohmann::json written(const LabelSequence& clip, const std::vector<FrameTruth>& frames) {
+nlohmann::json written_aot(const LabelSequence& clip, const std::vector<FrameTruth>& frames) {
   const TemporaryFolder folder;
   write_labels("aot", folder / "l.json", clip, frames);
   nlohmann::json json = nlohmann::json::parse(text_of(folder / "l.json"), nullptr, false);
@@ -26,7 +26,7 @@ nlohmann::json written(const LabelSequence& clip, const std::vector<FrameTruth>&
 }
 
 nlohmann::json entities_of(const LabelSequence& clip, const std::vector<FrameTruth>& frames) {
-  return written(clip, frames)["samples"][clip.name]["entities"];
+  return written_aot(clip, frames)["samples"][clip.name]["entities"];
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ TEST_CASE("the airborne data's flight says how it was filmed") {
   LabelSequence clip = synthetic_sequence(10, 609, {"airplane"});
   clip.footage.frame_rate_num = 30000;
   clip.footage.frame_rate_den = 1001;
-  const nlohmann::json json = written(clip, {});
+  const nlohmann::json json = written_aot(clip, {});
   CHECK(json["metadata"].is_object());
   const nlohmann::json flight = json["samples"]["clip"]["metadata"];
   CHECK(flight["resolution"]["width"] == 640);
@@ -127,7 +127,7 @@ TEST_CASE("odd names and far intruders are plain JSON") {
   CHECK(entity["flight_id"] == clip.name);
   CHECK(entity["id"] == "Q\"uote\\1");
   clip.name = clip.images = "bad \xFF";
-  CHECK(written(clip, {frame_of(0, {truth})})["samples"].contains("bad \xEF\xBF\xBD"));
+  CHECK(written_aot(clip, {frame_of(0, {truth})})["samples"].contains("bad \xEF\xBF\xBD"));
 }
 
 TEST_CASE("the airborne data does not depend on the country") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/coco.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -19,14 +19,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string text_of(const LabelSequence& sequence, const std::vector<FrameTruth>& frames) {
+std::string coco_text(const LabelSequence& sequence, const std::vector<FrameTruth>& frames) {
   const TemporaryFolder folder;
   write_labels("coco", folder / "crossing.coco.json", sequence, frames);
   return *read_text(folder / "crossing.coco.json");
 }
 
 Json coco_of(const LabelSequence& sequence, const std::vector<FrameTruth>& frames) {
-  return Json::parse(text_of(sequence, frames));
+  return Json::parse(coco_text(sequence, frames));
 }
 
 std::vector<Json> of_picture(const Json& coco, int image_id, int iscrowd) {
@@ -209,14 +209,14 @@ TEST_CASE("coco: a name that is no UTF-8 does not spoil the file") {
   CHECK(coco_of(sequence, {})["tracks"][0]["name"] == "a\xEF\xBF\xBD");
 }
 
-TEST_CASE("coco: far away is told to the micrometre and the country plays no part") {
+TEST_CASE("coco: large distances have digits to the micrometre, and the locale has no influence") {
   IntruderTruth truth = visible_intruder(0, {1, 2, 3, 4});
   truth.position_m = {1e7 + 0.123456, -1234.5, -0.0000001};
   const std::vector<FrameTruth> frames = frames_of({{truth}});
-  const std::string expected = text_of(label_sequence(), frames);
+  const std::string expected = coco_text(label_sequence(), frames);
   CHECK(Json::parse(expected)["annotations"][0]["position_m"] == Json({10000000.123456, -1234.5, 0.0}));
   const CommaLocale comma;
-  CHECK(text_of(label_sequence(), frames) == expected);
+  CHECK(coco_text(label_sequence(), frames) == expected);
 }
 
 TEST_CASE("coco: a full disk is an error") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/csv.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -20,11 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Row = std::vector<std::string>;
+using CsvRow = std::vector<std::string>;
 
 // RFC 4180, letter by letter.
-std::vector<Row> rows_of(const std::string& text) {
-  std::vector<Row> rows{{""}};
+std::vector<CsvRow> csv_rows(const std::string& text) {
+  std::vector<CsvRow> rows{{""}};
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -39,13 +39,13 @@ std::vector<Row> rows_of(const std::string& text) {
     else
       rows.back().back() += c;
   }
-  REQUIRE(rows.back() == Row{""});
+  REQUIRE(rows.back() == CsvRow{""});
   rows.pop_back();
   return rows;
 }
 
 std::vector<std::map<std::string, std::string>> table_of(const fs::path& path) {
-  const std::vector<Row> rows = rows_of(text_of(path));
+  const std::vector<CsvRow> rows = csv_rows(text_of(path));
   std::vector<std::map<std::string, std::string>> table;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     REQUIRE(rows[i].size() == rows[0].size());
@@ -154,7 +154,7 @@ TEST_CASE("names with what CSV is made of come back") {
 TEST_CASE("a clip without intruders is a CSV header alone") {
   const TemporaryFolder folder;
   write_labels("csv", folder / "l.csv", synthetic_sequence(0, 1, {}), {frame_of(0, {}), frame_of(1, {})});
-  CHECK(rows_of(text_of(folder / "l.csv")).size() == 1);
+  CHECK(csv_rows(text_of(folder / "l.csv")).size() == 1);
 }
 
 TEST_CASE("CSV labels do not depend on the country") {

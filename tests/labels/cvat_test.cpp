@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/cvat.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@
 namespace sigs::test::labels {
 namespace {
 
-std::string text_of(const LabelSequence& sequence, const std::vector<FrameTruth>& frames) {
+std::string cvat_text(const LabelSequence& sequence, const std::vector<FrameTruth>& frames) {
   const TemporaryFolder folder;
   write_labels("cvat", folder / "crossing.cvat.xml", sequence, frames);
   return *read_text(folder / "crossing.cvat.xml");
@@ -23,11 +23,11 @@ std::string text_of(const LabelSequence& sequence, const std::vector<FrameTruth>
 
 pugi::xml_document cvat_of(const LabelSequence& sequence, const std::vector<FrameTruth>& frames) {
   pugi::xml_document document;
-  REQUIRE(document.load_string(text_of(sequence, frames).c_str()));
+  REQUIRE(document.load_string(cvat_text(sequence, frames).c_str()));
   return document;
 }
 
-cv::Rect box_of(const pugi::xml_node& shape) {
+cv::Rect cvat_box(const pugi::xml_node& shape) {
   const auto number = [&shape](const char* name) {
     REQUIRE_MESSAGE(shape.attribute(name), name << " is missing");
     return shape.attribute(name).as_int();
@@ -47,7 +47,7 @@ std::map<int, cv::Rect> shown(const pugi::xml_node& track, int frames) {
     for (int between = last ? last.attribute("frame").as_int() + 1 : frame; between < frame; ++between)
       if (last.attribute("outside").as_int() == 0) boxes[between] = {};
     CHECK(shape.attribute("keyframe").as_int() == 1);
-    if (shape.attribute("outside").as_int(-1) == 0) boxes[frame] = box_of(shape);
+    if (shape.attribute("outside").as_int(-1) == 0) boxes[frame] = cvat_box(shape);
     last = shape;
   }
   for (int after = last.attribute("frame").as_int() + 1; after < frames; ++after)
@@ -105,7 +105,7 @@ TEST_CASE("cvat: one pixel in a corner of the image comes back") {
   for (const cv::Point corner : {cv::Point(0, 0), {63, 0}, {0, 47}, {63, 47}}) {
     const pugi::xml_document document =
         cvat_of(label_sequence(), frames_of({{visible_intruder(0, {corner, cv::Size(1, 1)})}}));
-    CHECK(box_of(document.child("annotations").child("track").child("box")) == cv::Rect(corner, cv::Size(1, 1)));
+    CHECK(cvat_box(document.child("annotations").child("track").child("box")) == cv::Rect(corner, cv::Size(1, 1)));
   }
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("cvat: whatever comes and goes, CVAT shows a box where there is one an
   }
 }
 
-TEST_CASE("cvat: an intruder that is never to be seen has no track, thresholds included") {
+TEST_CASE("cvat: an intruder that is never visible, or never reaches the thresholds, has no track") {
   LabelSequence sequence = label_sequence(101);
   sequence.thresholds.min_pixels = 100;
   const pugi::xml_document document =
@@ -176,9 +176,9 @@ TEST_CASE("cvat: the country plays no part") {
   LabelSequence sequence = label_sequence(100 + 12344);
   sequence.footage.size_px = {4096, 2160};
   const std::vector<FrameTruth> frames = frames_of({{visible_intruder(0, {2000, 1500, 1, 1})}});
-  const std::string expected = text_of(sequence, frames);
+  const std::string expected = cvat_text(sequence, frames);
   const CommaLocale comma;
-  CHECK(text_of(sequence, frames) == expected);
+  CHECK(cvat_text(sequence, frames) == expected);
   CHECK(expected.find("<size>12345</size>") != std::string::npos);
   CHECK(expected.find("xtl=\"2000.00\"") != std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/kitti.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,6 @@
 #include <string>
 
 #include "base/pose.h"
-#include "labels/kitti_box.h"
 #include "labels/label_writing.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
@@ -48,16 +47,16 @@ KittiRow row_of(const std::string& line) {
   return r;
 }
 
-std::vector<KittiRow> rows_of(const fs::path& labels, const std::string& name = "clip") {
+std::vector<KittiRow> kitti_rows(const fs::path& labels, const std::string& name = "clip") {
   std::vector<KittiRow> rows;
   for (const std::string& line : lines_of(labels / "label_02" / (name + ".txt"))) rows.push_back(row_of(line));
   return rows;
 }
 
-std::vector<KittiRow> written(const LabelSequence& clip, const std::vector<FrameTruth>& frames) {
+std::vector<KittiRow> written_kitti(const LabelSequence& clip, const std::vector<FrameTruth>& frames) {
   const TemporaryFolder folder;
   write_labels("kitti", folder / "k", clip, frames);
-  return rows_of(folder / "k");
+  return kitti_rows(folder / "k");
 }
 
 IntruderTruth at(const glm::dvec3& position_m, double yaw_deg) {
@@ -75,10 +74,10 @@ KittiBox box_at(const glm::dvec3& position_m, double yaw_deg) {
 
 TEST_CASE("kitti counts frames from 0, tracks by id, and gives boxes by their edges") {
   const std::vector<KittiRow> rows =
-      written(synthetic_sequence(100, 102, {"light aircraft", "drone"}),
-              {frame_of(100, {visible_intruder(0, {0, 0, 1, 1}), invisible_intruder(1)}),
-               frame_of(101, {invisible_intruder(0), invisible_intruder(1)}),
-               frame_of(102, {invisible_intruder(0), visible_intruder(1, {638, 478, 2, 2})})});
+      written_kitti(synthetic_sequence(100, 102, {"light aircraft", "drone"}),
+                    {frame_of(100, {visible_intruder(0, {0, 0, 1, 1}), invisible_intruder(1)}),
+                     frame_of(101, {invisible_intruder(0), invisible_intruder(1)}),
+                     frame_of(102, {invisible_intruder(0), visible_intruder(1, {638, 478, 2, 2})})});
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].frame == 0);
   CHECK(rows[0].track == 0);
@@ -104,7 +103,7 @@ TEST_CASE("kitti's levels of truncation and occlusion") {
     IntruderTruth truth = visible_intruder(0, {1, 1, 2, 2});
     truth.inside_fraction = c.inside;
     truth.visible_fraction = c.visible;
-    const std::vector<KittiRow> rows = written(synthetic_sequence(0, 0, {"airplane"}), {frame_of(0, {truth})});
+    const std::vector<KittiRow> rows = written_kitti(synthetic_sequence(0, 0, {"airplane"}), {frame_of(0, {truth})});
     REQUIRE(rows.size() == 1);
     CHECK_MESSAGE(rows[0].truncated == c.truncated, c.inside);
     CHECK_MESSAGE(rows[0].occluded == c.occluded, c.visible << " of " << c.inside);
@@ -192,7 +191,7 @@ TEST_CASE("a nose straight up has no heading and so the heading 0") {
 
 TEST_CASE("kitti's row holds the box's numbers") {
   const std::vector<KittiRow> rows =
-      written(synthetic_sequence(0, 0, {"airplane"}), {frame_of(0, {at({100, 100, -3}, 90)})});
+      written_kitti(synthetic_sequence(0, 0, {"airplane"}), {frame_of(0, {at({100, 100, -3}, 90)})});
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].height == 2);
   CHECK(rows[0].width == 10);
@@ -239,7 +238,7 @@ TEST_CASE("kitti gives the own body in every frame as regions to ignore") {
   clip.own_body = cv::Mat::zeros(480, 640, CV_32FC1);
   clip.own_body(cv::Rect(0, 470, 640, 10)) = 1;
   const std::vector<KittiRow> rows =
-      written(clip, {frame_of(5, {visible_intruder(0, {5, 5, 9, 9})}), frame_of(6, {invisible_intruder(0)})});
+      written_kitti(clip, {frame_of(5, {visible_intruder(0, {5, 5, 9, 9})}), frame_of(6, {invisible_intruder(0)})});
   REQUIRE(rows.size() == 3);
   for (const std::size_t i : {1U, 2U}) {
     CHECK(rows[i].frame == int(i) - 1);
@@ -270,7 +269,7 @@ TEST_CASE("kitti's images, list and calibration lie where the benchmark has them
 TEST_CASE("kitti leaves out what lies below the thresholds") {
   LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
   clip.thresholds.min_pixels = 5;
-  const std::vector<KittiRow> rows = written(
+  const std::vector<KittiRow> rows = written_kitti(
       clip, {frame_of(0, {visible_intruder(0, {1, 1, 2, 2})}), frame_of(1, {visible_intruder(0, {1, 1, 5, 1})})});
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].frame == 1);
@@ -281,7 +280,7 @@ TEST_CASE("kitti labels do not depend on the country") {
   const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   const CommaLocale comma;
   write_labels("kitti", folder / "k", clip, {frame_of(0, {at({1e7, 1234.5, 0}, 90)})});
-  const KittiRow row = rows_of(folder / "k").at(0);
+  const KittiRow row = kitti_rows(folder / "k").at(0);
   CHECK(row.z == 1e7);
   CHECK(row.x == 1234.5);
 }

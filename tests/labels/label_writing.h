@@ -41,4 +41,14 @@ void write_synthetic_images(const std::filesystem::path& folder, const LabelSequ
 // Every file below a folder, by its path from there, in order.
 [[nodiscard]] std::vector<std::string> files_below(const std::filesystem::path& folder);
 
+// A sequence of images of 64 x 48 px, frames 100 to `last` at 30000/1001 a second, called "crossing", with two
+// intruders: 0, an "airplane", and 1, a "glider".
+[[nodiscard]] LabelSequence label_sequence(int last = 100);
+
+// Frames from 100 on.
+[[nodiscard]] std::vector<FrameTruth> frames_of(const std::vector<std::vector<IntruderTruth>>& intruders);
+
+// Names that formats have to quote or escape, in UTF-8.
+[[nodiscard]] std::vector<std::string> special_names();
+
 }  // namespace sigs::test::labels

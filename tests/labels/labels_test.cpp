@@ -65,7 +65,7 @@ TEST_CASE("every format writes a clip without any intruder and one of a single f
   }
 }
 
-TEST_CASE("every format says which file it cannot make") {
+TEST_CASE("every format names the file that it cannot create") {
   const TemporaryFolder folder;
   REQUIRE(write_text(folder / "file", "x", false).has_value());
   for (const LabelFormat& format : label_formats()) {
@@ -77,7 +77,7 @@ TEST_CASE("every format says which file it cannot make") {
   }
 }
 
-TEST_CASE("every format with images says which of them is missing") {
+TEST_CASE("every format with images names the one that is missing") {
   for (const LabelFormat& format : label_formats()) {
     if (!format.is_folder) continue;
     const TemporaryFolder folder;
@@ -93,27 +93,6 @@ TEST_CASE("every format with images says which of them is missing") {
     CHECK(finished.error().kind == ErrorKind::write_failed);
     CHECK(finished.error().text().find("frame_000000.png") != std::string::npos);
   }
-}
-
-TEST_CASE("names for lines, columns and CSV fields") {
-  CHECK(line_name("a b") == "a b");
-  CHECK(line_name("  a\tb\r\nc ") == "a b  c");
-  CHECK(line_name("") == "unnamed");
-  CHECK(line_name(" \n") == "unnamed");
-  CHECK(line_name("\xFF") == "\xEF\xBF\xBD");
-  CHECK(word_name("light aircraft") == "light_aircraft");
-  CHECK(csv_field("plain") == "plain");
-  CHECK(csv_field("a\"b") == "\"a\"\"b\"");
-  CHECK(joined({1, -2, 3}, ", ") == "1, -2, 3");
-  CHECK(joined({}, ",").empty());
-}
-
-TEST_CASE("frame rates as ratios and as whole numbers above 0") {
-  FootageTruth footage{.frame_rate_num = 30000, .frame_rate_den = 1001};
-  CHECK(rate_text(footage) == "30000/1001");
-  CHECK(whole_rate_hz(footage) == 30);
-  footage.frame_rate_num = 1;
-  CHECK(whole_rate_hz(footage) == 1);
 }
 
 }  // namespace sigs::test

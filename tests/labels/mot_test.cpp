@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/mot.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -28,7 +28,7 @@ struct MotRow {
   double visibility;
 };
 
-std::vector<MotRow> rows_of(const fs::path& labels, const std::string& name = "clip") {
+std::vector<MotRow> mot_rows(const fs::path& labels, const std::string& name = "clip") {
   std::vector<MotRow> rows;
   for (const std::string& line : lines_of(labels / name / "gt" / "gt.txt")) {
     const std::vector<std::string> fields = parts_of(line, ',');
@@ -55,7 +55,7 @@ std::map<std::string, std::string> ini_of(const fs::path& path, const std::strin
 void check_accepted(const fs::path& labels) {
   const int length = std::stoi(ini_of(labels / "clip" / "seqinfo.ini", "Sequence").at("seqLength"));
   std::set<std::pair<int, int>> ids;
-  for (const MotRow& row : rows_of(labels)) {
+  for (const MotRow& row : mot_rows(labels)) {
     CHECK(row.frame >= 1);
     CHECK(row.frame <= length);
     CHECK(row.id >= 1);
@@ -76,7 +76,7 @@ TEST_CASE("mot counts frames, ids, pixels and classes from 1") {
       "mot", folder / "m", clip,
       {frame_of(100, {visible_intruder(0, {0, 0, 1, 1}), invisible_intruder(1)}),
        frame_of(101, {invisible_intruder(0), invisible_intruder(1)}), frame_of(102, {invisible_intruder(0), half})});
-  const std::vector<MotRow> rows = rows_of(folder / "m");
+  const std::vector<MotRow> rows = mot_rows(folder / "m");
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].frame == 1);
   CHECK(rows[0].id == 1);
@@ -108,7 +108,7 @@ TEST_CASE("mot's seqinfo tells the sequence, in the order that readers by line n
   CHECK(lines_of(folder / "m" / "seqmaps" / "clip.txt") == std::vector<std::string>{"name", "clip"});
 }
 
-TEST_CASE("mot's images are those of the export, numbered from 1, without room of their own") {
+TEST_CASE("mot's images are those of the export, numbered from 1, and take no space of their own") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(98, 100, {"airplane"});
   write_synthetic_images(folder / "images", clip);
@@ -135,7 +135,7 @@ TEST_CASE("mot gives the own body in every frame as a distractor that does not c
   clip.own_body(cv::Rect(0, 470, 640, 10)) = 1;
   write_labels("mot", folder / "m", clip,
                {frame_of(0, {visible_intruder(0, {5, 5, 9, 9})}), frame_of(1, {invisible_intruder(0)})});
-  const std::vector<MotRow> rows = rows_of(folder / "m");
+  const std::vector<MotRow> rows = mot_rows(folder / "m");
   REQUIRE(rows.size() == 3);
   for (const std::size_t i : {1U, 2U}) {
     CHECK(rows[i].frame == int(i));
@@ -152,7 +152,7 @@ TEST_CASE("mot's own body takes no class that a category has") {
   LabelSequence clip = synthetic_sequence(0, 0, {"a", "b", "c", "d", "e", "f", "g", "h"});
   clip.own_body = cv::Mat::ones(480, 640, CV_32FC1);
   write_labels("mot", folder / "m", clip, {frame_of(0, {visible_intruder(7, {5, 5, 9, 9})})});
-  const std::vector<MotRow> rows = rows_of(folder / "m");
+  const std::vector<MotRow> rows = mot_rows(folder / "m");
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].category == 8);
   CHECK(rows[1].category == 9);
@@ -170,7 +170,7 @@ TEST_CASE("mot leaves out what lies below the thresholds and keeps what lies on 
       "mot", folder / "m", clip,
       {frame_of(0, {visible_intruder(0, {5, 5, 5, 1})}), frame_of(1, {on}), frame_of(2, {hidden}), frame_of(3, {on})});
   std::vector<int> frames;
-  for (const MotRow& row : rows_of(folder / "m")) frames.push_back(row.frame);
+  for (const MotRow& row : mot_rows(folder / "m")) frames.push_back(row.frame);
   CHECK(frames == std::vector<int>{2, 4});
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("mot takes odd names for folders and lists") {
   LabelSequence clip = synthetic_sequence(0, 0, {"light <aircraft> & co"});
   clip.name = "a, \"b\" \xC3\xBC 'c' 100%";
   write_labels("mot", folder / "m", clip, {frame_of(0, {visible_intruder(0, {5, 5, 9, 9})})});
-  CHECK(rows_of(folder / "m", clip.name).size() == 1);
+  CHECK(mot_rows(folder / "m", clip.name).size() == 1);
   CHECK(text_of(folder / "m" / "seqmaps" / (clip.name + ".txt")) == "name\n\"a, \"\"b\"\" \xC3\xBC 'c' 100%\"\n");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/voc.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 
@@ -34,7 +34,7 @@ std::string text_at(const pugi::xml_node& node, const char* path) {
 }
 
 // VOC counts from 1 and both ends belong to the box: VOCcode takes xmax - xmin + 1 as its width.
-cv::Rect box_of(const pugi::xml_node& object) {
+cv::Rect voc_box(const pugi::xml_node& object) {
   const auto number = [&object](const char* path) { return std::stoi(text_at(object, path)); };
   const int x = number("bndbox/xmin");
   const int y = number("bndbox/ymin");
@@ -77,7 +77,7 @@ TEST_CASE("voc: an annotation names its image and holds its objects") {
   CHECK(text_at(first, "bndbox/ymax") == "10");
   const pugi::xml_node second = first.next_sibling("object");
   CHECK(text_at(second, "name") == "glider");
-  CHECK(box_of(second) == cv::Rect(30, 20, 2, 1));
+  CHECK(voc_box(second) == cv::Rect(30, 20, 2, 1));
   CHECK_FALSE(second.next_sibling());
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("voc: one pixel in a corner of the image comes back, and the last pixe
   for (const cv::Point corner : {cv::Point(0, 0), {63, 0}, {0, 47}, {63, 47}}) {
     const pugi::xml_document document =
         annotation_of(label_sequence(), {visible_intruder(0, {corner, cv::Size(1, 1)})});
-    CHECK(box_of(document.child("annotation").child("object")) == cv::Rect(corner, cv::Size(1, 1)));
+    CHECK(voc_box(document.child("annotation").child("object")) == cv::Rect(corner, cv::Size(1, 1)));
   }
   const pugi::xml_document whole = annotation_of(label_sequence(), {visible_intruder(0, {0, 0, 64, 48})});
   CHECK(text_at(whole, "annotation/object/bndbox/xmax") == "64");

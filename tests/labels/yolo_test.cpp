@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/yolo.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 #include <yaml-cpp/yaml.h>

@@ -13,7 +13,7 @@
 #include "cli/tiny_project.h"
 #include "editor/preview/outline_truth.h"
 #include "editor/preview/survey_builder.h"
-#include "evaluation/track_start.h"
+#include "evaluation/track_score.h"
 #include "export/export_project.h"
 #include "preview_client.h"
 #include "project/json.h"
