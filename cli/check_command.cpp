@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/check_command.h"
+#include "cli/commands.h"
 
 #include <cstdio>
 #include <limits>
@@ -71,7 +71,7 @@ Result<void> check(const ProjectOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_check_command(CLI::App& program) {
+Command add_check_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("check", "list what is wrong with a project");
   const auto options = std::make_shared<ProjectOptions>();
   add_project_options(*command, *options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/dataset_command.h"
+#include "cli/commands.h"
 
 #include <algorithm>
 #include <charconv>
@@ -12,21 +12,20 @@
 #include <string>
 #include <vector>
 
-#include "allocator.h"
 #include "cli/dataset_table.h"
-#include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/process.h"
 #include "cli/progress.h"
+#include "dataset/footage_cache.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
 #include "dataset/run.h"
-#include "dataset/video_visibility.h"
 
 namespace sigs::cli {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDatasetFooter =
     "Examples:\n"
     "  sigs dataset projects/table1/table1.json --dry-run\n"
     "  sigs dataset projects/table1/table1.json --out table1\n"
@@ -112,6 +111,8 @@ Result<void> keep_only(Plan& plan, const std::set<std::string>& names) {
 
 Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
   Result<ReadRecipe> read = read_recipe(options.recipe, options.project.settings);
+  if (!read && read.error().kind == ErrorKind::usage)  // an assignment of --set
+    return fail("--set " + read.error().where, read.error().what, ErrorKind::usage);
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
   source = {.program = std::string("sigs ") + SIGS_VERSION,
@@ -216,7 +217,7 @@ Result<void> run(const DatasetOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_dataset_command(CLI::App& program) {
+Command add_dataset_command(CLI::App& program) {
   const auto options = std::make_shared<DatasetOptions>();
   CLI::App* const command =
       program.add_subcommand("dataset", "make a whole dataset from a recipe: videos, truth, labels, index");
@@ -234,7 +235,7 @@ std::function<Result<void>()> add_dataset_command(CLI::App& program) {
       ->check(not_empty());
   command->add_flag("--merge", options->merge, "export nothing: make the index of videos that are there");
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
-  command->footer(kFooter);
+  command->footer(kDatasetFooter);
   add_set_option(*command, options->project);
   add_progress_option(*command, options->progress);
   return [options] { return run(*options); };

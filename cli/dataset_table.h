@@ -7,8 +7,8 @@
 
 #include "base/result.h"
 #include "dataset/dataset_lock.h"
+#include "dataset/footage_cache.h"
 #include "dataset/plan.h"
-#include "dataset/video_visibility.h"
 
 namespace sigs::cli {
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "cli/evaluate_command.h"
-
-#include "cli/evaluate_detect.h"
-#include "cli/evaluate_track.h"
+#include "cli/commands.h"
 
 namespace sigs::cli {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kEvaluateFooter =
     "Examples:\n"
     "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out report\n"
     "  sigs evaluate track out/crossing.xml --results mine.txt --format otb\n"
@@ -18,12 +15,12 @@ constexpr const char* kFooter =
 
 }  // namespace
 
-std::function<Result<void>()> add_evaluate_command(CLI::App& program) {
+Command add_evaluate_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("evaluate", "measure trackers and detectors against the truth");
   command->require_subcommand(1);
-  command->footer(kFooter);
-  const std::function<Result<void>()> track = add_evaluate_track(*command);
-  const std::function<Result<void>()> detect = add_evaluate_detect(*command);
+  command->footer(kEvaluateFooter);
+  const Command track = add_evaluate_track(*command);
+  const Command detect = add_evaluate_detect(*command);
   return [command, track, detect] { return command->got_subcommand("track") ? track() : detect(); };
 }
 

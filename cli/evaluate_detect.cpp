@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/evaluate_detect.h"
+#include "cli/commands.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "cli/detect_inputs.h"
-#include "cli/evaluate_options.h"
 #include "cli/evaluation_folder.h"
-#include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/process.h"
 #include "evaluation/detection_score.h"
 #include "evaluation/report.h"
 
@@ -21,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFooter =
+constexpr const char* kEvaluateDetectFooter =
     "Examples:\n"
     "  sigs evaluate detect out/crossing.xml --results found.csv --out report\n"
     "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --min-score 0.3\n"
@@ -141,7 +140,7 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
 
 }  // namespace
 
-std::function<Result<void>()> add_evaluate_detect(CLI::App& evaluate) {
+Command add_evaluate_detect(CLI::App& evaluate) {
   CLI::App* const command =
       evaluate.add_subcommand("detect", "measure detectors on clips: encounters detected, false alarms");
   const auto options = std::make_shared<DetectOptions>();
@@ -159,7 +158,7 @@ std::function<Result<void>()> add_evaluate_detect(CLI::App& evaluate) {
   add_format_option(*command, options->format);
   add_policy_options(*command, options->policy);
   add_report_options(*command, options->folder, options->force);
-  command->footer(kFooter);
+  command->footer(kEvaluateDetectFooter);
   return [options] { return run(*options); };
 }
 

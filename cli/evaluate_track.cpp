@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/evaluate_track.h"
+#include "cli/commands.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "cli/detect_inputs.h"
-#include "cli/evaluate_options.h"
 #include "cli/evaluation_folder.h"
-#include "cli/interrupt.h"
+#include "cli/process.h"
+#include "cli/tracked_clip.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 #include "evaluation/results.h"
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFooter =
+constexpr const char* kEvaluateTrackFooter =
     "Examples:\n"
     "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf,mosse --out report\n"
     "  sigs evaluate track out/crossing.xml --tracker all --min-side 8\n"
@@ -174,7 +174,7 @@ void add_scoring_options(CLI::App& command, TrackOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
+Command add_evaluate_track(CLI::App& evaluate) {
   CLI::App* const command = evaluate.add_subcommand("track", "measure trackers on one clip: centre error, overlap");
   const auto options = std::make_shared<TrackOptions>();
   TrackRequest& request = options->request;
@@ -202,7 +202,7 @@ std::function<Result<void>()> add_evaluate_track(CLI::App& evaluate) {
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   add_progress_option(*command, request.progress);
-  command->footer(kFooter);
+  command->footer(kEvaluateTrackFooter);
   return [options] { return run(*options); };
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "base/paths.h"
 #include "evaluation/opencv_tracker.h"
@@ -12,9 +14,9 @@
 
 namespace sigs::cli {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 Error not_free(const fs::path& folder, const std::string& what) {
   return {folder.string(), what, ErrorKind::cannot_create};
@@ -64,7 +66,7 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
 Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
                                                     const std::vector<fs::path>& inputs) {
   const fs::path place = canonical_path(folder);
-  if (const Result<void> kept = check_inputs_not_overwritten({folder}, inputs); !kept) return fail(kept.error());
+  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{folder}, inputs); !kept) return fail(kept.error());
   if (const Result<void> free = check_free(folder, place, overwrite); !free) return fail(free.error());
   CreatedFolders above;
   if (const Result<void> made = above.make(place.parent_path()); !made) return fail(made.error());
@@ -79,6 +81,26 @@ Result<std::vector<fs::path>> EvaluationFolder::commit(const std::vector<fs::pat
   for (const fs::path& path : written) final_paths.push_back(shown_ / path.lexically_relative(file_.temporary_path()));
   if (const Result<void> kept = file_.commit(); !kept) return fail(kept.error());
   return final_paths;
+}
+
+void add_format_option(CLI::App& command, ResultsFormat& format) {
+  const auto names = results_format_names();
+  command
+      .add_option_function<std::string>(
+          "--format",
+          [&format, names](const std::string& name) {
+            format = static_cast<ResultsFormat>(std::find(names.begin(), names.end(), name) - names.begin());
+          },
+          "of the results: auto, otb, vot, mot, csv, aot or coco")
+      ->option_text("NAME=auto")
+      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
+}
+
+void add_report_options(CLI::App& command, std::filesystem::path& folder, bool& force) {
+  command.add_option("--out", folder, "folder to be made, with tables, plots and report.html")
+      ->option_text("DIR")
+      ->check(output_path());
+  command.add_flag("--force", force, "replace an evaluation that is there");
 }
 
 }  // namespace sigs::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -33,5 +34,13 @@ class EvaluationFolder {
   CreatedFolders folders_;       // those above it
   TemporaryFile file_;
 };
+
+// What both kinds of `sigs evaluate` take. What is added to must outlive the command.
+
+// --format
+void add_format_option(CLI::App& command, ResultsFormat& format);
+
+// --out and --force
+void add_report_options(CLI::App& command, std::filesystem::path& folder, bool& force);
 
 }  // namespace sigs::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/export_command.h"
+#include "cli/commands.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,9 +9,8 @@
 #include <string_view>
 #include <thread>
 
-#include "allocator.h"
-#include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/process.h"
 #include "cli/progress.h"
 #include "export/export_project.h"
 #include "labels/labels.h"
@@ -164,7 +163,7 @@ Result<void> run(const ExportOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_export_command(CLI::App& program) {
+Command add_export_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("export", "write a project's video, masks and annotations; prints the files written");
   const auto options = std::make_shared<ExportOptions>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/frame_command.h"
+#include "cli/commands.h"
 
 #include <cstdio>
 #include <memory>
@@ -7,11 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/interrupt.h"
 #include "cli/options.h"
 #include "created_folders.h"
 #include "frame/compose_frame.h"
-#include "image_files.h"
 #include "scene/opened_project.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
@@ -91,7 +89,7 @@ Result<void> run(const FrameOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_frame_command(CLI::App& program) {
+Command add_frame_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("frame", "write one composited frame as PNG");
   const auto options = std::make_shared<FrameOptions>();
   add_project_options(*command, options->project);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/info_command.h"
+#include "cli/commands.h"
 
 #include <algorithm>
 #include <cctype>
@@ -183,7 +183,7 @@ Result<void> info(const InfoOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_info_command(CLI::App& program) {
+Command add_info_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("info", "say what is read in a video, calibration or model");
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("FILE", options->path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")

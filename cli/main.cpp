@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <sys/resource.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,10 +16,11 @@
 #include "cli/interrupt.h"
 #include "cli/mask_command.h"
 #include "cli/options.h"
+#include "cli/process.h"
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     "Examples:\n"
     "  sigs export projects/crossing/crossing.json --out out\n"
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
@@ -38,21 +35,13 @@ constexpr const char* kFooter =
     "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted,\n"
     "129 stopped by SIGHUP, 143 by SIGTERM.";
 
-struct Command {
+struct AddedCommand {
   CLI::App* app;
-  std::function<sigs::Result<void>()> run;
+  sigs::cli::Command run;
 };
 
 bool is_no_evaluation(std::string_view word) {
   return !word.starts_with('-') && word != "track" && word != "detect";
-}
-
-// Mesa reads these when it is loaded. What fails in it comes back as an error; stderr is the program's own. Where the
-// memory is limited its software renderer goes without threads: it waits for ever for those that it could not start.
-void prepare_mesa() {
-  setenv("EGL_LOG_LEVEL", "fatal", 0);
-  rlimit memory{};
-  if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) setenv("LP_NUM_THREADS", "0", 0);
 }
 
 int run(int argc, char** argv) {
@@ -60,14 +49,14 @@ int run(int argc, char** argv) {
   CLI::App program("Puts simulated aircraft into real UAV footage, and writes the truth beside it.", "sigs");
   program.set_version_flag("--version", std::string("sigs ") + SIGS_VERSION);
   program.require_subcommand(1);
-  program.footer(kFooter);
-  std::vector<Command> commands;
+  program.footer(kProgramFooter);
+  std::vector<AddedCommand> commands;
   for (const auto add : {add_export_command, add_frame_command, add_mask_command, add_dataset_command,
                          add_evaluate_command, add_check_command, add_info_command}) {
-    std::function<sigs::Result<void>()> run = add(program);
+    Command run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
   }
-  const auto is_asked_for = [&](const Command& command) { return command.app->get_name() == argv[1]; };
+  const auto is_asked_for = [&](const AddedCommand& command) { return command.app->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
     print_error({argv[1], "no such command; there are export, frame, mask, dataset, evaluate, check and info",
                  sigs::ErrorKind::usage});
@@ -85,7 +74,7 @@ int run(int argc, char** argv) {
   }
   listen_for_interrupts();
   prepare_mesa();
-  for (const Command& command : commands) {
+  for (const AddedCommand& command : commands) {
     if (!command.app->parsed()) continue;
     if (const sigs::Result<void> done = command.run(); !done) {
       print_error(done.error());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/mask_command.h"
+#include "cli/commands.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
-#include "cli/interrupt.h"
 #include "cli/mask_outputs.h"
 #include "cli/options.h"
+#include "cli/process.h"
 #include "cli/progress.h"
 #include "occlusion/detect.h"
 #include "project/validate.h"
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFooter =
+constexpr const char* kMaskFooter =
     "Examples:\n"
     "  sigs mask flight.mp4\n"
     "  sigs mask flight.mp4 --out own_body.png --confidence sure.png --stages steps\n"
@@ -175,7 +175,7 @@ Result<void> run(const MaskOptions& options) {
 
 }  // namespace
 
-std::function<Result<void>()> add_mask_command(CLI::App& program) {
+Command add_mask_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("mask", "find which pixels of a video show the UAV's own body");
   const auto options = std::make_shared<MaskOptions>();
   command->add_option("FILE", options->project.file, "a video, or a project (json): its footage, range and settings")
@@ -196,7 +196,7 @@ std::function<Result<void>()> add_mask_command(CLI::App& program) {
   add_path("--stages", options->paths.stages, "DIR", "write the image of every step into this folder");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
-  command->footer(kFooter);
+  command->footer(kMaskFooter);
   return [options] { return run(*options); };
 }
 

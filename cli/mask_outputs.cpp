@@ -2,6 +2,7 @@
 #include "cli/mask_outputs.h"
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -11,9 +12,24 @@
 
 namespace sigs::cli {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-namespace fs = std::filesystem;
+const cv::Vec3b kTint(255, 0, 255);  // magenta: neither sky nor ground nor paint
+constexpr double kStrength = 0.5;
+
+// The image with the mask tinted over it, to be looked at. bgr: CV_8UC3; mask: CV_8UC1 of the same size.
+cv::Mat tinted(const cv::Mat& bgr, const cv::Mat& mask) {
+  cv::Mat image = bgr.clone();
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const double share = kStrength * mask.at<uchar>(y, x) / 255.0;
+      cv::Vec3b& pixel = image.at<cv::Vec3b>(y, x);
+      for (int i = 0; i < 3; ++i) pixel[i] = cv::saturate_cast<uchar>(pixel[i] + share * (kTint[i] - pixel[i]));
+    }
+  return image;
+}
 
 // The steps of every method, and what stands around them.
 constexpr std::string_view kStages[] = {
@@ -52,7 +68,7 @@ Result<void> check_distinct(const MaskPaths& paths) {
 Result<void> check_name(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
   const std::string where = std::string(option) + " " + path.string();
   if (path.extension() != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (const Result<void> kept = check_inputs_not_overwritten({path}, inputs); !kept)
+  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
     return fail(where, kept.error().what, ErrorKind::cannot_create);
   return {};
 }

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "created_folders.h"
-#include "image_files.h"
+#include "cli/output_files.h"
 #include "occlusion/detect.h"
 
 namespace sigs::cli {

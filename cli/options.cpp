@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "base/ensure.h"
 #include "base/text.h"
@@ -65,6 +67,23 @@ std::string number_error(const Field& field, const std::string& text) {
   return "";
 }
 
+// What the engine's texts call something, and how it is asked for here.
+constexpr std::pair<std::string_view, std::string_view> kOptionTexts[] = {
+    {"exists already; overwriting was not asked for", "exists already; --force overwrites it"},
+    {"choose another folder for the dataset", "choose another --out"},
+    {"resuming goes on", "--resume goes on"},
+    {"resuming makes them", "--resume makes them"},
+    {"merging makes the index", "--merge makes the index"},
+    {"made from other settings, inputs", "made from other settings (recipe or --set), inputs"},
+    {"or raise the limit: footage.", "or raise the limit: --set footage."}};
+
+std::string with_options(std::string text) {
+  for (const auto& [engine_text, option_text] : kOptionTexts)
+    if (const std::size_t place = text.find(engine_text); place != std::string::npos)
+      text.replace(place, engine_text.size(), option_text);
+  return text;
+}
+
 // Empty: the setting can be this.
 std::string value_error(const std::string& key, const std::string& text) {
   if (text.empty()) return "is empty";
@@ -99,7 +118,8 @@ Result<Project> project_of(const ProjectOptions& options) {
 
 Result<void> set_all(Project& project, const std::vector<std::string>& assignments) {
   for (const std::string& assignment : assignments)
-    if (const Result<void> set = set_field(project, assignment); !set) return set;
+    if (const Result<void> set = set_field(project, assignment); !set)
+      return fail("--set " + set.error().where, set.error().what, set.error().kind);
   return {};
 }
 
@@ -160,11 +180,11 @@ Result<FrameRange> frame_range_of(const std::string& text) {
 }
 
 void print_warning(const Warning& warning) {
-  std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+  std::fprintf(stderr, "warning: %s\n", Warning{warning.where, with_options(warning.what)}.text().c_str());
 }
 
 void print_error(const Error& error) {
-  std::fprintf(stderr, "error: %s\n", error.text().c_str());
+  std::fprintf(stderr, "error: %s\n", Error{error.where, with_options(error.what), error.kind}.text().c_str());
 }
 
 }  // namespace sigs::cli

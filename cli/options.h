@@ -58,6 +58,8 @@ void add_progress_option(CLI::App& command, std::string& style);
 // "10-20" or "10". Error usage.
 [[nodiscard]] Result<FrameRange> frame_range_of(const std::string& text);
 
+// A line on stderr. The engine's texts know no options: where one asks for something that an option does, the option is
+// named in its place ("exists already; --force overwrites it").
 void print_warning(const Warning& warning);
 void print_error(const Error& error);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "cli/options.h"
 #include "evaluation/results.h"
 #include "evaluation/track_score.h"
 #include "options.h"

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# From a fresh Debian 12 or Ubuntu 24.04 machine to an exported encounter: installs what is missing, builds, exports a
-# sample project and says where the results lie. Needs no display.
+# From a fresh Debian 12 or Ubuntu 24.04 machine to an exported encounter: installs what the programs need, builds the
+# two of them and nothing else, exports a sample project and says where the results are. Needs no display.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 
-sigs_build release -DSIGS_TESTS=OFF
+sigs_install programs
+sigs_build release -DSIGS_TESTS=OFF -DSIGS_BENCH=OFF -- sigs sigs-editor
 
 out=out/demo
 build/release/sigs export projects/head-on/head-on.json --out "$out" --force --times

@@ -1,14 +1,21 @@
 #!/usr/bin/env bash
-# Installs what SIGS is built with, on Debian 12 or Ubuntu 24.04, skipping what is there. Sourced by demo.sh and test.sh;
-# on its own: scripts/setup.sh
+# Installs the packages that SIGS needs, on Debian 12 or Ubuntu 24.04, and builds it. Sourced by demo.sh and test.sh.
+#   sigs_install programs         what the two programs are built with and need to run
+#   sigs_install programs tests   and what tests and measurements need besides
+#   sigs_build PRESET [cmake options] [-- targets]
+# On its own, scripts/setup.sh installs both lists and builds nothing.
 set -euo pipefail
 
-sigs_packages=(
+sigs_packages_programs=(
   g++ cmake ninja-build pkg-config
   libopencv-dev libopencv-contrib-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libglm-dev libtinyobjloader-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
+)
+# doctest; Embree for the reference renderer; FFmpeg's and libxml2's programs as second opinions; Xvfb and xdotool for the
+# window; gnuplot for plots of reports; Slurm for a dataset made by an array job.
+sigs_packages_tests=(
   doctest-dev libembree-dev ffmpeg libxml2-utils xvfb xdotool gnuplot-nox
   slurmctld slurmd slurm-client munge
 )
@@ -24,11 +31,15 @@ sigs_as_root() {
   fi
 }
 
-sigs_install_packages() {
+# sigs_install LIST...: installs the packages of these lists that are not there.
+sigs_install() {
   sigs_missing=()
-  local package
-  for package in "${sigs_packages[@]}"; do
-    dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || sigs_missing+=("$package")
+  local list package
+  for list in "$@"; do
+    local -n packages="sigs_packages_$list"
+    for package in "${packages[@]}"; do
+      dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || sigs_missing+=("$package")
+    done
   done
   [ "${#sigs_missing[@]}" -gt 0 ] || return 0
   echo "installing: ${sigs_missing[*]}"
@@ -36,13 +47,18 @@ sigs_install_packages() {
   sigs_as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${sigs_missing[@]}"
 }
 
-# sigs_build PRESET [more cmake options]
+# sigs_build PRESET [cmake options] [-- targets]: without targets everything is built.
 sigs_build() {
-  local preset=$1
+  local preset=$1 options=()
   shift
-  cmake --preset "$preset" "$@"
-  cmake --build --preset "$preset" --parallel "$(nproc)"
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do
+    options+=("$1")
+    shift
+  done
+  [ $# -eq 0 ] || shift
+  cmake --preset "$preset" "${options[@]}"
+  cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-sigs_install_packages
+[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests

@@ -8,15 +8,20 @@
 #include <fstream>
 #include <vector>
 
-#include "base/ensure.h"
-#include "base/input_file.h"
-
 extern "C" {
 #include <libavutil/mem.h>
 #include <libavutil/sha.h>
 }
 
+#include "base/ensure.h"
+#include "base/input_file.h"
+#include "mesh/textures.h"
+#include "project/fields.h"
+#include "project/json.h"
+
 namespace sigs {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -61,7 +66,7 @@ std::string checksum_of_text(std::string_view text) {
   return checksum.text();
 }
 
-Result<std::string> checksum_of_file(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
+Result<std::string> checksum_of_file(const fs::path& file, const std::atomic<bool>* cancel) {
   if (const Result<void> there = check_input_file(file); !there) return fail(there.error());
   std::ifstream in(file, std::ios::binary);
   if (!in) return fail(file.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read);
@@ -89,6 +94,48 @@ std::string checksum_line(const std::string& checksum, const std::string& path) 
       name += c;
   }
   return (name == path ? "" : "\\") + checksum + "  " + name + "\n";
+}
+
+Result<std::string> InputChecksums::of(const fs::path& file) {
+  const std::lock_guard lock(mutex_);
+  if (const auto known = files_.find(file); known != files_.end()) return known->second;
+  return files_.emplace(file, checksum_of_file(file, cancel_)).first->second;
+}
+
+Result<std::string> InputChecksums::of_model(const fs::path& file) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = models_.find(file); known != models_.end()) return known->second;
+  }
+  const Result<std::vector<fs::path>> files = files_of_model(file);
+  if (!files) return fail(files.error());
+  std::string list;
+  for (const fs::path& one : *files) {
+    const Result<std::string> checksum = of(one);
+    if (!checksum) return checksum;
+    list += checksum_line(*checksum, one.filename().string());
+  }
+  const std::lock_guard lock(mutex_);
+  return models_.emplace(file, checksum_of_text(list)).first->second;
+}
+
+Result<std::string> fingerprint_of(const Project& project, const std::string& program, InputChecksums& inputs) {
+  Project pathless = project;
+  std::string list;
+  for (const Field& field : fields_of(pathless)) {
+    if (!field.is_path) continue;
+    std::string& written = *std::get<std::string*>(field.value);
+    if (written.empty()) continue;
+    const fs::path file = resolved(project, written);
+    std::error_code code;
+    if (fs::is_regular_file(file, code)) {
+      const Result<std::string> checksum = field.key.ends_with("model.file") ? inputs.of_model(file) : inputs.of(file);
+      if (!checksum) return fail(checksum.error());
+      list += checksum_line(*checksum, field.key);
+    }
+    written = file.filename().string();
+  }
+  return checksum_of_text(program + "\n" + list + text_of(pathless));
 }
 
 }  // namespace sigs

@@ -61,8 +61,8 @@ bool is_real_folder(const fs::path& path) {
   return fs::symlink_status(path, code).type() == fs::file_type::directory;
 }
 
-// What speaks against the staging folder being a dataset's: a link, a file that no run makes, or folders with something
-// in them and no lock file, which every run has beside them, a killed one too. Empty: nothing.
+// Why a folder cannot be the staging folder of a dataset: it is a link, holds a file that no run makes, or has filled
+// folders without a lock file, which every run has beside them, a killed one too. Empty: nothing speaks against it.
 std::string foreign_content_of(const fs::path& staging) {
   if (!is_real_folder(staging)) return "is no folder";
   const Result<std::vector<fs::path>> paths = folder_contents(staging);
@@ -83,7 +83,7 @@ std::string foreign_content_of(const fs::path& staging) {
   return filled.empty() || has_lock ? "" : "holds " + filled;
 }
 
-// Another run may be tidying it at the moment.
+// Tries several times, since another run may be removing its files at the moment.
 Result<void> check_staging_folder(const fs::path& staging) {
   constexpr int kTries = 20;
   std::string foreign;
@@ -94,12 +94,13 @@ Result<void> check_staging_folder(const fs::path& staging) {
     if (foreign.empty()) return {};
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  return fail(staging.string(), foreign + ", which no dataset made; move it away or choose another --out",
+  return fail(staging.string(),
+              foreign + ", which no dataset made; move it away or choose another folder for the dataset",
               ErrorKind::cannot_create);
 }
 
-// The lock file, locked; not open where another process has it. A file that its owner removed in between is made
-// anew.
+// The lock file, opened and locked; a closed descriptor where another process has the lock. A file that its owner
+// removed in between is created again.
 Result<Descriptor> locked(const fs::path& file) {
   const fs::path staging = file.parent_path();
   for (;;) {
@@ -120,7 +121,8 @@ bool is_held(const fs::path& file) {
   return descriptor.is_open() && is_locked_by_another(descriptor);
 }
 
-// Its lock file tells the next run that the staging folder may be cleared.
+// Whether the lock file has to stay: it is the only one beside other content, and tells the next run that this content
+// is a dataset's.
 bool is_needed(const fs::path& file) {
   const Result<std::vector<fs::path>> paths = folder_contents(file.parent_path());
   if (!paths) return false;
@@ -138,13 +140,24 @@ fs::path staging_folder_of(const fs::path& dataset) {
   return dataset / kStagingName;
 }
 
+Result<void> make_empty(const fs::path& folder) {
+  std::error_code code;
+  for (int tries = 0; tries < 10; ++tries) {  // another run may tidy the staging folder between two steps
+    fs::remove_all(folder, code);
+    if (!code) fs::create_directories(folder, code);
+    if (code != std::errc::no_such_file_or_directory) break;
+  }
+  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  return {};
+}
+
 Result<DatasetLock> DatasetLock::acquire(const fs::path& dataset, const Shard& shard) {
   const fs::path file = staging_folder_of(dataset) / name_of(shard);
   Result<Descriptor> lock = locked(file);
   if (!lock) return fail(lock.error());
   if (!lock->is_open()) return fail(already_locked(dataset, shard));
   DatasetLock dataset_lock(file, std::move(*lock));
-  // Each run shows its own lock before it looks at the others': of two at once, one at least sees the other.
+  // Each run makes its own lock before it looks for others: of two runs at once, at least one finds the other's.
   std::error_code code;
   for (fs::directory_iterator it(staging_folder_of(dataset), code), end; !code && it != end; it.increment(code)) {
     const std::optional<Shard> other = shard_of(it->path().filename().string());

@@ -8,32 +8,38 @@
 
 namespace sigs {
 
-// Every part-th video of the plan, parts counted from 1.
+// A part of a dataset's videos: the part-th of `parts`, counted from 1, and every parts-th video after it.
 struct Shard {
   int part = 1;
   int parts = 1;
 
+  // video: its place in the plan, from 0
   [[nodiscard]] bool has(int video) const { return video % parts == part - 1; }
 };
 
-// Whether a video can be in both, given enough videos.
+// Whether two shards have a video in common, given enough videos.
 [[nodiscard]] bool overlap(const Shard& a, const Shard& b);
 
-// Where videos of a dataset are made before they are whole.
+// The staging folder of a dataset, FOLDER/.part, in which videos and shared files are written until they are whole. All
+// runs that make shards of the dataset use it at the same time, unlike those of base/staging_folder.h, which belong to
+// one run each. It holds new/, old/, labels/, splits/ and a lock file for each run.
 [[nodiscard]] std::filesystem::path staging_folder_of(const std::filesystem::path& dataset);
 
-// The right to make these videos of a dataset, held until it goes out of scope or the process ends, however that ends.
-// It is a locked file in the staging folder, so it also holds among machines that share the folder, where their file
-// system has locks; where it has none nobody is kept out.
+// Makes a folder in the staging folder and removes what is in it. Error cannot_create.
+[[nodiscard]] Result<void> make_empty(const std::filesystem::path& folder);
+
+// The right to make a shard of a dataset, held until the object's life or the process ends, in whatever way. It is a
+// locked file (base/file_lock.h) in the staging folder, so it holds between machines that share the folder where their
+// file system has locks; where it has none, nobody is kept out.
 class DatasetLock {
  public:
-  // The folder must be there. Error cannot_create: another process makes some of the same videos, or what has the
-  // staging folder's name is nothing that a dataset made, and is left alone.
+  // The dataset's folder must be there. Error cannot_create: another process makes some of the same videos, or the
+  // staging folder's name belongs to something that no dataset made, which is left unchanged.
   [[nodiscard]] static Result<DatasetLock> acquire(const std::filesystem::path& dataset, const Shard& shard);
 
   DatasetLock(DatasetLock&& other) noexcept = default;
   DatasetLock& operator=(DatasetLock&&) = delete;
-  ~DatasetLock();  // the staging folder goes with its last lock, where it is empty
+  ~DatasetLock();  // removes the staging folder where this was the last lock and the folder is empty
 
  private:
   DatasetLock(std::filesystem::path file, Descriptor lock);

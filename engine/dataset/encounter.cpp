@@ -3,16 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/ensure.h"
-#include "dataset/portable_trig.h"
 #include "dataset/short_text.h"
 
 namespace sigs {
 
 namespace {
 
-// Unit vectors in world axes, seen by who looks along `toward`: where the intruder comes from, its right, its above.
+// Taylor series of cosine and sine for |x| <= pi/4, where the first term left out is under 1e-18.
+CosSin series(double x) {
+  const double square = x * x;
+  double cos = 0;
+  double sin = 0;
+  for (int n = 18; n > 0; n -= 2) {
+    cos = (1 + cos) * -square / (n * (n - 1));
+    sin = (1 + sin) * -square / (n * (n + 1));
+  }
+  return {1 + cos, x * (1 + sin)};
+}
+
+// Unit vectors in world axes, for a viewer who looks in the direction from which the intruder comes (`toward`).
 struct View {
   glm::dvec3 toward{1, 0, 0};
   glm::dvec3 right{0, 1, 0};
@@ -82,6 +94,22 @@ tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const 
                           " to the miss distance of " + metres(encounter.miss_distance_m) + " in " +
                           short_text(*timing.time_of_closest_approach_s) + " s");
   return encounter;
+}
+
+CosSin cos_sin_of_deg(double angle_deg) {
+  int quarter = 0;
+  const double rest_deg = std::remquo(angle_deg, 90.0, &quarter);  // exact; the quarters' last three bits
+  const CosSin first = series(rest_deg * (std::numbers::pi / 180));
+  switch (quarter & 3) {
+    case 1:
+      return {-first.sin, first.cos};
+    case 2:
+      return {-first.cos, -first.sin};
+    case 3:
+      return {first.sin, -first.cos};
+    default:
+      return first;
+  }
 }
 
 }  // namespace sigs

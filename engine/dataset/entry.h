@@ -12,38 +12,46 @@
 
 #include "base/result.h"
 #include "dataset/plan.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
-// A file of a dataset and what it holds.
+// A file of a dataset with its size and checksum.
 struct DatasetFile {
   std::string path;  // from the folder it is listed for; / between folders
   std::uintmax_t bytes = 0;
-  std::string sha256;
+  std::string sha256;  // hexadecimal, lower case
 
   [[nodiscard]] bool operator==(const DatasetFile&) const = default;
 };
 
-// What is known of one finished video: FOLDER/NAME/entry.json.
+// What FOLDER/NAME/entry.json says of one finished video. It is written last, so a folder that has it is whole.
 struct VideoEntry {
-  std::string planned;  // fingerprint_of() what was planned
-  int frames = 0;       // exported
-  std::vector<DatasetFile>
-      files;  // of the video's folder, by path; the project and the entry itself are not among them
+  std::string planned;             // fingerprint_of() the planned project
+  int frames = 0;                  // number of frames exported
+  std::vector<DatasetFile> files;  // of the video's folder, by path, without the project and the entry itself
 };
 
 inline constexpr const char* kEntryName = "entry.json";
 
-// The file's text. What the video is stands in it as the plan has it.
+// The text of entry.json, which describes the planned video too.
 [[nodiscard]] std::string entry_text(const PlannedVideo& video, const VideoEntry& entry);
 
 // Errors cannot_read, bad_data.
 [[nodiscard]] Result<VideoEntry> read_entry(const std::filesystem::path& file);
 
-// Checksums of files by what they are on the disk: one with several names is read once.
+// Parts of entry.json and index.json: a video with name, split, tags and sampled quantities; a list of files, with
+// `before` in front of each path.
+[[nodiscard]] Json described(const PlannedVideo& video);
+[[nodiscard]] Json described(const std::vector<DatasetFile>& files, const std::string& before);
+
+// JSON as text, indented by two blanks, with a newline at the end. Bytes that are no UTF-8 become U+FFFD.
+[[nodiscard]] std::string json_text(const Json& json);
+
+// Checksums of files by device and inode, so that a file with several names is read once.
 class ChecksumCache {
  public:
-  // Takes an entry's word for its files.
+  // Takes the checksums of an entry without reading the files.
   void remember(const std::filesystem::path& folder, const VideoEntry& entry);
 
   // Error cannot_read, interrupted.
@@ -55,17 +63,18 @@ class ChecksumCache {
   std::map<Identity, std::string> checksums_;
 };
 
-// All files under a folder, by path (bytes compared), but for those left out.
+// All files under a folder, sorted by the bytes of their paths, without the paths of `left_out`. Errors cannot_read,
+// interrupted.
 [[nodiscard]] Result<std::vector<DatasetFile>> files_in(const std::filesystem::path& folder,
                                                         const std::vector<std::string>& left_out, ChecksumCache& known,
                                                         const std::atomic<bool>* cancel);
 
-// Whether the files of an entry are all there and hold what they should. What is wrong; empty: nothing.
+// What is wrong with the files of an entry: one is missing, or has another size or checksum. Empty: nothing.
 // Error interrupted.
 [[nodiscard]] Result<std::string> damage_of(const std::filesystem::path& folder, const VideoEntry& entry,
                                             const std::atomic<bool>* cancel);
 
-// A file under the folder that is none of the entry's, nor left out; none: there is nothing else.
+// The first file under the folder that is neither in the entry nor in `left_out`; none: there is no other file.
 [[nodiscard]] std::optional<std::string> unlisted_file_in(const std::filesystem::path& folder, const VideoEntry& entry,
                                                           const std::vector<std::string>& left_out);
 

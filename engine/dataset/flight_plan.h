@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "dataset/encounter.h"
 #include "dataset/flight_quantities.h"
 #include "dataset/sample.h"
 #include "project/project.h"
@@ -15,26 +16,57 @@
 
 namespace sigs {
 
-// What a flight is fitted to.
+// The video for which a flight is planned.
 struct FlightContext {
-  CameraSettings camera;  // an attitude file's shaking is left aside: the mean attitude counts
-  const Camera& lens;     // these two must outlive it
+  CameraSettings camera;  // of an attitude file only the mean attitude counts
+  const Camera& lens;     // lens and footage must outlive the context
   const FootageShape& footage;
-  FrameRange frames;                     // the video's
+  FrameRange frames;                     // of the video
   std::optional<Span> speed_limits_mps;  // of the aircraft
 };
 
 struct PlannedFlight {
   std::vector<WaypointSettings> waypoints;  // two: in the first frame and in the last one (of one frame: in the next)
-  std::map<std::string, double> derived;    // what follows: "speed_mps", "nearest_m", and all that an encounter has
+  std::map<std::string, double> derived;    // "speed_mps", "nearest_m" and, of an encounter, its timing
 };
 
-// The waypoints of a flight. values: one for each quantity of the kind that was given or has a standard. Where there is
-// no such flight, the reason in one line that names the quantity: an encounter that cannot be, a value beyond its
-// limits, an intruder underground (z > 0 in any of the video's frames), faster or slower than its aircraft, or farther
-// than 1e8 m from the world's origin.
+// The waypoints of a flight. values: one for each quantity of the kind that is given or has a default. Where there is
+// no such flight: the reason in one line, which names the quantity. Reasons are an encounter that cannot be, a value
+// outside its limits, an intruder underground (z > 0 in any of the video's frames), a speed outside the aircraft's
+// limits, and a distance of more than 1e8 m from the world's origin.
 [[nodiscard]] tl::expected<PlannedFlight, std::string> planned_flight(FlightKind kind,
                                                                       const std::map<std::string, double>& values,
                                                                       const FlightContext& context);
+
+// The path of an intruder given by two places in the image: two points relative to the camera, in world axes.
+struct RelativePath {
+  glm::dvec3 from_m{0, 0, 0};
+  glm::dvec3 to_m{0, 0, 0};
+};
+
+// Unit ray, in the camera frame, of a place in the image in percent of its width and height: (0, 0) is the upper left
+// corner of the image (not the centre of a pixel), (50, 50) its middle. Places outside the image are allowed. Where the
+// lens has no ray there, or one more than 75 degrees from the optical axis: the ray of the nearest place on the line to
+// the optical axis that has one.
+[[nodiscard]] glm::dvec3 ray_of_place(const Camera& camera, const glm::dvec2& place_percent);
+
+// Paths between two unit rays, in world axes.
+//   crossing: straight from ray to ray, perpendicular to the direction half-way between them, and distance_m away where
+//             it crosses that direction
+//   radial: from a distance on one ray to a distance on the other
+// Points are rounded to 2^-10 m, since the last digits of a lens model differ between machines.
+[[nodiscard]] RelativePath crossing(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double distance_m);
+[[nodiscard]] RelativePath radial(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double from_distance_m,
+                                  double to_distance_m);
+
+// From the path's first point to its last one in length_s > 0.
+[[nodiscard]] RelativeMotion motion_over_time(const RelativePath& path, double length_s);
+
+// Motion along the line of the path at which the intruder flies speed_mps over ground while the camera flies
+// camera_speed_mps along world X. Its position agrees with that of motion_over_time() at `fixed_share` of the time: 0
+// at the start, 0.5 half-way, 1 at the end. Where the intruder is too slow to move along that line: the reason.
+[[nodiscard]] tl::expected<RelativeMotion, std::string> motion_at_speed(const RelativePath& path, double length_s,
+                                                                        double speed_mps, double camera_speed_mps,
+                                                                        double fixed_share);
 
 }  // namespace sigs

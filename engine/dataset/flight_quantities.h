@@ -8,23 +8,26 @@
 
 namespace sigs {
 
-// How one intruder flies: one of the paper's four ways (Table 1), or an encounter.
+// The kind of a flight: one of the four of the paper's Table 1, which are given by places in the image, or an encounter
+// (encounter.h).
 enum class FlightKind { left_right, right_left, approaching, moving_away, encounter };
 
+// Names as recipes write them: "left_right".
 [[nodiscard]] std::string_view name_of(FlightKind kind);
 [[nodiscard]] std::optional<FlightKind> flight_kind_of(std::string_view name);
 [[nodiscard]] std::span<const FlightKind> all_flight_kinds();
 
-// One number that a flight is made of. Said here once for reading, planning and docs/dataset.md.
+// One of the numbers that describe a flight. Reading, planning and docs/dataset.md all use this list.
 struct FlightQuantity {
   std::string_view name;  // with its unit: "miss_distance_m"
-  double low = 0;         // least and greatest value that makes sense; what is sampled beyond them is impossible
+  double low = 0;         // minimum and maximum; a flight with a value outside them is impossible
   double high = 0;
-  std::optional<double> standard;  // taken where the recipe gives none; none: then there is none
+  std::optional<double> standard;  // value where the recipe gives none; none: there is no default
   bool required = false;
   std::string_view help;
 };
 
+// The quantities of a kind, in the order of the documentation.
 [[nodiscard]] std::span<const FlightQuantity> quantities_of(FlightKind kind);
 
 }  // namespace sigs

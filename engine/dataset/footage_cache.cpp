@@ -6,6 +6,7 @@
 #include "scene/opened_project.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
+#include "scene/visibility_estimate.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -17,9 +18,16 @@ tl::unexpected<Error> fail_at(const std::string& where, Error error) {
   return fail(where, error.text(), error.kind);
 }
 
-class FootageCache {
+Result<FootageShape> opened_shape(const std::string& path) {
+  const Result<FrameSource> source = FrameSource::open(path);
+  if (!source) return fail(source.error());
+  return shape_of(source->info());
+}
+
+// Opens the backgrounds of one recipe.
+class BackgroundOpener {
  public:
-  explicit FootageCache(const Recipe& recipe) : recipe_(recipe) {}
+  explicit BackgroundOpener(const Recipe& recipe) : recipe_(recipe) {}
 
   // Error: the clip cannot be opened.
   [[nodiscard]] Result<FootageShape> shape(std::size_t i) {
@@ -56,9 +64,9 @@ class FootageCache {
 
   Result<FootageShape> shape_of_file(const std::string& path) {
     if (const auto known = shapes_.find(path); known != shapes_.end()) return known->second;
-    const Result<FrameSource> source = FrameSource::open(path);
-    if (!source) return fail(source.error());
-    return shapes_.emplace(path, shape_of(source->info())).first->second;
+    Result<FootageShape> shape = opened_shape(path);
+    if (shape) shapes_.emplace(path, *shape);
+    return shape;
   }
 
   const Recipe& recipe_;
@@ -68,22 +76,49 @@ class FootageCache {
 }  // namespace
 
 Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe) {
-  FootageCache cache(recipe);
+  BackgroundOpener opener(recipe);
   std::vector<Result<OpenedBackground>> backgrounds;
   bool has_any = false;
   for (std::size_t i = 0; i < recipe.backgrounds.size(); ++i) {
-    const Result<FootageShape> shape = cache.shape(i);
+    const Result<FootageShape> shape = opener.shape(i);
     if (!shape) {
       backgrounds.emplace_back(tl::unexpect, shape.error());
       continue;
     }
-    Result<OpenedBackground> opened = cache.opened(i, *shape);
+    Result<OpenedBackground> opened = opener.opened(i, *shape);
     if (!opened) return fail(opened.error());
     backgrounds.push_back(std::move(opened));
     has_any = true;
   }
   if (!has_any && !backgrounds.empty()) return fail(backgrounds.front().error());
   return backgrounds;
+}
+
+void VideoVisibility::remember(const std::string& video, const FootageShape& shape) {
+  shapes_[video] = shape;
+}
+
+std::optional<Visibility> VideoVisibility::visibility_of(const Project& project, int frames) {
+  const std::optional<FootageShape> footage = shape_of_footage(resolved(project, project.footage.video).string());
+  if (!footage) return std::nullopt;
+  const Result<Scene> scene = open_scene(project, *footage, files_);
+  if (!scene || scene->intruders.empty()) return std::nullopt;
+  return estimated_visibilities(*scene, frames).front();
+}
+
+std::optional<FootageShape> VideoVisibility::shape_of_footage(const std::string& path) {
+  if (const auto known = shapes_.find(path); known != shapes_.end()) return known->second;
+  const Result<FootageShape> shape = opened_shape(path);
+  return shapes_[path] = shape ? std::optional(*shape) : std::nullopt;
+}
+
+std::vector<std::optional<Visibility>> visibilities_of(const std::vector<const PlannedVideo*>& videos, int frames,
+                                                       const std::atomic<bool>* cancel) {
+  VideoVisibility estimator;
+  std::vector<std::optional<Visibility>> visibilities(videos.size());
+  for (std::size_t i = 0; i < videos.size() && !(cancel != nullptr && *cancel); ++i)
+    visibilities[i] = estimator.visibility_of(videos[i]->project, frames);
+  return visibilities;
 }
 
 }  // namespace sigs

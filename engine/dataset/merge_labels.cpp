@@ -7,7 +7,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "dataset/merge_formats.h"
+#include "dataset/video_name.h"
 #include "labels/label_text.h"
 #include "labels/labels.h"
 
@@ -22,10 +22,9 @@ bool has_labels(const PlannedVideo& video, std::string_view format) {
   return std::find(labels.begin(), labels.end(), format) != labels.end();
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none" : list;
+std::string category_list(const Project& project) {
+  const std::vector<std::string> categories = categories_of(project);
+  return categories.empty() ? "none" : comma_separated(categories);
 }
 
 Result<void> check_categories(const Plan& plan) {
@@ -36,10 +35,9 @@ Result<void> check_categories(const Plan& plan) {
     if (std::none_of(kCounting.begin(), kCounting.end(), counts)) continue;
     if (first == nullptr) first = &video;
     if (categories_of(video.project) != categories_of(first->project))
-      return fail("video \"" + video.name + "\"", "counts other categories (" + listed(categories_of(video.project)) +
-                                                      ") than \"" + first->name + "\" (" +
-                                                      listed(categories_of(first->project)) +
-                                                      "); give all of them the same export.categories");
+      return fail("video \"" + video.name + "\"",
+                  "counts other categories (" + category_list(video.project) + ") than \"" + first->name + "\" (" +
+                      category_list(first->project) + "); give all of them the same export.categories");
   }
   return {};
 }

@@ -8,18 +8,11 @@
 #include "dataset/splits.h"
 #include "dataset/video_name.h"
 #include "dataset/video_sample.h"
-#include "dataset/video_visibility.h"
 #include "project/validate.h"
 
 namespace sigs {
 
 namespace {
-
-template <class Named>
-std::size_t index_of(const std::vector<Named>& all, const std::string& name) {
-  const auto place = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
-  return static_cast<std::size_t>(place - all.begin());
-}
 
 std::vector<VideoSpec> specs_of(const Recipe& recipe, std::size_t group_index) {
   const VideoGroup& group = recipe.groups[group_index];

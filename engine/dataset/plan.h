@@ -19,16 +19,17 @@ struct PlannedVideo {
   std::string split;
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
   std::map<std::string, double> sampled;    // what was sampled or fixed for it: "miss_distance_m", ...
-  std::map<std::string, int> resamples;     // how often it was sampled anew, by what stood against the sample
+  std::map<std::string, int> resamples;     // how often it was sampled anew, by the reason
 };
 
-// A video that cannot be: the intruder under the ground, a closing speed that cannot meet the miss distance, ...
+// A video for which there is no flight: the intruder is underground, the closing speed does not fit the miss distance,
+// ...
 struct ImpossibleVideo {
   std::string name;
   std::string why;  // one line that names the quantity
 };
 
-// A video whose background cannot be opened; once that is repaired it can be.
+// A video whose background cannot be opened.
 struct UnopenedVideo {
   std::string name;
   Error error;  // names recipe and key
@@ -41,17 +42,18 @@ struct Plan {
   std::vector<UnopenedVideo> unopened;
 };
 
-// Expands a recipe. Samples depend on seed, video and quantity alone: not on order, nor on how many videos there are.
-// Opens the footage that the recipe names, to know its length; where a
-// clip cannot be opened its videos are `unopened`, where none can it is an error. A video that cannot be flown or is
-// never seen is sampled anew, as often as its group allows; one that is not made after that is impossible, with what
-// stood against it and how often. Errors: what is wrong with the recipe as a whole; interrupted.
+// Makes the plan of a recipe. Samples depend on seed, video and quantity alone, not on the order or number of videos.
+// Opens the footage that the recipe names, to know its length: where a clip cannot be opened its videos are `unopened`,
+// where no clip can it is an error. A video that cannot be flown, or whose intruder is never in the image, is sampled
+// anew as often as its group allows; after that it is impossible, with all reasons and their numbers. Errors: what is
+// wrong with the recipe as a whole; interrupted.
 [[nodiscard]] Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel = nullptr);
 
-// Of several videos together.
+// The numbers of several videos added up.
 [[nodiscard]] std::map<std::string, int> resamples_of(const std::vector<const PlannedVideo*>& videos);
 
-// "never in the picture 4 times; speed_mps once"; the most frequent one first.
+// "never in the picture 4 times; speed_mps once", the most frequent reason first. These words are written into index
+// files.
 [[nodiscard]] std::string resamples_text(const std::map<std::string, int>& resamples);
 
 }  // namespace sigs

@@ -15,10 +15,13 @@
 
 namespace sigs {
 
-// Footage that videos may use, with the camera that took it and its light. Paths are absolute.
+// A recipe as values. Reading it checks every key and every name; whether a flight can be flown is checked when the
+// plan is made (plan.h).
+
+// Footage that videos may use, with its camera and its light. Paths are absolute.
 struct Background {
   std::string name;
-  FootageSettings footage;  // first and last frame: the part that may be used
+  FootageSettings footage;  // first and last frame limit the part that may be used
   CameraSettings camera;
   LightSettings light;
   std::map<std::string, std::string> tags;
@@ -28,23 +31,27 @@ struct Aircraft {
   std::string name;
   std::string category = "airplane";
   ModelSettings model;                   // its path is absolute
-  std::optional<Span> speed_limits_mps;  // over ground; none: it flies as fast as a flight asks for
+  std::optional<Span> speed_limits_mps;  // over ground; none: any speed is allowed
   std::map<std::string, std::string> tags;
 };
 
 struct FlightPlan {
-  std::string name;  // what names of videos call it
+  std::string name;  // used in names of videos
   FlightKind kind = FlightKind::left_right;
-  std::map<std::string, Quantity> quantities;  // those that the recipe gives: dataset/flight_quantities.h
+  std::map<std::string, Quantity> quantities;  // those that the recipe gives; names: flight_quantities.h
 };
 
-// What a group says of the light: numbers that stand in for the background's ("light_x_m", ..., light_draw.h).
+// Numbers of the light that a group of videos samples in place of the background's: "light_x_m", "light_y_m",
+// "light_z_m", "light_red", "light_green", "light_blue" and "light_ambient", as far as the recipe gives them.
 struct LightPlan {
   std::map<std::string, Quantity> quantities;
 };
 
-// A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each; or `count` videos
-// whose background, aircraft and flight are sampled.
+// The light with the sampled numbers in it; those that were not sampled stay.
+[[nodiscard]] LightSettings with_sampled_light(LightSettings light, const std::map<std::string, double>& sampled);
+
+// A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each; or, where
+// is_sampled, `count` videos whose background, aircraft and flight are sampled.
 struct VideoGroup {
   std::string name;  // pattern: {background} {aircraft} {flight} {number}
   std::vector<std::string> backgrounds;
@@ -52,11 +59,12 @@ struct VideoGroup {
   std::vector<FlightPlan> flights;
   bool is_sampled = false;
   int count = 1;
-  std::optional<int> resamples;  // how often at most a video that cannot be flown or is never seen is sampled anew;
-                                 // none: it is sampled once, and made though it is never seen
+  // How often at most a video that cannot be flown, or whose intruder is never in the image, is sampled anew; none: it
+  // is sampled once, visible or not.
+  std::optional<int> resamples;
   std::vector<LightPlan> lights;  // one of them is sampled; empty: the background's light
-  std::optional<int> frames;      // length; none: to the end of what the background has
-  Quantity first_frame;           // counted from the background's first one; the whole part is taken
+  std::optional<int> frames;      // length in frames; none: to the last frame of the background
+  Quantity first_frame;           // counted from the background's first frame; rounded down
   std::string split;              // fixed; empty: sampled
   std::map<std::string, std::string> tags;
 };
@@ -70,8 +78,8 @@ struct Recipe {
   std::filesystem::path file;
   std::string name;
   std::uint64_t seed = 0;
-  std::vector<std::string> settings;  // KEY=VALUE for every project, as --set takes them; later ones count
-  Project base;                       // a project that has them, with one intruder; all videos start from it
+  std::vector<std::string> settings;  // KEY=VALUE for every project, as set_field() takes them; later ones win
+  Project base;                       // a project with these settings and one intruder; every video starts from it
   std::vector<Background> backgrounds;
   std::vector<Aircraft> aircraft;
   std::vector<VideoGroup> groups;
@@ -80,18 +88,18 @@ struct Recipe {
   std::string text;                // the file as it is
 };
 
-// Every name that is used is there, every number has the form it should; whether a flight can be flown is plan.h's
-// business. Errors name the file and the key: cannot_read where a file is not there, else bad_data.
 struct ReadRecipe {
   Recipe recipe;
   std::vector<Warning> warnings;  // unknown keys, settings without effect
 };
-// settings: KEY=VALUE that win over all that the recipe says, as --set gives them; what is wrong with them is kind
-// usage.
+
+// settings: KEY=VALUE, as set_field() takes them, that win over all that the recipe says. An error in one of them names
+// it and is of kind usage.
+// Errors name the file and the key: cannot_read where a file is missing, else bad_data.
 [[nodiscard]] Result<ReadRecipe> read_recipe(const std::filesystem::path& path,
                                              const std::vector<std::string>& settings = {});
 
-// The same from text; path stands for the file in messages and for relative paths.
+// The same from text. path is the file's name in messages, and paths in the recipe are relative to its folder.
 [[nodiscard]] Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::path& path,
                                               const std::vector<std::string>& settings = {});
 

@@ -1,18 +1,95 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/recipe_videos.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
-#include "dataset/light_sample.h"
-#include "dataset/quantity_json.h"
+#include "base/paths.h"
+#include "dataset/recipe.h"
+#include "dataset/recipe_reading.h"
 #include "dataset/short_text.h"
 #include "dataset/video_name.h"
+#include "project/fields.h"
 
 namespace sigs {
 
 namespace {
+
+// A field of a project's light and what its numbers are called among those sampled.
+struct LightField {
+  const char* key;
+  std::vector<const char*> names;
+};
+
+const std::array<LightField, 3>& light_fields() {
+  static const std::array<LightField, 3> fields{{{"position_m", {"light_x_m", "light_y_m", "light_z_m"}},
+                                                 {"color", {"light_red", "light_green", "light_blue"}},
+                                                 {"ambient", {"light_ambient"}}}};
+  return fields;
+}
+
+// What a project may have in that field.
+Span limits_of(const char* key) {
+  Project project;
+  for (const Field& field : fields_of(project))
+    if (field.key == std::string("light.") + key) return {field.minimum, field.maximum};
+  return {};
+}
+
+void read_number(const Json& json, const std::string& where, const LightField& field, std::size_t part,
+                 LightPlan& light, RecipeLog& log) {
+  const tl::expected<Quantity, std::string> quantity = quantity_of(json);
+  if (!quantity) return log.wrong(where, quantity.error());
+  const Span span = span_of(*quantity);
+  const Span limits = limits_of(field.key);
+  if (span.low < limits.low || span.high > limits.high)
+    return log.wrong(where, "must lie between " + short_text(limits.low) + " and " + short_text(limits.high) +
+                                "; a normal quantity needs \"low\" and \"high\" for that");
+  light.quantities[field.names[part]] = *quantity;
+}
+
+void read_field(RecipeNode& node, const LightField& field, LightPlan& light) {
+  const Json* const json = node.value(field.key);
+  if (json == nullptr) return;
+  const std::string where = node.key_of(field.key);
+  if (field.names.size() == 1) return read_number(*json, where, field, 0, light, node.log());
+  if (!json->is_array() || json->size() != field.names.size())
+    return node.log().wrong(where, "expected a list of three quantities");
+  for (std::size_t i = 0; i < json->size(); ++i)
+    read_number(json->at(i), where + "[" + std::to_string(i) + "]", field, i, light, node.log());
+}
+
+bool is_set(const std::vector<std::string>& settings, const char* key) {
+  const std::string begin = std::string("light.") + key + "=";
+  return std::any_of(settings.begin(), settings.end(), [&](const std::string& one) { return one.starts_with(begin); });
+}
+
+LightPlan read_light(RecipeNode node, const std::vector<std::string>& settings) {
+  LightPlan light;
+  for (const LightField& field : light_fields()) {
+    read_field(node, field, light);
+    if (is_set(settings, field.key))
+      for (const char* const name : field.names) light.quantities.erase(name);
+  }
+  node.done();
+  return light;
+}
+
+// A group's "light": { ... } or a list of them, each with "position_m", "color" (three quantities each) and "ambient"
+// (one), all of them optional. What `settings` (KEY=VALUE given beside the recipe) set is left out, since it wins.
+// Values outside the limits of a project are mistakes.
+std::vector<LightPlan> read_lights(RecipeNode& group, const std::vector<std::string>& settings) {
+  const Json* const json = group.value("light");
+  if (json == nullptr) return {};
+  std::vector<LightPlan> lights;
+  if (json->is_array())
+    for (RecipeNode& node : group.nodes("light")) lights.push_back(read_light(std::move(node), settings));
+  else
+    lights.push_back(read_light(RecipeNode(*json, group.key_of("light"), group.log()), settings));
+  return lights;
+}
 
 constexpr int kMaxVideos = 100'000;
 constexpr int kMaxFrames = 1'000'000'000;
@@ -24,12 +101,6 @@ constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
   "miss_distance_m": {"uniform": [0, 150]}, "miss_angle_deg": {"uniform": [-180, 180]},
   "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},
   "closing_speed_mps": {"uniform": [40, 160]}}])";
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
 
 template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& all) {
@@ -49,7 +120,7 @@ std::vector<std::string> picked(RecipeNode& group, const char* key, const std::v
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string where = group.key_of(key) + "[" + std::to_string(i) + "]";
     if (!has(there, names[i]))
-      group.log().wrong(where, "no such name: \"" + names[i] + "\"; there are " + listed(there));
+      group.log().wrong(where, "no such name: \"" + names[i] + "\"; there are " + comma_separated(there));
     if (std::count(names.begin(), names.end(), names[i]) > 1)
       group.log().wrong(where, "stands there twice: \"" + names[i] + "\"");
   }
@@ -59,7 +130,7 @@ std::vector<std::string> picked(RecipeNode& group, const char* key, const std::v
 std::string kinds() {
   std::vector<std::string> names;
   for (const FlightKind kind : all_flight_kinds()) names.emplace_back(name_of(kind));
-  return listed(names);
+  return comma_separated(names);
 }
 
 std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name) {
@@ -124,10 +195,10 @@ std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_sampled) {
 
 void check_split(const std::string& split, RecipeNode& group, const Recipe& recipe) {
   const std::vector<std::string> there = names_of(recipe.splits);
-  if (const std::string wrong = wrong_with_name(split); !split.empty() && !wrong.empty())
+  if (const std::string wrong = wrong_with_file_name(split); !split.empty() && !wrong.empty())
     group.log().wrong(group.key_of("split"), wrong);
   if (!split.empty() && !there.empty() && !has(there, split))
-    group.log().wrong(group.key_of("split"), "no such split: \"" + split + "\"; there are " + listed(there));
+    group.log().wrong(group.key_of("split"), "no such split: \"" + split + "\"; there are " + comma_separated(there));
 }
 
 // How many videos, of each combination or in all.
@@ -220,11 +291,24 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe) {
       if (name == "keep_together") continue;
       const double share = item.is_number() ? item.get<double>() : -1;
       if (!(share >= 0 && share <= 1)) node.log().wrong(node.key_of(name), "expected a share from 0 to 1");
-      if (const std::string wrong = wrong_with_name(name); !wrong.empty()) node.log().wrong(node.key_of(name), wrong);
+      if (const std::string wrong = wrong_with_file_name(name); !wrong.empty())
+        node.log().wrong(node.key_of(name), wrong);
       recipe.splits.push_back({name, share});
       sum += share;
     }
   if (std::abs(sum - 1) > 1e-6) node.log().wrong("splits", "have shares that add up to " + short_text(sum) + ", not 1");
+}
+
+LightSettings with_sampled_light(LightSettings light, const std::map<std::string, double>& sampled) {
+  const std::array<double*, 7> values{&light.position_m.x, &light.position_m.y, &light.position_m.z, &light.color.x,
+                                      &light.color.y,      &light.color.z,      &light.ambient};
+  std::size_t i = 0;
+  for (const LightField& field : light_fields())
+    for (const char* const name : field.names) {
+      if (const auto found = sampled.find(name); found != sampled.end()) *values[i] = found->second;
+      ++i;
+    }
+  return light;
 }
 
 }  // namespace sigs

@@ -14,7 +14,6 @@
 #include "base/threads.h"
 #include "dataset/fingerprint.h"
 #include "dataset/merge_labels.h"
-#include "dataset/shared_files.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
 #include "video/frame_source.h"
@@ -95,7 +94,7 @@ Error DatasetRun::interrupted() const {
   const auto complete = std::count_if(tasks_.begin(), tasks_.end(), [](const Task& task) { return task.entry; });
   return {"",
           "interrupted; " + std::to_string(complete) + " of " + std::to_string(tasks_.size()) +
-              " videos are complete, --resume goes on",
+              " videos are complete, resuming goes on",
           ErrorKind::interrupted};
 }
 
@@ -106,8 +105,7 @@ void DatasetRun::warn(const Warning& warning) {
 
 // Why a video that is there is not kept; empty: it is.
 std::string DatasetRun::outdated(const Task& task, const VideoEntry& entry) {
-  if (entry.planned != task.planned)
-    return "was made from other settings (recipe or --set), inputs or with another program";
+  if (entry.planned != task.planned) return "was made from other settings, inputs or with another program";
   const Result<std::string> damage = damage_of(task.folder.path(), entry, control_.cancel);
   return damage ? *damage : damage.error().text();
 }
@@ -155,7 +153,7 @@ Result<void> DatasetRun::check_all_there() const {
   }
   return fail(dataset_.string(),
               "of " + std::to_string(tasks_.size() + plan_.unopened.size()) + " videos " + std::to_string(missing) +
-                  " cannot go into the index; --resume makes them: " + list + (missing > kListed ? "; ..." : ""));
+                  " cannot go into the index; resuming makes them: " + list + (missing > kListed ? "; ..." : ""));
 }
 
 void DatasetRun::advance(Task& task, int done) {
@@ -269,14 +267,14 @@ Result<DatasetReport> DatasetRun::all() {
 }
 
 Result<void> check_names(const Plan& plan) {
-  if (const std::string wrong = wrong_with_name(plan.name); !wrong.empty())
+  if (const std::string wrong = wrong_with_file_name(plan.name); !wrong.empty())
     return fail("dataset \"" + plan.name + "\"", wrong);
   std::set<std::string> names;
   for (const PlannedVideo& video : plan.videos) {
     if (const std::string wrong = wrong_with_video_name(video.name); !wrong.empty())
       return fail("video \"" + video.name + "\"", wrong);
     if (!names.insert(video.name).second) return fail("video \"" + video.name + "\"", "is planned twice");
-    if (const std::string wrong = wrong_with_name(split_of(video)); !wrong.empty())
+    if (const std::string wrong = wrong_with_file_name(split_of(video)); !wrong.empty())
       return fail("split \"" + video.split + "\"", wrong);
   }
   return {};
@@ -294,7 +292,7 @@ Result<fs::path> made_folder(const fs::path& folder) {
 
 bool has_index(const fs::path& dataset) {
   std::error_code code;
-  return fs::exists(dataset / "index.json", code);
+  return fs::exists(dataset / kIndexName, code);
 }
 
 // The first of the videos asked for whose folder is there already.
@@ -312,16 +310,18 @@ Result<void> check_free(const Plan& plan, const DatasetRequest& request, const f
   const std::optional<std::string> video = video_there(plan, request, dataset);
   const bool goes_on = request.resume || request.merge_only;
   if (!goes_on && has_index(dataset))
-    return fail(dataset.string(), "holds a dataset; --resume goes on with it, or choose another --out",
+    return fail(dataset.string(), "holds a dataset; resuming goes on with it, or choose another folder for the dataset",
                 ErrorKind::cannot_create);
   if (!goes_on && video)
-    return fail(dataset.string(), "holds " + *video + " already; --resume goes on with it, or choose another --out",
+    return fail(dataset.string(),
+                "holds " + *video + " already; resuming goes on with it, or choose another folder for the dataset",
                 ErrorKind::cannot_create);
   if (!has_index(dataset) && !video && !request.shard) {
     for (const char* const name : kSharedFolders) {
       std::error_code code;
       if (fs::is_empty(dataset / name, code))
-        return fail(dataset.string(), std::string("holds ") + name + ", but no dataset; choose another --out",
+        return fail(dataset.string(),
+                    std::string("holds ") + name + ", but no dataset; choose another folder for the dataset",
                     ErrorKind::cannot_create);
     }
   }
@@ -351,7 +351,7 @@ Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& reque
   std::error_code code;
   const bool was_there = fs::exists(request.folder, code);
   if (request.merge_only && !was_there)
-    return fail(request.folder.string(), "no such folder; --merge makes the index of videos that are there",
+    return fail(request.folder.string(), "no such folder; merging makes the index of videos that are there",
                 ErrorKind::cannot_read);
   const Result<fs::path> dataset = made_folder(request.folder);
   if (!dataset) return fail(dataset.error());

@@ -18,11 +18,11 @@ namespace sigs {
 struct DatasetRequest {
   std::filesystem::path folder;
   DatasetSource source;
-  int jobs = 0;         // videos exported side by side, 0: as the processor asks for; the bytes do not depend on it
-  bool resume = false;  // keep videos that are complete and as planned; else the folder must hold no dataset
-  std::optional<Shard> shard;  // only these videos, and no index
-  bool index = true;           // false: the plan is only a part of the dataset's; a shard never has one
-  bool merge_only = false;     // export nothing: make the index of what is there; a missing video is an error
+  int jobs = 0;         // videos exported in parallel, 0: one for every four cores; the bytes do not depend on it
+  bool resume = false;  // keep videos that are complete and as planned; false: the folder must hold no dataset
+  std::optional<Shard> shard;  // make only these videos, and no index
+  bool index = true;           // false: make no index, since the plan is only a part of the dataset's
+  bool merge_only = false;     // export nothing, only make the index; a missing video is an error
 };
 
 struct VideoFailure {
@@ -32,31 +32,32 @@ struct VideoFailure {
 
 struct DatasetReport {
   int exported = 0;
-  int kept = 0;    // complete before
+  int kept = 0;    // were complete before
   int frames = 0;  // exported
   double seconds = 0;
-  std::vector<VideoFailure> failures;          // in the plan's order; the others finished
-  std::vector<std::filesystem::path> written;  // videos' folders, and the index and its like; these are left out where
-                                               // there are failures or a shard
+  std::vector<VideoFailure> failures;          // in the plan's order; all other videos are complete
+  std::vector<std::filesystem::path> written;  // folders of exported videos, and what make_index() wrote
   std::string checksum;                        // of the whole dataset; empty where there is no index
 };
 
-// Each may be called from any thread, but never two at a time.
+// Callbacks are called from any thread, never two at a time.
 struct DatasetControl {
   std::function<void(int done, int total)> progress;  // frames, of all videos to be exported
   std::function<void(const Warning&)> warn;
   std::function<void(const std::string& video)> finished;
-  const std::atomic<bool>* cancel = nullptr;  // set: stop soon, error interrupted; finished videos stay
+  const std::atomic<bool>* cancel = nullptr;  // when set: stops soon with error interrupted; finished videos stay
 };
 
-// Exports a plan: FOLDER/NAME/ for each video, complete or not there at all; at the end FOLDER/index.json with
-// checksums and, for the label formats that span videos, FOLDER/labels/. docs/dataset.md has the layout.
+// Exports a plan: FOLDER/NAME/ for each video, complete or not there at all, and at the end the index (index.h).
+// docs/dataset.md has the layout. Whenever the program is stopped, complete videos stay, and a later call with `resume`
+// makes the others. A video that fails is a VideoFailure in the report, not an error, and then there is no index.
 // Errors: cannot_create (the folder holds a dataset and resume is false; another run makes the same videos),
 // bad_data (merge_only: videos are missing or not as planned), interrupted.
 [[nodiscard]] Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request,
                                                  const DatasetControl& control);
 
-// How many frames an export of the project has. Opens the footage only where the project does not say.
+// Number of frames of an export of the project. Opens the footage only where the project has no last frame. Errors as
+// FrameSource::open().
 [[nodiscard]] Result<int> frames_of(const Project& project, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace sigs

@@ -42,17 +42,6 @@ Project with_relative_paths(const VideoFolder& folder) {
   return project;
 }
 
-Result<void> make_empty(const fs::path& folder) {
-  std::error_code code;
-  for (int tries = 0; tries < 10; ++tries) {  // another run may tidy the staging folder between two steps
-    fs::remove_all(folder, code);
-    if (!code) fs::create_directories(folder, code);
-    if (code != std::errc::no_such_file_or_directory) break;
-  }
-  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  return {};
-}
-
 // What is wrong names the project's place; files are written elsewhere.
 Project with_absolute_paths(const VideoFolder& folder) {
   Project project = folder.video->project;
@@ -92,7 +81,8 @@ Result<void> finish(const fs::path& staged, const VideoFolder& folder, const Vid
 // Why what lies at a place may not be replaced by the video; empty: it may.
 std::string not_ours(const fs::path& place, const PlannedVideo& video) {
   const Result<VideoEntry> entry = read_entry(place / kEntryName);
-  if (!entry) return "is there and no video that sigs dataset made; move it away or choose another --out";
+  if (!entry)
+    return "is there and no video that sigs dataset made; move it away or choose another folder for the dataset";
   const std::optional<std::string> unlisted_file = unlisted_file_in(place, *entry, uncounted(video));
   if (unlisted_file)
     return "is made anew, but holds " + *unlisted_file + ", which sigs dataset did not write; move that away";

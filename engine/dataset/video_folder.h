@@ -13,7 +13,7 @@
 
 namespace sigs {
 
-// One video of a dataset: FOLDER/NAME/, where it is or will be.
+// The folder of one video of a dataset, FOLDER/NAME/, which may not be there yet.
 struct VideoFolder {
   std::filesystem::path dataset;  // absolute, without symbolic links
   const PlannedVideo* video = nullptr;
@@ -23,27 +23,27 @@ struct VideoFolder {
 
 struct VideoExport {
   std::string planned;  // its fingerprint
-  int jobs = 1;         // frames composed side by side
+  int jobs = 1;         // frames composed in parallel
   std::function<void(int done, int total)> progress;
   std::function<void(const Warning&)> warn;
   const std::atomic<bool>* cancel = nullptr;
 };
 
-// Names of what does not count among the files of a video's folder: the entry and the project.
+// Names of the files of a video's folder that its entry does not list: the entry and the project.
 [[nodiscard]] std::vector<std::string> uncounted(const PlannedVideo& video);
 
-// The project as it stands in the video's folder: paths from there, so that both can move together. It says where its
-// inputs are on this machine, so its bytes are the same only where the dataset lies at the same place beside them.
+// The text of the project file in the video's folder. Paths are relative to that folder, so that dataset and inputs can
+// be moved together; the bytes therefore depend on where the dataset is.
 [[nodiscard]] std::string project_text(const VideoFolder& folder);
 
-// Writes project and entry where they are not as they should be.
+// Writes project and entry where their text differs from the planned one. Errors cannot_create, write_failed.
 [[nodiscard]] Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry);
 
-// Why a folder may not be replaced: it holds what no sigs dataset wrote. Empty: it may, or is not there.
+// Why the video's folder may not be replaced: it holds something that no dataset wrote. Empty: it may, or is not there.
 [[nodiscard]] std::string not_replaceable(const VideoFolder& folder);
 
-// Exports the video in the staging folder and gives the folder its name when all of it is on the disk; an older one
-// goes.
+// Exports the video in the staging folder, and renames its folder to the final name when all of it is on the disk. An
+// older folder of that name is replaced. Errors as export_project(); cannot_create as not_replaceable().
 [[nodiscard]] Result<VideoEntry> make_video(const VideoFolder& folder, const VideoExport& request);
 
 }  // namespace sigs

@@ -55,14 +55,10 @@ std::string wrong_with_pattern(const std::string& pattern) {
   return {};
 }
 
-std::string wrong_with_name(const std::string& name) {
-  return wrong_with_file_name(name);
-}
-
 std::string wrong_with_video_name(const std::string& name) {
   if (std::find(kOwnNames.begin(), kOwnNames.end(), case_folded(name)) != kOwnNames.end())
     return "is kept for what the dataset has beside its videos; choose another name";
-  return wrong_with_name(name);
+  return wrong_with_file_name(name);
 }
 
 std::string case_folded(const std::string& name) {
@@ -70,6 +66,12 @@ std::string case_folded(const std::string& name) {
   for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return lower;
+}
+
+std::string comma_separated(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 }  // namespace sigs

@@ -2,32 +2,33 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace sigs {
 
-// What a name of a video is made of.
+// What the name of a video is made of.
 struct NameParts {
   std::string background;
   std::string aircraft;
   std::string flight;
-  int number = 1;  // of the video among those that agree in the three
+  int number = 1;  // among the videos that agree in the other three, from 1
 };
 
-// The pattern with {background}, {aircraft}, {flight} and {number} filled in; numbers have four digits at least, so
-// that they sort, and more videos never rename the first ones.
+// The pattern with {background}, {aircraft}, {flight} and {number} filled in. Numbers have at least four digits, so
+// that names sort, and adding videos renames none.
 [[nodiscard]] std::string name_from(const std::string& pattern, const NameParts& parts);
 
 // What is wrong with a pattern, as "has no such part: {plane}". Empty: nothing.
 [[nodiscard]] std::string wrong_with_pattern(const std::string& pattern);
 
-// A name becomes a folder's or a file's: not empty, up to 200 bytes, no / and no control characters, not beginning with
-// a dot. Empty: nothing is wrong.
-[[nodiscard]] std::string wrong_with_name(const std::string& name);
-
-// The same for a video, which must also leave the dataset's own files alone.
+// What is wrong with the name of a video, which becomes that of a folder: what wrong_with_file_name() says, or that the
+// name belongs to a file of the dataset itself. Empty: nothing.
 [[nodiscard]] std::string wrong_with_video_name(const std::string& name);
 
-// Equal for names that some file systems take for the same: ASCII letters in lower case.
+// The name with ASCII letters in lower case: equal for names that some file systems do not tell apart.
 [[nodiscard]] std::string case_folded(const std::string& name);
+
+// Names in a message: "a, b, c"; empty where there are none.
+[[nodiscard]] std::string comma_separated(const std::vector<std::string>& names);
 
 }  // namespace sigs

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "dataset/flight_plan.h"
-#include "dataset/light_sample.h"
 
 namespace sigs {
 
@@ -32,12 +31,6 @@ class Sampler {
   std::string video_;
   std::string ending_;
 };
-
-template <class Named>
-std::size_t index_of(const std::vector<Named>& all, const std::string& name) {
-  const auto place = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
-  return static_cast<std::size_t>(place - all.begin());
-}
 
 std::map<std::string, std::string> tags_of(const Recipe& recipe, const VideoSpec& spec) {
   const Background& background = recipe.backgrounds[spec.background];

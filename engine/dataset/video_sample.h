@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <tl/expected.hpp>
@@ -11,21 +12,30 @@
 
 namespace sigs {
 
-// A video of a group: its name, and what it is made of as numbers in the recipe's lists.
+// The place of the background or aircraft of this name in its list; the size of the list where there is none.
+template <class Named>
+[[nodiscard]] std::size_t index_of(const std::vector<Named>& all, const std::string& name) {
+  const auto place = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  return static_cast<std::size_t>(place - all.begin());
+}
+
+// A video of a group: its name, and which of the recipe's backgrounds, aircraft and flights it is made of, by their
+// places in the recipe's lists.
 struct VideoSpec {
   std::size_t group = 0;
   std::string name;
-  std::size_t background = 0;  // these three are sampled where the group says so
+  std::size_t background = 0;  // these three are replaced by sampled_spec() where the group samples them
   std::size_t aircraft = 0;
   std::size_t flight = 0;
 };
 
-// The spec with background, aircraft and flight sampled for it; as it is where its group combines them. again: 0 for
-// the first sample, counted up each time the video is sampled anew. Every sample depends on seed, video, quantity and
-// `again` alone.
+// The spec with background, aircraft and flight sampled for it; unchanged where its group combines all of them. again:
+// 0 for the first sample, increased by one each time the video is sampled anew. Every sample depends on the seed, the
+// video's name, the quantity and `again` alone.
 [[nodiscard]] VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again);
 
-// The video with all its quantities sampled, or why it cannot be: one line that begins with the quantity.
+// The video with all its quantities sampled, or the reason why there is no such video: one line that begins with the
+// name of the quantity.
 [[nodiscard]] tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
                                                                     const OpenedBackground& background, int again);
 

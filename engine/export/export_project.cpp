@@ -48,7 +48,7 @@ Result<void> check_substituted(const ExportReport& report, int total, const Open
   limit << max_percent;
   return fail(opened.source.info().path.string(),
               "at least " + damaged_text(report, total) + ", more than footage.max_substituted_percent, " +
-                  limit.str() + ", allows; nothing was written. Repair or cut the footage, or raise the limit: --set " +
+                  limit.str() + ", allows; nothing was written. Repair or cut the footage, or raise the limit: " +
                   "footage.max_substituted_percent=100");
 }
 

@@ -20,10 +20,6 @@ using namespace sigs::test;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // One line on stderr that says it, the right exit status, and not a file left.
 void check_refused(const TinyProject& tiny, int status, const std::string& message, const std::string& more = "") {
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + more);

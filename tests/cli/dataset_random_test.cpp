@@ -29,10 +29,6 @@ constexpr const char* kRandom = R"({
                  "from_x_percent": {"uniform": [-250, 100]}, "to_x_percent": {"uniform": [-150, 200]}}]}]
 })";
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 int sum_of(const Json& redraws) {
   int sum = 0;
   for (const auto& [what, count] : redraws.items()) sum += count.get<int>();

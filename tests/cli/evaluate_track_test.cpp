@@ -20,13 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Fixture {
+struct TrackFixture {
   TinyProject tiny;
   std::string report = tiny.file("report").string();
   std::string labels = tiny.file("out/tiny.xml").string();
 
   // Exported too, so that labels and their video are there.
-  Fixture() { REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --masks none").status == 0); }
+  TrackFixture() {
+    REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --masks none").status == 0);
+  }
   [[nodiscard]] Run track(const std::string& input, const std::string& options) const {
     return run_sigs("evaluate track " + input + " " + options);
   }
@@ -47,7 +49,7 @@ struct Fixture {
 };
 
 // Without the measured speed, which differs from run to run.
-nlohmann::json scores_in(const Fixture& fixture, const std::string& folder) {
+nlohmann::json scores_in(const TrackFixture& fixture, const std::string& folder) {
   nlohmann::json json = nlohmann::json::parse(fixture.text(folder + "/evaluation.json"));
   for (nlohmann::json& tracker : json["trackers"]) {
     tracker.erase("measured_frames_per_s");
@@ -59,7 +61,7 @@ nlohmann::json scores_in(const Fixture& fixture, const std::string& folder) {
 }  // namespace
 
 TEST_CASE("trackers say the same of a project and of what was exported of it, and of results read again") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   const std::string other = fixture.tiny.file("other").string();
   const std::string again = fixture.tiny.file("again").string();
   const Run project =
@@ -80,7 +82,7 @@ TEST_CASE("trackers say the same of a project and of what was exported of it, an
 }
 
 TEST_CASE("a clip shows what an export writes, and its truth") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   const Project project = read_project(fixture.tiny.project()).value().project;
   FrameStream clip = FrameStream::open(project, FrameRange{2, 8}).value();
   CHECK(clip.footage().first_frame == 2);
@@ -108,7 +110,7 @@ TEST_CASE("a clip shows what an export writes, and its truth") {
 }
 
 TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   std::string csv = fixture.text("out/tiny.xml");
   std::string results = "frame,x,y,width,height\n";
   for (int frame = 0; frame < 10; ++frame) {
@@ -138,7 +140,7 @@ TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
 }
 
 TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but its like") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   const std::string options = "--tracker mosse --out " + fixture.report;
   REQUIRE(fixture.track(fixture.labels, options).status == 0);
   const Run refused = fixture.track(fixture.labels, options);
@@ -164,7 +166,7 @@ TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but 
 }
 
 TEST_CASE("what makes no sense is refused in one line, and nothing is left behind") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   const std::string project = fixture.tiny.project();
   fixture.check_refused(project, "", 64, "name what is to be measured: --tracker or --results");
   fixture.check_refused(project, "--tracker goturn", 64, "--tracker goturn: no such tracker; there are csrt, kcf");
@@ -184,7 +186,7 @@ TEST_CASE("what makes no sense is refused in one line, and nothing is left behin
 }
 
 TEST_CASE("results that are wrong are refused before a project's clip is made") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   const std::string nan = fixture.put("nan.csv", "frame,x,y,width,height\n0,1,2,3,4\n1,nan,2,3,4\n");
   const std::string late = fixture.put("late.csv", "frame,x,y,width,height\n0,1,2,3,4\n10,1,2,3,4\n");
   const std::string many = fixture.put("many.txt",
@@ -200,7 +202,7 @@ TEST_CASE("results that are wrong are refused before a project's clip is made") 
 }
 
 TEST_CASE("images that are not those of the labels are refused with both numbers") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   TinyProject longer(12);
   TinyProject larger(10, {80, 48});
   fixture.check_refused(fixture.labels, "--tracker kcf --video " + longer.file("clip.mkv").string(), 65,
@@ -216,7 +218,7 @@ TEST_CASE("images that are not those of the labels are refused with both numbers
 }
 
 TEST_CASE("numbered images beside the labels are followed too") {
-  const Fixture fixture;
+  const TrackFixture fixture;
   const std::string composed = fixture.tiny.file("composed").string();
   REQUIRE(fixture.track(fixture.tiny.project(), "--tracker medianflow --frames 3-9 --out " + composed).status == 0);
   const std::string pngs = fixture.tiny.file("pngs").string();

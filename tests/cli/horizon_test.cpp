@@ -11,10 +11,6 @@
 namespace sigs::test {
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 struct Labels {
   std::string xml;
   std::string csv;

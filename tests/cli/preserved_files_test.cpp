@@ -25,10 +25,6 @@ std::string bytes_of(const fs::path& file) {
   return read_text(file).value();
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // An image of the footage's size, for masks and textures; black hides nothing.
 void write_image(const fs::path& file, cv::Size size_px = {64, 48}) {
   fs::create_directories(file.parent_path());

@@ -20,4 +20,9 @@ struct Run {
 // The same on a file system, or in a moment, of another kind: variables of tests/support/fault_injection.cpp.
 [[nodiscard]] Run run_sigs_with_fault(const std::string& fault, const std::string& arguments);
 
+// Whether a text contains another.
+[[nodiscard]] inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 }  // namespace sigs::test

@@ -24,7 +24,7 @@ int pictures_in(const fs::path& folder) {
   return fs::exists(folder) ? static_cast<int>(std::distance(fs::directory_iterator(folder), {})) : 0;
 }
 
-bool has_staging(const fs::path& folder) {
+bool has_staging_folder(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().filename().string().starts_with(".sigs-")) return true;
   return false;
@@ -69,7 +69,7 @@ TEST_CASE("killed before any of its renamings, an export has left whole results 
   CHECK(kills >= 4);  // one output at least is renamed once each
   exported.check_whole("at the end");
   CHECK(pictures_in(fs::path(exported.tiny.out()) / "tiny") == 5);
-  CHECK_FALSE(has_staging(exported.tiny.out()));
+  CHECK_FALSE(has_staging_folder(exported.tiny.out()));
 }
 
 TEST_CASE("where folders cannot be exchanged, the next run puts back what a killed one had moved aside") {
@@ -84,7 +84,7 @@ TEST_CASE("where folders cannot be exchanged, the next run puts back what a kill
     const Run other = run_sigs("frame " + exported.tiny.project() + " --frame 0 --force --out " + exported.tiny.out());
     CHECK_MESSAGE(other.status == 0, other.err);
     exported.check_whole("killed at " + std::to_string(number));
-    CHECK_FALSE(has_staging(exported.tiny.out()));
+    CHECK_FALSE(has_staging_folder(exported.tiny.out()));
   }
   CHECK(kills >= 4);
 }
@@ -121,7 +121,7 @@ TEST_CASE("signals wait while outputs get their names") {
     exported.check_whole("signalled at " + std::to_string(number));
     CHECK(pictures_in(fs::path(exported.tiny.out()) / "tiny") ==
           pictures_in(fs::path(exported.tiny.out()) / "tiny.masks"));
-    CHECK_FALSE(has_staging(exported.tiny.out()));
+    CHECK_FALSE(has_staging_folder(exported.tiny.out()));
   }
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("file systems without flags of rename or without locks are written to 
     const Run mask = run_sigs_with_fault(
         fault, "mask " + tiny.file("flight.mkv").string() + " --method paper --out " + tiny.file("m.png").string());
     CHECK_MESSAGE(mask.status == 0, mask.err);
-    CHECK_FALSE(has_staging(tiny.file("")));
+    CHECK_FALSE(has_staging_folder(tiny.file("")));
     const TinyRecipe recipe;
     const Run dataset = run_sigs_with_fault(fault, recipe.arguments("out"));
     CHECK_MESSAGE(dataset.status == 0, dataset.err);

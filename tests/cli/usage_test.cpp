@@ -17,14 +17,6 @@
 using namespace sigs;
 using namespace sigs::test;
 
-namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
 TEST_CASE("a command that is none is answered with those that are") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);

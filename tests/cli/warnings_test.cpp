@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // The lines of stderr that hold a text.
 std::string lines_with(const std::string& text, const std::string& part) {
   std::string found;

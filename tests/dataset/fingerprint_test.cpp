@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/fingerprint.h"
+#include "dataset/checksum.h"
 
 #include <doctest/doctest.h>
 

@@ -12,13 +12,11 @@
 
 using namespace sigs;
 using namespace sigs::test;
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 // A recipe of sampled encounters, high up so that none is underground.
-Json encounters(int count) {
-  Json json = RecipeFolder::recipe();
+nlohmann::ordered_json encounters(int count) {
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"][0]["camera"]["position_m"] = {0, 0, -9000};
   json["videos"] = {{{"name", "e{number}"},
                      {"count", count},
@@ -49,7 +47,7 @@ const PlannedVideo& named(const Plan& plan, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a group makes every combination, in the order of its lists") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"].push_back(json["backgrounds"][0]);
   json["backgrounds"][1]["name"] = "dusk";
   json["aircraft"].push_back(json["aircraft"][0]);
@@ -85,8 +83,8 @@ TEST_CASE("a plan depends on the recipe alone") {
 
 TEST_CASE("a video is the same however many others there are, and whatever is sampled beside it") {
   const Plan few = RecipeFolder().plan(encounters(3));
-  Json more = encounters(30);
-  more["videos"].insert(more["videos"].begin(), Json{{"flights", {"approaching"}}});
+  nlohmann::ordered_json more = encounters(30);
+  more["videos"].insert(more["videos"].begin(), nlohmann::ordered_json{{"flights", {"approaching"}}});
   more["videos"][1]["flights"][0]["miss_angle_deg"] = {{"uniform", {0, 360}}};
   const Plan many = RecipeFolder().plan(more);
   for (const PlannedVideo& video : few.videos) {
@@ -99,7 +97,7 @@ TEST_CASE("a video is the same however many others there are, and whatever is sa
 }
 
 TEST_CASE("videos differ from each other and from those of another seed") {
-  Json json = encounters(50);
+  nlohmann::ordered_json json = encounters(50);
   std::set<double> distances;
   for (const std::uint64_t seed : {0u, 1u}) {
     json["seed"] = seed;
@@ -110,16 +108,16 @@ TEST_CASE("videos differ from each other and from those of another seed") {
 }
 
 TEST_CASE("frames of a video are those that were asked for, of the background's own part") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"][0]["footage"]["first_frame"] = 20;
   json["backgrounds"][0]["footage"]["last_frame"] = 149;
-  const auto frames = [&](const Json& group) {
+  const auto frames = [&](const nlohmann::ordered_json& group) {
     json["videos"] = {group};
     json["videos"][0]["flights"] = {"left_right"};
     const FootageSettings footage = RecipeFolder().plan(json).videos.at(0).project.footage;
     return std::pair(footage.first_frame, footage.last_frame.value());
   };
-  CHECK(frames(Json::object()) == std::pair(20, 149));
+  CHECK(frames(nlohmann::ordered_json::object()) == std::pair(20, 149));
   CHECK(frames({{"frames", 50}}) == std::pair(20, 69));
   CHECK(frames({{"first_frame", 10}}) == std::pair(30, 149));
   CHECK(frames({{"frames", 1}, {"first_frame", 129}}) == std::pair(149, 149));
@@ -137,7 +135,7 @@ TEST_CASE("a sampled first frame is whole and told") {
 }
 
 TEST_CASE("impossible videos are named with their reason and left out, the others stay") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["videos"] = {
       {{"name", "good"}, {"flights", {"left_right"}}},
       {{"name", "low"},
@@ -159,7 +157,7 @@ TEST_CASE("impossible videos are named with their reason and left out, the other
 }
 
 TEST_CASE("two videos of one name are an error, also where only case differs") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["videos"] = {{{"name", "a"}, {"flights", {"left_right"}}}, {{"name", "A"}, {"flights", {"left_right"}}}};
   CHECK(RecipeFolder().error(json) ==
         "videos[1].name: gives \"A\", which videos[0] gives already; names must differ in more than case, as by "
@@ -171,7 +169,7 @@ TEST_CASE("two videos of one name are an error, also where only case differs") {
 }
 
 TEST_CASE("tags say what a video is made of") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"][0]["tags"] = {{"sky", "clear"}, {"by", "background"}};
   json["aircraft"][0]["tags"] = {{"engines", "2"}, {"by", "aircraft"}};
   json["videos"][0]["tags"] = {{"by", "group"}};
@@ -184,7 +182,7 @@ TEST_CASE("tags say what a video is made of") {
 }
 
 TEST_CASE("all videos count the categories of all aircraft, in the recipe's order") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["aircraft"].push_back(json["aircraft"][0]);
   json["aircraft"][1]["name"] = "glider";
   json["aircraft"][1]["category"] = "glider";
@@ -196,7 +194,7 @@ TEST_CASE("all videos count the categories of all aircraft, in the recipe's orde
 }
 
 TEST_CASE("backgrounds kept together share a split, and a tag that a video lacks is an error") {
-  Json json = encounters(10);
+  nlohmann::ordered_json json = encounters(10);
   for (const char* const name : {"b", "c", "d"}) {
     json["backgrounds"].push_back(json["backgrounds"][0]);
     json["backgrounds"].back()["name"] = name;
@@ -218,7 +216,7 @@ TEST_CASE("backgrounds kept together share a split, and a tag that a video lacks
 }
 
 TEST_CASE("a group's own split holds beside sampled ones") {
-  Json json = encounters(10);
+  nlohmann::ordered_json json = encounters(10);
   json["splits"] = {{"train", 1}, {"test", 0}};
   json["videos"].push_back({{"name", "extra"}, {"split", "test"}, {"flights", {"left_right"}}});
   const Plan plan = RecipeFolder().plan(json);
@@ -227,7 +225,7 @@ TEST_CASE("a group's own split holds beside sampled ones") {
 }
 
 TEST_CASE("footage and calibration that cannot be used are told with the background's key") {
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   const std::string model = json["aircraft"][0]["model"]["file"];
   json["backgrounds"][0]["footage"]["video"] = model;
   CHECK(RecipeFolder().error(json).starts_with("backgrounds[0].footage.video: " + model));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/portable_trig.h"
+#include "dataset/encounter.h"
 
 #include <doctest/doctest.h>
 

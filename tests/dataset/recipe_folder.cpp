@@ -5,9 +5,7 @@
 
 namespace sigs::test {
 
-using Json = nlohmann::ordered_json;
-
-Json RecipeFolder::recipe() {
+nlohmann::ordered_json RecipeFolder::recipe() {
   const std::string assets = (source_dir() / "assets").string();
   return {
       {"sigs_dataset", 1},
@@ -20,11 +18,11 @@ Json RecipeFolder::recipe() {
       {"videos", {{{"flights", {"left_right"}}}}}};
 }
 
-Result<ReadRecipe> RecipeFolder::read(const Json& json) const {
+Result<ReadRecipe> RecipeFolder::read(const nlohmann::ordered_json& json) const {
   return parse_recipe(json.dump(2), file());
 }
 
-Plan RecipeFolder::plan(const Json& json) const {
+Plan RecipeFolder::plan(const nlohmann::ordered_json& json) const {
   const Result<ReadRecipe> read_one = read(json);
   if (!read_one) throw std::runtime_error(read_one.error().text());
   Result<Plan> plan = plan_of(read_one->recipe);
@@ -32,7 +30,7 @@ Plan RecipeFolder::plan(const Json& json) const {
   return *std::move(plan);
 }
 
-std::string RecipeFolder::error(const Json& json) const {
+std::string RecipeFolder::error(const nlohmann::ordered_json& json) const {
   const Result<ReadRecipe> read_one = read(json);
   const Result<Plan> plan = read_one ? plan_of(read_one->recipe) : Result<Plan>(tl::unexpect, read_one.error());
   if (plan) return {};

@@ -6,18 +6,16 @@
 #include <map>
 #include <set>
 
+#include "dataset/footage_cache.h"
 #include "dataset/recipe_folder.h"
-#include "dataset/video_visibility.h"
 
 using namespace sigs;
 using namespace sigs::test;
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 // Two parts of a clip, a fast and a slow aircraft.
-Json two_and_two(const Json& videos) {
-  Json json = RecipeFolder::recipe();
+nlohmann::ordered_json two_and_two(const nlohmann::ordered_json& videos) {
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["seed"] = 3;
   json["backgrounds"].push_back(json["backgrounds"][0]);
   json["backgrounds"][0]["footage"]["last_frame"] = 99;
@@ -32,7 +30,7 @@ Json two_and_two(const Json& videos) {
 }
 
 // Passes below the camera, which flies 150 m high: half of all samples are underground.
-Json below(int videos) {
+nlohmann::ordered_json below(int videos) {
   return {{"name", "v{number}"},
           {"videos", videos},
           {"frames", 50},
@@ -44,9 +42,9 @@ Json below(int videos) {
              {"time_of_closest_approach_s", 9}}}}};
 }
 
-Json one_group(const Json& group) {
-  Json json = RecipeFolder::recipe();
-  json["videos"] = Json::array({group});
+nlohmann::ordered_json one_group(const nlohmann::ordered_json& group) {
+  nlohmann::ordered_json json = RecipeFolder::recipe();
+  json["videos"] = nlohmann::ordered_json::array({group});
   return json;
 }
 
@@ -117,7 +115,7 @@ TEST_CASE("what is sampled anew is spread evenly over what can be") {
 }
 
 TEST_CASE("where no sample can be used, what failed is told with how often") {
-  Json group = below(2);
+  nlohmann::ordered_json group = below(2);
   group["redraws"] = 7;
   group["flights"][0]["miss_distance_m"] = {{"uniform", {200, 300}}};
   const Plan plan = RecipeFolder().plan(one_group(group));
@@ -132,12 +130,12 @@ TEST_CASE("where no sample can be used, what failed is told with how often") {
 }
 
 TEST_CASE("an intruder that is never in the picture is sampled anew only where the group says so") {
-  Json group{{"name", "v{number}"},
-             {"count", 20},
-             {"flights",
-              {{{"kind", "left_right"},
-                {"from_x_percent", {{"choice", {-60, 20}}}},
-                {"to_x_percent", {{"choice", {-50, 80}}}}}}}};
+  nlohmann::ordered_json group{{"name", "v{number}"},
+                               {"count", 20},
+                               {"flights",
+                                {{{"kind", "left_right"},
+                                  {"from_x_percent", {{"choice", {-60, 20}}}},
+                                  {"to_x_percent", {{"choice", {-50, 80}}}}}}}};
   const auto unseen = [&] {
     const Plan plan = RecipeFolder().plan(one_group(group));
     CHECK(plan.videos.size() == 20);
@@ -151,10 +149,11 @@ TEST_CASE("an intruder that is never in the picture is sampled anew only where t
 }
 
 TEST_CASE("backgrounds, aircraft and flights are sampled each as likely") {
-  Json json = two_and_two(Json::array({{{"videos", 400},
-                                        {"flights",
-                                         {{{"kind", "left_right"}, {"speed_mps", 70}},
-                                          {{"kind", "left_right"}, {"name", "other"}, {"speed_mps", 71}}}}}}));
+  nlohmann::ordered_json json = two_and_two(
+      nlohmann::ordered_json::array({{{"videos", 400},
+                                      {"flights",
+                                       {{{"kind", "left_right"}, {"speed_mps", 70}},
+                                        {{"kind", "left_right"}, {"name", "other"}, {"speed_mps", 71}}}}}}));
   const Plan plan = RecipeFolder().plan(json);
   REQUIRE(plan.videos.size() == 400);
   std::map<std::string, int> all;
@@ -166,13 +165,14 @@ TEST_CASE("backgrounds, aircraft and flights are sampled each as likely") {
   for (const auto& [what, count] : all) CHECK(std::abs(count - 50) < 27);  // 4 deviations of a binomial, p = 1/8
 }
 
-TEST_CASE("light is sampled from ranges and lists, and --set wins over it") {
-  Json group{{"videos", 40},
-             {"flights", {"left_right"}},
-             {"light",
-              {{{"position_m", {{{"uniform", {-50, 50}}}, 7, {{"choice", {-900, -800}}}}}, {"color", {1, 0.5, 0.25}}},
-               {{"ambient", {{"uniform", {0.5, 0.75}}}}}}}};
-  Json json = one_group(group);
+TEST_CASE("light is sampled from ranges and lists, and settings beside the recipe win over it") {
+  nlohmann::ordered_json group{
+      {"videos", 40},
+      {"flights", {"left_right"}},
+      {"light",
+       {{{"position_m", {{{"uniform", {-50, 50}}}, 7, {{"choice", {-900, -800}}}}}, {"color", {1, 0.5, 0.25}}},
+        {{"ambient", {{"uniform", {0.5, 0.75}}}}}}}};
+  nlohmann::ordered_json json = one_group(group);
   json["backgrounds"][0]["light"] = {{"ambient", 0.1}, {"position_m", {1, 2, -3}}};
   int placed = 0;
   for (const PlannedVideo& video : RecipeFolder().plan(json).videos) {
@@ -202,8 +202,8 @@ TEST_CASE("light is sampled from ranges and lists, and --set wins over it") {
 }
 
 TEST_CASE("what is wrong with a sampled group is told with its key") {
-  const auto error = [](const Json& changes) {
-    Json group{{"videos", 3}, {"flights", {"left_right"}}};
+  const auto error = [](const nlohmann::ordered_json& changes) {
+    nlohmann::ordered_json group{{"videos", 3}, {"flights", {"left_right"}}};
     group.update(changes);
     return RecipeFolder().error(one_group(group));
   };
@@ -217,7 +217,7 @@ TEST_CASE("what is wrong with a sampled group is told with its key") {
   CHECK(error({{"light", {{"position_m", {1, 2}}}}}).starts_with("videos[0].light.position_m: "));
   CHECK(error({{"light", {{"ambient", {{"uniform", {0.5, 1.5}}}}}}}).starts_with("videos[0].light.ambient: must lie"));
   CHECK(error({{"light", {{"color", {1, -1, 1}}}}}).starts_with("videos[0].light.color[1]: must lie"));
-  Json json = RecipeFolder::recipe();
+  nlohmann::ordered_json json = RecipeFolder::recipe();
   json["videos"] = 0;
   CHECK(RecipeFolder().error(json).starts_with("videos: expected a whole number"));
 }

@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = nlohmann::json;
-
 DatasetRequest into(const fs::path& folder) {
   return {.folder = folder, .source = synthetic_source(), .jobs = 1};
 }
@@ -54,7 +52,7 @@ TEST_CASE("a dataset is a folder for each video, lists of its splits, checksums 
   CHECK(read_text(tiny.out() / "splits/train.txt").value() == "v0\nv1\nv3\n");
   CHECK(read_text(tiny.out() / "splits/test.txt").value() == "v2\n");
 
-  const Json index = json_of(tiny.out() / "index.json");
+  const nlohmann::json index = json_of(tiny.out() / "index.json");
   CHECK(index["name"] == "tiny");
   CHECK(index["seed"] == 0);
   CHECK(index["recipe"]["name"] == "tiny");
@@ -80,10 +78,10 @@ TEST_CASE("index, entries and list of checksums say what the files hold, and lea
   for (std::string checksum, path; lines >> checksum >> path;) listed[path] = checksum;
   CHECK(listed == truth);
   std::map<std::string, std::string> indexed;
-  const Json index = json_of(tiny.out() / "index.json");
-  for (const Json& video : index["videos"])
-    for (const Json& file : video["files"]) indexed[file["path"]] = file["sha256"];
-  for (const Json& file : index["shared_files"]) indexed[file["path"]] = file["sha256"];
+  const nlohmann::json index = json_of(tiny.out() / "index.json");
+  for (const nlohmann::json& video : index["videos"])
+    for (const nlohmann::json& file : video["files"]) indexed[file["path"]] = file["sha256"];
+  for (const nlohmann::json& file : index["shared_files"]) indexed[file["path"]] = file["sha256"];
   for (const char* const path : {"v0/entry.json", "v1/entry.json"}) CHECK(truth.erase(path) == 1);
   CHECK(indexed == truth);
   CHECK(index["videos"][1]["files"][0]["bytes"] ==
@@ -198,7 +196,7 @@ TEST_CASE("shards made apart and put together are the dataset that one run makes
       const Result<DatasetReport> early = make_dataset(tiny.plan, merge, {});
       REQUIRE_FALSE(early);
       CHECK(early.error().kind == ErrorKind::bad_data);
-      CHECK_MESSAGE(early.error().what.ends_with("--resume makes them: v2: missing"), early.error().what);
+      CHECK_MESSAGE(early.error().what.ends_with("resuming makes them: v2: missing"), early.error().what);
     }
     const fs::path from = tiny.out("far/away/part" + std::to_string(part));
     for (const std::string& name : names_in(from)) fs::rename(from / name, merge.folder / name);
@@ -307,7 +305,7 @@ TEST_CASE("a stop is heard, and finished videos stay") {
   const Result<DatasetReport> report = make_dataset(tiny.plan, into(tiny.out()), control);
   REQUIRE_FALSE(report);
   CHECK(report.error().kind == ErrorKind::interrupted);
-  CHECK(report.error().what == "interrupted; 2 of 3 videos are complete, --resume goes on");
+  CHECK(report.error().what == "interrupted; 2 of 3 videos are complete, resuming goes on");
   CHECK(names_in(tiny.out()) == std::set<std::string>{"v0", "v1"});
   CHECK(made(tiny.plan, resumed(tiny.out())).kept == 2);
 }

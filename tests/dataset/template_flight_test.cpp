@@ -5,7 +5,6 @@
 
 #include "dataset/flight_contexts.h"
 #include "dataset/flight_plan.h"
-#include "dataset/image_flight.h"
 
 using namespace sigs;
 using namespace sigs::test;

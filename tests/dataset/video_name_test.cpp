@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/video_name.h"
+#include "base/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -37,11 +38,11 @@ TEST_CASE("a pattern with an unknown or an open part is wrong") {
 
 TEST_CASE("names that cannot be files are wrong, odd ones are right") {
   for (const char* const name : {"", "a/b", "/", ".", "..", ".hidden", "a\nb", "tab\t", "\x7f"})
-    CHECK_MESSAGE(!wrong_with_name(name).empty(), name);
+    CHECK_MESSAGE(!wrong_with_file_name(name).empty(), name);
   for (const char* const name : {"a", "a b", "día ñ", "<&>'\"", "x.y", "-x", "100%"})
-    CHECK_MESSAGE(wrong_with_name(name).empty(), name);
-  CHECK(wrong_with_name(std::string(200, 'x')).empty());
-  CHECK(!wrong_with_name(std::string(201, 'x')).empty());
+    CHECK_MESSAGE(wrong_with_file_name(name).empty(), name);
+  CHECK(wrong_with_file_name(std::string(200, 'x')).empty());
+  CHECK(!wrong_with_file_name(std::string(201, 'x')).empty());
 }
 
 TEST_CASE("a video is not called like what lies beside the videos") {

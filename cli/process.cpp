@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "cli/interrupt.h"
+#include "cli/process.h"
 
+#include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
-
 #include <csignal>
+#include <cstdlib>
 #include <string_view>
 
 #include "base/result.h"
 
 namespace sigs::cli {
+
+void tune_allocator() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
 
 namespace {
 
@@ -19,7 +28,7 @@ std::atomic<int> first_signal{SIGINT};
 
 [[noreturn]] void end_at_once(int signal) {
   constexpr std::string_view kLine = "error: interrupted; nothing was written\n";
-  static_cast<void>(!write(STDERR_FILENO, kLine.data(), kLine.size()));
+  static_cast<void>(!::write(STDERR_FILENO, kLine.data(), kLine.size()));
   _exit(128 + signal);
 }
 
@@ -50,6 +59,12 @@ void listen_for_interrupts() {
 
 void defer_interrupts() {
   deferred = true;
+}
+
+void prepare_mesa() {
+  setenv("EGL_LOG_LEVEL", "fatal", 0);
+  rlimit memory{};
+  if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) setenv("LP_NUM_THREADS", "0", 0);
 }
 
 }  // namespace sigs::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+
+namespace sigs::cli {
+
+// How the process as a whole behaves: signals, memory, the environment of libraries.
+
+// Handles SIGINT, SIGTERM and SIGHUP (a closing terminal; unless it was ignored before, as nohup does) from this call
+// on. A signal ends the program at once, with a line on stderr and its exit status: as long as no output is begun there
+// is nothing to clean up, and what is being read or computed need not check for it. Exceeding a file-size limit, and
+// writing to a pipe that nobody reads, no longer end the program: they are errors of writing.
+void listen_for_interrupts();
+
+// To be called before outputs are begun: from this call on the first signal only sets interrupt_flag(), so that the
+// outputs are removed; a second SIGINT or SIGTERM ends the program.
+void defer_interrupts();
+
+// True once the user asked to stop and interrupts are deferred.
+[[nodiscard]] const std::atomic<bool>& interrupt_flag();
+
+// Exit status of an interrupted program: 128 + the signal's number, so 129 for SIGHUP, 130 for SIGINT, 143 for SIGTERM.
+[[nodiscard]] int interrupted_status();
+
+// Makes the allocator keep memory of up to 32 MiB a block instead of returning it to the system. Images and layers of
+// some megabytes are allocated for every frame; memory that is kept costs no page faults when it is used again.
+void tune_allocator();
+
+// Sets variables that Mesa reads when it is loaded: it prints nothing on stderr, since its errors are returned to the
+// program. Where the process's memory is limited, its software renderer uses no threads of its own: it would wait for
+// ever for those that it could not start.
+void prepare_mesa();
+
+}  // namespace sigs::cli

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "base/staged_outputs.h"
+#include "dataset/merge_labels.h"
+#include "labels/text_file.h"
+#include "project/json_reading.h"
+
+// The formats that have one file for each split: COCO, AOT and CSV. All of them are put together from the label files
+// of the videos, since nothing else that is kept of a video has what they need: NAME.xml is written only where the
+// recipe asks for it, and has neither the masks that COCO encodes nor the labels' thresholds.
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// What has to be added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
+struct IdOffsets {
+  std::int64_t video = 0;
+  std::int64_t track = 0;
+  std::int64_t annotation = 0;
+  std::int64_t image = 0;
+};
+
+void add_offset(Json& json, const char* key, std::int64_t offset) {
+  if (const auto id = json.find(key); id != json.end()) *id = id->get<std::int64_t>() + offset;
+}
+
+void prepend_folder(Json& json, const char* key, const std::string& folder) {
+  if (const auto name = json.find(key); name != json.end()) *name = folder + name->get<std::string>();
+}
+
+// A list of the merged file, an item a line.
+class List {
+ public:
+  explicit List(TextFile& out) : out_(out) {}
+  Result<void> put(const Json& item) {
+    const std::string before = is_first_ ? "\n" : ",\n";
+    is_first_ = false;
+    return out_.put(before + text_of(item));
+  }
+
+ private:
+  TextFile& out_;
+  bool is_first_ = true;
+};
+
+// The COCO labels of one video. Error: the file cannot be read or is no JSON.
+Result<Json> read_coco(const fs::path& file) {
+  const Result<std::string> text = read_text(file);
+  return text ? parsed_json(*text, file.string(), ErrorKind::bad_data) : fail(text.error());
+}
+
+// The merged file lists all videos and tracks, then all annotations, then all images. Each video's file is read once
+// for each of the three, so that no more than one of them is in memory.
+class CocoMerge {
+ public:
+  CocoMerge(const SplitLabels& labels, TextFile out) : labels_(labels), out_(std::move(out)) {}
+
+  Result<void> run() {
+    Result<void> step = put_heads();
+    if (step) step = put_annotations();
+    if (step) step = put_images();
+    return step ? out_.close() : step;
+  }
+
+ private:
+  // Information, videos, categories and tracks; counts what the ids of each video are moved by.
+  Result<void> put_heads() {
+    Json videos = Json::array();
+    Json tracks = Json::array();
+    Json info;
+    Json categories;
+    IdOffsets next;
+    for (const VideoLabels& labels : labels_.videos) {
+      Result<Json> coco = read_coco(labels.path);
+      if (!coco) return fail(coco.error());
+      offsets_.push_back(next);
+      Json video = coco->at("videos").at(0);
+      add_offset(video, "id", next.video);
+      prepend_folder(video, "file_name", labels.video + "/");
+      videos.push_back(std::move(video));
+      for (Json& track : coco->at("tracks")) {
+        add_offset(track, "id", next.track);
+        add_offset(track, "video_id", next.video);
+        tracks.push_back(track);
+      }
+      info = coco->at("info");
+      categories = coco->at("categories");
+      next = {.video = next.video + 1,
+              .track = next.track + static_cast<std::int64_t>(coco->at("tracks").size()),
+              .annotation = next.annotation + static_cast<std::int64_t>(coco->at("annotations").size()),
+              .image = next.image + static_cast<std::int64_t>(coco->at("images").size())};
+    }
+    info["description"] = labels_.dataset + " " + labels_.split;
+    Result<void> step = out_.put("{\n\"info\": " + text_of(info) + ",\n\"licenses\": [],\n\"videos\": [");
+    List list(out_);
+    for (const Json& video : videos)
+      if (step) step = list.put(video);
+    if (!step) return step;
+    return out_.put("\n],\n\"categories\": " + text_of(categories) + ",\n\"tracks\": " + text_of(tracks) +
+                    ",\n\"annotations\": [");
+  }
+
+  Result<void> put_annotations() {
+    List list(out_);
+    for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
+      Result<Json> coco = read_coco(labels_.videos[i].path);
+      if (!coco) return fail(coco.error());
+      for (Json& annotation : coco->at("annotations")) {
+        add_offset(annotation, "id", offsets_[i].annotation);
+        add_offset(annotation, "image_id", offsets_[i].image);
+        add_offset(annotation, "video_id", offsets_[i].video);
+        add_offset(annotation, "track_id", offsets_[i].track);
+        if (const Result<void> step = list.put(annotation); !step) return step;
+      }
+    }
+    return {};
+  }
+
+  Result<void> put_images() {
+    if (const Result<void> begin = out_.put("\n],\n\"images\": ["); !begin) return begin;
+    List list(out_);
+    for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
+      Result<Json> coco = read_coco(labels_.videos[i].path);
+      if (!coco) return fail(coco.error());
+      for (Json& image : coco->at("images")) {
+        add_offset(image, "id", offsets_[i].image);
+        add_offset(image, "video_id", offsets_[i].video);
+        prepend_folder(image, "file_name", labels_.videos[i].video + "/");
+        if (const Result<void> step = list.put(image); !step) return step;
+      }
+    }
+    return out_.put("\n]\n}\n");
+  }
+
+  const SplitLabels& labels_;
+  TextFile out_;
+  std::vector<IdOffsets> offsets_;  // of each video
+};
+
+// Reads a text that this program wrote line by line. The first error stays, and names the file and the line; lines are
+// empty from then on.
+class LineReader {
+ public:
+  explicit LineReader(fs::path file) : file_(std::move(file)), in_(file_, std::ios::binary) {
+    if (!in_)
+      problem_ = Error{file_.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read};
+  }
+
+  // The next line without its end; none at the end of the text.
+  [[nodiscard]] std::optional<std::string> next() {
+    std::string line;
+    if (problem_) return std::nullopt;
+    if (std::getline(in_, line)) {
+      ++number_;
+      return line;
+    }
+    if (in_.bad()) problem_ = Error{file_.string(), "cannot be read to its end", ErrorKind::cannot_read};
+    return std::nullopt;
+  }
+
+  // What stands in the next line between a beginning and an end that the program wrote.
+  [[nodiscard]] std::string between(std::string_view before, std::string_view after) {
+    const std::optional<std::string> line = next();
+    if (line && line->size() >= before.size() + after.size() && line->starts_with(before) && line->ends_with(after))
+      return line->substr(before.size(), line->size() - before.size() - after.size());
+    mark_malformed();
+    return {};
+  }
+
+  // To be called where the line last read is not what it should be.
+  void mark_malformed() {
+    if (!problem_)
+      problem_ = Error{file_.string() + ": line " + std::to_string(number_),
+                       "is not as sigs writes it; make the video anew", ErrorKind::bad_data};
+  }
+
+  [[nodiscard]] Result<void> state() const { return problem_ ? Result<void>(fail(*problem_)) : Result<void>(); }
+
+ private:
+  fs::path file_;
+  std::ifstream in_;
+  std::optional<Error> problem_;
+  int number_ = 0;
+};
+
+}  // namespace
+
+Result<void> merge_coco(const SplitLabels& labels, const fs::path& file) {
+  Result<TextFile> out = TextFile::create(file);
+  if (!out) return fail(out.error());
+  try {
+    return CocoMerge(labels, std::move(*out)).run();
+  } catch (const Json::exception&) {
+    return fail(file.string(), "cannot be put together: labels of a video are not as sigs writes them");
+  }
+}
+
+Result<void> merge_csv(const SplitLabels& labels, const fs::path& file) {
+  Result<TextFile> out = TextFile::create(file);
+  if (!out) return fail(out.error());
+  std::optional<std::string> header;
+  for (const VideoLabels& video : labels.videos) {
+    LineReader lines(video.path);
+    const std::optional<std::string> first = lines.next();
+    if (!first || (header && *first != *header)) lines.mark_malformed();
+    if (!header && first)
+      if (const Result<void> put = out->put(*first + "\n"); !put) return put;
+    if (!header) header = first;
+    while (const std::optional<std::string> line = lines.next())
+      if (const Result<void> put = out->put(*line + "\n"); !put) return put;
+    if (const Result<void> state = lines.state(); !state) return state;
+  }
+  return out->close();
+}
+
+// The lines are copied as they are: a JSON library would write numbers and blanks another way.
+//   {"metadata": {...},
+//   "samples": {"FLIGHT": {"metadata": {...},
+//   "entities": [
+//   {...},
+//   {...}
+//   ]}}}
+Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
+  constexpr std::string_view kSamples = "\"samples\": {";
+  constexpr std::string_view kEnd = "]}}}";
+  Result<TextFile> out = TextFile::create(file);
+  if (!out) return fail(out.error());
+  std::string before;
+  for (const VideoLabels& video : labels.videos) {
+    LineReader lines(video.path);
+    const std::string metadata = lines.between("{\"metadata\": ", ",");
+    const std::string sample = lines.between(kSamples, "");
+    before += before.empty() ? "{\"metadata\": " + metadata + ",\n" + std::string(kSamples) : ",\n";
+    if (const Result<void> put = out->put(before + sample + "\n"); !put) return put;
+    std::optional<std::string> line = lines.next();
+    for (; line && *line != kEnd; line = lines.next())
+      if (const Result<void> put = out->put(*line + "\n"); !put) return put;
+    if (!line) lines.mark_malformed();
+    if (const Result<void> state = lines.state(); !state) return state;
+    before = "]}";
+  }
+  const Result<void> end = out->put(std::string(kEnd) + "\n");
+  return end ? out->close() : end;
+}
+
+}  // namespace sigs

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "base/result.h"
+#include "dataset/recipe.h"
+#include "dataset/sample.h"
+#include "project/json_reading.h"
+
+namespace sigs {
+
+// What the sources that read a recipe share; recipe.h is what others use.
+
+// What is wrong with a recipe, collected while it is read: the first error, and every warning. Keys are written as
+// "videos[0].name".
+struct RecipeLog {
+  std::string file;
+  std::optional<Error> error;
+  std::vector<Warning> warnings;
+
+  void wrong(const std::string& key, const std::string& what, ErrorKind kind = ErrorKind::bad_data);
+  void warn(const std::string& key, const std::string& what);
+};
+
+// One JSON object of a recipe, read key by key. A value of the wrong form is written to the log, and reading goes on
+// with an empty one; the caller looks at the log in the end. JSON and log must outlive the node.
+class RecipeNode {
+ public:
+  // key: of the object itself; empty for the whole recipe. JSON that is no object counts as an empty one, and is an
+  // error in the log.
+  RecipeNode(const Json& json, std::string key, RecipeLog& log);
+
+  [[nodiscard]] std::string key_of(std::string_view name) const;  // "videos[0].name"
+  [[nodiscard]] RecipeLog& log() const { return *log_; }
+
+  // The value as it is; null where there is none. This call, and each of the following, marks its key as known.
+  [[nodiscard]] const Json* value(std::string_view name);
+
+  // Values of one form. None, or empty, where there is no such key or the value has another form.
+  [[nodiscard]] std::optional<std::string> text(std::string_view name);
+  [[nodiscard]] std::string needed_text(std::string_view name);  // error where it is missing or empty
+  [[nodiscard]] std::optional<int> whole(std::string_view name, int low, int high);
+  [[nodiscard]] std::vector<std::string> texts(std::string_view name);
+  [[nodiscard]] std::map<std::string, std::string> text_map(std::string_view name);
+  [[nodiscard]] std::vector<RecipeNode> nodes(std::string_view name);  // error where it is missing or empty
+
+  // To be called when all known keys have been read: warns of the others. "about" is a remark and allowed everywhere.
+  void done();
+
+ private:
+  const Json* json_;
+  std::string key_;
+  RecipeLog* log_;
+  std::set<std::string, std::less<>> known_;
+};
+
+// A quantity as a recipe writes it: 5, {"uniform": [a, b]}, {"normal": {"mean": m, "deviation": d, "low": a,
+// "high": b}} (bounds may be left out) or {"choice": [a, b, ...]}. Otherwise what is wrong with it.
+[[nodiscard]] tl::expected<Quantity, std::string> quantity_of(const Json& json);
+
+// The recipe's "videos" and "splits"; backgrounds and aircraft must have been read. Mistakes are written to the node's
+// log. settings: KEY=VALUE given beside the recipe, which win over what a group says.
+[[nodiscard]] std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
+                                                  const std::vector<std::string>& settings);
+void read_splits(RecipeNode& recipe_node, Recipe& recipe);
+
+// Error in the log where a tag has a name that every video has as a tag of its own: background, aircraft, flight.
+void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node);
+
+}  // namespace sigs
