@@ -110,9 +110,9 @@ void AppShell::handle_own_requests() {
 void AppShell::report_export() {
   if (export_view_.is_open()) return;
   const ExportState state = export_.state();
-  if (state.phase == ExportPhase::done)
+  if (state.phase == JobPhase::done)
     toasts_.show({"Exported into " + state.request.folder.string() + "; Ctrl + E shows it"}, now_s_);
-  if (state.phase == ExportPhase::failed) toasts_.show({"The export failed; Ctrl + E shows why", true}, now_s_);
+  if (state.phase == JobPhase::failed) toasts_.show({"The export failed; Ctrl + E shows why", true}, now_s_);
 }
 
 void AppShell::update(double now_s) {

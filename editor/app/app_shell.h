@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "editor/app/project_session.h"
-#include "editor/preview/export_job.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/context.h"
 #include "editor/views/dialogs.h"
 #include "editor/views/export_view.h"
@@ -19,39 +19,42 @@
 
 namespace sigs::editor {
 
-// All that concerns files and the program itself, drawn: menu bar, start page, dialogs, messages, export. The file desk
-// decides, this shows and asks.
+// Draws everything that concerns files and the program itself: menu bar, start page, dialogs, messages, export. The
+// ProjectSession decides; this class shows its questions and passes the answers on.
 class AppShell {
  public:
   struct Setup {
-    std::filesystem::path samples;  // folder of sample projects
-    std::filesystem::path recovery_folder;
-    std::string version;
-    std::vector<HelpLine> help;
-    std::function<void()> wake;  // from any thread: something is to be drawn
+    std::filesystem::path samples;          // folder of sample projects
+    std::filesystem::path recovery_folder;  // where unsaved work is kept for the case of a crash
+    std::string version;                    // of the program, for the About dialog
+    std::vector<HelpLine> help;             // lines of the help page
+    std::function<void()> wake;             // may be called from any thread: something is to be drawn
     ProjectSession::UnsavedMask mask;
   };
   // Document and settings must outlive it.
   AppShell(Document& document, Settings& settings, Setup setup);
 
-  // Before everything else of an update is drawn; the bar takes its room at the window's upper edge.
+  // Draws the menu bar at the upper edge of the window; to be called first in an update.
   void draw_menu(const ViewContext& context);
-  // Instead of the panels while has_project() is false; fills the present ImGui window.
+  // Fills the current ImGui window with the start page; to be called in place of the panels while has_project() is
+  // false.
   void draw_start_page(const ViewContext& context);
-  // After everything else, outside of every ImGui window.
+  // Draws dialogs and messages above everything else; to be called last, outside of every ImGui window.
   void draw_over_all(const ViewContext& context);
 
-  // After drawing. False: the request is another's.
+  // Handles a request that a view queued while it was drawn. False: the request concerns somebody else.
   bool handle(const Request& request);
+  // Opens a file that was dropped onto the window, or puts it into the project.
   void handle_dropped(const std::filesystem::path& path, Edits& edits) { session_.handle_dropped(path, edits); }
-  // Once per update, when the document has taken its edits: it may become another one here.
+  // To be called once per update, after the document has applied its edits. May replace the document by another one.
   void update(double now_s);
 
+  // The unsaved mask of a project that was recovered; given once.
   [[nodiscard]] std::optional<RecoveredMask> take_recovered_mask() { return session_.take_recovered_mask(); }
   [[nodiscard]] bool has_project() const { return session_.has_project(); }
   [[nodiscard]] bool is_exporting() const { return export_.is_running(); }
   [[nodiscard]] bool is_done() const { return session_.is_done(); }
-  // Whether something on the screen changes without an event: draw some ten times a second.
+  // Whether something on the screen changes without an event, so that it has to be drawn ten times a second.
   [[nodiscard]] bool needs_redraw() const;
 
  private:

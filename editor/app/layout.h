@@ -12,15 +12,15 @@
 
 namespace sigs::editor {
 
-// Which panel lies where: footage and world side by side above the timeline, the inspector at the right. The lines
-// between them can be dragged; their places are kept in the settings.
+// Draws all panels of an open project: footage and world side by side above the timeline, the inspector at the right.
+// The lines between panels can be dragged; their positions are kept in the settings.
 class Layout {
  public:
-  // Fills the window below the menu bar.
+  // Fills the current ImGui window, which is the window below the menu bar. Settings change where a line is dragged.
   void draw(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
-  // Height of the timeline, as it is drawn in room_px of height.
+  // Height of the timeline in pixels where the panels have room_px of height in all.
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
-  // From the next update on.
+  // Shows the own-body view, or the horizon line over the footage, from the next update on.
   void show_own_body() { wants_own_body_ = true; }
   void show_horizon() {
     wants_footage_ = true;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "editor/document/dropped_file.h"
-#include "editor/document/relink.h"
+#include "editor/document/project_paths.h"
 #include "editor/widgets/elided.h"
 
 namespace sigs::editor {

@@ -11,17 +11,14 @@
 #include <vector>
 
 #include "editor/app/project_loader.h"
-#include "editor/document/disk_change.h"
 #include "editor/document/document.h"
-#include "editor/document/question.h"
 #include "editor/document/recovery.h"
 #include "editor/document/settings.h"
 
 namespace sigs::editor {
 
-// Where projects come and go: opening, saving, closing, quitting, recovering, and the questions that belong to it.
-// Knows no window: it says what is to be asked and told, and somebody else draws it. What the person has done is never
-// given up without a question.
+// Opens, saves, closes and recovers projects, and asks the questions that belong to it. It knows no window: it says
+// which questions and messages to show, and the AppShell shows them. Unsaved work is never dropped without a question.
 class ProjectSession {
  public:
   // The own-body mask that is being painted, which belongs to no project yet.

@@ -13,26 +13,25 @@
 #include <cmath>
 #include <utility>
 
-#include "editor/app/button_queue.h"
-#include "editor/app/canvas.h"
-#include "editor/app/key_queue.h"
+#include "editor/app/input_queue.h"
+#include "editor/app/window_canvas.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
-namespace {
-
-// What comes in between two updates.
-struct Incoming {
+// What arrives between two updates.
+struct WindowInput {
   std::vector<std::filesystem::path> dropped;
   KeyQueue keys;
   ButtonQueue buttons;
   int released_keys = 0;
-  bool needs_all = false;  // to be drawn
+  bool needs_all = false;  // everything is to be drawn anew
 };
 
-Incoming& incoming_of(GLFWwindow* window) {
-  return *static_cast<Incoming*>(glfwGetWindowUserPointer(window));
+namespace {
+
+WindowInput& incoming_of(GLFWwindow* window) {
+  return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
 }
 
 }  // namespace
@@ -40,7 +39,7 @@ Incoming& incoming_of(GLFWwindow* window) {
 struct Window::State {
   GLFWwindow* window = nullptr;
   double text_px = 0;  // of the fonts that are loaded
-  Incoming incoming;
+  WindowInput incoming;
   std::unique_ptr<Canvas> canvas = std::make_unique<Canvas>();  // goes before OpenGL does
   bool full_screen = false;
   int x = 0, y = 0, width = 0, height = 0;  // before it filled the screen
@@ -84,7 +83,7 @@ void note_character(GLFWwindow* window, unsigned character) {
 }
 
 void hand_on_keys(GLFWwindow* window) {
-  Incoming& incoming = incoming_of(window);
+  WindowInput& incoming = incoming_of(window);
   for (const KeyEvent& event : incoming.keys.take_for_update(ImGui::GetIO().WantTextInput)) {
     if (event.character == 0 && !event.down && event.kind != KeyKind::modifier) ++incoming.released_keys;
     if (event.character != 0)

@@ -11,37 +11,42 @@
 
 namespace sigs::editor {
 
-// A window with OpenGL and ImGui in it. One per program.
+// A window of the desktop with an OpenGL context and ImGui in it. One per program; all calls but wake() come from the
+// thread that opened it.
 class Window {
  public:
-  // Error unavailable where there is no display or no OpenGL 3.3.
+  // Opens a window of the size that the settings remember. Error unavailable where there is no display or no
+  // OpenGL 3.3.
   [[nodiscard]] static Result<std::unique_ptr<Window>> open(const Settings& settings);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // Waits for an event or wake(), but not longer. Whether one came.
+  // Waits for an event or a wake(), at most timeout_s seconds. Returns whether one came.
   bool wait(double timeout_s);
-  // From any thread.
+  // Ends a wait(); may be called from any thread.
   static void wake();
 
-  // One update: ImGui's calls lie between the two. The font follows the settings and the screen.
+  // All ImGui calls of an update lie between these two. The font's size follows the settings and the screen's scale;
+  // end() draws the regions of the window that look different from the update before.
   void begin(const Settings& settings);
   void end();
 
+  // Whether the person asked to close the window; refuse_to_close() takes the request back.
   [[nodiscard]] bool wants_to_close() const;
   void refuse_to_close();
   void set_title(const std::string& title);
+  // Files that were dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
 
-  // Its size and whether it is maximised, for the next time.
+  // Writes the size of the window, and whether it is maximised, into the settings for the next start.
   void remember_in(Settings& settings) const;
 
   void toggle_full_screen();
 
-  // Keys that went up, modifiers aside, as far as ImGui has been told of them.
+  // Number of keys (without modifiers) whose release ImGui has received so far.
   [[nodiscard]] int released_keys() const;
-  // Keys or buttons wait for a later turn.
+  // Whether keys or mouse buttons wait for a later update.
   [[nodiscard]] bool has_input_left() const;
 
  private:

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "editor/document/moved_paths.h"
+#include "editor/document/project_paths.h"
 #include "project/json.h"
 
 namespace sigs::editor {

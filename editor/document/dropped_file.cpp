@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/input_file.h"
-#include "editor/document/moved_paths.h"
+#include "editor/document/project_paths.h"
 
 namespace sigs::editor {
 

@@ -2,16 +2,76 @@
 #include "editor/document/mask_painting.h"
 
 #include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/ensure.h"
+#include "base/staged_outputs.h"
 
 namespace sigs::editor {
 
+Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, bool overwrite) {
+  std::vector<uchar> bytes;
+  try {
+    cv::imencode(".png", mask, bytes);
+  } catch (const cv::Exception&) {
+    return fail(path.string(), "the mask cannot be written as a PNG", ErrorKind::write_failed);
+  }
+  return write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, overwrite);
+}
+
+Result<cv::Mat> read_mask(const std::filesystem::path& path) {
+  const Result<std::string> bytes = read_text(path);
+  if (!bytes) return fail(bytes.error());
+  cv::Mat mask;
+  try {
+    mask = cv::imdecode(cv::Mat(1, static_cast<int>(bytes->size()), CV_8UC1, const_cast<char*>(bytes->data())),
+                        cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    mask = cv::Mat();
+  }
+  if (mask.type() != CV_8UC1 || mask.empty()) return fail(path.string(), "is not a mask that was kept here");
+  return mask;
+}
+
 namespace {
 
+bool is_finite(const glm::dvec2& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+double distance_to_line(const glm::dvec2& p, const glm::dvec2& from, const glm::dvec2& along, double length_squared) {
+  const double share = length_squared > 0 ? std::clamp(glm::dot(p - from, along) / length_squared, 0.0, 1.0) : 0;
+  return glm::length(p - from - share * along);
+}
+
+// Whole pixels within a reach of a stretch, of `count` of them. Far away, double keeps what int cannot hold.
+cv::Range within(double low, double high, double reach, int count) {
+  const double first = std::clamp(std::ceil(low - reach), 0.0, static_cast<double>(count));
+  const double last = std::clamp(std::floor(high + reach) + 1, first, static_cast<double>(count));
+  return {static_cast<int>(first), static_cast<int>(last)};
+}
+
+// The columns of a row that the brush can reach: of a long slanting line a small part.
+cv::Range columns_of_row(int row, const glm::dvec2& from, const glm::dvec2& along, double reach, int count) {
+  double first = 0;
+  double last = 1;
+  if (along.y != 0) {
+    const double one = (row - reach - from.y) / along.y;
+    const double other = (row + reach - from.y) / along.y;
+    first = std::clamp(std::min(one, other), 0.0, 1.0);
+    last = std::clamp(std::max(one, other), 0.0, 1.0);
+  }
+  const double one_x = from.x + first * along.x;
+  const double other_x = from.x + last * along.x;
+  return within(std::min(one_x, other_x), std::max(one_x, other_x), reach, count);
+}
+
 constexpr std::size_t kMaxBytesInHistory = std::size_t(256) << 20;
-constexpr std::size_t kMaxSteps = 1000;
+constexpr std::size_t kMaxStrokes = 1000;
 
 bool is_same(const cv::Mat& a, const cv::Mat& b) {
   for (int y = 0; y < a.rows; ++y)
@@ -20,6 +80,40 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 }
 
 }  // namespace
+
+double covered(const Brush& brush, double distance_px) {
+  if (!(brush.edge_px > 0)) return distance_px <= brush.radius_px ? 1 : 0;
+  return std::clamp((brush.radius_px - distance_px) / brush.edge_px + 0.5, 0.0, 1.0);
+}
+
+cv::Rect move_brush(cv::Mat& mask, const Brush& brush, const glm::dvec2& from, const glm::dvec2& to) {
+  ENSURE(mask.type() == CV_8UC1);
+  if (!is_finite(from) || !is_finite(to)) return {};
+  const double reach = brush.radius_px + std::max(0.0, brush.edge_px) / 2;
+  const glm::dvec2 along = to - from;
+  const double length_squared = glm::dot(along, along);
+  const cv::Range rows = within(std::min(from.y, to.y), std::max(from.y, to.y), reach, mask.rows);
+  const cv::Range columns = within(std::min(from.x, to.x), std::max(from.x, to.x), reach, mask.cols);
+  if (rows.empty() || columns.empty()) return {};
+  for (int y = rows.start; y < rows.end; ++y) {
+    uchar* const line = mask.ptr<uchar>(y);
+    const cv::Range part = columns_of_row(y, from, along, reach, mask.cols);
+    for (int x = part.start; x < part.end; ++x) {
+      const double distance_px = distance_to_line({x, y}, from, along, length_squared);
+      const auto share = static_cast<uchar>(std::lround(255 * covered(brush, distance_px)));
+      line[x] = brush.erases ? std::min(line[x], static_cast<uchar>(255 - share)) : std::max(line[x], share);
+    }
+  }
+  return {columns.start, rows.start, columns.size(), rows.size()};
+}
+
+double stepped_radius_px(double radius_px, int steps) {
+  constexpr double kStep = 1.15;
+  const double wanted = radius_px * std::pow(kStep, steps);
+  // At least half a pixel a step: small brushes would hardly change.
+  const double minimum = radius_px + 0.5 * steps;
+  return std::clamp(steps > 0 ? std::max(wanted, minimum) : std::min(wanted, minimum), kMinRadius_px, kMaxRadius_px);
+}
 
 MaskPainting::MaskPainting(const cv::Mat& mask, std::uint64_t first_state)
     : mask_(mask.clone()),
@@ -107,7 +201,7 @@ void MaskPainting::redo() {
 void MaskPainting::forget_oldest() {
   std::size_t bytes = 0;
   std::size_t kept = 0;
-  while (kept < past_.size() && kept < kMaxSteps) {
+  while (kept < past_.size() && kept < kMaxStrokes) {
     bytes += past_[past_.size() - 1 - kept].other.total();
     if (kept > 0 && bytes > kMaxBytesInHistory) break;
     ++kept;

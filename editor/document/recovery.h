@@ -15,7 +15,7 @@
 
 namespace sigs::editor {
 
-// What an editor that did not come to its end left behind.
+// Unsaved work that an editor left behind when it crashed.
 struct AbandonedProject {
   std::filesystem::path recovery_file;
   std::filesystem::path project_file;  // where the project belongs; "": it was never saved
@@ -61,9 +61,9 @@ class Recovery {
   Recovery(const Recovery&) = delete;
   Recovery& operator=(const Recovery&) = delete;
 
-  // Once per update: writes what is unsaved as soon as a change is that old, removes the files where nothing is
-  // unsaved. An error is told once, and again only after writing went well in between; writing is tried again each
-  // delay_s. The mask lies beside the project's file as a PNG.
+  // To be called once per update: writes what is unsaved as soon as a change is that old, removes the files where
+  // nothing is unsaved. An error is returned once, and again only after writing went well in between; writing is tried
+  // again each delay_s. The mask lies beside the project's file as a PNG.
   [[nodiscard]] std::optional<Error> keep(const Document& document, double now_s, double delay_s,
                                           const MaskToKeep& mask = {});
 

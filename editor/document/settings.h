@@ -9,7 +9,8 @@
 
 namespace sigs::editor {
 
-// What the editor remembers from one day to the next: how it looks and what was opened. Not part of any project.
+// What the editor remembers between runs: sizes of the window and its panels, and recent projects. Not part of any
+// project.
 struct Settings {
   double font_px = 15;  // 10..32, times the screen's own scale; everything else follows the text
   int window_width_px = 1600;
@@ -31,7 +32,7 @@ struct Settings {
 inline constexpr double kMinFont_px = 10;
 inline constexpr double kMaxFont_px = 32;
 
-// Where they lie: $XDG_CONFIG_HOME/sigs/editor.json, else ~/.config/sigs/editor.json.
+// File of the settings: $XDG_CONFIG_HOME/sigs/editor.json, else ~/.config/sigs/editor.json.
 [[nodiscard]] std::filesystem::path settings_file();
 
 // Values out of range are brought into it; a file that is missing or unreadable gives the defaults.

@@ -9,19 +9,21 @@
 #include <optional>
 #include <vector>
 
+#include "editor/document/content_id.h"
+
 namespace sigs::editor {
 
-// A frame of one state of what it is made from: of a project, or of a footage.
+// A frame of one content: of a project with its files (combined_id), or of a footage (FootageId).
 struct FrameKey {
-  std::uint64_t state = 0;
+  ContentId content;
   int frame = 0;
 
   [[nodiscard]] auto operator<=>(const FrameKey&) const = default;
 };
 
-// Which frames are kept within a limit of bytes, and which goes first: those of other states than the present one
-// before those of it, then what is farthest from the playhead, then the older state. Knows nothing of the frames
-// themselves.
+// Decides which frames are kept within a limit of bytes. First to go are frames of another content than the playhead's,
+// then those that are farthest from the playhead, then those whose content came earlier, then those with the lower
+// number. Knows keys and sizes alone.
 class CacheOrder {
  public:
   explicit CacheOrder(std::size_t limit_bytes) : limit_bytes_(limit_bytes) {}
@@ -37,22 +39,33 @@ class CacheOrder {
   // Enters a frame, in place of what had the key, and names those that must go; it may be among them.
   [[nodiscard]] std::vector<FrameKey> put(FrameKey key, std::size_t bytes);
 
-  [[nodiscard]] std::vector<int> frames_of(std::uint64_t state) const;
+  // Numbers of the frames that are kept of a content, ascending.
+  [[nodiscard]] std::vector<int> frames_of(const ContentId& content) const;
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
+  struct Frames {
+    std::uint64_t age = 0;  // contents are counted as they come; one that has gone altogether is counted anew
+    std::map<int, std::size_t> bytes_by_number;
+  };
+
   [[nodiscard]] std::vector<FrameKey> shrink();
   [[nodiscard]] bool is_worth_less(FrameKey a, FrameKey b) const;
   [[nodiscard]] std::optional<FrameKey> first_to_go() const;
   [[nodiscard]] std::size_t bytes_worth_less(FrameKey key, std::size_t enough) const;
+  [[nodiscard]] std::size_t bytes_of(FrameKey key) const;  // 0: it is not there
+  [[nodiscard]] std::uint64_t age_of(const ContentId& content) const;
+  void remove(FrameKey key);
 
   std::size_t limit_bytes_;
   std::size_t bytes_ = 0;
   FrameKey playhead_;
-  std::map<FrameKey, std::size_t> bytes_of_;
+  std::uint64_t contents_counted_ = 0;
+  std::map<ContentId, Frames> frames_;
 };
 
-// Frames by state and number in bounded memory. What was handed out lives on with whoever holds it. For one thread.
+// Frames by content and number within a limit of bytes. What find() returned lives on with whoever holds it. For one
+// thread at a time.
 template <class Value>
 class FrameCache {
  public:
@@ -78,8 +91,8 @@ class FrameCache {
     for (const FrameKey& gone : order_.put(key, bytes)) values_.erase(gone);
   }
 
-  // In order.
-  [[nodiscard]] std::vector<int> frames_of(std::uint64_t state) const { return order_.frames_of(state); }
+  // Ascending.
+  [[nodiscard]] std::vector<int> frames_of(const ContentId& content) const { return order_.frames_of(content); }
   [[nodiscard]] std::size_t bytes() const { return order_.bytes(); }
 
  private:

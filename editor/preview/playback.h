@@ -12,7 +12,7 @@ struct PlayRange {
   bool loop = false;
 };
 
-// When footage shows which frame: frame n from times_s[n] until times_s[n + 1], the last one for interval_s.
+// Times of the frames: frame n is shown from times_s[n] until times_s[n + 1], the last one for interval_s.
 struct PlayTimes {
   std::span<const double> times_s;  // not decreasing, at least one
   double interval_s = 0.04;
@@ -24,19 +24,20 @@ struct PlayedFrame {
   bool over = false;
 };
 
-// The play clock. It tells which frame is due at a moment, so a slow machine drops frames and never lags. It has no
-// clock of its own: moments are seconds of any steady clock. Rates vary as the footage's time stamps do.
+// Tells which frame is due at a time, so that a slow machine drops frames and never lags. Times are seconds of any
+// steady clock, which the caller reads. The rate follows the time stamps of the footage.
 class Playback {
  public:
-  // From the start of that frame on (backwards: from its end). speed: times the footage's own, below 0 backwards.
+  // Plays from the start of a frame on (backwards: from its end). speed: 1 is the footage's own, below 0 backwards.
   void play(double now_s, int frame, double speed);
   void pause() { speed_ = 0; }
 
   [[nodiscard]] bool playing() const { return speed_ != 0; }
   [[nodiscard]] double speed() const { return speed_; }  // 0: pausing
 
-  // What is due. From a frame outside the range it plays on into the range; where the range lies behind, or ends with
-  // that frame, it begins at the range's other end. Frames are clamped to the footage. Pausing: the frame it began at.
+  // The frame that is due. From a frame outside the range it plays on into the range; where the range lies behind, or
+  // ends with that frame, it begins at the range's other end. Frames are clamped to the footage. Pausing: the frame it
+  // began at.
   [[nodiscard]] PlayedFrame frame_at(double now_s, const PlayTimes& times, const PlayRange& range) const;
 
  private:

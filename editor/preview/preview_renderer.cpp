@@ -11,13 +11,97 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookAtFiles(1000);  // how often they are looked at for changes from outside
-constexpr std::chrono::milliseconds kEditPause(50);      // until edits have come to rest
-constexpr std::chrono::milliseconds kOldSurvey(300);     // how long an older survey replaces one that is made
+constexpr std::size_t kModelsKept = 8;  // beside those of the scene
+constexpr double kCrossLength_m = 10;
+
+// The untouched footage where composing fails for want of OpenGL or memory.
+Result<ComposedFrame> composed(const Scene& scene, int frame, const Frame& background, ComposeContext& context,
+                               Stages stages) {
+  return guarded([&] { return compose_frame(scene, frame, background, context, stages); }, "composing");
+}
+
+// Shares everything large with the scene it is made from.
+Scene with_method(const Scene& scene, MethodChoice method) {
+  Scene other = scene;
+  other.compositing.method = method;
+  return other;
+}
+
+constexpr std::chrono::milliseconds kEditPause(50);   // until edits have come to rest
+constexpr std::chrono::milliseconds kOldSurvey(300);  // how long an older survey replaces one that is made
 constexpr double kSurveySlice_s = 0.003;
 constexpr int kBackgroundTasks = 3;
 
 }  // namespace
+
+void SceneRenderer::keep(const std::shared_ptr<const Model>& model) {
+  std::erase(drawn_, model);
+  drawn_.push_back(model);
+}
+
+void SceneRenderer::drop_unused(std::size_t in_use) {
+  while (drawn_.size() > in_use + kModelsKept) {
+    context_.forget(drawn_.front()->mesh);
+    drawn_.pop_front();
+  }
+}
+
+std::shared_ptr<const OpenedScene> SceneRenderer::opened(const Revision& revision, const ContentId& content,
+                                                         std::shared_ptr<const Footage> footage) {
+  DraftScene draft = draft_scene(*revision.project, footage->shape, files_);
+  for (const std::shared_ptr<const Model>& model : draft.scene.models) keep(model);
+  drop_unused(draft.scene.models.size());
+  return std::make_shared<const OpenedScene>(OpenedScene{.revision = revision.number,
+                                                         .content = content,
+                                                         .project = revision.project,
+                                                         .footage = std::move(footage),
+                                                         .draft = std::move(draft)});
+}
+
+std::shared_ptr<const PreviewImage> SceneRenderer::image(const OpenedScene& opened, int frame,
+                                                         const DecodedFrame& footage, Stages stages,
+                                                         std::optional<MethodChoice> method) {
+  const Scene& own = opened.draft.scene;
+  auto image = std::make_shared<PreviewImage>(
+      PreviewImage{.revision = opened.revision, .frame = frame, .method = method, .problem = footage.problem});
+  Result<ComposedFrame> made = method ? composed(with_method(own, *method), frame, footage.frame, context_, stages)
+                                      : composed(own, frame, footage.frame, context_, stages);
+  if (!made) {
+    image->bgr = bgr_of(footage.frame);
+    image->truth = {.index = frame, .time_s = time_of_frame_s(own.footage, frame)};
+    image->problem = made.error().text();
+    return image;
+  }
+  image->bgr = bgr_of(made->image);
+  image->mask = made->mask;
+  image->truth = std::move(made->truth);
+  image->stages = std::move(made->stages);
+  image->times = made->times;
+  return image;
+}
+
+std::shared_ptr<const ModelImage> SceneRenderer::model_image(const Project& project,
+                                                             const PreviewRequest::Turntable& wanted) {
+  const Project clean = sanitized(project);
+  const auto intruder = static_cast<std::size_t>(wanted.intruder);
+  const ModelSettings& settings = clean.intruders[intruder].model;
+  auto image =
+      std::make_shared<ModelImage>(ModelImage{.file = resolved(project, settings.file), .turn_rad = wanted.turn_rad});
+  const OrProblem<std::shared_ptr<const Model>> made = scene_model(clean, intruder, files_);
+  if (!made) image->problem = made.error().what;
+  const std::shared_ptr<const Model> model =
+      made ? *made : files_.cross(settings.length_m > 0 ? settings.length_m : kCrossLength_m);
+  keep(model);
+  image->size_m = glm::dvec3(model->mesh.high_m) - glm::dvec3(model->mesh.low_m);
+  const Result<Renderer*> renderer = context_.renderer();
+  const Result<cv::Mat> rgba = renderer ? turntable_image(model->mesh, wanted.turn_rad, wanted.size_px, **renderer)
+                                        : Result<cv::Mat>(fail(renderer.error()));
+  if (rgba)
+    image->rgba = *rgba;
+  else
+    image->problem = rgba.error().text();
+  return image;
+}
 
 void PreviewRenderer::run() {
   lower_thread_priority(kPreviewNiceness);
@@ -25,7 +109,7 @@ void PreviewRenderer::run() {
     // What failed for want of memory is tried again in the next round, when something else may have given it back.
     const Result<bool> did = guarded([&]() -> Result<bool> { return step(*snapshot); });
     if (did && *did) continue;
-    preview_state_.wait_for_changes(snapshot->version, did && snapshot->ahead ? kLookAtFiles : kEditPause);
+    preview_state_.wait_for_changes(snapshot->version, did && snapshot->ahead ? kFileCheckInterval : kEditPause);
   }
 }
 
@@ -33,16 +117,17 @@ int PreviewRenderer::clamped(int frame) const {
   return std::clamp(frame, 0, static_cast<int>(scene_->footage->shape.times_s.size()) - 1);
 }
 
-void PreviewRenderer::identify_revision(const PreviewSnapshot& snapshot) {
+void PreviewRenderer::check_input_files(const PreviewSnapshot& snapshot) {
   const Revision& revision = snapshot.wanted->revision;
   const Clock::time_point now = Clock::now();
-  if (revision.number == revision_ && now - named_ < kLookAtFiles) return;
-  state_ = content_ids_.id_of(content_id_of(*revision.project));
+  if (revision.number == revision_ && now - files_checked_ < kFileCheckInterval) return;
+  const ContentId input_files = input_files_id_of(*revision.project);
   const FileStamp video = footage_stamp_of(*revision.project);
-  footage_ = {footage_ids_.id_of(video), video.path};
+  content_ = combined_id(revision.content, input_files);
+  footage_ = {id_of(video), video.path};
   revision_ = revision.number;
-  named_ = now;
-  preview_state_.identify_revision(revision_, state_, footage_);
+  files_checked_ = now;
+  preview_state_.set_input_files(input_files, footage_);
 }
 
 // Also where only the number is new: whoever looks at the scene finds the project that it belongs to.
@@ -51,8 +136,7 @@ void PreviewRenderer::open_revision(const PreviewSnapshot& snapshot) {
   const bool is_open = scene_fits() && scene_->revision == revision_ && scene_footage_ == footage_.id;
   if (is_open) return;
   const Revision& revision = snapshot.wanted->revision;
-  scene_ = scene_renderer_.opened(revision, footage_for(*revision.project, snapshot.opened_footage));
-  scene_state_ = state_;
+  scene_ = scene_renderer_.opened(revision, content_, footage_for(*revision.project, snapshot.opened_footage));
   scene_footage_ = footage_.id;
   preview_state_.put_scene(scene_);
 }
@@ -68,7 +152,7 @@ bool PreviewRenderer::compose(int frame, bool was_wanted) {
   const Clock::time_point start = Clock::now();
   auto image = scene_renderer_.image(*scene_, frame, *footage, Stages::leave_out, std::nullopt);
   const std::chrono::duration<double, std::milli> took = Clock::now() - start;
-  preview_state_.put_image({state_, frame}, std::move(image), took.count(), was_wanted);
+  preview_state_.put_image({content_, frame}, std::move(image), took.count(), was_wanted);
   return true;
 }
 
@@ -76,15 +160,16 @@ bool PreviewRenderer::compose(int frame, bool was_wanted) {
 // scrub shows images on its way.
 bool PreviewRenderer::render_requested(const PreviewSnapshot& snapshot) {
   const int frame = clamped(snapshot.wanted->frame);
-  if (preview_state_.has_image({state_, frame})) return false;
+  if (preview_state_.has_image({content_, frame})) return false;
   if (compose(frame, true)) return true;
-  const bool is_fresh = snapshot.fresh && snapshot.fresh->state == scene_footage_;
-  return is_fresh && !preview_state_.has_image({state_, snapshot.fresh->frame}) && compose(snapshot.fresh->frame, true);
+  const bool is_fresh = snapshot.fresh && snapshot.fresh->content == scene_footage_;
+  return is_fresh && !preview_state_.has_image({content_, snapshot.fresh->frame}) &&
+         compose(snapshot.fresh->frame, true);
 }
 
 bool PreviewRenderer::render_extras(const PreviewSnapshot& snapshot) {
   const PreviewRequest& wanted = *snapshot.wanted;
-  const FrameKey key{state_, clamped(wanted.frame)};
+  const FrameKey key{content_, clamped(wanted.frame)};
   const FrameKey footage_key{scene_footage_, key.frame};
   const bool untouched = wanted.footage && !preview_state_.has_untouched(footage_key);
   const bool compared = wanted.compare_with && !preview_state_.has_compared(key, *wanted.compare_with, wanted.stages);
@@ -106,16 +191,16 @@ bool PreviewRenderer::render_extras(const PreviewSnapshot& snapshot) {
 bool PreviewRenderer::prefetch(const PreviewSnapshot& snapshot) {
   if (!snapshot.ahead || !scene_fits()) return false;
   const int count = static_cast<int>(scene_->footage->shape.times_s.size());
-  const std::optional<int> frame = preview_state_.next_prefetch(snapshot, state_, count);
+  const std::optional<int> frame = preview_state_.next_prefetch(snapshot, content_, count);
   return frame && compose(*frame, false);
 }
 
 // The survey of the revision before stays for a moment, so that it does not shrink and grow with every step of a drag.
 bool PreviewRenderer::survey() {
   if (!scene_fits()) return false;
-  if (survey_state_ != scene_state_) {
+  if (survey_content_ != scene_->content) {
     survey_builder_.begin(scene_);
-    survey_state_ = scene_state_;
+    survey_content_ = scene_->content;
     survey_is_shown_ = false;
     survey_begun_ = Clock::now();
   }
@@ -131,7 +216,7 @@ bool PreviewRenderer::render_turntable(const PreviewSnapshot& snapshot) {
   const std::optional<PreviewRequest::Turntable>& wanted = snapshot.wanted->turntable;
   const auto intruders = static_cast<int>(snapshot.wanted->revision.project->intruders.size());
   if (!wanted || wanted->intruder < 0 || wanted->intruder >= intruders || wanted->size_px.empty()) return false;
-  const ModelKey key{state_, wanted->intruder, wanted->turn_rad, wanted->size_px};
+  const ModelKey key{content_, wanted->intruder, wanted->turn_rad, wanted->size_px};
   if (model_ == key) return false;
   model_ = key;
   preview_state_.put_model(scene_renderer_.model_image(*snapshot.wanted->revision.project, *wanted));
@@ -140,7 +225,7 @@ bool PreviewRenderer::render_turntable(const PreviewSnapshot& snapshot) {
 
 bool PreviewRenderer::step(const PreviewSnapshot& snapshot) {
   if (!snapshot.wanted || !snapshot.wanted->revision.project) return false;
-  identify_revision(snapshot);
+  check_input_files(snapshot);
   open_revision(snapshot);
   if (scene_fits() && (render_requested(snapshot) || render_extras(snapshot))) return true;
   for (int i = 0; i < kBackgroundTasks; ++i) {

@@ -2,24 +2,56 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 
-#include "editor/preview/content_id.h"
+#include "editor/document/content_id.h"
+#include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
-#include "editor/preview/scene_renderer.h"
-#include "editor/preview/survey_builder.h"
+#include "editor/preview/surveys.h"
+#include "scene/scene_files.h"
+#include "video/frame.h"
 
 namespace sigs::editor {
 
-// The rendering thread's work. Each step looks at what is wanted by then and does the first thing that is missing:
-// the newest revision's wanted image, what else the view asked for, and in turns the next frames, the survey and
-// the model. A step that opens a revision composes it too, so edits that come faster than images starve nothing.
+// Opens revisions and composites their frames with files, models and an OpenGL context that it keeps from call to call.
+// For one thread.
+class SceneRenderer {
+ public:
+  // Opens a revision. What cannot be read is replaced by a placeholder and named in the draft's problems.
+  [[nodiscard]] std::shared_ptr<const OpenedScene> opened(const Revision& revision, const ContentId& content,
+                                                          std::shared_ptr<const Footage> footage);
+
+  // A composited frame of the scene that was opened last. method: none for the project's own. Where composing fails the
+  // image is the untouched footage, with the problem.
+  [[nodiscard]] std::shared_ptr<const PreviewImage> image(const OpenedScene& opened, int frame,
+                                                          const DecodedFrame& footage, Stages stages,
+                                                          std::optional<MethodChoice> method);
+
+  // A model that cannot be read is shown as the cross that replaces it.
+  [[nodiscard]] std::shared_ptr<const ModelImage> model_image(const Project& project,
+                                                              const PreviewRequest::Turntable& wanted);
+
+ private:
+  void keep(const std::shared_ptr<const Model>& model);
+  void drop_unused(std::size_t in_use);
+
+  SceneFiles files_;
+  std::deque<std::shared_ptr<const Model>> drawn_;  // last used at the back; the context knows them by their address
+  ComposeContext context_;
+};
+
+// The work of the rendering thread. Each step takes a snapshot of the preview state and does the first thing that is
+// missing: the wanted image of the newest revision, what else the view asked for, then in turns one of the next frames,
+// a slice of the survey, the image of the model. A step that opens a revision composes it too, so that edits that come
+// faster than images do not stop the images.
 class PreviewRenderer {
  public:
   explicit PreviewRenderer(PreviewState& preview_state) : preview_state_(preview_state) {}
 
-  // Until the preview state says stop.
+  // Returns when the preview state is stopped.
   void run();
 
  private:
@@ -34,33 +66,30 @@ class PreviewRenderer {
   bool render_turntable(const PreviewSnapshot& snapshot);
   bool compose(int frame, bool was_wanted);
 
-  void identify_revision(const PreviewSnapshot& snapshot);
+  void check_input_files(const PreviewSnapshot& snapshot);
   void open_revision(const PreviewSnapshot& snapshot);
-  [[nodiscard]] bool scene_fits() const { return scene_ && scene_state_ == state_; }
+  [[nodiscard]] bool scene_fits() const { return scene_ && scene_->content == content_; }
   [[nodiscard]] int clamped(int frame) const;
   [[nodiscard]] std::shared_ptr<const DecodedFrame> footage_frame(int frame) const;
 
   PreviewState& preview_state_;
   SceneRenderer scene_renderer_;
-  IdTable<ContentId> content_ids_;
-  IdTable<FileStamp> footage_ids_;
 
-  std::uint64_t revision_ = 0;  // that was named last
-  Clock::time_point named_{};
-  std::uint64_t state_ = 0;
+  std::uint64_t revision_ = 0;  // whose files were looked at last
+  Clock::time_point files_checked_{};
+  ContentId content_;  // combined_id() of that revision and its files
   FootageId footage_;
 
   std::shared_ptr<const OpenedScene> scene_;
-  std::uint64_t scene_state_ = 0;
-  std::uint64_t scene_footage_ = 0;
+  ContentId scene_footage_;
 
   SurveyBuilder survey_builder_;
-  std::uint64_t survey_state_ = 0;
+  ContentId survey_content_;
   bool survey_is_shown_ = false;
   Clock::time_point survey_begun_{};
 
   struct ModelKey {
-    std::uint64_t state = 0;
+    ContentId content;
     int intruder = 0;
     double turn_rad = 0;
     cv::Size size_px;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "editor/preview/frame_bytes.h"
+#include "editor/preview/opened_footage.h"
+#include "editor/preview/preview_decoder.h"
+#include "editor/preview/preview_renderer.h"
 
 namespace sigs::editor {
 
@@ -12,23 +14,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kWakeInterval(250);  // how long the window may not hear of frames fetched ahead
 constexpr std::chrono::milliseconds kStillEditing(200);  // after an edit the next one is likely
-constexpr std::size_t kRevisionsKnown = 4096;
 
 template <class T>
 std::size_t held_bytes(const std::shared_ptr<const T>& kept) {
   return kept ? bytes_of(*kept) : 0;
-}
-
-bool is_same(const std::optional<PreviewRequest::Turntable>& a, const std::optional<PreviewRequest::Turntable>& b) {
-  if (!a || !b) return !a && !b;
-  return a->intruder == b->intruder && a->turn_rad == b->turn_rad && a->size_px == b->size_px;
-}
-
-bool is_same(const PreviewRequest& a, const PreviewRequest& b) {
-  return a.revision.number == b.revision.number && a.frame == b.frame && a.direction == b.direction &&
-         a.range_first == b.range_first && a.range_last == b.range_last && a.playing == b.playing &&
-         a.footage == b.footage && a.stages == b.stages && a.compare_with == b.compare_with &&
-         is_same(a.turntable, b.turntable);
 }
 
 }  // namespace
@@ -87,9 +76,7 @@ int PreviewState::clamped(int frame) const {
 
 std::optional<FrameKey> PreviewState::wanted_key() const {
   if (!wanted_) return std::nullopt;
-  const auto revision = revisions_.find(wanted_->revision.number);
-  if (revision == revisions_.end()) return std::nullopt;
-  return FrameKey{revision->second.state, clamped(wanted_->frame)};
+  return FrameKey{combined_id(wanted_->revision.content, input_files_), clamped(wanted_->frame)};
 }
 
 std::shared_ptr<const PreviewImage> PreviewState::found(FrameKey key) const {
@@ -136,7 +123,7 @@ void PreviewState::share_memory() {
 
 void PreviewState::want(const PreviewRequest& wanted) {
   const std::lock_guard lock(mutex_);
-  if (wanted_ && is_same(*wanted_, wanted)) return;
+  if (wanted_ == wanted) return;
   if (!wanted_ || wanted_->revision.number != wanted.revision.number) revised_ = Clock::now();
   wanted_ = wanted;
   if (!wanted.footage) untouched_ = {};
@@ -166,7 +153,7 @@ PreviewOutput PreviewState::shown() const {
   }
   if (scene_) shown.cached.resize(scene_->footage->shape.times_s.size());
   if (key)
-    for (const int frame : images_.frames_of(key->state))
+    for (const int frame : images_.frames_of(key->content))
       if (static_cast<std::size_t>(frame) < shown.cached.size()) shown.cached[static_cast<std::size_t>(frame)] = true;
   shown.memory = memory();
   shown.busy = wanted_ && (!shown.image_is_current || rendering_ || decoding_ || shown.opening);
@@ -197,7 +184,7 @@ bool PreviewState::may_prefetch() const {
 }
 
 std::optional<FrameKey> PreviewState::next_to_decode() const {
-  const bool is_there = footage_.id != 0 && footage_.id == footage_wanted_.id && opened_footage_->video;
+  const bool is_there = footage_.id != ContentId() && footage_.id == footage_wanted_.id && opened_footage_->video;
   if (!wanted_ || !is_there) return std::nullopt;
   const int count = opened_footage_->video->frame_count();
   const FrameKey first{footage_.id, std::clamp(wanted_->frame, 0, count - 1)};
@@ -206,7 +193,7 @@ std::optional<FrameKey> PreviewState::next_to_decode() const {
   const std::optional<FrameKey> shown = wanted_key();
   for (const int frame : prefetch_order(*wanted_, count, limits_.ahead)) {
     const FrameKey key{footage_.id, frame};
-    if (shown && images_.find({shown->state, frame})) continue;
+    if (shown && images_.find({shown->content, frame})) continue;
     if (decoded_.find(key)) continue;
     if (!decoded_.would_keep(key, decoded_bytes_)) break;
     return key;
@@ -281,26 +268,13 @@ void PreviewState::wait_for_changes(std::uint64_t version, std::chrono::millisec
   changed_.wait_for(lock, at_most, [&] { return stop_ || version_ != version; });
 }
 
-void PreviewState::identify_revision(std::uint64_t revision, std::uint64_t state, const FootageId& footage) {
+void PreviewState::set_input_files(const ContentId& input_files, const FootageId& footage) {
   const std::lock_guard lock(mutex_);
-  const auto known = revisions_.find(revision);
-  const bool is_new = known == revisions_.end() || known->second.state != state;
-  remember_id(revision, state);
-  if (!is_new && footage_wanted_.id == footage.id) return;
+  if (input_files_ == input_files && footage_wanted_.id == footage.id) return;
+  input_files_ = input_files;
   footage_wanted_ = footage;
   follow_playhead();
   notify_threads();
-}
-
-// Undo comes back to low numbers: what goes is what was named longest ago, not what has the lowest number.
-void PreviewState::remember_id(std::uint64_t revision, std::uint64_t state) {
-  KnownRevision& known = revisions_[revision];
-  if (known.named != 0) revisions_by_time_.erase(known.named);
-  known = {.state = state, .named = ++identifications_};
-  revisions_by_time_[known.named] = revision;
-  if (revisions_.size() <= kRevisionsKnown) return;
-  revisions_.erase(revisions_by_time_.begin()->second);
-  revisions_by_time_.erase(revisions_by_time_.begin());
 }
 
 std::shared_ptr<const DecodedFrame> PreviewState::decoded(FrameKey key) const {
@@ -313,11 +287,11 @@ bool PreviewState::has_image(FrameKey key) const {
   return found(key) != nullptr;
 }
 
-std::optional<int> PreviewState::next_prefetch(const PreviewSnapshot& snapshot, std::uint64_t state,
+std::optional<int> PreviewState::next_prefetch(const PreviewSnapshot& snapshot, const ContentId& content,
                                                int frame_count) const {
   const std::lock_guard lock(mutex_);
   for (const int frame : prefetch_order(*snapshot.wanted, frame_count, limits_.ahead)) {
-    const FrameKey key{state, frame};
+    const FrameKey key{content, frame};
     if (found(key)) continue;
     if (!images_.would_keep(key, image_bytes_)) break;
     const bool is_there = !snapshot.opened_footage->video || is_decoded({snapshot.footage.id, frame});
@@ -389,6 +363,23 @@ void PreviewState::put_surveys(std::vector<std::shared_ptr<const Survey>> survey
 
 void PreviewState::put_model(std::shared_ptr<const ModelImage> model) {
   put(true, [&] { model_ = std::move(model); });
+}
+
+Previewer::Previewer(PreviewLimits limits, std::function<void()> wake)
+    : state_(std::make_shared<PreviewState>(limits, std::move(wake))),
+      decoder_([shared = state_] { run_decoder(shared); }) {
+  try {
+    renderer_ = std::thread([shared = state_] { PreviewRenderer(*shared).run(); });
+  } catch (...) {
+    end();
+    throw;
+  }
+}
+
+void Previewer::end() {
+  state_->stop();
+  for (std::thread* const thread : {&decoder_, &renderer_})
+    if (thread->joinable()) thread->join();
 }
 
 }  // namespace sigs::editor

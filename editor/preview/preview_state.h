@@ -4,72 +4,74 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
-#include "editor/preview/content_id.h"
+#include "editor/document/content_id.h"
 #include "editor/preview/frame_cache.h"
 #include "editor/preview/opened_footage.h"
-#include "editor/preview/previewer.h"
-#include "editor/preview/scene_renderer.h"
+#include "editor/preview/preview_output.h"
 
 namespace sigs::editor {
 
-// A footage by the number that its name has in the book.
+// A video file in one of its versions.
 struct FootageId {
-  std::uint64_t id = 0;  // 0: none yet
+  ContentId id;  // of its stamp; ContentId(): none is known yet
   std::filesystem::path path;
 };
 
-// What the rendering thread finds when it looks up.
+// What the rendering thread works by: a copy of the state at one moment.
 struct PreviewSnapshot {
-  std::uint64_t version = 0;
-  std::optional<PreviewRequest> wanted;
+  std::uint64_t version = 0;                      // see wait_for_changes()
+  std::optional<PreviewRequest> wanted;           // none: nothing was asked for yet
   FootageId footage;                              // that is open
   std::shared_ptr<const Footage> opened_footage;  // null: none yet
-  std::optional<FrameKey> fresh;                  // what was decoded last because it was wanted then
-  bool ahead = false;                             // whether now is a time to fetch ahead
+  std::optional<FrameKey> fresh;                  // the frame that was decoded last because it was wanted
+  bool ahead = false;                             // whether frames may be composited ahead
 };
 
-// What the decoding thread is to do next.
+// What the decoding thread is to do next; one of the three.
 struct DecodeTask {
-  std::optional<FootageId> open;
-  std::unique_ptr<FrameSource> source;  // in place of the one before
-  bool adopt = false;                   // source counts, also where it is null
-  std::optional<FrameKey> decode;
+  std::optional<FootageId> open;        // open this footage
+  std::unique_ptr<FrameSource> source;  // where adopt is set: read from this one from now on; null: there is none
+  bool adopt = false;
+  std::optional<FrameKey> decode;  // decode this frame
 };
 
-// Where the window, the decoding and the rendering thread leave requests and results for each other. All calls may come
-// from any thread and none takes long, but for those that say that they wait. Frames of images are kept by the number
-// of their project's image name ("state"), those of the footage by the footage's.
+// The state that the window, the decoding and the rendering thread share: requests one way, results the other. All
+// calls may come from any thread, and none takes long except those that say that they wait. Images are kept by the
+// combined_id() of their project's settings and files, frames of the footage by the FootageId.
 class PreviewState {
  public:
   PreviewState(PreviewLimits limits, std::function<void()> wake);
 
-  // The window's side.
+  // For the window. Texture bytes and the pause are as in Previewer.
   void want(const PreviewRequest& wanted);
   [[nodiscard]] PreviewOutput shown() const;
   void set_texture_bytes(std::size_t bytes);
   void set_prefetch_paused(bool paused);
   void stop();
 
-  // The decoding thread's side. Waits; nothing: stop.
+  // For the decoding thread. Waits until there is something to do; none: stop.
   [[nodiscard]] std::optional<DecodeTask> next_decoding();
   void put_opened(const FootageId& footage, OpenedFootage opened);
   void put_decoded(FrameKey key, std::shared_ptr<const DecodedFrame> decoded);
 
-  // The rendering thread's side. Nothing: stop.
+  // For the rendering thread. None: stop.
   [[nodiscard]] std::optional<PreviewSnapshot> snapshot();
-  // Waits until something is new since that snapshot, or for so long.
+  // Waits until something has changed since the snapshot of that version, or for so long.
   void wait_for_changes(std::uint64_t version, std::chrono::milliseconds at_most);
-  void identify_revision(std::uint64_t revision, std::uint64_t state, const FootageId& footage);
+  // How the files of the wanted revision lie on disk: input_files_id_of() and the footage among them. Until the next
+  // call this counts for every revision that is wanted, so that undo finds its images without the rendering thread.
+  void set_input_files(const ContentId& input_files, const FootageId& footage);
   [[nodiscard]] std::shared_ptr<const DecodedFrame> decoded(FrameKey key) const;
   [[nodiscard]] bool has_image(FrameKey key) const;
-  // The next frame worth rendering ahead that is decoded; grey footage always is.
-  [[nodiscard]] std::optional<int> next_prefetch(const PreviewSnapshot& snapshot, std::uint64_t state,
+  // The next frame to composite ahead: the first of prefetch_order() that is not there, if its footage is decoded (grey
+  // footage always is) and the cache would keep it.
+  [[nodiscard]] std::optional<int> next_prefetch(const PreviewSnapshot& snapshot, const ContentId& content,
                                                  int frame_count) const;
   void put_scene(std::shared_ptr<const OpenedScene> scene);
   void put_image(FrameKey key, std::shared_ptr<const PreviewImage> image, double took_ms, bool was_wanted);
@@ -78,7 +80,7 @@ class PreviewState {
   void put_compared(FrameKey key, std::shared_ptr<const PreviewImage> image);
   [[nodiscard]] bool has_untouched(FrameKey key) const;
   [[nodiscard]] bool has_staged(FrameKey key) const;
-  // staged: with its stages; what could not be composed has none.
+  // staged: with its stages; a frame that could not be composed has none.
   [[nodiscard]] bool has_compared(FrameKey key, MethodChoice method, bool staged) const;
   void put_surveys(std::vector<std::shared_ptr<const Survey>> surveys);
   void put_model(std::shared_ptr<const ModelImage> model);
@@ -92,12 +94,12 @@ class PreviewState {
     [[nodiscard]] bool is(FrameKey other) const { return value && key == other; }
   };
 
-  // Changes something under the lock, then tells the window: at once, or soon.
+  // Makes a change under the lock, then wakes the window: at once, or within a quarter of a second.
   template <class Change>
   void put(bool at_once, const Change& change);
 
-  // All below under the lock.
-  void notify_threads();  // the threads
+  // The lock is held in all that follow.
+  void notify_threads();
   [[nodiscard]] bool should_wake(bool at_once);
   [[nodiscard]] std::optional<FrameKey> wanted_key() const;
   [[nodiscard]] int clamped(int frame) const;
@@ -109,7 +111,6 @@ class PreviewState {
   [[nodiscard]] std::size_t shown_bytes(bool also_cached) const;
   [[nodiscard]] MemoryUse memory() const;
   void share_memory();
-  void remember_id(std::uint64_t revision, std::uint64_t state);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -121,16 +122,10 @@ class PreviewState {
 
   std::optional<PreviewRequest> wanted_;
   Clock::time_point revised_{};
-  struct KnownRevision {
-    std::uint64_t state = 0;
-    std::uint64_t named = 0;  // when, counted: what was named last is known longest
-  };
-  std::map<std::uint64_t, KnownRevision> revisions_;
-  std::map<std::uint64_t, std::uint64_t> revisions_by_time_;  // by `named`: the oldest comes first
-  std::uint64_t identifications_ = 0;
+  ContentId input_files_;  // as they were looked at last
 
   FootageId footage_wanted_;
-  std::uint64_t opening_ = 0;
+  ContentId opening_;
   FootageId footage_;
   std::shared_ptr<const Footage> opened_footage_;
   std::optional<std::unique_ptr<FrameSource>> arrived_;
@@ -156,8 +151,35 @@ class PreviewState {
   Clock::time_point last_wake_{};
 };
 
-// Frames after the playhead in the order in which they are likely to be wanted: within the range, and round to its
-// other end while it is played.
+// Numbers of the frames after the playhead, at most `maximum`, in the order in which they are likely to be wanted: in
+// the direction of the request to the end of its range, then, while it plays, on from the other end.
 [[nodiscard]] std::vector<int> prefetch_order(const PreviewRequest& wanted, int frame_count, int maximum);
+
+// The preview: opens, decodes and composes on two threads of its own. Every call here returns at once.
+class Previewer {
+ public:
+  // wake  called from another thread whenever there is something new to show
+  // Throws std::system_error where the system gives no threads: without them there is no editor.
+  Previewer(PreviewLimits limits, std::function<void()> wake);
+  ~Previewer() { end(); }
+  Previewer(const Previewer&) = delete;
+  Previewer& operator=(const Previewer&) = delete;
+
+  void want(const PreviewRequest& wanted) { state_->want(wanted); }
+  [[nodiscard]] PreviewOutput shown() const { return state_->shown(); }
+
+  // Bytes that the window holds in textures; the caches keep so much less.
+  void set_texture_bytes(std::size_t bytes) { state_->set_texture_bytes(bytes); }
+
+  // While set, nothing is fetched ahead: exporting shares the machine.
+  void set_prefetch_paused(bool paused) { state_->set_prefetch_paused(paused); }
+
+ private:
+  void end();
+
+  std::shared_ptr<PreviewState> state_;  // footage that is still being opened keeps it too
+  std::thread decoder_;
+  std::thread renderer_;
+};
 
 }  // namespace sigs::editor

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "base/threads.h"
@@ -12,10 +13,39 @@
 
 namespace sigs::editor {
 
+namespace fs = std::filesystem;
+
+int ResultFiles::free_color() const {
+  int color = 0;
+  const auto is_taken = [&](const ResultFile& file) { return file.color == color; };
+  while (std::any_of(files_.begin(), files_.end(), is_taken)) ++color;
+  return color;
+}
+
+void ResultFiles::add(const fs::path& path) {
+  std::error_code code;
+  const fs::path absolute = fs::absolute(path, code);
+  const fs::path place = (code ? path : absolute).lexically_normal();
+  const auto same =
+      std::find_if(files_.begin(), files_.end(), [&](const ResultFile& file) { return file.path == place; });
+  if (same != files_.end())
+    same->is_shown = true;
+  else
+    files_.push_back({.id = ++last_id_, .path = place, .color = free_color()});
+}
+
+void ResultFiles::remove(int id) {
+  std::erase_if(files_, [id](const ResultFile& file) { return file.id == id; });
+}
+
+void ResultFiles::set_shown(int id, bool shown) {
+  for (ResultFile& file : files_)
+    if (file.id == id) file.is_shown = shown;
+}
+
 namespace {
 
-constexpr double kMinSide_px = 0;                        // of the first box that a tracker is started with
-constexpr std::chrono::milliseconds kLookAtFiles(1000);  // how often they are looked at for changes from outside
+constexpr double kMinSide_px = 0;  // of the first box that a tracker is started with
 
 bool is_same(const FootageTruth& a, const FootageTruth& b) {
   return a.video == b.video && a.size_px == b.size_px && a.first_frame == b.first_frame &&
@@ -49,38 +79,25 @@ std::optional<TrackPolicy> policy_for(const ClipTruth* clip, int target) {
 
 Scoring::Scoring(std::function<void()> wake, TruthBuilder::StreamFrames show)
     : wake_(std::move(wake)),
-      truth_(
-          [this] {
-            {
-              const std::lock_guard lock(mutex_);
-              has_news_ = true;
-            }
-            changed_.notify_all();
-          },
-          std::move(show)),
-      thread_([this] { run(); }) {}
+      worker_({.work = [this](const ScoringRequest& wanted) { update(wanted); },
+               .niceness = kPreviewNiceness,
+               .repeat_after = [](const ScoringRequest& wanted) -> std::optional<std::chrono::milliseconds> {
+                 return wanted.files.empty() ? std::nullopt : std::optional(kFileCheckInterval);
+               }}),
+      truth_([this] { worker_.wake(); }, std::move(show)) {}
 
+// The builder may wake the worker until its own thread has ended.
 Scoring::~Scoring() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
+  worker_.stop();
 }
 
 void Scoring::want(ScoringRequest wanted) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (wanted.files.empty()) {
-      scored_ = nullptr;
-      wanted = {};
-    }
-    if (wanted == wanted_) return;
-    wanted_ = std::move(wanted);
-    has_news_ = true;
+  const std::lock_guard lock(mutex_);
+  if (wanted.files.empty()) {
+    scored_ = nullptr;
+    wanted = {};
   }
-  changed_.notify_all();
+  worker_.want(std::move(wanted));
 }
 
 std::shared_ptr<const Scored> Scoring::scored() const {
@@ -91,21 +108,11 @@ std::shared_ptr<const Scored> Scoring::scored() const {
 void Scoring::put(std::shared_ptr<const Scored> scored) {
   {
     const std::lock_guard lock(mutex_);
-    if (wanted_.files.empty() || (scored_ && *scored_ == *scored)) return;
+    const std::optional<ScoringRequest> wanted = worker_.latest();
+    if (!wanted || wanted->files.empty() || (scored_ && *scored_ == *scored)) return;
     scored_ = std::move(scored);
   }
   wake_();
-}
-
-ScoringRequest Scoring::next() {
-  std::unique_lock lock(mutex_);
-  const auto is_due = [&] { return stop_ || has_news_; };
-  if (wanted_.files.empty())
-    changed_.wait(lock, is_due);
-  else
-    changed_.wait_for(lock, kLookAtFiles, is_due);
-  has_news_ = false;
-  return wanted_;
 }
 
 void Scoring::read(Tracker& tracker, const ResultFile& file, const FootageTruth& footage,
@@ -180,26 +187,13 @@ void Scoring::step(const ScoringRequest& wanted) {
   put(std::move(scored));
 }
 
-void Scoring::run() {
-  lower_thread_priority(kPreviewNiceness);
-  while (true) {
-    const ScoringRequest wanted = next();
-    {
-      const std::lock_guard lock(mutex_);
-      if (stop_) return;
-    }
-    const bool has_work = !wanted.files.empty() && wanted.scene;
-    truth_.want(has_work ? wanted.scene : nullptr);
-    if (!has_work) {
-      trackers_.clear();
-      continue;
-    }
-    // What failed for want of memory is tried again at the next look at the files.
-    static_cast<void>(guarded([&]() -> Result<void> {
-      step(wanted);
-      return {};
-    }));
-  }
+void Scoring::update(const ScoringRequest& wanted) {
+  const bool has_work = !wanted.files.empty() && wanted.scene;
+  truth_.want(has_work ? wanted.scene : nullptr);
+  if (has_work)
+    step(wanted);  // what fails for want of memory is tried again at the next look at the files
+  else
+    trackers_.clear();
 }
 
 }  // namespace sigs::editor

@@ -1,30 +1,56 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "editor/document/result_files.h"
-#include "editor/preview/content_id.h"
-#include "editor/preview/previewer.h"
+#include "editor/document/content_id.h"
+#include "editor/preview/preview_output.h"
 #include "editor/preview/truth_builder.h"
+#include "editor/preview/worker_thread.h"
 #include "evaluation/results.h"
 #include "evaluation/track_score.h"
 
 namespace sigs::editor {
 
-// What trackers said is measured by: nothing yet, the outlines that are known without drawing, or the measured truth,
-// which gives the figures of `sigs evaluate track`.
+// A file with the results of a tracker in this footage, while it is loaded. Not part of the project.
+struct ResultFile {
+  int id = 0;  // its own as long as the program runs; 0: none
+  std::filesystem::path path;
+  int color = 0;         // number of its colour: the smallest that no other file has
+  bool is_shown = true;  // whether its boxes and its curve are drawn
+
+  [[nodiscard]] bool operator==(const ResultFile&) const = default;
+};
+
+// The files that are loaded, in the order in which they were added.
+class ResultFiles {
+ public:
+  // A file that is loaded already is shown again, and stays one.
+  void add(const std::filesystem::path& path);
+  void remove(int id);
+  void set_shown(int id, bool shown);
+  void clear() { files_.clear(); }
+  [[nodiscard]] const std::vector<ResultFile>& files() const { return files_; }
+
+ private:
+  [[nodiscard]] int free_color() const;
+
+  std::vector<ResultFile> files_;
+  int last_id_ = 0;
+};
+
+// By what results are scored: nothing yet, the outlines of the models (known without rendering), or the truth measured
+// in rendered frames, which gives the figures of `sigs evaluate track`.
 enum class TruthKind { none, outlines, measured };
 
-// One tracker's file, as far as it is known.
+// One tracker's file, its results and its score, as far as they are known.
 struct ScoredTracker {
   ResultFile file;
   std::string name;
@@ -35,7 +61,7 @@ struct ScoredTracker {
   [[nodiscard]] bool operator==(const ScoredTracker&) const = default;
 };
 
-// What there is to show of trackers at this moment; never changed behind the reader's back.
+// What there is to show of trackers at this moment.
 struct Scored {
   std::vector<ScoredTracker> trackers;  // in the order of the files
   int intruder = 0;                     // of the project, that they are measured against
@@ -69,11 +95,11 @@ class Scoring {
   Scoring& operator=(const Scoring&) = delete;
 
   void want(ScoringRequest wanted);
-  // Null: no files are loaded.
+  // The scores as far as they are known; what it points to never changes. Null: no files are loaded.
   [[nodiscard]] std::shared_ptr<const Scored> scored() const;
 
  private:
-  // A file as it was read last, and its score.
+  // A file as it was read last, with its score.
   struct Tracker {
     FileStamp stamp;
     FileStamp last_stamp;  // at the last look: what is being written is read once it has come to rest
@@ -86,8 +112,7 @@ class Scoring {
     std::shared_ptr<const TrackScore> score;
   };
 
-  void run();
-  [[nodiscard]] ScoringRequest next();  // waits; without files: stop
+  void update(const ScoringRequest& wanted);
   void step(const ScoringRequest& wanted);
   [[nodiscard]] std::shared_ptr<const ClipTruth> clip_of(const ScoringRequest& wanted, const TruthState& truth);
   void read(Tracker& tracker, const ResultFile& file, const FootageTruth& footage, std::optional<int> start) const;
@@ -97,19 +122,16 @@ class Scoring {
 
   std::function<void()> wake_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  bool stop_ = false;
-  bool has_news_ = false;
-  ScoringRequest wanted_;
   std::shared_ptr<const Scored> scored_;
-  TruthBuilder truth_;
 
   // The thread's own.
   std::map<int, Tracker> trackers_;  // by the file's id
   std::shared_ptr<const ClipTruth> outlines_;
   std::shared_ptr<const OpenedScene> outlines_scene_;
   std::vector<std::shared_ptr<const Survey>> outlines_surveys_;
-  std::thread thread_;
+
+  LatestRequestWorker<ScoringRequest> worker_;
+  TruthBuilder truth_;  // wakes the worker
 };
 
 }  // namespace sigs::editor

@@ -38,25 +38,17 @@ Result<void> stream_frames(const Project& project, int jobs, const TruthBuilder:
 }
 
 TruthBuilder::TruthBuilder(std::function<void()> wake, StreamFrames show, std::chrono::milliseconds idle_time)
-    : wake_(std::move(wake)), stream_(std::move(show)), idle_time_(idle_time), thread_([this] { run(); }) {}
+    : wake_(std::move(wake)),
+      stream_(std::move(show)),
+      idle_time_(idle_time),
+      worker_({.work = [this](const Scene& scene) { build(scene); }, .niceness = kBackgroundNiceness}) {}
 
-TruthBuilder::~TruthBuilder() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
+TruthBuilder::~TruthBuilder() = default;
 
 void TruthBuilder::want(std::shared_ptr<const OpenedScene> scene) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (wanted_ == scene) return;
-    wanted_ = std::move(scene);
-    if (!wanted_) state_ = {};
-  }
-  changed_.notify_all();
+  const std::lock_guard lock(mutex_);
+  if (!scene) state_ = {};
+  worker_.want(std::move(scene));
 }
 
 TruthState TruthBuilder::state() const {
@@ -67,44 +59,28 @@ TruthState TruthBuilder::state() const {
 void TruthBuilder::put(TruthState state) {
   {
     const std::lock_guard lock(mutex_);
-    if (!wanted_) return;
+    if (!worker_.latest().value_or(nullptr)) return;
     state_ = std::move(state);
   }
   wake_();
 }
 
-TruthBuilder::Scene TruthBuilder::next() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return stop_ || (wanted_ && wanted_ != state_.scene); });
-  return stop_ ? nullptr : wanted_;
-}
-
-bool TruthBuilder::has_been_idle(const Scene& scene) {
-  std::unique_lock lock(mutex_);
-  return !changed_.wait_for(lock, idle_time_, [&] { return stop_ || wanted_ != scene; });
-}
-
 // Where the images of what is wanted by now are the same, what was begun is theirs as well.
-bool TruthBuilder::is_still_wanted(const Scene& begun, const ContentId& name) {
-  Scene wanted;
-  {
-    const std::lock_guard lock(mutex_);
-    if (stop_ || !wanted_) return false;
-    wanted = wanted_;
-  }
-  if (wanted == begun || wanted == looked_at_) return true;
-  if (content_id_of(*wanted->project) != name) return false;
+bool TruthBuilder::is_still_wanted(const Scene& begun) {
+  const Scene wanted = worker_.latest().value_or(nullptr);
+  if (!wanted) return false;
+  if (wanted->content != begun->content) return false;
   looked_at_ = wanted;
   return true;
 }
 
-void TruthBuilder::make(const Scene& scene, ContentId name) {
+void TruthBuilder::compose_all(const Scene& scene) {
   ClipTruth clip{.footage = footage_truth_of(*scene)};
   const int total = clip.footage.last_frame - clip.footage.first_frame + 1;
   bool given_up = false;
   looked_at_ = scene;
   const Result<void> made = streamed(stream_, *scene->project, [&](const StreamFrame& frame) -> Result<void> {
-    given_up = !is_still_wanted(scene, name);
+    given_up = !is_still_wanted(scene);
     if (given_up) return fail("", "given up", ErrorKind::interrupted);
     const Result<void> added = add_frame(clip, frame.truth);
     if (added && clip.frames() % kFramesAWord == 0) put({.scene = looked_at_, .done = clip.frames(), .total = total});
@@ -117,7 +93,7 @@ void TruthBuilder::make(const Scene& scene, ContentId name) {
     state_ = {};
     return;
   }
-  CachedTruth kept{.name = std::move(name)};
+  CachedTruth kept{.content = scene->content};
   if (made)
     kept.clip = std::make_shared<const ClipTruth>(std::move(clip));
   else
@@ -128,30 +104,24 @@ void TruthBuilder::make(const Scene& scene, ContentId name) {
   if (made_.size() > kMaxKept) made_.pop_back();
 }
 
-void TruthBuilder::run() {
-  lower_thread_priority(kBackgroundNiceness);
-  while (const Scene scene = next()) {
-    const Result<void> done = guarded([&]() -> Result<void> {
-      show_truth_of(scene);
+void TruthBuilder::build(const Scene& scene) {
+  if (!scene || state().scene == scene) return;
+  const Result<void> done = guarded([&]() -> Result<void> {
+    if (const std::string problem = why_not(*scene); !problem.empty()) {
+      put({.scene = scene, .problem = problem});
       return {};
-    });
-    if (!done) put({.scene = scene, .problem = done.error().text()});
-  }
-}
-
-void TruthBuilder::show_truth_of(const Scene& scene) {
-  if (const std::string problem = why_not(*scene); !problem.empty()) {
-    return put({.scene = scene, .problem = problem});
-  }
-  ContentId name = content_id_of(*scene->project);
-  const auto known =
-      std::find_if(made_.begin(), made_.end(), [&](const CachedTruth& made) { return made.name == name; });
-  if (known != made_.end()) {
-    const int frames = known->clip->frames();
-    put({.scene = scene, .clip = known->clip, .done = frames, .total = frames});
-  } else if (has_been_idle(scene)) {
-    make(scene, std::move(name));
-  }
+    }
+    const auto known = std::find_if(made_.begin(), made_.end(),
+                                    [&](const CachedTruth& made) { return made.content == scene->content; });
+    if (known != made_.end()) {
+      const int frames = known->clip->frames();
+      put({.scene = scene, .clip = known->clip, .done = frames, .total = frames});
+    } else if (worker_.stays_latest(scene, idle_time_)) {
+      compose_all(scene);
+    }
+    return {};
+  });
+  if (!done) put({.scene = scene, .problem = done.error().text()});
 }
 
 }  // namespace sigs::editor

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -10,10 +9,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
-#include "editor/preview/content_id.h"
-#include "editor/preview/previewer.h"
+#include "editor/document/content_id.h"
+#include "editor/preview/preview_output.h"
+#include "editor/preview/worker_thread.h"
 #include "evaluation/clip_truth.h"
 #include "export/frame_stream.h"
 
@@ -23,7 +22,7 @@ namespace sigs::editor {
 [[nodiscard]] Result<void> stream_frames(const Project& project, int jobs,
                                          const std::function<Result<void>(const StreamFrame&)>& on_frame);
 
-// The measured truth of a scene's footage as it stands.
+// The measured truth of a scene, as far as it is known.
 struct TruthState {
   std::shared_ptr<const OpenedScene> scene;  // that it belongs to
   std::shared_ptr<const ClipTruth> clip;     // null: not yet, or not at all
@@ -32,9 +31,9 @@ struct TruthState {
   std::string problem;  // why there is none
 };
 
-// Composes all frames of a project in the background, at low priority, and keeps what they show of the intruders: the
-// truth that an export writes and `sigs evaluate` measures by. Begins when edits have come to rest, is given up as soon
-// as the images would be others, and remembers the last few: undo finds them at once.
+// Composes all frames of a project in the background, at low priority, and keeps the truth of each: the one that an
+// export writes and that `sigs evaluate` measures by. It begins once no edit has come for idle_time, gives up as soon
+// as another content is wanted, and remembers the last 16 contents, so that undo finds their truth at once.
 class TruthBuilder {
  public:
   using OnFrame = std::function<Result<void>(const StreamFrame&)>;
@@ -47,39 +46,34 @@ class TruthBuilder {
   TruthBuilder(const TruthBuilder&) = delete;
   TruthBuilder& operator=(const TruthBuilder&) = delete;
 
-  // Null: nothing is wanted, what is under way ends.
+  // The scene whose truth is wanted. Null: none; what is under way ends.
   void want(std::shared_ptr<const OpenedScene> scene);
   [[nodiscard]] TruthState state() const;
 
  private:
   using Scene = std::shared_ptr<const OpenedScene>;
   struct CachedTruth {
-    ContentId name;
+    ContentId content;
     std::shared_ptr<const ClipTruth> clip;  // null: it failed
     std::string problem;
   };
 
-  void run();
-  void show_truth_of(const Scene& scene);
-  [[nodiscard]] Scene next();                            // waits; null: stop
-  [[nodiscard]] bool has_been_idle(const Scene& scene);  // waits; false: another one is wanted meanwhile
-  [[nodiscard]] bool is_still_wanted(const Scene& begun, const ContentId& name);
-  void make(const Scene& scene, ContentId name);
+  void build(const Scene& scene);
+  [[nodiscard]] bool is_still_wanted(const Scene& begun);
+  void compose_all(const Scene& scene);
   void put(TruthState state);
 
   std::function<void()> wake_;
   StreamFrames stream_;
   std::chrono::milliseconds idle_time_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  bool stop_ = false;
-  Scene wanted_;
   TruthState state_;
 
   // The thread's own.
   std::deque<CachedTruth> made_;  // newest first
-  Scene looked_at_;               // the last that was wanted while another was under way, and is the same to look at
-  std::thread thread_;
+  Scene looked_at_;  // the last that was wanted while another one was being composed, and has the same content
+
+  LatestRequestWorker<Scene> worker_;  // last: it uses all of the above
 };
 
 }  // namespace sigs::editor

@@ -3,7 +3,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
-#include "editor/preview/previewer.h"
+#include "editor/preview/preview_output.h"
 #include "editor/preview/scoring.h"
 #include "editor/widgets/textures.h"
 #include "editor/widgets/ui_probe.h"

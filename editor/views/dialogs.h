@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "editor/document/question.h"
+#include "editor/document/document.h"
 #include "editor/document/settings.h"
 #include "editor/widgets/ui_probe.h"
 

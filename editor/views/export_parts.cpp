@@ -36,8 +36,8 @@ bool choose(const ViewContext& context, const char* id, const std::array<const c
 }
 
 void draw_written(const ViewContext& context, const ExportState& state) {
-  for (std::size_t i = 0; i < state.report.written.size(); ++i) {
-    const fs::path& path = state.report.written[i];
+  for (std::size_t i = 0; i < state.value->written.size(); ++i) {
+    const fs::path& path = state.value->written[i];
     ImGui::PushID(static_cast<int>(i));
     if (icon_button("copy path", Icon::copy, "Copy the path")) {
       ImGui::SetClipboardText(path.c_str());
@@ -171,19 +171,19 @@ std::string progress_text(const ExportState& state) {
 }
 
 void draw_result(const ViewContext& context, const ExportState& state) {
-  if (state.phase == ExportPhase::failed) {
+  if (state.phase == JobPhase::failed) {
     note_line(Icon::warning, color::kBad, state.error.text());
     ImGui::TextDisabled("Nothing was written.");
     return;
   }
-  if (state.phase == ExportPhase::cancelled) {
+  if (state.phase == JobPhase::cancelled) {
     note_line(Icon::info, color::kQuiet, "Cancelled. Nothing was written.");
     return;
   }
-  const double wall_s = state.report.times.wall_s;
+  const double wall_s = state.value->times.wall_s;
   std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%d frames in %s, %.1f frames/s", state.report.frames,
-                clock_text(wall_s).c_str(), state.report.frames / std::max(wall_s, 1e-3));
+  std::snprintf(text.data(), text.size(), "%d frames in %s, %.1f frames/s", state.value->frames,
+                clock_text(wall_s).c_str(), state.value->frames / std::max(wall_s, 1e-3));
   note_line(Icon::check, color::kGood, text.data());
   draw_written(context, state);
   if (!can_open_with_desktop()) return;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "editor/preview/export_job.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/context.h"
 #include "editor/widgets/icons.h"
 

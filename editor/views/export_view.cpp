@@ -60,7 +60,7 @@ void ExportView::draw(const ViewContext& context, ExportJob& job) {
     return;
   }
   const ExportState state = job.state();
-  if (state.phase == ExportPhase::none)
+  if (state.phase == JobPhase::none)
     draw_setup(context, job);
   else if (state.is_running())
     draw_running(context, job, state);
@@ -218,13 +218,13 @@ void ExportView::draw_done(const ViewContext& context, ExportJob& job, const Exp
   const char* const labels[] = {"Export again", "Close"};
   align_buttons_right(labels, 2);
   if (dialog_button("Export again")) {
-    job.dismiss();
+    job.forget();
     overwrite_asked_ = false;
   }
   context.ui_probe.note_item("export/again");
   ImGui::SameLine();
   if (dialog_button("Close", true)) {
-    job.dismiss();
+    job.forget();
     closed_ = true;
   }
   context.ui_probe.note_item("export/close");

@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "editor/document/field_edits.h"
-#include "editor/document/field_texts.h"
-#include "editor/document/moved_paths.h"
+#include "editor/document/project_paths.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editor/document/settings.h"
-#include "editor/preview/export_job.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/context.h"
 
 namespace sigs::editor {

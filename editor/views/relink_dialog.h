@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/document/relink.h"
+#include "editor/document/project_paths.h"
 #include "editor/views/context.h"
 
 namespace sigs::editor {

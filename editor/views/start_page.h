@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "editor/document/recovery.h"
-#include "editor/preview/project_thumbnails.h"
+#include "editor/preview/thumbnails.h"
 #include "editor/views/context.h"
 
 namespace sigs::editor {

@@ -7,7 +7,7 @@
 #include <deque>
 #include <string>
 
-#include "editor/document/edits.h"
+#include "editor/document/document.h"
 #include "editor/views/context.h"
 
 namespace sigs::editor {

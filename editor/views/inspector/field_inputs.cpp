@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "editor/document/field_texts.h"
+#include "editor/document/field_edits.h"
 #include "editor/geometry/round_steps.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/text_input.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "editor/document/field_texts.h"
-#include "editor/document/moved_paths.h"
+#include "editor/document/field_edits.h"
+#include "editor/document/project_paths.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"

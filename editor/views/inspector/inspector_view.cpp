@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "editor/document/field_texts.h"
+#include "editor/document/field_edits.h"
 #include "editor/views/inspector/inputs.h"
 #include "editor/views/results/results_panel.h"
 #include "editor/widgets/icons.h"

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <optional>
 
-#include "editor/document/field_texts.h"
-#include "editor/preview/turntable.h"
+#include "editor/document/field_edits.h"
+#include "editor/preview/thumbnails.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "editor/document/field_texts.h"
+#include "editor/document/field_edits.h"
 #include "editor/views/inspector/flight_summary.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/preview/own_body_job.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/stages/stage_tiles.h"
 
 namespace sigs::editor {

@@ -106,20 +106,20 @@ void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& se
   if (wide_button("Detect", true, has_footage(context))) session.start(context.document);
   context.ui_probe.note_item("own body/detect");
   if (!has_footage(context)) note("The footage cannot be read: choose a video in the inspector.", true);
-  if (state.phase == DetectionPhase::failed) {
+  if (state.phase == JobPhase::failed) {
     note_line(Icon::warning, color::kBad, state.error.what);
     context.ui_probe.note_item("own body/failed");
   }
-  if (state.phase == DetectionPhase::cancelled) {
+  if (state.phase == JobPhase::cancelled) {
     note("Stopped.");
     context.ui_probe.note_item("own body/stopped");
   }
-  if (state.found) draw_found(context, state);
+  if (state.value) draw_found(context, state);
 }
 
 void OwnBodyPanel::draw_found(const ViewContext& context, const DetectionState& state) const {
-  const OwnBody& found = *state.found;
-  if (state.phase != DetectionPhase::done) {
+  const OwnBody& found = *state.value;
+  if (state.phase != JobPhase::done) {
     note("Before: " + result_text(found));
     return;
   }
@@ -139,7 +139,7 @@ bool OwnBodyPanel::draw_start_from(const ViewContext& context, OwnBodySession& s
         "the strokes.",
         true);
   ButtonFlow flow;
-  if (flow.button("Detected", "The mask that was found", session.detection().found != nullptr))
+  if (flow.button("Detected", "The mask that was found", session.detection().value != nullptr))
     session.start_from_found();
   context.ui_probe.note_item("own body/start from found");
   if (session.could_start_from_project(context.project()) && !session.is_used(context.project())) {

@@ -168,8 +168,8 @@ void OwnBodySession::take_project_mask(const Project& project, const cv::Mat& ow
 }
 
 void OwnBodySession::take_found() {
-  taken_ = detection_.found;
-  taken_edge_px_ = detection_.found_by.settings.soft_edge_px;
+  taken_ = detection_.value;
+  taken_edge_px_ = detection_.value_request.settings.soft_edge_px;
   if (taken_->mask.size() != painting_.mask().size() || taken_->mask.type() != CV_8UC1) return;
   replace(with_edge(taken_->mask, taken_edge_px_, edge_px_), "detected mask", "detected");
   found_state_ = feathered_state_ = painting_.state();
@@ -211,7 +211,7 @@ void OwnBodySession::begin_anew() {
 }
 
 void OwnBodySession::start_from_found() {
-  if (detection_.found && fits()) take_found();
+  if (detection_.value && fits()) take_found();
 }
 
 void OwnBodySession::start_from_empty() {

@@ -10,11 +10,10 @@
 #include <string>
 
 #include "editor/document/document.h"
-#include "editor/document/mask_file.h"
 #include "editor/document/mask_painting.h"
 #include "editor/document/recovery.h"
-#include "editor/preview/own_body_job.h"
-#include "editor/preview/previewer.h"
+#include "editor/preview/background_job.h"
+#include "editor/preview/preview_output.h"
 
 namespace sigs::editor {
 
@@ -43,7 +42,7 @@ class OwnBodySession {
   // As of the last follow().
   [[nodiscard]] const DetectionState& detection() const { return detection_; }
   // What was found waits: strokes by hand are there that it would take the place of.
-  [[nodiscard]] bool found_waits() const { return detection_.found != nullptr && detection_.found != taken_; }
+  [[nodiscard]] bool found_waits() const { return detection_.value != nullptr && detection_.value != taken_; }
 
   [[nodiscard]] MaskPainting& painting() { return painting_; }
   [[nodiscard]] const MaskPainting& painting() const { return painting_; }

@@ -108,7 +108,7 @@ void OwnBodyView::draw_toolbar_of(const ViewContext& context, OwnBodySession& se
 }
 
 void OwnBodyView::draw_stages(const ViewContext& context, const OwnBodySession& session, const ScreenRect& rect) {
-  const std::shared_ptr<const OwnBody>& found = session.detection().found;
+  const std::shared_ptr<const OwnBody>& found = session.detection().value;
   const std::vector<StageTile> tiles = found ? stage_tiles(*found) : std::vector<StageTile>();
   context.ui_probe.note("own body/stages", rect);
   if (!tiles.empty()) {

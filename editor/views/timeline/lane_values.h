@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/preview/previewer.h"
+#include "editor/preview/preview_output.h"
 #include "editor/views/timeline/lane_curve.h"
 
 namespace sigs::editor {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "editor/geometry/image_drag.h"
-#include "editor/preview/previewer.h"
+#include "editor/preview/preview_output.h"
 #include "editor/views/context.h"
 #include "editor/views/world/curve_samples.h"
 

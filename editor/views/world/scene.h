@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editor/document/edits.h"
+#include "editor/document/document.h"
 #include "editor/views/context.h"
 #include "editor/views/world/canvas.h"
 #include "editor/views/world/model.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/brush.h"
+#include "editor/document/mask_painting.h"
 
 #include <doctest/doctest.h>
 
@@ -11,15 +11,15 @@ using namespace sigs::editor;
 
 namespace {
 
-const cv::Size kSize{64, 48};
+const cv::Size kMaskSize{64, 48};
 
-cv::Mat black() {
-  return cv::Mat::zeros(kSize, CV_8UC1);
+cv::Mat empty_mask() {
+  return cv::Mat::zeros(kMaskSize, CV_8UC1);
 }
 
 // The brush's definition, pixel by pixel over the whole image.
 cv::Mat dot_by_definition(const Brush& brush, const glm::dvec2& at) {
-  cv::Mat mask = black();
+  cv::Mat mask = empty_mask();
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x) {
       const double distance_px = std::hypot(x - at.x, y - at.y);
@@ -48,7 +48,7 @@ TEST_CASE("a stroke of no length is a dot, exactly round") {
         CAPTURE(radius_px);
         CAPTURE(edge_px);
         const Brush brush{radius_px, edge_px};
-        cv::Mat mask = black();
+        cv::Mat mask = empty_mask();
         move_brush(mask, brush, at, at);
         CHECK(max_apart(mask, dot_by_definition(brush, at)) <= (edge_px > 0 ? 1 : 0));  // rounded from other sums
       }
@@ -59,9 +59,9 @@ TEST_CASE("a line is what dots close to each other along it cover") {
       {{10, 10}, {50, 35}}, {{50, 35}, {10, 10}}, {{8.5, 40}, {60, 40}}, {{20, 5}, {20, 44}}, {{-30, 60}, {90, -20}}};
   for (const auto& [from, to] : lines) {
     const Brush brush{5, 3};
-    cv::Mat line = black();
+    cv::Mat line = empty_mask();
     move_brush(line, brush, from, to);
-    cv::Mat dots = black();
+    cv::Mat dots = empty_mask();
     constexpr int kDots = 4000;
     for (int i = 0; i <= kDots; ++i) {
       const glm::dvec2 at = from + (to - from) * (double(i) / kDots);
@@ -86,12 +86,12 @@ TEST_CASE("the soft edge is as wide as it says, half covered at the radius") {
 TEST_CASE("erasing takes away what painting would give, and no brush goes beyond the other's limits") {
   const Brush paint{9, 2};
   const Brush erase{9, 2, true};
-  cv::Mat painted = black();
+  cv::Mat painted = empty_mask();
   move_brush(painted, paint, {20, 20}, {40, 30});
-  cv::Mat erased(kSize, CV_8UC1, cv::Scalar(255));
+  cv::Mat erased(kMaskSize, CV_8UC1, cv::Scalar(255));
   move_brush(erased, erase, {20, 20}, {40, 30});
-  CHECK(cv::norm(painted + erased, cv::Mat(kSize, CV_8UC1, cv::Scalar(255)), cv::NORM_INF) == 0);
-  cv::Mat grey(kSize, CV_8UC1, cv::Scalar(100));
+  CHECK(cv::norm(painted + erased, cv::Mat(kMaskSize, CV_8UC1, cv::Scalar(255)), cv::NORM_INF) == 0);
+  cv::Mat grey(kMaskSize, CV_8UC1, cv::Scalar(100));
   move_brush(grey, paint, {20, 20}, {40, 30});
   double minimum = 0;
   cv::minMaxLoc(grey, &minimum);
@@ -101,7 +101,7 @@ TEST_CASE("erasing takes away what painting would give, and no brush goes beyond
 TEST_CASE("passing twice changes nothing more, and a line in pieces is the line") {
   for (const bool erases : {false, true}) {
     const Brush brush{6, 5, erases};
-    const cv::Mat start(kSize, CV_8UC1, cv::Scalar(erases ? 255 : 0));
+    const cv::Mat start(kMaskSize, CV_8UC1, cv::Scalar(erases ? 255 : 0));
     cv::Mat once = start.clone();
     move_brush(once, brush, {5, 5}, {55, 40});
     cv::Mat twice = once.clone();
@@ -119,10 +119,10 @@ TEST_CASE("only pixels of the rectangle that is changed have changed, and all of
   const std::vector<std::pair<glm::dvec2, glm::dvec2>> lines{
       {{10, 10}, {30, 20}}, {{-3, -3}, {5, 5}}, {{60, 40}, {200, 300}}, {{31.5, 23.5}, {31.5, 23.5}}};
   for (const auto& [from, to] : lines) {
-    cv::Mat mask = black();
+    cv::Mat mask = empty_mask();
     const cv::Rect changed = move_brush(mask, brush, from, to);
     REQUIRE_FALSE(changed.empty());
-    CHECK((changed & cv::Rect({0, 0}, kSize)) == changed);
+    CHECK((changed & cv::Rect({0, 0}, kMaskSize)) == changed);
     CHECK(cv::countNonZero(mask) == cv::countNonZero(mask(changed)));
     CHECK(cv::countNonZero(mask) > 0);
   }
@@ -135,7 +135,7 @@ TEST_CASE("beside the image, far away and at places that are none nothing is pai
       {{-20, 10}, {-20, 30}}, {{1e7, 1e7}, {1e7, 2e7}},  {{-1e300, 0}, {-1e300, 5}}, {{nan, 5}, {10, 10}},
       {{10, 10}, {5, nan}},   {{infinity, 5}, {10, 10}}, {{10, 10}, {-infinity, 0}}};
   for (const auto& [from, to] : lines) {
-    cv::Mat mask = black();
+    cv::Mat mask = empty_mask();
     CHECK(move_brush(mask, {5, 2}, from, to).empty());
     CHECK(cv::countNonZero(mask) == 0);
   }
@@ -144,10 +144,10 @@ TEST_CASE("beside the image, far away and at places that are none nothing is pai
 }
 
 TEST_CASE("a line from very far through the image crosses it") {
-  cv::Mat mask = black();
+  cv::Mat mask = empty_mask();
   move_brush(mask, {4, 0}, {-1e7, 24}, {1e7, 24});
-  CHECK(cv::countNonZero(mask.row(24)) == kSize.width);
-  CHECK(cv::countNonZero(mask.row(28)) == kSize.width);
+  CHECK(cv::countNonZero(mask.row(24)) == kMaskSize.width);
+  CHECK(cv::countNonZero(mask.row(28)) == kMaskSize.width);
   CHECK(cv::countNonZero(mask.row(29)) == 0);
 }
 

@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "editor/document/field_texts.h"
-
 using namespace sigs;
 using namespace sigs::editor;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/disk_change.h"
+#include "editor/app/project_loader.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/project_thumbnails.h"
+#include "editor/preview/thumbnails.h"
 
 #include <doctest/doctest.h>
 

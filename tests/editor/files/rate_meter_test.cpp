@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/rate_meter.h"
+#include "editor/preview/background_job.h"
 
 #include <doctest/doctest.h>
 

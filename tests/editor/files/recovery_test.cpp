@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "editor/document/mask_file.h"
+#include "editor/document/mask_painting.h"
 #include "support/test_data.h"
 
 using namespace sigs;

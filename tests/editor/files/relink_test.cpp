@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/relink.h"
+#include "editor/document/project_paths.h"
 
 #include <doctest/doctest.h>
 

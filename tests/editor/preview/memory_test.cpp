@@ -14,21 +14,21 @@ using namespace sigs::editor;
 namespace {
 
 constexpr std::size_t kLimit = 1 << 20;
-const cv::Size kFrame(64, 64);
+const cv::Size kFrameSize(64, 64);
 constexpr std::size_t kImage_bytes = 64 * 64 * 4;        // colour and mask
 constexpr std::size_t kDecoded_bytes = 64 * 64 * 3 / 2;  // 4:2:0
 constexpr int kStages = 12;
 
 std::shared_ptr<const PreviewImage> image(bool staged) {
-  PreviewImage made{.bgr = cv::Mat(kFrame, CV_8UC3, cv::Scalar::all(1)),
-                    .mask = cv::Mat(kFrame, CV_8UC1, cv::Scalar(1))};
+  PreviewImage made{.bgr = cv::Mat(kFrameSize, CV_8UC3, cv::Scalar::all(1)),
+                    .mask = cv::Mat(kFrameSize, CV_8UC1, cv::Scalar(1))};
   for (int i = 0; staged && i < kStages; ++i)
-    made.stages.push_back({"a", cv::Mat(kFrame, CV_8UC4, cv::Scalar::all(1))});
+    made.stages.push_back({"a", cv::Mat(kFrameSize, CV_8UC4, cv::Scalar::all(1))});
   return std::make_shared<const PreviewImage>(std::move(made));
 }
 
 // What is alive of all that was put into a preview state, weighed by the test itself.
-struct PreviewStateFixture {
+struct MemoryFixture {
   PreviewState preview_state{PreviewLimits{.cache_bytes = kLimit}, [] {}};
   std::vector<std::pair<std::weak_ptr<const void>, std::size_t>> put_down;
 
@@ -40,7 +40,7 @@ struct PreviewStateFixture {
 
   void put_decoded(FrameKey key) {
     auto decoded =
-        std::make_shared<const DecodedFrame>(DecodedFrame{.frame = grey_frame({.size_px = kFrame, .times_s = {0}}, 0)});
+        std::make_shared<const DecodedFrame>(DecodedFrame{.frame = grey_frame({.size_px = kFrameSize, .times_s = {0}}, 0)});
     preview_state.put_decoded(key, noted(std::move(decoded), kDecoded_bytes));
   }
   void put_image(FrameKey key, bool was_wanted) {
@@ -57,22 +57,32 @@ struct PreviewStateFixture {
   }
 };
 
+// Each number has other images.
 Revision revision(std::uint64_t number) {
-  return {number, std::make_shared<const Project>()};
+  Project project;
+  project.camera.speed_mps = static_cast<double>(number);
+  return {number, std::make_shared<const Project>(std::move(project))};
+}
+
+constexpr ContentId kFiles{.low = 5};
+constexpr ContentId kFootage{.low = 6};
+
+FrameKey image_key(std::uint64_t revision_number, int frame) {
+  return {combined_id(revision(revision_number).content, kFiles), frame};
 }
 
 }  // namespace
 
 TEST_CASE("images, decoded frames and stages stay within one limit whatever comes") {
-  PreviewStateFixture fixture;
+  MemoryFixture fixture;
   std::size_t maximum = 0;
-  for (std::uint64_t state = 1; state <= 3; ++state)
+  for (std::uint64_t number = 1; number <= 3; ++number)
     for (int frame = 0; frame < 200; ++frame) {
-      fixture.preview_state.want({.revision = revision(state), .frame = frame, .stages = frame % 50 > 25});
-      fixture.preview_state.identify_revision(state, state, {.id = 1});
-      fixture.put_decoded({1, frame});
-      fixture.put_image({state, frame}, true);
-      if (frame % 50 > 25) fixture.put_staged({state, frame});
+      fixture.preview_state.want({.revision = revision(number), .frame = frame, .stages = frame % 50 > 25});
+      fixture.preview_state.set_input_files(kFiles, {.id = kFootage});
+      fixture.put_decoded({kFootage, frame});
+      fixture.put_image(image_key(number, frame), true);
+      if (frame % 50 > 25) fixture.put_staged(image_key(number, frame));
       maximum = std::max(maximum, fixture.alive());
       const PreviewOutput shown = fixture.preview_state.shown();
       CHECK(shown.image_is_current);
@@ -82,25 +92,25 @@ TEST_CASE("images, decoded frames and stages stay within one limit whatever come
 }
 
 TEST_CASE("stages that the view no longer asks for are let go") {
-  PreviewStateFixture fixture;
+  MemoryFixture fixture;
   fixture.preview_state.want({.revision = revision(1), .stages = true});
-  fixture.preview_state.identify_revision(1, 1, {.id = 1});
-  fixture.put_image({1, 0}, true);
-  fixture.put_staged({1, 0});
+  fixture.preview_state.set_input_files(kFiles, {.id = kFootage});
+  fixture.put_image(image_key(1, 0), true);
+  fixture.put_staged(image_key(1, 0));
   CHECK(fixture.preview_state.shown().staged != nullptr);
   fixture.preview_state.want({.revision = revision(1)});
   CHECK(fixture.alive() == kImage_bytes);
-  fixture.put_staged({1, 0});  // that was still being made
+  fixture.put_staged(image_key(1, 0));  // that was still being made
   CHECK(fixture.alive() == kImage_bytes);
 }
 
 TEST_CASE("what is told of the memory is what is alive, with the window's textures") {
-  PreviewStateFixture fixture;
+  MemoryFixture fixture;
   fixture.preview_state.want({.revision = revision(1), .frame = 3});
-  fixture.preview_state.identify_revision(1, 1, {.id = 1});
+  fixture.preview_state.set_input_files(kFiles, {.id = kFootage});
   for (int frame = 0; frame < 300; ++frame) {
-    fixture.put_decoded({1, frame});
-    fixture.put_image({1, frame}, frame == 3);
+    fixture.put_decoded({kFootage, frame});
+    fixture.put_image(image_key(1, frame), frame == 3);
     const std::size_t textures = static_cast<std::size_t>(frame) * 1000;
     fixture.preview_state.set_texture_bytes(textures);
     const MemoryUse memory = fixture.preview_state.shown().memory;
@@ -113,13 +123,13 @@ TEST_CASE("what is told of the memory is what is alive, with the window's textur
 }
 
 TEST_CASE("what is shown stays though it is larger than the limit, and nothing else does") {
-  PreviewStateFixture fixture;
+  MemoryFixture fixture;
   fixture.preview_state.want({.revision = revision(1), .frame = 3});
-  fixture.preview_state.identify_revision(1, 1, {.id = 1});
+  fixture.preview_state.set_input_files(kFiles, {.id = kFootage});
   fixture.preview_state.set_texture_bytes(2 * kLimit);
   for (int frame = 0; frame < 9; ++frame) {
-    fixture.put_decoded({1, frame});
-    fixture.put_image({1, frame}, frame == 3);
+    fixture.put_decoded({kFootage, frame});
+    fixture.put_image(image_key(1, frame), frame == 3);
   }
   CHECK(fixture.preview_state.shown().image_is_current);
   CHECK(fixture.alive() == kImage_bytes + kDecoded_bytes);

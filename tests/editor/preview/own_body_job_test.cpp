@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/own_body_job.h"
+#include "editor/preview/background_job.h"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 
 #include <chrono>
 
+#include "comes_true.h"
 #include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::editor;
+using sigs::test::comes_true;
 
 namespace {
-
-template <class Condition>
-bool comes_true(Condition condition) {
-  for (int i = 0; i < 6000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
-}
 
 DetectionState finished(const OwnBodyJob& job) {
   REQUIRE(comes_true([&] { return !job.is_running(); }));
@@ -62,15 +55,15 @@ DetectionRequest of(int frames) {
 TEST_CASE("what was found is there at the end, with what it was asked") {
   std::atomic<int> wakes = 0;
   OwnBodyJob job([&] { ++wakes; }, quick);
-  CHECK(job.state().phase == DetectionPhase::none);
+  CHECK(job.state().phase == JobPhase::none);
   REQUIRE(job.start(of(40)));
   const DetectionState state = finished(job);
-  REQUIRE(state.phase == DetectionPhase::done);
+  REQUIRE(state.phase == JobPhase::done);
   CHECK(state.done == 40);
   CHECK(state.total == 40);
-  REQUIRE(state.found);
-  CHECK(state.found->frames_used == 40);
-  CHECK(state.found_by == of(40));
+  REQUIRE(state.value);
+  CHECK(state.value->frames_used == 40);
+  CHECK(state.value_request == of(40));
   CHECK(comes_true([&] { return wakes >= 2; }));  // the first frame, and the end
 }
 
@@ -80,11 +73,11 @@ TEST_CASE("a detection that is stopped ends soon, and another can follow") {
   CHECK_FALSE(job.start(of(2)));
   REQUIRE(comes_true([&] { return job.state().done > 3; }));
   job.cancel();
-  CHECK(finished(job).phase == DetectionPhase::cancelled);
+  CHECK(finished(job).phase == JobPhase::cancelled);
   CHECK_FALSE(job.state().is_stopping);
-  CHECK_FALSE(job.state().found);
+  CHECK_FALSE(job.state().value);
   REQUIRE(job.start(of(5)));
-  CHECK(finished(job).phase == DetectionPhase::done);
+  CHECK(finished(job).phase == JobPhase::done);
 }
 
 TEST_CASE("what was found before stays while another is looked for, and when that fails") {
@@ -95,32 +88,32 @@ TEST_CASE("what was found before stays while another is looked for, and when tha
                    return either(request, control);
                  });
   REQUIRE(job.start(of(7)));
-  REQUIRE(finished(job).found);
+  REQUIRE(finished(job).value);
   REQUIRE(job.start(of(1500)));
-  CHECK(job.state().found->frames_used == 7);
+  CHECK(job.state().value->frames_used == 7);
   job.cancel();
-  CHECK(finished(job).found->frames_used == 7);
+  CHECK(finished(job).value->frames_used == 7);
   fails = true;
   REQUIRE(job.start(of(9)));
   const DetectionState state = finished(job);
-  CHECK(state.phase == DetectionPhase::failed);
+  CHECK(state.phase == JobPhase::failed);
   CHECK(state.error.text() == "clip.mp4: nothing moves");
-  CHECK(state.found->frames_used == 7);
-  CHECK(state.found_by == of(7));
+  CHECK(state.value->frames_used == 7);
+  CHECK(state.value_request == of(7));
 }
 
 TEST_CASE("a detection that is forgotten ends without a word, whether it was running or done") {
   OwnBodyJob job([] {}, either);
   REQUIRE(job.start(of(5)));
-  REQUIRE(finished(job).found);
+  REQUIRE(finished(job).value);
   job.forget();
-  CHECK_FALSE(job.state().found);
-  CHECK(job.state().phase == DetectionPhase::none);
+  CHECK_FALSE(job.state().value);
+  CHECK(job.state().phase == JobPhase::none);
   REQUIRE(job.start(of(1500)));
   REQUIRE(comes_true([&] { return job.state().done > 3; }));
   job.forget();
-  CHECK(finished(job).phase == DetectionPhase::none);
-  CHECK_FALSE(job.state().found);
+  CHECK(finished(job).phase == JobPhase::none);
+  CHECK_FALSE(job.state().value);
 }
 
 TEST_CASE("an editor that closes during a detection does not wait for its end") {
@@ -156,7 +149,7 @@ TEST_CASE("the detection runs at low priority, the thread that asks for it stays
                    return body_of(1);
                  });
   REQUIRE(job.start(of(2)));
-  REQUIRE(finished(job).phase == DetectionPhase::done);
+  REQUIRE(finished(job).phase == JobPhase::done);
   CHECK(::getpriority(PRIO_PROCESS, 0) == own);
   CHECK(detecting >= std::min(10, own + 1));
 }
@@ -167,6 +160,6 @@ TEST_CASE("footage that cannot be opened is told by its name") {
   request.video = "nowhere.mp4";
   REQUIRE(job.start(request));
   const DetectionState state = finished(job);
-  CHECK(state.phase == DetectionPhase::failed);
+  CHECK(state.phase == JobPhase::failed);
   CHECK(state.error.text().find("nowhere.mp4") != std::string::npos);
 }

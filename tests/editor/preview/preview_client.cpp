@@ -43,6 +43,10 @@ editor::Revision revision(std::uint64_t number, Project project) {
   return {number, std::make_shared<const Project>(std::move(project))};
 }
 
+editor::PreviewRequest frame_of(editor::Revision revision, int frame) {
+  return {.revision = std::move(revision), .frame = frame, .range_first = 0, .range_last = 199};
+}
+
 bool is_current(const editor::PreviewOutput& shown) {
   return shown.image_is_current;
 }

@@ -6,7 +6,7 @@
 #include <functional>
 #include <mutex>
 
-#include "editor/preview/previewer.h"
+#include "editor/preview/preview_state.h"
 #include "project/project.h"
 
 namespace sigs::test {
@@ -36,6 +36,9 @@ class PreviewClient {
 // A sample project, and any project as a revision with a number.
 [[nodiscard]] Project sample(const std::string& name);
 [[nodiscard]] editor::Revision revision(std::uint64_t number, Project project);
+
+// A frame of a project whose footage has 200.
+[[nodiscard]] editor::PreviewRequest frame_of(editor::Revision revision, int frame);
 
 [[nodiscard]] bool is_current(const editor::PreviewOutput& shown);
 [[nodiscard]] bool is_same_image(const cv::Mat& a, const cv::Mat& b);

@@ -12,7 +12,7 @@
 
 #include "base/staged_outputs.h"
 #include "cli/tiny_project.h"
-#include "editor/preview/previewer.h"
+#include "editor/preview/preview_output.h"
 #include "preview_client.h"
 #include "support/test_data.h"
 
@@ -23,10 +23,6 @@ using namespace sigs::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-PreviewRequest frame_of(Revision revision, int frame) {
-  return {.revision = std::move(revision), .frame = frame, .range_first = 0, .range_last = 199};
-}
 
 bool names(const std::vector<Problem>& problems, const std::string& field) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.field == field; });

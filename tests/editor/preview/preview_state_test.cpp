@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <vector>
 
 using namespace sigs;
@@ -11,30 +12,37 @@ using namespace sigs::editor;
 namespace {
 
 constexpr int kStates = 10'001;
+constexpr ContentId kInputFiles{.low = 5};
 
-// A window, and in place of the threads somebody who names each state that is wanted and makes its image at once.
+// A window. In place of the threads, put_image() makes the image of a revision, one with a brightness of its own.
 struct PreviewStateFixture {
-  PreviewState preview_state{PreviewLimits{.cache_bytes = 1 << 16}, [] {}};
+  PreviewState preview_state;
 
-  void want(const Revision& revision) { preview_state.want({.revision = revision}); }
-
-  // Whether the image of what is wanted is shown.
-  bool make_and_look(const Revision& revision) {
-    const auto state = static_cast<std::uint64_t>(revision.project->camera.speed_mps) + 1;
-    preview_state.identify_revision(revision.number, state, {.id = 1});
-    const FrameKey key{state, 0};
-    if (!preview_state.has_image(key)) {
-      PreviewImage image{.revision = revision.number};
-      image.bgr = cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(static_cast<double>(state % 251)));
-      preview_state.put_image(key, std::make_shared<const PreviewImage>(std::move(image)), 1, true);
-    }
-    const PreviewOutput shown = preview_state.shown();
-    return shown.image_is_current && shown.image && shown.image->bgr.at<cv::Vec3b>(0, 0)[0] == state % 251;
+  explicit PreviewStateFixture(std::size_t cache_bytes)
+      : preview_state(PreviewLimits{.cache_bytes = cache_bytes}, [] {}) {
+    preview_state.set_input_files(kInputFiles, {.id = {.low = 6}});
   }
 
-  bool shows(const Revision& revision) {
-    want(revision);
-    return make_and_look(revision);
+  static double brightness_of(const Revision& revision) { return std::fmod(revision.project->camera.speed_mps, 251); }
+
+  void put_image(const Revision& revision) {
+    PreviewImage image{.revision = revision.number};
+    image.bgr = cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(brightness_of(revision)));
+    preview_state.put_image({combined_id(revision.content, kInputFiles), 0},
+                            std::make_shared<const PreviewImage>(std::move(image)), 1, true);
+  }
+
+  // Whether the revision's own image is shown as soon as it is wanted.
+  bool shows_at_once(const Revision& revision) {
+    preview_state.want({.revision = revision});
+    const PreviewOutput shown = preview_state.shown();
+    return shown.image_is_current && shown.image && shown.image->bgr.at<cv::Vec3b>(0, 0)[0] == brightness_of(revision);
+  }
+
+  bool shows_when_made(const Revision& revision) {
+    preview_state.want({.revision = revision});
+    put_image(revision);
+    return shows_at_once(revision);
   }
 };
 
@@ -45,37 +53,52 @@ ChangeProject speed(int mps, const std::string& gesture) {
 }  // namespace
 
 TEST_CASE("after a drag of ten thousand moves undo, redo and the next edit are shown") {
-  PreviewStateFixture fixture;
+  PreviewStateFixture fixture(std::size_t{1} << 16);
   Document document;
-  CHECK(fixture.shows(document.revision()));
+  CHECK(fixture.shows_when_made(document.revision()));
   int missed = 0;
   for (int i = 1; i < kStates; ++i) {
     document.apply(Edit(speed(i, "drag")));
-    missed += fixture.shows(document.revision()) ? 0 : 1;
+    missed += fixture.shows_when_made(document.revision()) ? 0 : 1;
   }
   CHECK(missed == 0);
   document.apply(Edit(EndGesture{}));
   document.apply(Edit(Undo{}));
   CHECK(document.revision().number == document.first_number());
-  CHECK(fixture.shows(document.revision()));
+  CHECK(fixture.shows_when_made(document.revision()));
   document.apply(Edit(Redo{}));
-  CHECK(fixture.shows(document.revision()));
+  CHECK(fixture.shows_when_made(document.revision()));
   document.apply(Edit(Undo{}));
   document.apply(Edit(speed(kStates + 5, "")));
-  CHECK(fixture.shows(document.revision()));
+  CHECK(fixture.shows_when_made(document.revision()));
 }
 
-TEST_CASE("undo held down over ten thousand states shows each of them") {
-  PreviewStateFixture fixture;
+TEST_CASE("undo after five thousand revisions shows each image at once, without the rendering thread") {
+  PreviewStateFixture fixture(std::size_t{1} << 24);  // holds all of them: 192 bytes each
+  std::vector<Revision> revisions;
   Document document;
-  std::vector<Revision> revisions{document.revision()};
-  for (int i = 1; i < kStates; ++i) {
+  for (int i = 1; i <= 5000; ++i) {
     document.apply(Edit(speed(i, "")));
     revisions.push_back(document.revision());
-    REQUIRE(fixture.shows(document.revision()));
+    REQUIRE(fixture.shows_when_made(document.revision()));
   }
   int missed = 0;
-  for (auto back = revisions.rbegin(); back != revisions.rend(); ++back) missed += fixture.shows(*back) ? 0 : 1;
+  for (auto back = revisions.rbegin(); back != revisions.rend(); ++back) missed += fixture.shows_at_once(*back) ? 0 : 1;
   CHECK(missed == 0);
-  CHECK(fixture.shows(revisions[1]));
+  // As far back as the document remembers.
+  while (document.can_undo()) document.apply(Edit(Undo{}));
+  CHECK(document.revision().number < 4500);
+  CHECK(fixture.shows_at_once(document.revision()));
+}
+
+TEST_CASE("a change that touches no image keeps the image that is shown, and files that change do not") {
+  PreviewStateFixture fixture(std::size_t{1} << 16);
+  Document document;
+  REQUIRE(fixture.shows_when_made(document.revision()));
+  document.apply(Edit(ChangeProject{"rename", [](Project& project) { project.name = "another"; }, ""}));
+  CHECK(fixture.shows_at_once(document.revision()));
+  fixture.preview_state.set_input_files({.low = 7}, {.id = {.low = 6}});
+  CHECK_FALSE(fixture.shows_at_once(document.revision()));
+  fixture.preview_state.set_input_files(kInputFiles, {.id = {.low = 6}});
+  CHECK(fixture.shows_at_once(document.revision()));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/previewer.h"
+#include "editor/preview/preview_output.h"
 
 #include <doctest/doctest.h>
 
@@ -23,10 +23,6 @@ using namespace sigs::test;
 namespace {
 
 constexpr int kFrame = 120;  // the aircraft is large and its blur soft
-
-PreviewRequest frame_of(Revision revision, int frame) {
-  return {.revision = std::move(revision), .frame = frame, .range_first = 0, .range_last = 199};
-}
 
 Project moved(Project project, double by_m) {
   project.intruders[0].trajectory.waypoints[1].position_m.y += by_m;

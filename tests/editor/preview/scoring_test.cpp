@@ -29,15 +29,6 @@ namespace {
 using Scene = std::shared_ptr<const OpenedScene>;
 using Surveys = std::vector<std::shared_ptr<const Survey>>;
 
-template <class Condition>
-bool comes_true(Condition condition) {
-  for (int i = 0; i < 12000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
-}
-
 Project read(const TinyProject& tiny) {
   return read_project(tiny.project()).value().project;
 }
@@ -47,8 +38,10 @@ Scene opened(const Project& project) {
   auto footage = std::make_shared<Footage>(Footage{.shape = shape_of(source.info()), .video = source.info()});
   SceneFiles files;
   DraftScene draft = draft_scene(project, footage->shape, files);
-  return std::make_shared<const OpenedScene>(
-      OpenedScene{.project = std::make_shared<const Project>(project), .footage = footage, .draft = std::move(draft)});
+  return std::make_shared<const OpenedScene>(OpenedScene{.content = content_id_of(project),
+                                                         .project = std::make_shared<const Project>(project),
+                                                         .footage = footage,
+                                                         .draft = std::move(draft)});
 }
 
 Surveys surveys_of(const Scene& scene) {

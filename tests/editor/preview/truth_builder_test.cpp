@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "camera/lens.h"
+#include "comes_true.h"
 #include "preview_client.h"
 
 namespace sigs::test {
@@ -19,20 +20,12 @@ namespace {
 using Scene = std::shared_ptr<const OpenedScene>;
 constexpr int kFrames = 40;
 
-template <class Condition>
-bool comes_true(Condition condition) {
-  for (int i = 0; i < 6000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return false;
-}
-
 Scene scene_of(const Project& project) {
   FootageShape shape{.size_px = {1280, 960}, .frame_interval_s = 0.04};
   for (int i = 0; i < kFrames; ++i) shape.times_s.push_back(0.04 * i);
   auto footage = std::make_shared<Footage>(Footage{.shape = shape, .video = VideoInfo{}});
   OpenedScene scene{
+      .content = content_id_of(project),
       .project = std::make_shared<const Project>(project),
       .footage = footage,
       .draft = {.scene = {.camera = {*Lens::make({LensModel::brown_conrady, 900, 900, 640, 480, {}}), {1280, 960}}}}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/turntable.h"
+#include "editor/preview/thumbnails.h"
 
 #include <doctest/doctest.h>
 

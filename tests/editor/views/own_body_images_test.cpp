@@ -67,7 +67,7 @@ TEST_CASE("a result is doubted where the engine warns, where most is masked and 
 }
 
 TEST_CASE("progress is told with the time that is left") {
-  DetectionState state{.phase = DetectionPhase::running};
+  DetectionState state{.phase = JobPhase::running};
   CHECK(progress_text(state) == "opening the footage...");
   state.done = 120;
   state.total = 800;

@@ -213,7 +213,7 @@ TEST_CASE("what was found in other footage is forgotten") {
   b.detect(10);
   b.document.apply(ChangeProject{"video", [](Project& p) { p.footage.video = "other.mp4"; }, {}});
   b.update();
-  CHECK_FALSE(b.session.detection().found);
+  CHECK_FALSE(b.session.detection().value);
   CHECK(is_same(b.session.painting().mask(), disk(10)));
 }
 

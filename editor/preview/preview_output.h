@@ -20,23 +20,24 @@
 
 namespace sigs::editor {
 
-// What the project's video is, opened or with_preset in for by grey frames.
+// The footage of a project: a video that was opened, or grey frames that replace it.
 struct Footage {
   FootageShape shape;
   std::optional<VideoInfo> video;  // none: it could not be opened
-  std::string problem;             // then, why
+  std::string problem;             // why there is no video; "" where there is one
 };
 
-// A revision of the project, opened.
+// A revision of the project with all that it names opened, as far as it can be.
 struct OpenedScene {
   std::uint64_t revision = 0;
+  ContentId content;  // combined_id() of the project and its files
   std::shared_ptr<const Project> project;
   std::shared_ptr<const Footage> footage;
   DraftScene draft;
 };
 
-// One composited frame, ready to be shown. revision is the one it was made of; later ones that change no image share
-// it.
+// One composited frame, ready to be shown. It belongs to all revisions with the same content; `revision` is the first
+// of them.
 struct PreviewImage {
   std::uint64_t revision = 0;
   int frame = 0;
@@ -45,51 +46,54 @@ struct PreviewImage {
   cv::Mat mask;                        // CV_8UC1 or empty, as ComposedFrame::mask
   FrameTruth truth;
   std::vector<Stage> stages;  // where asked for
-  std::string problem;        // not empty: bgr is the untouched footage, or another frame or grey replaces it, and
-                              // this is why
+  std::string problem;        // why bgr is the untouched footage, another frame or grey; "" where it is itself
   FrameTimes times;
 };
 
-// What the timeline's lanes show of one intruder; indices count the scene's frames from OpenedScene's first_frame.
+// What the lanes of the timeline show of one intruder, frame by frame. Index 0 is first_frame.
 struct Survey {
   std::uint64_t revision = 0;
   int first_frame = 0;
-  std::vector<VisibilityEstimate> estimates;  // one a frame; grows while it is made
+  std::vector<VisibilityEstimate> estimates;  // one a frame; fewer while the survey is being made
   std::vector<FlightState> flight;            // one a frame
   std::vector<FlightFlag> flags;
   ClosestApproach closest;
 };
 
-// A small image of a model, turning: CV_8UC4, RGBA, straight alpha.
+// A small image of a turned model.
 struct ModelImage {
   std::filesystem::path file;
   double turn_rad = 0;
-  cv::Mat rgba;
+  cv::Mat rgba;                // CV_8UC4, straight alpha
   glm::dvec3 size_m{0, 0, 0};  // extents along body X, Y, Z
   std::string problem;
 };
 
-// What the window wants to see. Asked anew each update; what is no longer wanted is dropped.
+// What the window wants to show. It is sent in each update; work that is no longer wanted is dropped.
 struct PreviewRequest {
   Revision revision;
   int frame = 0;
-  int direction = 1;    // where the playhead will go: +1, -1; how far the next frames are fetched ahead is ours
-  int range_first = 0;  // frames outside are not fetched ahead
+  int direction = 1;    // +1 or -1: towards later or earlier frames, which are then composited ahead
+  int range_first = 0;  // frames outside of the range are not composited ahead
   int range_last = 0;
   bool playing = false;
   bool footage = false;                      // the untouched frame too (for the wipe)
-  bool stages = false;                       // stages of the frame
+  bool stages = false;                       // images of all stages of the frame too
   std::optional<MethodChoice> compare_with;  // the same frame by another method
   struct Turntable {
     int intruder = 0;
     double turn_rad = 0;
     cv::Size size_px;
+
+    [[nodiscard]] bool operator==(const Turntable&) const = default;
   };
   std::optional<Turntable> turntable;
+
+  [[nodiscard]] bool operator==(const PreviewRequest&) const = default;
 };
 
-// Bytes that are kept so that they need not be made again, by who keeps them; what is on the screen counts too. Files
-// that were read, working memory and the steps of undo do not.
+// Bytes of images that are kept to be shown (again), by where they are kept. Files that were read, working memory and
+// the steps of undo do not count.
 struct MemoryUse {
   std::size_t images = 0;    // composited frames
   std::size_t decoded = 0;   // frames of the footage
@@ -100,7 +104,7 @@ struct MemoryUse {
   [[nodiscard]] std::size_t sum() const { return images + decoded + shown + textures; }
 };
 
-// What there is to show at this moment. Pointers are never changed behind the reader's back; any may be null at first.
+// What there is to show at this moment. What the pointers point to never changes; each of them may be null at first.
 struct PreviewOutput {
   std::shared_ptr<const OpenedScene> scene;            // newest revision that is open
   std::shared_ptr<const PreviewImage> image;           // of the wanted frame and revision, else the best there is
@@ -118,36 +122,12 @@ struct PreviewOutput {
 };
 
 struct PreviewLimits {
-  // All of MemoryUse. Caches make room for what is shown; only that may be more.
+  // Limit for all of MemoryUse. Caches give way to what is shown; only that may exceed the limit.
   std::size_t cache_bytes = std::size_t(3) << 29;
   int ahead = 48;  // frames composited ahead of the playhead at most
 
-  // What textures that are not on the screen may hold.
+  // Limit for textures that are not on the screen.
   [[nodiscard]] std::size_t texture_bytes() const { return cache_bytes / 16; }
-};
-
-// Opens, decodes and composes on threads of its own; every call here returns at once.
-class Previewer {
- public:
-  // wake  called from another thread whenever there is something new to show
-  // Throws std::system_error where the system gives no threads: without them there is no editor.
-  Previewer(PreviewLimits limits, std::function<void()> wake);
-  ~Previewer();
-  Previewer(const Previewer&) = delete;
-  Previewer& operator=(const Previewer&) = delete;
-
-  void want(const PreviewRequest& wanted);
-  [[nodiscard]] PreviewOutput shown() const;
-
-  // What the window holds in textures; the caches keep so much less.
-  void set_texture_bytes(std::size_t bytes);
-
-  // Exporting shares the machine: while set, nothing is fetched ahead.
-  void set_prefetch_paused(bool paused);
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
 };
 
 }  // namespace sigs::editor

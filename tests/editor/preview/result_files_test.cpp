@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/result_files.h"
+#include "editor/preview/scoring.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/content_id.h"
+#include "editor/document/content_id.h"
 
+#include <bit>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -22,7 +23,7 @@ std::string whole_path(const Project& project, const std::string& path) {
   return (code ? resolved_path : absolute).lexically_normal().string();
 }
 
-// FNV-1a with 128 bits (RFC 9923): no two names of a session meet by chance, and nobody gains by making them.
+// FNV-1a with 128 bits; its constants are those of RFC 9923.
 class Digest {
  public:
   void add(std::string_view text) {
@@ -32,7 +33,12 @@ class Digest {
   void add(std::uint64_t number) {
     for (int byte = 0; byte < 8; ++byte) add_byte(static_cast<unsigned char>(number >> (8 * byte)));
   }
-  [[nodiscard]] ContentId name() const {
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(const ContentId& id) {
+    add(id.high);
+    add(id.low);
+  }
+  [[nodiscard]] ContentId id() const {
     return {static_cast<std::uint64_t>(sum_ >> 64), static_cast<std::uint64_t>(sum_)};
   }
 
@@ -49,7 +55,29 @@ void add(Digest& digest, const FileStamp& stamp) {
   digest.add(stamp.path.native());
   digest.add(stamp.bytes);
   digest.add(static_cast<std::uint64_t>(stamp.changed.time_since_epoch().count()));
-  digest.add(stamp.exists ? 1 : 0);
+  digest.add(std::uint64_t(stamp.exists ? 1 : 0));
+}
+
+// Added by value: the JSON text of thousands of waypoints takes tens of milliseconds. The binding names every member,
+// so that one that is added to the settings is not forgotten here.
+void add(Digest& digest, const std::vector<WaypointSettings>& waypoints) {
+  digest.add(std::uint64_t(waypoints.size()));
+  for (const auto& [frame, position_m, unknown_json] : waypoints) {
+    static_cast<void>(unknown_json);
+    digest.add(std::uint64_t(frame ? 1 : 0));
+    digest.add(frame.value_or(0));
+    for (int axis = 0; axis < 3; ++axis) digest.add(position_m[axis]);
+  }
+}
+
+// Calls for each path that names a file to read.
+template <class ProjectOrConst, class Call>
+void for_each_input(ProjectOrConst& project, const Call& call) {
+  call(project.footage.video);
+  call(project.footage.calibration);
+  call(project.footage.own_body_mask);
+  call(project.camera.attitude_file);
+  for (auto& intruder : project.intruders) call(intruder.model.file);
 }
 
 }  // namespace
@@ -66,6 +94,12 @@ FileStamp stamp_of(const fs::path& path) {
   return stamp;
 }
 
+ContentId id_of(const FileStamp& stamp) {
+  Digest digest;
+  add(digest, stamp);
+  return digest.id();
+}
+
 ContentId content_id_of(const Project& project) {
   Project kept = project;
   Digest digest;
@@ -74,21 +108,32 @@ ContentId content_id_of(const Project& project) {
   kept.own_body = {};  // only the mask that came of it counts
   kept.output = {};
   kept.unknown_json.clear();
-  std::vector<std::string*> paths{&kept.footage.video, &kept.footage.calibration, &kept.footage.own_body_mask,
-                                  &kept.camera.attitude_file};
+  for_each_input(kept, [&](std::string& path) {
+    path = whole_path(project, path);
+    digest.add(path);
+  });
   for (IntruderSettings& intruder : kept.intruders) {
     intruder.unknown_json.clear();
-    for (WaypointSettings& waypoint : intruder.trajectory.waypoints) waypoint.unknown_json.clear();
-    paths.push_back(&intruder.model.file);
+    // The text below has other bytes in place of what is no UTF-8.
+    digest.add(intruder.name + '\n' + intruder.category);
+    add(digest, intruder.trajectory.waypoints);
+    intruder.trajectory.waypoints.clear();
   }
-  for (std::string* path : paths) {
-    *path = whole_path(project, *path);
-    add(digest, stamp_of(*path));
-  }
-  // The text has other bytes in place of what is no UTF-8; paths count above.
-  for (const IntruderSettings& intruder : kept.intruders) digest.add(intruder.name + '\n' + intruder.category);
   digest.add(text_of(kept));
-  return digest.name();
+  return digest.id();
+}
+
+ContentId input_files_id_of(const Project& project) {
+  Digest digest;
+  for_each_input(project, [&](const std::string& path) { add(digest, stamp_of(whole_path(project, path))); });
+  return digest.id();
+}
+
+ContentId combined_id(const ContentId& content, const ContentId& input_files) {
+  Digest digest;
+  digest.add(content);
+  digest.add(input_files);
+  return digest.id();
 }
 
 FileStamp footage_stamp_of(const Project& project) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/content_id.h"
+#include "editor/document/content_id.h"
 
 #include <doctest/doctest.h>
 
@@ -22,8 +22,8 @@ Project head_on() {
 
 }  // namespace
 
-TEST_CASE("what touches no image leaves its name alone and what does changes it") {
-  const ContentId name = content_id_of(head_on());
+TEST_CASE("what touches no image leaves the content id alone and what does changes it") {
+  const ContentId id = content_id_of(head_on());
   const std::vector<std::function<void(Project&)>> harmless{
       [](Project& p) { p.name = "another"; },
       [](Project& p) { p.own_body.frames = 9; },
@@ -34,7 +34,7 @@ TEST_CASE("what touches no image leaves its name alone and what does changes it"
   for (const auto& change : harmless) {
     Project changed = head_on();
     change(changed);
-    CHECK(content_id_of(changed) == name);
+    CHECK(content_id_of(changed) == id);
   }
   const std::vector<std::function<void(Project&)>> telling{
       [](Project& p) { p.footage.last_frame = 9; },
@@ -43,14 +43,17 @@ TEST_CASE("what touches no image leaves its name alone and what does changes it"
       [](Project& p) { p.camera.attitude_file = std::string("gyro.csv"); },
       [](Project& p) { p.light.ambient = 0.1; },
       [](Project& p) { p.intruders[0].name += "b"; },  // the truth has it
-      [](Project& p) { p.intruders[0].trajectory.waypoints[1].position_m.z += 1; },
+      [](Project& p) { p.intruders[0].trajectory.waypoints[1].position_m.z += 1e-9; },
+      [](Project& p) { p.intruders[0].trajectory.waypoints[1].frame.reset(); },
+      [](Project& p) { p.intruders[0].trajectory.waypoints[1].frame.emplace(0.5); },
+      [](Project& p) { p.intruders[0].trajectory.waypoints.pop_back(); },
       [](Project& p) { p.intruders[0].model.length_m = 3; },
       [](Project& p) { p.compositing.method = MethodChoice::plain; },
       [](Project& p) { p.intruders.push_back(p.intruders[0]); }};
   for (const auto& change : telling) {
     Project changed = head_on();
     change(changed);
-    CHECK_FALSE(content_id_of(changed) == name);
+    CHECK_FALSE(content_id_of(changed) == id);
   }
 }
 
@@ -66,27 +69,48 @@ TEST_CASE("a project saved elsewhere whose paths mean the same files keeps its i
   CHECK(content_id_of(moved) == content_id_of(project));
 }
 
-TEST_CASE("a file that appears or changes on disk changes the name") {
+TEST_CASE("a file that appears or changes on disk changes the id of the files alone") {
   const TemporaryFolder folder;
   Project project;
   project.file = folder / "p.json";
   project.footage.video = "a.mp4";
-  const ContentId without = content_id_of(project);
+  const ContentId content = content_id_of(project);
+  const ContentId without = input_files_id_of(project);
   const FileStamp footage_without = footage_stamp_of(project);
   REQUIRE(write_text(folder / "a.mp4", "a", true));
-  const ContentId with = content_id_of(project);
+  const ContentId with = input_files_id_of(project);
   CHECK_FALSE(with == without);
   CHECK_FALSE(footage_stamp_of(project) == footage_without);
+  CHECK_FALSE(id_of(footage_stamp_of(project)) == id_of(footage_without));
   REQUIRE(write_text(folder / "a.mp4", "ab", true));
-  CHECK_FALSE(content_id_of(project) == with);
+  CHECK_FALSE(input_files_id_of(project) == with);
+  CHECK(content_id_of(project) == content);
+  CHECK_FALSE(combined_id(content, with) == combined_id(content, without));
+  CHECK_FALSE(combined_id(content, with) == combined_id(with, content));
 }
 
-TEST_CASE("a name keeps nothing of its project, so that thousands of them take no room") {
+TEST_CASE("undo brings the content id back with the revision, and saving elsewhere keeps it") {
+  const TemporaryFolder folder;
+  Document document(head_on());
+  const ContentId before = document.revision().content;
+  CHECK(before == content_id_of(document.project()));
+  document.apply(Edit(ChangeProject{"set speed", [](Project& p) { p.camera.speed_mps += 1; }, "drag"}));
+  CHECK_FALSE(document.revision().content == before);
+  document.apply(Edit(Undo{}));
+  CHECK(document.revision().content == before);
+  document.apply(Edit(Redo{}));
+  CHECK_FALSE(document.revision().content == before);
+  document.apply(Edit(Undo{}));
+  REQUIRE(document.save_as(folder / "x.json"));
+  CHECK(document.revision().content == before);
+}
+
+TEST_CASE("an id keeps nothing of its project, so that thousands of them take no memory to speak of") {
   CHECK(std::is_trivially_copyable_v<ContentId>);
   CHECK(sizeof(ContentId) <= 32);
 }
 
-TEST_CASE("names of bytes that are no UTF-8 are told apart") {
+TEST_CASE("names with bytes that are no UTF-8 have different ids") {
   Project one = head_on();
   Project other = head_on();
   one.intruders[0].name = "\xE9";
@@ -102,16 +126,4 @@ TEST_CASE("relative paths of a project without a file start at the current direc
   Project project;
   project.footage.video = "a.mp4";
   CHECK(footage_stamp_of(project).path == std::filesystem::current_path() / "a.mp4");
-}
-
-TEST_CASE("equal names get equal numbers and others their own") {
-  IdTable<int> book;
-  const std::uint64_t three = book.id_of(3);
-  const std::uint64_t five = book.id_of(5);
-  CHECK(three != five);
-  CHECK(three > 0);
-  CHECK(book.id_of(3) == three);
-  CHECK(book.id_of(5) == five);
-  for (int i = 10; i < 5000; ++i) CHECK(book.id_of(i) > five);  // forgotten or not, no number comes twice
-  CHECK(book.id_of(3) > five);
 }

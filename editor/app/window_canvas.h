@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+#include <cstdint>
+#include <vector>
+
+namespace sigs::editor {
+
+// Finds the parts of the window that look different from the update before. ImGui issues all draw commands in each
+// update; with OpenGL in software most of the time would be spent on pixels that do not change.
+class ChangedRegions {
+ public:
+  // Rectangles (left, top, right, bottom, in ImGui's coordinates) that together contain every pixel that may differ
+  // from the data of the call before; none: nothing differs. At most three, which do not overlap.
+  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data);
+
+  // The next call returns the whole window.
+  void forget() { panels_.clear(); }
+
+ private:
+  // One draw command: one texture, one clip rectangle.
+  struct Piece {
+    std::uint64_t fingerprint = 0;
+    ImVec4 bounds{0, 0, 0, 0};  // of the pixels that it may touch
+  };
+  // The draw commands of one ImGui window.
+  struct Panel {
+    const void* list = nullptr;
+    std::vector<Piece> pieces;
+  };
+  [[nodiscard]] static Piece piece_of(const ImDrawList& list, const ImDrawCmd& command);
+  [[nodiscard]] static Panel panel_of(const ImDrawList& list);
+  static void add_changes(const Panel& before, const Panel& after, std::vector<ImVec4>& regions);
+
+  std::vector<Panel> panels_;
+  ImVec2 size_{0, 0};
+};
+
+// Intersection of two rectangles; where they have none, its right edge lies left of its left one, or its bottom above
+// its top.
+[[nodiscard]] ImVec4 common_part(const ImVec4& a, const ImVec4& b);
+
+// The image of the window, kept in a framebuffer from update to update. Changed regions are drawn into it, then it is
+// copied to the window. Needs a current OpenGL context in every call, the destructor included.
+class Canvas {
+ public:
+  Canvas() = default;
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  // Draws the regions that differ from the update before. Size in pixels of the framebuffer. False: nothing differs,
+  // and the window was not touched.
+  bool draw(ImDrawData& data, int width_px, int height_px);
+
+  // Has the next call draw everything (after other fonts, or when the window was hidden).
+  void forget() { changed_.forget(); }
+
+ private:
+  void make(int width_px, int height_px);
+  void draw_region(ImDrawData& data, const ImVec4& region) const;
+
+  ChangedRegions changed_;
+  unsigned int framebuffer_ = 0;
+  unsigned int color_ = 0;
+  int width_px_ = 0;
+  int height_px_ = 0;
+};
+
+}  // namespace sigs::editor

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "editor/preview/background_job.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kWindow_s = 8;
+constexpr double kMinStep_s = 0.1;  // between notes that are kept: their number stays small
+constexpr double kMinSpan_s = 0.2;  // a rate over less is noise
+
+}  // namespace
+
+void RateMeter::note(double now_s, int done) {
+  const bool is_close = notes_.size() > 1 && now_s - notes_[notes_.size() - 2].time_s < kMinStep_s;
+  if (is_close) notes_.pop_back();
+  notes_.push_back({now_s, done});
+  while (notes_.size() > 2 && now_s - notes_[1].time_s >= kWindow_s) notes_.pop_front();
+}
+
+std::optional<double> RateMeter::rate_hz() const {
+  if (notes_.size() < 2) return std::nullopt;
+  const double span_s = notes_.back().time_s - notes_.front().time_s;
+  const int done = notes_.back().done - notes_.front().done;
+  if (span_s < kMinSpan_s || done <= 0) return std::nullopt;
+  return done / span_s;
+}
+
+std::optional<double> RateMeter::left_s(int total) const {
+  const std::optional<double> rate = rate_hz();
+  if (!rate) return std::nullopt;
+  return std::max(0, total - notes_.back().done) / *rate;
+}
+
+double steady_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+ExportJob::ExportJob(std::function<void()> wake)
+    : BackgroundJob(std::move(wake), [](const ExportRequest& request, const JobControl& control) {
+        return export_project(request, {.progress = control.progress, .warn = control.warn, .cancel = control.cancel});
+      }) {}
+
+Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control) {
+  Result<FrameSource> source = FrameSource::open(request.video, control.cancel);
+  if (!source) return fail(source.error());
+  return detect_own_body(*source, request.first_frame, request.settings, control);
+}
+
+OwnBodyJob::OwnBodyJob(std::function<void()> wake, Detect detect)
+    : BackgroundJob(
+          std::move(wake), [detect = std::move(detect)](const DetectionRequest& request, const JobControl& control) {
+            return detect(request, {.progress = control.progress, .cancel = control.cancel, .stages = KeepStages::yes});
+          }) {}
+
+}  // namespace sigs::editor

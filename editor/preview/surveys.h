@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "editor/preview/preview_output.h"
+#include "evaluation/clip_truth.h"
+
+namespace sigs::editor {
+
+// Makes the surveys of a scene in small slices, so that a long one delays nothing else. Frames come first, for all
+// intruders at once, then what needs the whole flight.
+class SurveyBuilder {
+ public:
+  // Begins the surveys of a scene.
+  void begin(std::shared_ptr<const OpenedScene> scene);
+
+  [[nodiscard]] bool done() const { return !scene_ || (next_frame_ > last_frame() && next_whole_ >= surveys_.size()); }
+
+  // Works for about budget_s seconds, at least one step. True where there is enough new to be shown.
+  bool work(double budget_s);
+
+  // The surveys as far as they are made, one for each intruder of the project; one without a path has an empty one.
+  [[nodiscard]] std::vector<std::shared_ptr<const Survey>> surveys();
+
+ private:
+  [[nodiscard]] int last_frame() const { return scene_->draft.scene.last_frame; }
+  void step();
+  void look_at_frame(int frame);
+  void look_at_whole(std::size_t intruder);
+
+  std::shared_ptr<const OpenedScene> scene_;
+  std::optional<VisibilityEstimator> points_;
+  std::vector<Survey> surveys_;
+  int next_frame_ = 0;
+  std::size_t next_whole_ = 0;
+  std::size_t handed_out_ = 0;  // frames
+};
+
+// What result files of this scene's footage count in.
+[[nodiscard]] FootageTruth footage_truth_of(const OpenedScene& scene);
+
+// The footage's truth as far as it is known without drawing: by the outlines of the surveys, one for each of the
+// project's intruders. Boxes are within a pixel or so of those that are measured in drawn frames; what stands behind
+// the own body in part counts as seen whole. Null where a survey is missing or not complete.
+[[nodiscard]] std::shared_ptr<const ClipTruth> outline_truth(const OpenedScene& scene,
+                                                             const std::vector<std::shared_ptr<const Survey>>& surveys);
+
+}  // namespace sigs::editor
