@@ -11,8 +11,8 @@
 #include "base/staged_outputs.h"
 #include "editor/app/shortcuts.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/elided.h"
-#include "editor/widgets/popups.h"
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/texts.h"
 #include "project/json.h"
 
 namespace sigs::editor {

@@ -7,7 +7,7 @@
 #include "editor/app/layout.h"
 #include "editor/views/menu_bar.h"
 #include "editor/views/viewport/readout.h"
-#include "editor/widgets/elided.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

@@ -12,7 +12,6 @@
 #include "editor/views/context.h"
 #include "editor/views/dialogs.h"
 #include "editor/views/export_view.h"
-#include "editor/views/relink_dialog.h"
 #include "editor/views/start_page.h"
 #include "editor/views/toasts.h"
 #include "editor/widgets/file_browser.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "editor/widgets/splitter.h"
+#include "editor/widgets/dialog.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

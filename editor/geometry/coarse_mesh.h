@@ -12,7 +12,7 @@ namespace sigs::editor {
 // A model for drawing small: body axes, metres.
 struct CoarseMesh {
   struct Face {
-    std::array<int, 3> corners;  // counter-clockwise seen from outside
+    std::array<int, 3> corners;  // counter-clockwise from outside
     glm::vec3 normal;            // unit
     glm::vec3 color;             // display values 0..1 (sRGB)
   };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "editor/geometry/round_steps.h"
+#include "editor/geometry/rulers.h"
 
 namespace sigs::editor {
 namespace {
@@ -31,10 +31,6 @@ constexpr std::array<PlaneAxes, 3> kPlanes{PlaneAxes{0, 1, 2}, PlaneAxes{1, 2, 0
 constexpr std::array<GizmoPart, 3> kAxisParts{GizmoPart::x, GizmoPart::y, GizmoPart::z};
 constexpr std::array<GizmoPart, 3> kPlaneParts{GizmoPart::xy, GizmoPart::yz, GizmoPart::zx};
 
-bool is_finite(const glm::dvec2& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
-
 // From the eye to a point, unit.
 glm::dvec3 sight_to(const OrbitCamera& camera, const glm::dvec3& p_m) {
   return camera.projection == Projection::parallel ? camera.forward() : glm::normalize(p_m - camera.eye_m());
@@ -54,13 +50,6 @@ std::optional<std::array<glm::dvec2, 4>> quad_of(const PlaneAxes& plane, const g
     quad[i] = *corner;
   }
   return quad;
-}
-
-double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-  const glm::dvec2 along = b - a;
-  const double length_2 = glm::dot(along, along);
-  const double share = length_2 > 0 ? std::clamp(glm::dot(p - a, along) / length_2, 0.0, 1.0) : 0;
-  return glm::distance(p, a + along * share);
 }
 
 double distance_to_quad(const glm::dvec2& p, const std::array<glm::dvec2, 4>& quad) {
@@ -164,11 +153,6 @@ std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCa
   return std::nullopt;
 }
 
-glm::dvec3 kept_in_space(glm::dvec3 p_m) {
-  for (int i = 0; i < 3; ++i) p_m[i] = std::isnan(p_m[i]) ? 0 : std::clamp(p_m[i], -kMaxCoordinateM, kMaxCoordinateM);
-  return p_m;
-}
-
 }  // namespace
 
 std::optional<GizmoShape> gizmo_shape(const Gizmo& gizmo, const OrbitCamera& camera, const ScreenRect& rect) {
@@ -201,16 +185,16 @@ glm::dvec3 dragged(const GizmoDrag& drag, const glm::dvec2& mouse, const OrbitCa
                    double snap_m) {
   const glm::dvec2 by_px = mouse - drag.start_mouse;
   const auto start = camera.screen_of(drag.start_m, rect);
-  if (!start || !is_finite(by_px) || by_px == glm::dvec2{0, 0}) return kept_in_space(drag.start_m);
+  if (!start || !is_finite(by_px) || by_px == glm::dvec2{0, 0}) return kept_in_space(drag.start_m, kMaxCoordinateM);
   const auto moved = pulled(drag.part, {drag.start_m, by_px, *start + by_px}, camera, rect);
-  if (!moved) return kept_in_space(drag.start_m);
-  glm::dvec3 result = kept_in_space(*moved);
+  if (!moved) return kept_in_space(drag.start_m, kMaxCoordinateM);
+  glm::dvec3 result = kept_in_space(*moved, kMaxCoordinateM);
   const std::array<bool, 3> moves = moved_by(drag.part, camera);
   for (int i = 0; i < 3; ++i) {
     if (!moves[i]) result[i] = drag.start_m[i];
     if (moves[i] && snap_m > 0 && std::isfinite(snap_m)) result[i] = rounded_to(result[i], snap_m);
   }
-  return kept_in_space(result);
+  return kept_in_space(result, kMaxCoordinateM);
 }
 
 double snap_step_m(const OrbitCamera& camera, const glm::dvec3& at_m, const ScreenRect& rect) {

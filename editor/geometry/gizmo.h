@@ -9,26 +9,26 @@
 
 namespace sigs::editor {
 
-// A handle for moving a point: three axis arrows, three plane handles, and the middle, which moves in the screen's
-// plane.
+// The parts of a handle that moves a point: an arrow for each world axis, a square for each plane of two axes, and the
+// middle, which moves the point in the plane of the screen.
 enum class GizmoPart { none, x, y, z, xy, yz, zx, screen };
 
-// Of a size on the screen that does not depend on how far it is.
+// The handle of a point. Its size on the screen does not depend on its distance.
 struct Gizmo {
   glm::dvec3 center_m{0, 0, 0};
   double arrow_px = 90;
 };
 
-// Lines and quads of the gizmo on the screen; nothing where its centre is not in sight.
+// Lines and quads of the handle on the screen (window pixels); nothing where its centre has no place on the screen.
 struct GizmoShape {
   glm::dvec2 center{0, 0};
-  std::array<std::optional<glm::dvec2>, 3> tips;                   // none: the axis points at the eye
-  std::array<std::optional<std::array<glm::dvec2, 4>>, 3> planes;  // xy, yz, zx; none: seen edge-on
+  std::array<std::optional<glm::dvec2>, 3> tips;                   // none: the axis points at the camera
+  std::array<std::optional<std::array<glm::dvec2, 4>>, 3> planes;  // xy, yz, zx; none: the plane is edge-on
 };
 [[nodiscard]] std::optional<GizmoShape> gizmo_shape(const Gizmo& gizmo, const OrbitCamera& camera,
                                                     const ScreenRect& rect);
 
-// What the mouse is over, within `reach_px` of it. The middle before planes before arrows.
+// The part within reach_px of the mouse; of several, the middle before planes before arrows.
 [[nodiscard]] GizmoPart part_at(const GizmoShape& shape, const glm::dvec2& mouse, double reach_px = 7);
 
 struct GizmoDrag {
@@ -38,9 +38,9 @@ struct GizmoDrag {
 };
 
 // Where the point is once the mouse has come from start_mouse to mouse: the point keeps under the mouse on the axis or
-// plane. Where that has no answer (an axis seen end-on, a plane beyond its horizon) it stays at start_m. Always finite,
-// never farther than 1e8 m from the world's origin in any axis. snap_m > 0: the coordinates that move are rounded to
-// multiples of it.
+// plane. Where that has no answer (an axis that points at the camera, a plane beyond its horizon) it stays at start_m.
+// Always finite, never farther than 1e8 m from the world's origin in any axis. snap_m > 0: the coordinates that move
+// are rounded to multiples of it.
 [[nodiscard]] glm::dvec3 dragged(const GizmoDrag& drag, const glm::dvec2& mouse, const OrbitCamera& camera,
                                  const ScreenRect& rect, double snap_m = 0);
 

@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kSnapShare = 0.03;  // how close to a whole zoom counts as meant
 
-bool is_finite(const glm::dvec2& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
-
 bool has_size(const glm::dvec2& size) {
   return is_finite(size) && size.x > 0 && size.y > 0;
 }
@@ -47,6 +43,25 @@ double kept_in_sight(double origin, double length, double low, double high, bool
 }
 
 }  // namespace
+
+bool is_finite(const glm::dvec2& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+bool is_finite(const glm::dvec3& p) {
+  return is_finite(glm::dvec2(p)) && std::isfinite(p.z);
+}
+
+SegmentPoint nearest_on_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  const glm::dvec2 along = b - a;
+  const double length_2 = glm::dot(along, along);
+  const double share = length_2 > 0 ? std::clamp(glm::dot(p - a, along) / length_2, 0.0, 1.0) : 0;
+  return {share, a + along * share};
+}
+
+double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  return glm::distance(p, nearest_on_segment(p, a, b).at);
+}
 
 glm::dvec2 ImageView::screen_of(const glm::dvec2& image) const {
   return origin_on_screen + (image + 0.5) * zoom;

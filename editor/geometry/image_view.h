@@ -16,6 +16,7 @@ struct ImageView {
   [[nodiscard]] bool operator==(const ImageView&) const = default;
 };
 
+// A rectangle of the screen in window pixels: low is its upper left corner, high the lower right one (not included).
 struct ScreenRect {
   glm::dvec2 low{0, 0};
   glm::dvec2 high{0, 0};
@@ -24,6 +25,19 @@ struct ScreenRect {
     return p.x >= low.x && p.y >= low.y && p.x < high.x && p.y < high.y;
   }
 };
+
+// Whether no coordinate is infinite or NaN.
+[[nodiscard]] bool is_finite(const glm::dvec2& p);
+[[nodiscard]] bool is_finite(const glm::dvec3& p);
+
+// The point of the segment from a to b that is nearest to p.
+struct SegmentPoint {
+  double share = 0;  // along the segment: 0 at a, 1 at b; 0 where a == b
+  glm::dvec2 at{0, 0};
+};
+[[nodiscard]] SegmentPoint nearest_on_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b);
+// How far p is from that point.
+[[nodiscard]] double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b);
 
 inline constexpr double kMinZoom = 1.0 / 32;
 inline constexpr double kMaxZoom = 64;

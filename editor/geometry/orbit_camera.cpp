@@ -16,13 +16,6 @@ constexpr double kMinDistanceM = 0.1;
 constexpr double kMaxDistanceM = 1e9;
 constexpr double kFarOutPx = 10000;  // floats still hold a thousandth of a pixel there
 
-bool is_finite(const glm::dvec2& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
-bool is_finite(const glm::dvec3& v) {
-  return is_finite(glm::dvec2{v}) && std::isfinite(v.z);
-}
-
 glm::dvec2 middle(const ScreenRect& rect) {
   return (rect.low + rect.high) / 2.0;
 }
@@ -86,10 +79,6 @@ glm::dvec3 offset_at_target(const OrbitCamera& camera, const glm::dvec2& by_px, 
   return (camera.right() * by_px.x - camera.up() * by_px.y) * metres_per_px;
 }
 
-glm::dvec3 kept_in_space(const glm::dvec3& p_m) {
-  return glm::clamp(p_m, -kMaxDistanceM, kMaxDistanceM);
-}
-
 // How far to stand off the middle of a box so that the point, given from there, is within the framed slopes.
 double distance_for(const glm::dvec3& from_middle, const glm::dvec2& slopes, Projection projection) {
   const double beside = std::max(std::abs(from_middle.x) / slopes.x, std::abs(from_middle.y) / slopes.y);
@@ -134,6 +123,11 @@ Ray OrbitCamera::ray_at(const glm::dvec2& screen, const ScreenRect& rect) const 
   return {eye_m(), glm::normalize(forward() + right() * slope.x - up() * slope.y)};
 }
 
+glm::dvec3 kept_in_space(glm::dvec3 p_m, double limit_m) {
+  for (int i = 0; i < 3; ++i) p_m[i] = std::isnan(p_m[i]) ? 0 : std::clamp(p_m[i], -limit_m, limit_m);
+  return p_m;
+}
+
 std::optional<std::array<glm::dvec2, 2>> screen_line(const OrbitCamera& camera, const ScreenRect& rect,
                                                      const glm::dvec3& a_m, const glm::dvec3& b_m) {
   std::array<glm::dvec3, 2> ends{in_view(camera, a_m), in_view(camera, b_m)};
@@ -162,7 +156,7 @@ OrbitCamera orbited(const OrbitCamera& camera, const glm::dvec2& by_px) {
 OrbitCamera panned(const OrbitCamera& camera, const glm::dvec2& by_px, const ScreenRect& rect) {
   if (!is_finite(by_px)) return camera;
   OrbitCamera result = camera;
-  result.target_m = kept_in_space(camera.target_m - offset_at_target(camera, by_px, rect));
+  result.target_m = kept_in_space(camera.target_m - offset_at_target(camera, by_px, rect), kMaxDistanceM);
   return result;
 }
 
@@ -171,7 +165,8 @@ OrbitCamera approached(const OrbitCamera& camera, double factor, const glm::dvec
   OrbitCamera result = camera;
   result.distance_m = std::clamp(camera.distance_m / factor, kMinDistanceM, kMaxDistanceM);
   const glm::dvec3 to_fixed = offset_at_target(camera, at_screen - middle(rect), rect);
-  result.target_m = kept_in_space(camera.target_m + to_fixed * (1 - result.distance_m / camera.distance_m));
+  result.target_m =
+      kept_in_space(camera.target_m + to_fixed * (1 - result.distance_m / camera.distance_m), kMaxDistanceM);
   return result;
 }
 
@@ -188,8 +183,9 @@ OrbitCamera framing(const OrbitCamera& camera, std::span<const glm::dvec3> point
   const glm::dvec3 center = (low + high) / 2.0;
   const glm::dvec3 from_target{center.x, center.y, center.z - camera.distance_m};
   OrbitCamera result = camera;
-  result.target_m = kept_in_space(camera.target_m + camera.right() * from_target.x + camera.up() * from_target.y +
-                                  camera.forward() * from_target.z);
+  result.target_m = kept_in_space(
+      camera.target_m + camera.right() * from_target.x + camera.up() * from_target.y + camera.forward() * from_target.z,
+      kMaxDistanceM);
   if (low == high) return result;  // a single place says nothing of how near to go
   const glm::dvec2 slopes = kFramedShare * glm::max(rect.size(), 1.0) / 2.0 / focal_px(camera, rect);
   double distance_m = kMinDistanceM;
@@ -200,6 +196,24 @@ OrbitCamera framing(const OrbitCamera& camera, std::span<const glm::dvec3> point
   }
   result.distance_m = std::min(distance_m, kMaxDistanceM);
   return result;
+}
+
+LightDirection direction_of(const glm::dvec3& light_m, const glm::dvec3& from_m) {
+  const glm::dvec3 to_light = light_m - from_m;
+  const double level_m = std::hypot(to_light.x, to_light.y);
+  if (level_m == 0 && to_light.z == 0) return {};
+  // Straight up and the negative zeros of atan2 count as bearing 0, straight back as +pi.
+  const double bearing_rad = level_m > 0 ? std::atan2(to_light.y, to_light.x) : 0;
+  return {.bearing_rad = bearing_rad <= -std::numbers::pi ? std::numbers::pi : bearing_rad,
+          .elevation_rad = std::atan2(-to_light.z, level_m),
+          .distance_m = std::hypot(level_m, to_light.z)};
+}
+
+glm::dvec3 position_of(const LightDirection& direction, const glm::dvec3& from_m) {
+  const double level = std::cos(direction.elevation_rad);
+  const glm::dvec3 to_light{level * std::cos(direction.bearing_rad), level * std::sin(direction.bearing_rad),
+                            -std::sin(direction.elevation_rad)};
+  return from_m + to_light * direction.distance_m;
 }
 
 }  // namespace sigs::editor

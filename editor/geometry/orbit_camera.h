@@ -17,17 +17,17 @@ struct Ray {
 
 enum class Projection { perspective, parallel };
 
-// The eye of the world view: looks at a target from a distance. World axes as everywhere: X forward, Y right, Z down.
+// The camera of the world view: it looks at a target from a distance. World axes: X forward, Y right, Z down (metres).
 struct OrbitCamera {
   glm::dvec3 target_m{0, 0, 0};
   double distance_m = 1000;
-  double bearing_rad = 0;    // in which compass direction it looks, from world X towards Y
-  double elevation_rad = 0;  // how far it looks down; pi/2: from above, with the bearing up on the screen
+  double bearing_rad = 0;    // the direction it looks in, from world X towards Y
+  double elevation_rad = 0;  // angle below the horizontal; pi/2: straight down, with the bearing up on the screen
   Projection projection = Projection::perspective;
   double field_rad = 0.8;  // across the shorter side of the screen; parallel: as wide at the target
 
   [[nodiscard]] glm::dvec3 eye_m() const;
-  // Unit, in the world: where it looks, to the right and up on the screen.
+  // Unit vectors in the world: the viewing direction, and right and up on the screen.
   [[nodiscard]] glm::dvec3 forward() const;
   [[nodiscard]] glm::dvec3 right() const;
   [[nodiscard]] glm::dvec3 up() const;
@@ -39,6 +39,9 @@ struct OrbitCamera {
   [[nodiscard]] std::optional<glm::dvec2> screen_of(const glm::dvec3& p_in_world, const ScreenRect& rect) const;
   [[nodiscard]] Ray ray_at(const glm::dvec2& screen, const ScreenRect& rect) const;
 };
+
+// Each coordinate limited to -limit_m..limit_m; 0 for a coordinate that is not a number.
+[[nodiscard]] glm::dvec3 kept_in_space(glm::dvec3 p_m, double limit_m);
 
 // A line of the world as the screen shows it, cut where it passes behind the eye and more than 10,000 pixels beside the
 // rect, so that its ends fit floats. Nothing where all of it lies there.
@@ -56,5 +59,16 @@ struct OrbitCamera {
 // place: it looks there from the distance it had.
 [[nodiscard]] OrbitCamera framing(const OrbitCamera& camera, std::span<const glm::dvec3> points_m,
                                   const ScreenRect& rect);
+
+// The direction and distance of a light from a place: bearing from world X to the right, elevation above the
+// horizontal.
+struct LightDirection {
+  double bearing_rad = 0;    // (-pi, pi]
+  double elevation_rad = 0;  // [-pi/2, pi/2]
+  double distance_m = 0;
+};
+// For a light at that place itself all three are 0.
+[[nodiscard]] LightDirection direction_of(const glm::dvec3& light_m, const glm::dvec3& from_m);
+[[nodiscard]] glm::dvec3 position_of(const LightDirection& direction, const glm::dvec3& from_m);
 
 }  // namespace sigs::editor

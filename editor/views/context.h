@@ -10,9 +10,10 @@
 
 namespace sigs::editor {
 
-// What the views that are drawn would like to have made; asked anew each update.
+// What the views that are drawn in this update need from the preview. Empty at the start of each update; each view sets
+// what it needs while it draws.
 struct ViewNeeds {
-  bool footage = false;  // the untouched frame too
+  bool footage = false;  // the decoded frame without intruders
   bool stages = false;
   std::optional<MethodChoice> compare_with;
   std::optional<PreviewRequest::Turntable> turntable;
@@ -20,7 +21,9 @@ struct ViewNeeds {
   bool own_escape = false;  // a view has taken Escape
 };
 
-// What a view draws from and where it puts what the person wants. A view changes nothing else.
+// The input and output of a view in one update. Input: the document, the newest preview, the settings. Output: changes
+// and requests of the user in `edits`, what the preview is to compute in `needs`, named places for tests in `ui_probe`.
+// A view changes nothing else but its own state (zoom, which overlay is on).
 struct ViewContext {
   const Document& document;
   const PreviewOutput& shown;

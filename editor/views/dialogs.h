@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
+#include "editor/views/context.h"
 #include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
@@ -34,6 +37,26 @@ class SettingsDialog {
 
  private:
   double font_px_ = 0;  // while the slider is held; 0: it is not
+};
+
+// Asks where the project's missing files are. One that was found lets the others be found.
+class RelinkDialog {
+ public:
+  void open(const Project& project);
+  [[nodiscard]] bool is_open() const { return open_; }
+  // Once per update while it is open. What was chosen becomes one step of undo.
+  void draw(const ViewContext& context);
+
+ private:
+  void draw_rows(const ViewContext& context);
+  void browse(const ViewContext& context, const MissingFile& missing);
+  void found(const MissingFile& missing, const std::filesystem::path& place);
+  void apply(const ViewContext& context) const;
+
+  bool open_ = false;
+  std::vector<MissingFile> missing_;
+  std::map<std::string, std::filesystem::path> places_;     // by field: what the person chose
+  std::map<std::string, std::filesystem::path> suggested_;  // by field
 };
 
 }  // namespace sigs::editor

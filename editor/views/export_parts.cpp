@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/export_parts.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
 
-#include "editor/views/readable.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/elided.h"
-#include "editor/widgets/open_with_desktop.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "labels/labels.h"
 
@@ -18,6 +25,44 @@ namespace sigs::editor {
 namespace {
 
 namespace fs = std::filesystem;
+
+fs::path opener() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder) / "xdg-open";
+    if (::access(program.c_str(), X_OK) == 0) return program;
+  }
+  return {};
+}
+
+// Only what may be called between fork and exec in a program with threads.
+[[noreturn]] void run_detached(const char* program, const char* argument) {
+  ::setsid();
+  if (::fork() != 0) ::_exit(0);
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (int stream = 0; stream < 3; ++stream) ::dup2(nowhere, stream);
+  ::execl(program, program, argument, static_cast<char*>(nullptr));
+  ::_exit(127);
+}
+
+// Whether this desktop has a program that opens folders and files: xdg-open.
+bool can_open_with_desktop() {
+  static const bool can = !opener().empty();
+  return can;
+}
+
+// Opens it with that program, which outlives us. False where that cannot be started.
+bool open_with_desktop(const fs::path& path) {
+  const std::string program = opener().string();
+  const std::string argument = fs::absolute(path).string();
+  if (program.empty()) return false;
+  const pid_t child = ::fork();
+  if (child < 0) return false;
+  if (child == 0) run_detached(program.c_str(), argument.c_str());
+  int status = 0;
+  return ::waitpid(child, &status, 0) == child;
+}
 
 // In the order of the project's choices.
 constexpr std::array kCodecs{"ffv1 (lossless)", "h264 (small)", "mjpeg", "png (numbered images)"};
@@ -159,13 +204,9 @@ void draw_label_choice(const ViewContext& context) {
 std::string progress_text(const ExportState& state) {
   if (state.is_stopping) return "Stopping...";
   if (state.total == 0) return "Opening footage and models...";
-  std::string text = std::to_string(state.done) + " of " + std::to_string(state.total) + " frames";
+  std::string text = fmt::format("{} of {} frames", state.done, state.total);
   if (state.done == state.total) return text + ", finishing the files...";
-  if (state.rate_hz) {
-    std::array<char, 48> rate{};
-    std::snprintf(rate.data(), rate.size(), ", %.1f frames/s", *state.rate_hz);
-    text += rate.data();
-  }
+  if (state.rate_hz) text += fmt::format(", {:.1f} frames/s", *state.rate_hz);
   if (state.left_s) text += ", " + clock_text(*state.left_s) + " left";
   return text;
 }

@@ -9,9 +9,8 @@
 #include "editor/preview/export_plan.h"
 #include "editor/views/export_parts.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/text_input.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

@@ -16,8 +16,8 @@
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

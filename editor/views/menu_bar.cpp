@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/menu_bar.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -8,9 +9,9 @@
 #include <cstdio>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -100,14 +101,10 @@ void draw_help_menu(const ViewContext& context) {
 
 std::string export_text(const ExportState& state) {
   if (state.total == 0) return "Export begins";
-  std::array<char, 64> text{};
-  const int percent = 100 * state.done / std::max(1, state.total);
-  if (state.left_s)
-    std::snprintf(text.data(), text.size(), "Export %d %%, %d:%02d left", percent, static_cast<int>(*state.left_s) / 60,
-                  static_cast<int>(*state.left_s) % 60);
-  else
-    std::snprintf(text.data(), text.size(), "Export %d %%", percent);
-  return text.data();
+  const std::string done = fmt::format("Export {} %", 100 * state.done / std::max(1, state.total));
+  if (!state.left_s) return done;
+  const int left_s = static_cast<int>(*state.left_s);
+  return fmt::format("{}, {}:{:02} left", done, left_s / 60, left_s % 60);
 }
 
 // From right to left; each takes its room.

@@ -10,8 +10,8 @@
 #include "base/staged_outputs.h"
 #include "editor/document/dropped_file.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

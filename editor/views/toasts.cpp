@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/waypoint_actions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -123,6 +125,15 @@ void duplicate_selected(const ViewContext& context) {
   context.edits.select({Selected::waypoint, selection.intruder, copy});
 }
 
+void go_by_hand(const ViewContext& context, int frame) {
+  if (context.playing) context.edits.ask(Play{0});
+  if (frame != context.document.playhead()) context.edits.go_to_frame(frame);
+}
+
+void go_to_moment(const ViewContext& context, double frame) {
+  go_by_hand(context, static_cast<int>(std::lround(std::clamp(frame, 0.0, 1e9))));
+}
+
 void go_to_waypoint(const ViewContext& context, int direction) {
   const std::optional<int> intruder = current_intruder(context);
   if (!intruder) return;
@@ -135,25 +146,23 @@ void go_to_waypoint(const ViewContext& context, int direction) {
     if (direction < 0 && at < here) found = i;
   }
   if (found < 0) return;
-  const double frame = std::clamp(std::round(frames[static_cast<std::size_t>(found)]), 0.0, 1e9);
-  context.edits.ask(Play{0});
-  context.edits.go_to_frame(static_cast<int>(frame));
+  go_to_moment(context, frames[static_cast<std::size_t>(found)]);
   context.edits.select({Selected::waypoint, *intruder, found});
 }
 
 std::string gesture_of_waypoint(int intruder, int waypoint) {
-  return "move " + std::to_string(intruder) + " " + std::to_string(waypoint);
+  return fmt::format("move {} {}", intruder, waypoint);
 }
 
-void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m) {
+void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m,
+                   const std::string& gesture) {
   context.edits.change(
       "move waypoint",
       [=](Project& project) {
-        auto& waypoints = plan_of(project, intruder).waypoints;
-        if (static_cast<std::size_t>(waypoint) < waypoints.size())
-          waypoints[static_cast<std::size_t>(waypoint)].position_m = position_m;
+        auto& waypoints = project.intruders.at(static_cast<std::size_t>(intruder)).trajectory.waypoints;
+        waypoints.at(static_cast<std::size_t>(waypoint)).position_m = position_m;
       },
-      gesture_of_waypoint(intruder, waypoint));
+      gesture);
 }
 
 IntruderSettings new_intruder(const ViewContext& context) {

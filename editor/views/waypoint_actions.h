@@ -15,13 +15,15 @@ namespace sigs::editor {
 // The intruder that is worked on: the selected one, else the only or first one. None where the project has none.
 [[nodiscard]] std::optional<int> current_intruder(const ViewContext& context);
 
-// Where each of an intruder's waypoints stands in time.
+// The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
 
-// Where an intruder is in a frame, in the world, by the newest scene that is open; none where it cannot be told.
+// Where an intruder is in a frame (world, metres), by the newest scene that is open; nothing where no scene is open or
+// the intruder is not in it.
 [[nodiscard]] std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, double frame);
 
-// In the playhead's frame, on the trajectory, or where it is said; selects it.
+// Adds a waypoint in the playhead's frame, at position_m (world) or, without one, where the trajectory is in that
+// frame; selects it.
 void add_waypoint_here(const ViewContext& context, std::optional<glm::dvec3> position_m = std::nullopt);
 void add_waypoint(const ViewContext& context, int intruder, double frame, const glm::dvec3& position_m);
 void delete_selected(const ViewContext& context);     // a waypoint, or a whole intruder
@@ -29,12 +31,20 @@ void duplicate_selected(const ViewContext& context);  // the same
 void delete_intruder(const ViewContext& context, int intruder);
 void duplicate_intruder(const ViewContext& context, int intruder);
 
+// Playing stops and the playhead goes to a frame, or to the frame that is nearest to a moment (in frames, 0..1e9).
+void go_by_hand(const ViewContext& context, int frame);
+void go_to_moment(const ViewContext& context, double frame);
+
 // The playhead to the waypoint before (-1) or after (+1) it; selects that.
 void go_to_waypoint(const ViewContext& context, int direction);
 
-// Moves one, as part of a drag; ends with context.edits.end_gesture(). The gesture's name, for taking it back.
+// The gesture's name for moves of a waypoint that may join one undo step.
 [[nodiscard]] std::string gesture_of_waypoint(int intruder, int waypoint);
-void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m);
+
+// Moves one, as part of a drag with the gesture of that name; position_m in the world. The drag ends with
+// context.edits.end_gesture().
+void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m,
+                   const std::string& gesture);
 
 // An intruder of the same model as the last one (or none) 300 m ahead of the camera, crossing. Adding selects it.
 [[nodiscard]] IntruderSettings new_intruder(const ViewContext& context);

@@ -2,6 +2,7 @@
 #include "editor/widgets/dialog.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
@@ -63,6 +64,52 @@ bool dialog_button(const char* label, bool is_main, bool enabled) {
   if (is_main) ImGui::PopStyleColor(2);
   ImGui::EndDisabled();
   return clicked && enabled;
+}
+
+bool any_popup_open() {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
+}
+
+void close_popup_with_escape() {
+  const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+  if (open.empty() || !pressed(Key::escape) || ImGui::IsAnyItemActive()) return;
+  const ImGuiWindow* const uppermost = open.back().Window;
+  if (uppermost == nullptr || (uppermost->Flags & ImGuiWindowFlags_Modal) != 0) return;
+  ImGui::ClosePopupToLevel(open.Size - 1, true);
+}
+
+namespace {
+
+SplitterMove splitter(const char* id, ImVec2 size, bool upright) {
+  ImGui::InvisibleButton(id, size);
+  const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  if (hot) {
+    ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    const float inset = scaled(2);
+    const ImVec2 a = upright ? ImVec2(low.x + inset, low.y) : ImVec2(low.x, low.y + inset);
+    const ImVec2 b = upright ? ImVec2(high.x - inset, high.y) : ImVec2(high.x, high.y - inset);
+    ImGui::GetWindowDrawList()->AddRectFilled(a, b, color::kAccentSoft);
+  }
+  SplitterMove move;
+  if (ImGui::IsItemActive()) move.by_px = upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y;
+  move.reset = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  return move;
+}
+
+}  // namespace
+
+float splitter_thickness() {
+  return scaled(6);
+}
+
+SplitterMove vertical_splitter(const char* id, float length) {
+  return splitter(id, {splitter_thickness(), length}, true);
+}
+
+SplitterMove horizontal_splitter(const char* id, float length) {
+  return splitter(id, {length, splitter_thickness()}, false);
 }
 
 }  // namespace sigs::editor

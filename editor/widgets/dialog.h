@@ -19,4 +19,21 @@ void align_buttons_right(const char* const* labels, int count);
 [[nodiscard]] bool dialog_button(const char* label, bool is_main = false, bool enabled = true);
 [[nodiscard]] float dialog_button_width(const char* label);
 
+// Whether a menu, a list or a dialog is open: keys are meant for it.
+[[nodiscard]] bool any_popup_open();
+
+// Escape closes the uppermost menu or list, as people know it; ImGui does so for who walks through it with the keyboard
+// alone. Dialogs see to it on their own. Call it once per update, before drawing.
+void close_popup_with_escape();
+
+// A bar between two panels that is dragged with the mouse; a double click asks for the usual size. Drawn at the current
+// cursor place, `length` long.
+struct SplitterMove {
+  double by_px = 0;
+  bool reset = false;
+};
+[[nodiscard]] SplitterMove vertical_splitter(const char* id, float length);    // left | right
+[[nodiscard]] SplitterMove horizontal_splitter(const char* id, float length);  // upper / lower
+[[nodiscard]] float splitter_thickness();
+
 }  // namespace sigs::editor

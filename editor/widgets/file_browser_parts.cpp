@@ -4,10 +4,9 @@
 #include <algorithm>
 
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/file_browser.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/text_input.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

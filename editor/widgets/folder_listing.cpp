@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/folder_listing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <chrono>
 #include <condition_variable>
-#include <cstdio>
 #include <ctime>
 #include <mutex>
 #include <optional>
@@ -117,9 +118,7 @@ std::string size_text(std::uintmax_t bytes) {
   auto size = static_cast<double>(bytes);
   std::size_t unit = 0;
   for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1000;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), unit == 0 || size >= 99.5 ? "%.0f %s" : "%.1f %s", size, kUnits[unit]);
-  return text.data();
+  return fmt::format("{:.{}f} {}", size, unit == 0 || size >= 99.5 ? 0 : 1, kUnits[unit]);
 }
 
 std::string time_text(fs::file_time_type time) {

@@ -4,8 +4,10 @@
 #include <imgui.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "editor/widgets/keys.h"
 #include "editor/widgets/screen_vec.h"
@@ -21,10 +23,6 @@ constexpr std::array<GizmoPart, 3> kPlanes{GizmoPart::xy, GizmoPart::yz, GizmoPa
 constexpr std::array<ImU32, 3> kArrowColors{color::kAxisX, color::kAxisY, color::kAxisZ};
 constexpr std::array<ImU32, 3> kPlaneColors{color::kAxisZ, color::kAxisX, color::kAxisY};  // of the axis they leave out
 constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
-
-glm::dvec2 mouse_now() {
-  return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
-}
 
 std::optional<GizmoShape> shape_of(const glm::dvec3& at_m, const GizmoInput& input) {
   return gizmo_shape({.center_m = at_m, .arrow_px = scaled(kArrow_px)}, input.camera, input.rect);
@@ -61,7 +59,7 @@ GizmoResult GizmoHandle::update(const glm::dvec3& at_m, const GizmoInput& input)
   hovered_ = GizmoPart::none;
   const std::optional<GizmoShape> shape = shape_of(at_m, input);
   if (!shape || !input.mouse_is_free) return {};
-  hovered_ = part_at(*shape, mouse_now(), scaled(7));
+  hovered_ = part_at(*shape, dv(ImGui::GetMousePos()), scaled(7));
   if (hovered_ == GizmoPart::none) return {};
   ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
@@ -74,7 +72,7 @@ GizmoResult GizmoHandle::update(const glm::dvec3& at_m, const GizmoInput& input)
 }
 
 void GizmoHandle::take(GizmoPart part, const glm::dvec3& at_m) {
-  drag_ = {.part = part, .start_m = at_m, .start_mouse = mouse_now()};
+  drag_ = {.part = part, .start_m = at_m, .start_mouse = dv(ImGui::GetMousePos())};
   has_moved_ = false;
 }
 
@@ -85,9 +83,9 @@ GizmoResult GizmoHandle::continue_drag(const GizmoInput& input) {
   }
   GizmoResult answer;
   // A click that trembles moves nothing.
-  has_moved_ = has_moved_ || glm::distance(mouse_now(), drag_.start_mouse) >= 3;
+  has_moved_ = has_moved_ || glm::distance(dv(ImGui::GetMousePos()), drag_.start_mouse) >= 3;
   if (has_moved_ && ImGui::IsMousePosValid())
-    answer.moved_to = dragged(drag_, mouse_now(), input.camera, input.rect, input.snap_m);
+    answer.moved_to = dragged(drag_, dv(ImGui::GetMousePos()), input.camera, input.rect, input.snap_m);
   answer.released = !ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (answer.released) abandon_drag();
   return answer;
@@ -135,6 +133,84 @@ void GizmoHandle::probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const 
   for (std::size_t i = 0; i < 3; ++i)
     if (shape->tips[i]) note(kPlaces[i], glm::mix(shape->center, *shape->tips[i], 0.85));
   note("middle", shape->center);
+}
+
+namespace {
+
+constexpr const char* kId = "point entry";
+constexpr double kMaxCoordinate_m = 1e8;
+
+struct Row {
+  const char* id;
+  const char* name;
+  const char* meaning;
+  ImU32 color;
+};
+constexpr std::array<Row, 3> kRows{{{"##x", "X", "forward", color::kAxisX},
+                                    {"##y", "Y", "right", color::kAxisY},
+                                    {"##z", "Z", "down", color::kAxisZ}}};
+
+bool enter_pressed() {
+  return pressed(Key::enter) || pressed(Key::keypad_enter);
+}
+
+// What a person may type that is no place: an overflow, 1e400.
+bool is_a_place(const glm::dvec3& p_m) {
+  return std::isfinite(p_m.x) && std::isfinite(p_m.y) && std::isfinite(p_m.z);
+}
+
+}  // namespace
+
+void PointEntry::open(std::string title, const glm::dvec3& point_m) {
+  title_ = std::move(title);
+  point_m_ = point_m;
+  state_ = State::asked;
+}
+
+void PointEntry::draw_fields() {
+  ImGui::PushFont(font(Font::bold));
+  ImGui::TextUnformatted(title_.c_str());
+  ImGui::PopFont();
+  for (int i = 0; i < 3; ++i) {
+    const Row& row = kRows[static_cast<std::size_t>(i)];
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(row.color), "%s", row.name);
+    ImGui::SameLine(scaled(34));
+    ImGui::SetNextItemWidth(scaled(130));
+    if (i == 0 && appearing_) ImGui::SetKeyboardFocusHere();
+    ImGui::InputDouble(row.id, &point_m_[i], 0, 0, "%.3f", ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::SameLine();
+    ImGui::TextDisabled("m %s", row.meaning);
+  }
+}
+
+// Closing waits for the next update: the key that closes it must find it open still, or the rest of the program would
+// take that key as well.
+std::optional<glm::dvec3> PointEntry::draw() {
+  if (state_ == State::closed) return std::nullopt;
+  appearing_ = state_ == State::asked;
+  if (appearing_) {
+    ImGui::OpenPopup(kId);
+    state_ = State::open;
+  }
+  if (!ImGui::BeginPopup(kId)) {
+    state_ = State::closed;
+    return std::nullopt;
+  }
+  std::optional<glm::dvec3> taken;
+  if (state_ == State::leaving) {
+    state_ = State::closed;
+    ImGui::CloseCurrentPopup();
+  } else {
+    draw_fields();
+    const bool apply = ImGui::Button("Apply", {scaled(90), 0}) || enter_pressed();
+    ImGui::SameLine();
+    const bool leave = ImGui::Button("Cancel", {scaled(90), 0}) || pressed(Key::escape);
+    if (apply && is_a_place(point_m_)) taken = glm::clamp(point_m_, -kMaxCoordinate_m, kMaxCoordinate_m);
+    if (taken || leave) state_ = State::leaving;
+  }
+  ImGui::EndPopup();
+  return taken;
 }
 
 }  // namespace sigs::editor

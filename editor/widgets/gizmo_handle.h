@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "editor/geometry/gizmo.h"
@@ -20,7 +21,7 @@ struct GizmoInput {
   double snap_m = 0;           // > 0: coordinates are rounded while dragging
 };
 
-// What the mouse did to a handle in this update.
+// What the mouse did to the handle in this update.
 struct GizmoResult {
   std::optional<glm::dvec3> moved_to;  // while it is dragged, once it has left its place
   bool released = false;               // the drag is over
@@ -29,7 +30,8 @@ struct GizmoResult {
   bool wants_middle = false;           // a double click on the middle
 };
 
-// A handle on the screen: three arrows, three planes, the middle. Knows points and the mouse alone.
+// The handle of a point on the screen: three arrows, three planes, the middle. It turns the mouse into new positions of
+// the point and knows nothing of projects.
 class GizmoHandle {
  public:
   // Once per update with the point as it is; takes the mouse.
@@ -39,9 +41,9 @@ class GizmoHandle {
   [[nodiscard]] std::vector<ScreenRect> covered(const glm::dvec3& at_m, const GizmoInput& input) const;
   // Where its arrows' tips and its middle are: "gizmo/x", ..., "gizmo/middle".
   void probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const GizmoInput& input) const;
-  // The mouse, pressed in this update, has hold of a part.
+  // Begins a drag of a part with the mouse, which was pressed in this update, elsewhere than on the handle.
   void take(GizmoPart part, const glm::dvec3& at_m);
-  // The drag, if there is one, is over without an answer: what was dragged has gone.
+  // Ends the drag, if there is one, without a result: the point that was dragged is gone.
   void abandon_drag() {
     drag_ = {};
     hovered_ = GizmoPart::none;
@@ -58,6 +60,25 @@ class GizmoHandle {
   GizmoDrag drag_;
   GizmoPart hovered_ = GizmoPart::none;
   bool has_moved_ = false;
+};
+
+// A small window in which a point is typed: x, y, z in metres. Enter takes it, Esc or a click beside leaves it.
+class PointEntry {
+ public:
+  void open(std::string title, const glm::dvec3& point_m);
+  // Once per update, within the same ImGui window each time; the point, in the update in which it is taken.
+  [[nodiscard]] std::optional<glm::dvec3> draw();
+  [[nodiscard]] bool is_open() const { return state_ != State::closed; }
+
+ private:
+  enum class State { closed, asked, open, leaving };
+
+  void draw_fields();
+
+  State state_ = State::closed;
+  bool appearing_ = false;
+  std::string title_;
+  glm::dvec3 point_m_{0, 0, 0};
 };
 
 }  // namespace sigs::editor

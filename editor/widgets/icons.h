@@ -5,7 +5,7 @@
 
 namespace sigs::editor {
 
-// Small images drawn from lines, for buttons and rows: no icon font, sharp at every size.
+// All icons of the editor. They are drawn from lines, so that no icon font is needed and every size is sharp.
 enum class Icon {
   play,
   pause,
@@ -31,9 +31,30 @@ enum class Icon {
   mark_in,   // [
   mark_out,  // ]
   chevron_left,
+  box,
+  path,
+  waypoints,
+  horizon,
+  own_body,
+  grid,
+  wipe,
+  target,
+  brush,
+  eraser,
+  undo,
+  redo,
+  orbit,
+  view_from_top,
+  view_from_side,
+  camera,
+  fit_contents,  // four corners about a dot
+  perspective,
+  snap,
+  more,  // three dots
 };
 
-// Within a square of side `size` about a centre.
+// Draws an icon within a square of side `size` (screen pixels) about a centre, which is moved to the middle of its
+// pixel.
 void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color);
 
 // A square button as high as a line of controls; true when clicked. `tooltip` may be "". `on`: drawn as switched on.

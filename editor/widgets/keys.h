@@ -52,7 +52,7 @@ enum class Key {
   f11,
 };
 
-// Went down in this update; or, where it repeats, is held and due again.
+// Whether the key went down in this update or, with repeats, is held and due again by the keyboard's repeat rate.
 [[nodiscard]] bool pressed(Key key, bool repeats = false);
 [[nodiscard]] bool held(Key key);
 

@@ -1,26 +1,75 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <imgui.h>
+
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "editor/widgets/tool_button.h"
+#include "editor/widgets/icons.h"
 
 namespace sigs::editor {
 
-// A place in a row of buttons: a button with what it does, a gap, or something else of a width.
-struct ToolbarItem {
-  ToolButton button;
-  std::function<void()> clicked;
-  bool is_gap = false;
-  float width = 0;                // of something else
-  std::function<void()> content;  // draws that
-  std::function<void()> drawn;    // after the item was drawn, as ImGui's last one
+// A button of a toolbar, with an icon, a short label or both.
+struct ToolButton {
+  const char* id = "";
+  std::optional<Icon> icon;
+  const char* label = "";
+  const char* tooltip = "";  // what it does, and its key
+  bool on = false;           // highlighted
+  bool enabled = true;
 };
 
-// One row on the panel's colour, as wide as the window: labels where all of them have room, else icons alone where
-// there are icons; what has no room then is behind a button at the end.
+// As high as a line of text in its frame; true when it is clicked.
+bool tool_button(const ToolButton& button);
+[[nodiscard]] float tool_button_width(const ToolButton& button);
+
+// A thin upright line between groups of buttons.
+void toolbar_gap();
+[[nodiscard]] float toolbar_gap_width();
+
+// One item of a toolbar: a button, a gap (a thin line between groups of buttons), or any other content of a given
+// width.
+struct ToolbarItem {
+  ToolButton button;
+  std::function<void()> clicked;  // called after a click; may be empty
+  bool is_gap = false;
+  float width = 0;                // of the other content, in screen pixels
+  std::function<void()> content;  // draws the other content at the cursor
+  std::function<void()> drawn;    // called after the item was drawn, while it is ImGui's last item
+};
+
+// On while a setting is on; a click switches it.
+[[nodiscard]] inline ToolbarItem toggle_item(ToolButton button, bool& setting) {
+  button.on = setting;
+  return {.button = button, .clicked = [&setting] { setting = !setting; }};
+}
+
+// One of several choices: on while `value` is `choice`; a click sets it and then calls `then`.
+template <class Value>
+[[nodiscard]] ToolbarItem choice_item(ToolButton button, Value& value, Value choice, std::function<void()> then = {}) {
+  button.on = value == choice;
+  return {.button = button, .clicked = [&value, choice, then = std::move(then)] {
+            value = choice;
+            if (then) then();
+          }};
+}
+
+// The buttons "Fit" and "1:1" of an image that is zoomed and panned, on while it is fitted or shown pixel by pixel.
+struct ZoomChoice {
+  bool is_fitted = false;
+  double zoom = 1;  // screen pixels an image pixel
+  std::function<void()> fit;
+  std::function<void()> to_exact;
+};
+void add_zoom_items(std::vector<ToolbarItem>& items, const ZoomChoice& zoom);
+
+// Draws a row of items on the panel's colour at the cursor, as wide as the window. Where the items are too wide
+// together, buttons with an icon lose their label; items that still do not fit are in a popup behind a button at the
+// end.
 void draw_toolbar(const std::vector<ToolbarItem>& items);
 [[nodiscard]] float toolbar_height();
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/zoomable_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
+#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -106,6 +111,177 @@ void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, cons
   draw.AddImage(textures.of(image, filter, divisor_at(view.zoom)), im(view.screen_of(low - 0.5)),
                 im(view.screen_of(high - 0.5)), im(low / size), im(high / size));
   draw.PopClipRect();
+}
+
+namespace {
+
+constexpr std::size_t kMaxLabel = 120;  // bytes
+constexpr double kGridFromZoom = 8;
+constexpr double kMinValueText_px = 9;
+constexpr int kMaxValues = 320;        // pixels; each takes nine characters
+constexpr int kValuesAroundMouse = 5;  // pixels to every side
+
+ImU32 readable_on(const cv::Vec3b& bgr) {
+  const int luma = (bgr[0] * 11 + bgr[1] * 59 + bgr[2] * 30) / 100;
+  return luma > 128 ? IM_COL32(0, 0, 0, 230) : IM_COL32(255, 255, 255, 230);
+}
+
+cv::Vec3b bgr_at(const cv::Mat& image, int x, int y) {
+  if (image.channels() == 3) return image.at<cv::Vec3b>(y, x);
+  const uchar grey = image.at<uchar>(y, x);
+  return {grey, grey, grey};
+}
+
+// One side of an outline, upright or level.
+void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, bool dashed) {
+  const bool level = high.x - low.x >= high.y - low.y;
+  const double length = level ? high.x - low.x : high.y - low.y;
+  const double dash = scaled(5);
+  for (double at = 0; at < length; at += dashed ? 2 * dash : length) {
+    const double end = dashed ? std::min(at + dash, length) : length;
+    const glm::dvec2 from = level ? glm::dvec2(low.x + at, low.y) : glm::dvec2(low.x, low.y + at);
+    const glm::dvec2 to = level ? glm::dvec2(low.x + end, high.y) : glm::dvec2(high.x, low.y + end);
+    draw.AddRectFilled(im(from), im(to), color);
+  }
+}
+
+void draw_value(const ImageCanvas& canvas, const cv::Mat& image, int x, int y, float text_px) {
+  const cv::Vec3b bgr = bgr_at(image, x, y);
+  const int lines = image.channels() == 3 ? 3 : 1;
+  const glm::dvec2 middle = canvas.view.screen_of({x, y});
+  char text[8];
+  for (int line = 0; line < lines; ++line) {
+    const int length = std::snprintf(text, sizeof text, "%d", bgr[2 - line]);
+    const double width = text_px * 0.6 * length;  // DejaVu Sans Mono's advance
+    const glm::dvec2 at(middle.x - width / 2, middle.y + (line - lines / 2.0) * text_px);
+    canvas.draw.AddText(font(Font::mono), text_px, im(glm::floor(at)), readable_on(bgr), text);
+  }
+}
+
+glm::dvec2 plate_margin() {
+  return {scaled(5), scaled(2)};
+}
+
+ScreenRect plate_at(const ImageCanvas& canvas, const glm::dvec2& at, const std::string& text) {
+  const glm::dvec2 plate = label_size(text);
+  const glm::dvec2 maximum = glm::max(canvas.rect.low, canvas.rect.high - plate);
+  const glm::dvec2 low = glm::floor(glm::clamp(glm::dvec2(at.x, at.y - plate.y), canvas.rect.low, maximum));
+  return {low, low + plate};
+}
+
+void draw_plate(const ImageCanvas& canvas, const ScreenRect& plate, const std::string& text, ImU32 color) {
+  ImFont* const small = font(Font::small);
+  canvas.draw.AddRectFilled(im(plate.low), im(plate.high), IM_COL32(12, 13, 16, 190), scaled(3));
+  canvas.draw.AddText(small, small->FontSize, im(plate.low + plate_margin()), color,
+                      shortened(text, kMaxLabel).c_str());
+}
+
+}  // namespace
+
+ScreenRect ImageCanvas::image_on_screen() const {
+  return {view.screen_of({-0.5, -0.5}), view.screen_of({image_px.width - 0.5, image_px.height - 0.5})};
+}
+
+std::optional<cv::Point> ImageCanvas::pixel_at(const glm::dvec2& screen) const {
+  const glm::dvec2 p = glm::floor(view.image_of(screen) + 0.5);
+  if (!(p.x >= 0 && p.y >= 0 && p.x < image_px.width && p.y < image_px.height)) return std::nullopt;
+  return cv::Point(static_cast<int>(p.x), static_cast<int>(p.y));
+}
+
+glm::dvec2 label_size(const std::string& text) {
+  ImFont* const small = font(Font::small);
+  return dv(small->CalcTextSizeA(small->FontSize, 1e6F, 0, shortened(text, kMaxLabel).c_str())) + 2.0 * plate_margin();
+}
+
+void draw_label(const ImageCanvas& canvas, const glm::dvec2& at, const std::string& text, ImU32 color) {
+  draw_plate(canvas, plate_at(canvas, at, text), text, color);
+}
+
+void draw_label(const ImageCanvas& canvas, LabelPlacer& labels, std::span<const glm::dvec2> places,
+                const std::string& text, ImU32 color, bool in_any_case) {
+  std::vector<ScreenRect> plates;
+  for (const glm::dvec2& at : places) plates.push_back(plate_at(canvas, at, text));
+  if (const auto plate = labels.place(plates, in_any_case)) draw_plate(canvas, *plate, text, color);
+}
+
+void draw_outline(const ImageCanvas& canvas, const ScreenRect& outlined, ImU32 color, bool dashed) {
+  const double thick = std::max(1.0F, std::round(scaled(1)));
+  const glm::dvec2 minimum = canvas.rect.low - 2 * thick;
+  const glm::dvec2 maximum = canvas.rect.high + 2 * thick;
+  const glm::dvec2 low = glm::clamp(glm::floor(outlined.low) - thick, minimum, maximum);
+  const glm::dvec2 high = glm::clamp(glm::ceil(outlined.high) + thick, minimum, maximum);
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  draw_side(canvas.draw, low, {high.x, low.y + thick}, color, dashed);
+  draw_side(canvas.draw, {low.x, high.y - thick}, high, color, dashed);
+  draw_side(canvas.draw, low, {low.x + thick, high.y}, color, dashed);
+  draw_side(canvas.draw, {high.x - thick, low.y}, high, color, dashed);
+  canvas.draw.PopClipRect();
+}
+
+void draw_pixel_grid(const ImageCanvas& canvas) {
+  if (canvas.view.zoom < kGridFromZoom) return;
+  const cv::Rect sight = pixels_in_sight(canvas.view, canvas.image_px, canvas.rect);
+  const glm::dvec2 low = canvas.view.screen_of(glm::dvec2(sight.x, sight.y) - 0.5);
+  const glm::dvec2 high = canvas.view.screen_of(glm::dvec2(sight.x + sight.width, sight.y + sight.height) - 0.5);
+  const ImU32 color = IM_COL32(128, 128, 128, canvas.view.zoom < 16 ? 26 : 60);
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (int i = 0; i <= sight.width; ++i) {
+    const double x = std::round(low.x + i * canvas.view.zoom);
+    canvas.draw.AddRectFilled(im({x, low.y}), im({x + 1, high.y}), color);
+  }
+  for (int j = 0; j <= sight.height; ++j) {
+    const double y = std::round(low.y + j * canvas.view.zoom);
+    canvas.draw.AddRectFilled(im({low.x, y}), im({high.x, y + 1}), color);
+  }
+  canvas.draw.PopClipRect();
+}
+
+void draw_pixel_values(const ImageCanvas& canvas, const cv::Mat& image, const glm::dvec2& mouse) {
+  const double text_px = std::min(canvas.view.zoom / 3.4, static_cast<double>(font(Font::mono)->FontSize));
+  if (image.empty() || text_px < kMinValueText_px) return;
+  cv::Rect shown = pixels_in_sight(canvas.view, image.size(), canvas.rect);
+  if (shown.area() > kMaxValues) {
+    const std::optional<cv::Point> pixel = canvas.pixel_at(mouse);
+    if (!pixel || !canvas.rect.contains(mouse)) return;
+    const int side = 2 * kValuesAroundMouse + 1;
+    shown &= cv::Rect(pixel->x - kValuesAroundMouse, pixel->y - kValuesAroundMouse, side, side);
+  }
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (int y = shown.y; y < shown.y + shown.height; ++y)
+    for (int x = shown.x; x < shown.x + shown.width; ++x) draw_value(canvas, image, x, y, static_cast<float>(text_px));
+  canvas.draw.PopClipRect();
+}
+
+void draw_pixel_mark(const ImageCanvas& canvas, const cv::Point& pixel) {
+  const glm::dvec2 low = canvas.view.screen_of(glm::dvec2(pixel.x, pixel.y) - 0.5);
+  const ScreenRect square{low, low + canvas.view.zoom};
+  if (canvas.view.zoom >= 4) {
+    draw_outline(canvas, square, color::kAccent, false);
+    return;
+  }
+  const glm::dvec2 middle = glm::floor((square.low + square.high) / 2.0);
+  const double gap = scaled(4);
+  const double arm = scaled(7);
+  // Dark below light: to be seen before sky and ground.
+  const auto draw_arms = [&](double thick, ImU32 color) {
+    for (const double side : {-1.0, 1.0}) {
+      const double from = std::min(side * gap, side * (gap + arm));
+      const double to = from + arm;
+      canvas.draw.AddRectFilled(im(middle + glm::dvec2(from, -thick)), im(middle + glm::dvec2(to, 1 + thick)), color);
+      canvas.draw.AddRectFilled(im(middle + glm::dvec2(-thick, from)), im(middle + glm::dvec2(1 + thick, to)), color);
+    }
+  };
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  draw_arms(1, IM_COL32(0, 0, 0, 150));
+  draw_arms(0, color::kAccent);
+  canvas.draw.PopClipRect();
+}
+
+std::string pixel_text(const cv::Mat& image, const cv::Point& pixel) {
+  if (!cv::Rect({0, 0}, image.size()).contains(pixel)) return {};
+  const cv::Vec3b bgr = bgr_at(image, pixel.x, pixel.y);
+  if (image.channels() == 1) return fmt::format("{:3}", bgr[0]);
+  return fmt::format("{:3} {:3} {:3}", bgr[2], bgr[1], bgr[0]);
 }
 
 }  // namespace sigs::editor

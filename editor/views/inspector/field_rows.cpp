@@ -14,6 +14,7 @@
 #include "editor/document/project_paths.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

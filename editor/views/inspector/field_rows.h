@@ -62,7 +62,7 @@ class FieldRows {
   std::string place_;
 };
 
-// Quiet text that breaks its lines, for what is told beside fields.
+// Pale wrapped text beside fields.
 void note(const std::string& text, bool is_warning = false);
 
 // Buttons with texts, side by side as long as there is room.

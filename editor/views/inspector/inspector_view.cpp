@@ -10,7 +10,7 @@
 #include "editor/views/inspector/inputs.h"
 #include "editor/views/results/results_panel.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/text_input.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

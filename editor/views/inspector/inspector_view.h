@@ -8,9 +8,8 @@
 
 #include "editor/document/field_edits.h"
 #include "editor/views/context.h"
-#include "editor/views/inspector/light.h"
-#include "editor/views/inspector/model.h"
 #include "editor/views/inspector/problems.h"
+#include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/inspector/trajectory.h"
 
 namespace sigs::editor {

@@ -13,6 +13,7 @@
 #include "editor/views/inspector/flight_summary.h"
 #include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "scene/opened_project.h"
 
@@ -63,11 +64,11 @@ Problem in_field(const std::string& field, const Warning& warning) {
 }
 
 // Of footage and models.
-std::vector<Problem> doubts_of_files(const OpenedScene& opened) {
-  std::vector<Problem> doubts;
+std::vector<Problem> warnings_of_files(const OpenedScene& opened) {
+  std::vector<Problem> found;
   if (opened.footage && opened.footage->video)
     for (const Warning& warning : warnings_of(*opened.footage->video))
-      doubts.push_back(in_field("footage.video", warning));
+      found.push_back(in_field("footage.video", warning));
   std::set<const Model*> reported;
   const std::vector<int>& numbers = opened.draft.intruder_of_project;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -75,9 +76,9 @@ std::vector<Problem> doubts_of_files(const OpenedScene& opened) {
     const Model* const model = opened.draft.scene.intruders[static_cast<std::size_t>(numbers[i])].model;
     if (model == nullptr || !reported.insert(model).second) continue;
     for (const Warning& warning : model->mesh.warnings)
-      doubts.push_back(in_field("intruders[" + std::to_string(i) + "].model.file", warning));
+      found.push_back(in_field("intruders[" + std::to_string(i) + "].model.file", warning));
   }
-  return doubts;
+  return found;
 }
 
 // Of all frames, once all have been looked at.
@@ -114,15 +115,15 @@ std::string place_of(const Project& project, std::string_view key) {
   return place + ", " + label_of(key);
 }
 
-void ProblemList::find_doubts() {
-  doubts_.clear();
+void ProblemList::find_warnings() {
+  warnings_.clear();
   if (!scene_) {
     never_visible_.clear();
     return;
   }
-  const auto add = [&](const Problem& doubt) { doubts_.emplace(doubt.field, doubt); };
-  for (const Problem& doubt : doubts_of_files(*scene_)) add(doubt);
-  for (const Problem& doubt : scene_->draft.scene.issues) add(doubt);
+  const auto add = [&](const Problem& warning) { warnings_.emplace(warning.field, warning); };
+  for (const Problem& warning : warnings_of_files(*scene_)) add(warning);
+  for (const Problem& warning : scene_->draft.scene.issues) add(warning);
   const std::vector<IntruderSettings>& intruders = scene_->project->intruders;
   never_visible_.resize(intruders.size());
   for (std::size_t i = 0; i < intruders.size(); ++i) {
@@ -138,7 +139,7 @@ void ProblemList::refresh(const ViewContext& context) {
   const bool has_same_surveys = context.shown.surveys == surveys_;
   scene_ = context.shown.scene;
   surveys_ = context.shown.surveys;
-  if (!is_same_scene || !has_same_surveys) find_doubts();
+  if (!is_same_scene || !has_same_surveys) find_warnings();
   if (is_same_scene) return;
   by_field_.clear();
   counts_.clear();
@@ -156,8 +157,8 @@ int ProblemList::count_in(const std::string& block) const {
 
 std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
   const std::optional<std::string> problem = draw_list(context, by_field_, "problem", color::kBad);
-  const std::optional<std::string> doubt = draw_list(context, doubts_, "warning", color::kPartly);
-  return problem ? problem : doubt;
+  const std::optional<std::string> warning = draw_list(context, warnings_, "warning", color::kPartly);
+  return problem ? problem : warning;
 }
 
 }  // namespace sigs::editor

@@ -28,13 +28,13 @@ class ProblemList {
   [[nodiscard]] std::optional<std::string> draw(const ViewContext& context) const;
 
  private:
-  void find_doubts();
+  void find_warnings();
 
   std::shared_ptr<const OpenedScene> scene_;            // what they are of
   std::vector<std::shared_ptr<const Survey>> surveys_;  // likewise
   ProblemsByField by_field_;
   std::map<std::string, int> counts_;  // by block
-  ProblemsByField doubts_;
+  ProblemsByField warnings_;
   // By intruder: that it is never visible, as of the last survey that was whole. While a drag lasts none is.
   std::vector<std::optional<Problem>> never_visible_;
 };

@@ -4,9 +4,13 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
+#include "editor/document/field_texts.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -56,6 +60,98 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   ImGui::Spacing();
   note("Flight");
   flight_.draw(context, rows, *intruder);
+}
+
+namespace {
+
+constexpr std::size_t kMaxFlags = 12;
+
+std::string tenths(double value, double step = 0.1) {
+  return number_text(std::round(value / step) * step);
+}
+
+void note_row(FieldRows& rows, const char* label, const std::string& text, const char* tooltip) {
+  (void)rows.begin_row(label);
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  tooltip_for_item(tooltip);
+}
+
+std::string frames_text(const FlightFlag& flag) {
+  const long first = std::lround(flag.first_frame);
+  const long last = std::lround(flag.last_frame);
+  return first == last ? "frame " + std::to_string(first)
+                       : "frames " + std::to_string(first) + " to " + std::to_string(last);
+}
+
+// Wrapped text that is clicked to go to a frame.
+void frame_link(const ViewContext& context, const std::string& text, double frame, ImU32 shade) {
+  ImGui::PushStyleColor(ImGuiCol_Text, shade);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, faded(shade, 0.5));
+  tooltip_for_item("Go to this frame");
+  if (ImGui::IsItemClicked()) context.edits.go_to_frame(static_cast<int>(std::lround(frame)));
+}
+
+}  // namespace
+
+Visibility visibility_of(const Survey& survey, int frames) {
+  Visibility visibility{.frames = frames};
+  for (const VisibilityEstimate& estimate : survey.estimates) add(visibility, estimate);
+  return visibility;
+}
+
+void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
+  if (survey == measured_) return;
+  measured_ = survey;
+  if (survey->flight.empty()) return;
+  visibility_ = text_of(visibility_of(*survey, static_cast<int>(survey->estimates.size())));
+  const auto span = [&](auto value) {
+    const auto [minimum, maximum] =
+        std::minmax_element(survey->flight.begin(), survey->flight.end(),
+                            [&](const auto& a, const auto& b) { return value(a) < value(b); });
+    return Span{value(*minimum), value(*maximum)};
+  };
+  speed_mps_ = span([](const FlightState& state) { return state.speed_mps; });
+  load_ = span([](const FlightState& state) { return state.load_factor; });
+  climb_mps_ = span([](const FlightState& state) { return state.climb_rate_mps; });
+}
+
+void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intruder) {
+  const auto index = static_cast<std::size_t>(intruder);
+  const std::vector<std::shared_ptr<const Survey>>& surveys = context.shown.surveys;
+  if (index >= surveys.size() || !surveys[index] || surveys[index]->flight.empty()) {
+    note("The flight has not been looked at yet.");
+    return;
+  }
+  const Survey& survey = *surveys[index];
+  measure(surveys[index]);
+  note_row(rows, "Speed", tenths(speed_mps_.minimum) + " to " + tenths(speed_mps_.maximum) + " m/s",
+           "Least and maximum");
+  note_row(rows, "Load factor", tenths(load_.minimum, 0.01) + " to " + tenths(load_.maximum, 0.01) + " g",
+           "Lift by weight; 1 in level flight");
+  note_row(rows, "Climb", tenths(climb_mps_.minimum) + " to " + tenths(climb_mps_.maximum) + " m/s", "Up is positive");
+  note_row(rows, "Seen", visibility_, "Estimated without drawing; size: the longer side of its silhouette");
+  (void)rows.begin_row("Closest");
+  frame_link(context, tenths(survey.closest.distance_m) + " m, frame " + tenths(survey.closest.frame),
+             survey.closest.frame, color::kAccent);
+  for (std::size_t i = 0; i < std::min(survey.flags.size(), kMaxFlags); ++i) {
+    const FlightFlag& flag = survey.flags[i];
+    std::string text = flag.text() + " (" + frames_text(flag) + ")";
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    frame_link(context, text, flag.first_frame, color::kPartly);
+  }
+  if (survey.flags.size() > kMaxFlags) note(std::to_string(survey.flags.size() - kMaxFlags) + " more", true);
 }
 
 }  // namespace sigs::editor

@@ -26,7 +26,7 @@ class WaypointTable {
   void insert_after(const ViewContext& context, int intruder, int waypoint) const;
   void scroll_to_selected(const ViewContext& context, int intruder, float row_height);
 
-  std::unique_ptr<Project> example_;  // whose one waypoint's fields tell units and ranges
+  std::unique_ptr<Project> example_;  // its one waypoint gives units and ranges of the columns
   std::vector<Field> example_fields_;
   const Field* frame_field_ = nullptr;
   const Field* position_field_ = nullptr;

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/own_body/own_body_images.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
-#include "editor/views/readable.h"
+#include "editor/widgets/screen_vec.h"
+#include "editor/widgets/texts.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -17,7 +24,7 @@ const cv::Vec3d kWorld(170, 110, 40);
 const cv::Vec3d kUnknown(70, 70, 70);
 const cv::Vec3d kBody(230, 110, 225);
 
-cv::Vec3b color_of(double confidence) {
+cv::Vec3b color_of_confidence(double confidence) {
   const double side = 2 * confidence - 1;
   return cv::Vec3b(kUnknown + std::abs(side) * ((side < 0 ? kWorld : kBody) - kUnknown));
 }
@@ -32,7 +39,7 @@ cv::Mat confidence_image(const cv::Mat& confidence) {
   ENSURE(confidence.empty() || confidence.type() == CV_16UC1);
   static const std::vector<cv::Vec3b> kColors = [] {
     std::vector<cv::Vec3b> colors(256);
-    for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color_of(static_cast<double>(i) / 255);
+    for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color_of_confidence(static_cast<double>(i) / 255);
     return colors;
   }();
   cv::Mat image(confidence.size(), CV_8UC3);
@@ -54,9 +61,7 @@ std::vector<StageTile> stage_tiles(const OwnBody& found) {
 }
 
 std::string share_text(double share) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), share < 0.1 ? "%.2g" : "%.3g", share * 100);
-  return std::string(text.data()) + " % of the image";
+  return fmt::format("{:.{}g} % of the image", share * 100, share < 0.1 ? 2 : 3);
 }
 
 std::string result_text(const OwnBody& found) {
@@ -64,18 +69,17 @@ std::string result_text(const OwnBody& found) {
   return (found.share > 0 ? "Found in " : "No own body in ") + frames;
 }
 
-std::vector<std::string> doubts_about(const OwnBody& found, double seconds) {
-  std::vector<std::string> doubts;
-  for (const Warning& warning : found.warnings) doubts.push_back(warning.text());
+std::vector<std::string> cautions_about(const OwnBody& found, double seconds) {
+  std::vector<std::string> cautions;
+  for (const Warning& warning : found.warnings) cautions.push_back(warning.text());
   if (found.share > kLargeShare)
-    doubts.push_back(share_text(found.share) + ", more than half, is masked: is that the aircraft, or the world?");
-  if (seconds < kEnoughFootage_s) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "Only %.2g s of footage", seconds);
-    doubts.push_back(std::string(text.data()) +
-                     " were looked through: what hardly moved meanwhile may be taken for own body. Look closely.");
-  }
-  return doubts;
+    cautions.push_back(share_text(found.share) + ", more than half, is masked: is that the aircraft, or the world?");
+  if (seconds < kEnoughFootage_s)
+    cautions.push_back(
+        fmt::format("Only {:.2g} s of footage were looked through: what hardly moved meanwhile may be taken "
+                    "for own body. Look closely.",
+                    seconds));
+  return cautions;
 }
 
 std::string progress_text(const DetectionState& state) {
@@ -84,6 +88,78 @@ std::string progress_text(const DetectionState& state) {
   std::string text = std::to_string(state.done) + " of " + frames_text(state.total);
   if (state.left_s) text += ", " + clock_text(*state.left_s) + " left";
   return text;
+}
+
+namespace {
+
+constexpr int kTile_px = 512;
+constexpr double kTint = 0.5;  // how much of the footage the mask covers where it is white
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size()) return false;
+  for (int y = 0; y < a.rows; ++y)
+    if (!std::equal(a.ptr<uchar>(y), a.ptr<uchar>(y) + a.cols, b.ptr<uchar>(y))) return false;
+  return true;
+}
+
+cv::Mat reduced(const cv::Mat& mask, int divisor) {
+  if (divisor < 2) return mask.clone();
+  cv::Mat small;
+  const cv::Size size(std::max(1, mask.cols / divisor), std::max(1, mask.rows / divisor));
+  cv::resize(mask, small, size, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+// The part in sight alone, as draw_image has it.
+void draw_tile(const ImageCanvas& canvas, Textures& textures, const cv::Rect& place, const cv::Mat& shown) {
+  const cv::Rect part = pixels_in_sight(canvas.view, canvas.image_px, canvas.rect) & place;
+  if (part.empty()) return;
+  const glm::dvec2 low(part.x, part.y);
+  const glm::dvec2 high(part.x + part.width, part.y + part.height);
+  const glm::dvec2 corner(place.x, place.y);
+  const glm::dvec2 size(place.width, place.height);
+  canvas.draw.AddImage(textures.of(shown, canvas.view.zoom >= 1 ? Filter::nearest : Filter::smooth),
+                       im(canvas.view.screen_of(low - 0.5)), im(canvas.view.screen_of(high - 0.5)),
+                       im((low - corner) / size), im((high - corner) / size));
+}
+
+}  // namespace
+
+cv::Mat tinted(const cv::Mat& mask) {
+  const ImVec4 tone = ImGui::ColorConvertU32ToFloat4(color::kOwnBody);
+  const auto part = [](float value) { return cv::saturate_cast<uchar>(255.0F * value); };
+  cv::Mat tint(mask.size(), CV_8UC4);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      tint.at<cv::Vec4b>(y, x) = {part(tone.x), part(tone.y), part(tone.z),
+                                  cv::saturate_cast<uchar>(kTint * mask.at<uchar>(y, x))};
+  return tint;
+}
+
+void MaskTiles::refresh(Tile& tile, const cv::Mat& mask, int divisor, MaskStyle look) {
+  if (tile.divisor == divisor && tile.look == look && is_same(tile.mask, mask)) return;
+  tile.mask = mask.clone();
+  tile.divisor = divisor;
+  tile.look = look;
+  const cv::Mat small = reduced(mask, divisor);
+  tile.shown = look == MaskStyle::alone ? small : tinted(small);
+}
+
+void MaskTiles::draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& mask, MaskStyle look) {
+  if (mask.size() != size_px_) tiles_.clear();
+  size_px_ = mask.size();
+  const int divisor = std::max(1, static_cast<int>(std::floor(1 / canvas.view.zoom + 1e-9)));
+  const cv::Rect in_sight = pixels_in_sight(canvas.view, mask.size(), canvas.rect);
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (int y = 0; y < mask.rows; y += kTile_px)
+    for (int x = 0; x < mask.cols; x += kTile_px) {
+      const cv::Rect place = cv::Rect(x, y, kTile_px, kTile_px) & cv::Rect({0, 0}, mask.size());
+      if ((place & in_sight).empty()) continue;
+      Tile& tile = tiles_[{y, x}];
+      refresh(tile, mask(place), divisor, look);
+      draw_tile(canvas, textures, place, tile.shown);
+    }
+  canvas.draw.PopClipRect();
 }
 
 }  // namespace sigs::editor

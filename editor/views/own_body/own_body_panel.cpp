@@ -19,7 +19,7 @@ namespace sigs::editor {
 
 namespace {
 
-void heading(const char* text) {
+void panel_heading(const char* text) {
   ImGui::Dummy({0, scaled(4)});
   ImGui::PushFont(font(Font::bold));
   ImGui::TextUnformatted(text);
@@ -123,12 +123,13 @@ void OwnBodyPanel::draw_found(const ViewContext& context, const DetectionState& 
     note("Before: " + result_text(found));
     return;
   }
-  const std::vector<std::string> doubts = doubts_about(found, seconds_of(context, found.frames_passed));
-  const bool is_doubted = !doubts.empty();
-  note_line(is_doubted ? Icon::warning : Icon::check, is_doubted ? color::kPartly : color::kGood, result_text(found));
+  const std::vector<std::string> cautions = cautions_about(found, seconds_of(context, found.frames_passed));
+  const bool has_cautions = !cautions.empty();
+  note_line(has_cautions ? Icon::warning : Icon::check, has_cautions ? color::kPartly : color::kGood,
+            result_text(found));
   context.ui_probe.note_item("own body/found");
-  for (const std::string& doubt : doubts) note(doubt, true);
-  if (is_doubted) context.ui_probe.note_item("own body/doubt");
+  for (const std::string& caution : cautions) note(caution, true);
+  if (has_cautions) context.ui_probe.note_item("own body/doubt");
 }
 
 bool OwnBodyPanel::draw_start_from(const ViewContext& context, OwnBodySession& session) const {
@@ -215,17 +216,17 @@ void OwnBodyPanel::draw_file(const ViewContext& context, OwnBodySession& session
 
 bool OwnBodyPanel::draw(const ViewContext& context, OwnBodySession& session) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
-  heading("Detect");
+  panel_heading("Detect");
   draw_settings(context);
   ImGui::Spacing();
   draw_detection(context, session);
-  heading("Start from");
+  panel_heading("Start from");
   bool is_started = false;
   if (session.fits())
     is_started = draw_start_from(context, session);
   else
     draw_misfit(context, session);
-  heading("Mask");
+  panel_heading("Mask");
   draw_file(context, session);
   ImGui::PopStyleVar();
   return is_started;

@@ -8,10 +8,9 @@
 #include <cmath>
 
 #include "editor/views/viewport/footage_camera.h"
-#include "editor/views/viewport/image_icons.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -21,7 +20,7 @@ namespace {
 constexpr std::array kMethods{MethodChoice::direct, MethodChoice::classic, MethodChoice::plain};
 constexpr float kMaxGain = 64;
 
-std::string name_of(MethodChoice method) {
+std::string method_name(MethodChoice method) {
   switch (method) {
     case MethodChoice::direct:
       return "direct";
@@ -129,10 +128,10 @@ std::vector<StageTile> StagesView::input_tiles(const PreviewImage& image) {
 
 std::vector<StageTile> StagesView::method_tiles(const ViewContext& context) {
   std::vector<StageTile> tiles;
-  if (staged_) tiles.push_back({"A: " + name_of(own_method(context)), "By the project's own method", staged_->bgr});
+  if (staged_) tiles.push_back({"A: " + method_name(own_method(context)), "By the project's own method", staged_->bgr});
   const MethodChoice other = other_method(context);
   if (!compared_ || !staged_ || compared_->frame != staged_->frame) return tiles;
-  tiles.push_back({"B: " + name_of(other), "The same frame by the other method", compared_->bgr});
+  tiles.push_back({"B: " + method_name(other), "The same frame by the other method", compared_->bgr});
   tiles.push_back({"|A - B|" + gain_text(gain_), "Where the methods differ; black: nowhere",
                    differences_.of(staged_->bgr, compared_->bgr, gain_)});
   return tiles;
@@ -149,20 +148,19 @@ std::vector<StageTile> StagesView::tiles(const ViewContext& context) {
 }
 
 ToolbarItem StagesView::look_button(const char* label, const char* tooltip, Mode look) {
-  return {.button = {.id = label, .label = label, .tooltip = tooltip, .on = look_ == look}, .clicked = [this, look] {
-            look_ = look;
-            grid_.show_all();
-          }};
+  return choice_item({.id = label, .label = label, .tooltip = tooltip}, look_, look, [this] { grid_.show_all(); });
 }
 
 std::string StagesView::own_label(const ViewContext& context) const {
-  return "own: " + name_of(own_method(context));
+  return "own: " + method_name(own_method(context));
 }
 
 void StagesView::draw_method_choice(const ViewContext& context) {
   const std::string own = own_label(context);
   const bool comparing = look_ == Mode::against_method;
-  const std::string shown = comparing ? "with " + name_of(other_method(context)) : method_ ? name_of(*method_) : own;
+  const std::string shown = comparing ? "with " + method_name(other_method(context))
+                            : method_ ? method_name(*method_)
+                                      : own;
   ImGui::SetNextItemWidth(method_choice_width());
   const bool open = begin_choice("##method", shown);
   context.ui_probe.note_item("stages/method");
@@ -170,8 +168,8 @@ void StagesView::draw_method_choice(const ViewContext& context) {
     if (!comparing && ImGui::Selectable(own.c_str(), other_method(context) == own_method(context))) method_.reset();
     for (const MethodChoice method : kMethods) {
       if (method == own_method(context)) continue;
-      if (ImGui::Selectable(name_of(method).c_str(), method == other_method(context))) method_ = method;
-      context.ui_probe.note_item("stages/method/" + name_of(method));
+      if (ImGui::Selectable(method_name(method).c_str(), method == other_method(context))) method_ = method;
+      context.ui_probe.note_item("stages/method/" + method_name(method));
     }
     end_choice();
   }
@@ -227,22 +225,13 @@ void StagesView::draw_toolbar_of(const ViewContext& context) {
   if (look_ == Mode::stages && choices(context).size() > 1)
     items.push_back({.width = scaled(120), .content = [&] { draw_intruder_choice(context); }});
   items.push_back({.is_gap = true});
-  items.push_back({.button = {.id = "to intruder",
-                              .icon = image_icon::target,
-                              .label = "To intruder",
-                              .tooltip = "Zoom to the intruder"},
-                   .clicked = [&] { zoom_to_intruder(context); }});
-  items.push_back({.button = {.id = "fit",
-                              .icon = image_icon::fit,
-                              .label = "Fit",
-                              .tooltip = "The whole image (F or 0)",
-                              .on = grid_.look().is_fitted()},
-                   .clicked = [this] { grid_.fit(); }});
-  items.push_back({.button = {.id = "exact",
-                              .label = "1:1",
-                              .tooltip = "One pixel of the screen for each of the image (1)",
-                              .on = grid_.look().zoom() == 1},
-                   .clicked = [this] { grid_.zoom_to_exact(); }});
+  items.push_back(
+      {.button = {.id = "to intruder", .icon = Icon::target, .label = "To intruder", .tooltip = "Zoom to the intruder"},
+       .clicked = [&] { zoom_to_intruder(context); }});
+  add_zoom_items(items, {.is_fitted = grid_.look().is_fitted(),
+                         .zoom = grid_.look().zoom(),
+                         .fit = [this] { grid_.fit(); },
+                         .to_exact = [this] { grid_.zoom_to_exact(); }});
   draw_toolbar(items);
 }
 

@@ -8,7 +8,6 @@
 
 #include "editor/views/context.h"
 #include "editor/views/stages/stage_grid.h"
-#include "editor/views/stages/stage_tiles.h"
 #include "editor/widgets/toolbar.h"
 
 namespace sigs::editor {

@@ -4,20 +4,154 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/timeline/key_marks.h"
+#include "editor/views/timeline/ruler.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
+
+namespace {
+
+// What a row of keys shows.
+struct KeyMarks {
+  const ViewContext& context;
+  const TimelineStrip& strip;
+  int intruder = 0;
+  const std::vector<double>& frames;  // of the waypoints
+  float top_y = 0;
+  float height = 0;
+  int selected = -1;     // waypoint
+  int hot = -1;          // the one below the mouse, or held by it
+  bool current = false;  // the intruder that is worked on
+};
+
+// What is known of an intruder's flight; null: nothing yet.
+const Survey* survey_of(const ViewContext& context, int intruder) {
+  const auto index = static_cast<std::size_t>(intruder);
+  return index < context.shown.surveys.size() ? context.shown.surveys[index].get() : nullptr;
+}
+
+const TrajectoryPlan& plan_of(const KeyMarks& marks) {
+  return marks.context.project().intruders[static_cast<std::size_t>(marks.intruder)].trajectory;
+}
+
+// At constant speed those between the first and the last are passed when the speed brings the aircraft there.
+bool has_time_of_its_own(const TrajectoryPlan& plan, std::size_t waypoint) {
+  const bool at_an_end = waypoint == 0 || waypoint + 1 == plan.waypoints.size();
+  return plan.waypoints[waypoint].frame.has_value() && (plan.timing == TimingChoice::frames || at_an_end);
+}
+
+void draw_key(ImDrawList& list, const KeyMarks& marks, std::size_t waypoint) {
+  const auto number = static_cast<int>(waypoint);
+  const bool selected = number == marks.selected;
+  const bool hot = number == marks.hot;
+  const ImVec2 center{std::floor(marks.strip.moment_x(marks.frames[waypoint])) + 0.5F,
+                      std::floor(marks.top_y + marks.height / 2) + 0.5F};
+  const float radius = scaled(hot || selected ? 6.5 : 5.5);
+  const ImU32 own = faded(intruder_color(marks.intruder), marks.current || hot ? 1 : 0.75);
+  const ImU32 fill =
+      has_time_of_its_own(plan_of(marks), waypoint) ? (selected ? color::kWaypoint : own) : color::kPanel;
+  const ImU32 edge = selected ? color::kAccent : hot ? color::kWaypoint : own;
+  const std::array<ImVec2, 4> corners{ImVec2{center.x, center.y - radius},
+                                      {center.x + radius, center.y},
+                                      {center.x, center.y + radius},
+                                      {center.x - radius, center.y}};
+  list.AddConvexPolyFilled(corners.data(), 4, fill);
+  list.AddPolyline(corners.data(), 4, edge, ImDrawFlags_Closed, scaled(selected ? 2 : 1.4));
+}
+
+void draw_flags(ImDrawList& list, const KeyMarks& marks) {
+  const Survey* survey = survey_of(marks.context, marks.intruder);
+  if (survey == nullptr) return;
+  const float bottom_y = marks.top_y + marks.height - 1;
+  for (const FlightFlag& flag : survey->flags) {
+    const float low = std::max(marks.strip.left(), marks.strip.moment_x(flag.first_frame));
+    const float high = std::min(marks.strip.right(), std::max(low + scaled(2), marks.strip.moment_x(flag.last_frame)));
+    if (high <= low) continue;
+    list.AddRectFilled({low, marks.top_y}, {high, bottom_y}, faded(color::kBad, 0.13));
+    list.AddRectFilled({low, bottom_y - scaled(2.5)}, {high, bottom_y}, color::kBad);
+  }
+}
+
+void draw_flown_line(ImDrawList& list, const KeyMarks& marks) {
+  if (marks.frames.empty()) return;
+  const auto [first, last] = std::minmax_element(marks.frames.begin(), marks.frames.end());
+  const float y = std::floor(marks.top_y + marks.height / 2);
+  list.AddRectFilled({marks.strip.moment_x(*first), y}, {marks.strip.moment_x(*last), y + 1},
+                     faded(intruder_color(marks.intruder), marks.current ? 0.6 : 0.3));
+}
+
+std::string key_text(const KeyMarks& marks, std::size_t waypoint) {
+  const TrajectoryPlan& plan = plan_of(marks);
+  const double frame = marks.frames[waypoint];
+  const glm::dvec3& p = plan.waypoints[waypoint].position_m;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), "waypoint %zu of %zu\nframe %.6g   %s\n%.6g, %.6g, %.6g m", waypoint + 1,
+                plan.waypoints.size(), frame,
+                time_text_of(marks.context, static_cast<int>(std::lround(std::clamp(frame, -1e6, 1e9)))).c_str(), p.x,
+                p.y, p.z);
+  std::string result = text.data();
+  if (!plan.waypoints[waypoint].frame)
+    result += "\nno frame of its own: spread evenly; drag to give it one";
+  else if (!has_time_of_its_own(plan, waypoint))
+    result += "\nat constant speed it is passed when the speed says";
+  return result;
+}
+
+std::string flags_text(const KeyMarks& marks, double frame) {
+  const Survey* survey = survey_of(marks.context, marks.intruder);
+  std::string text;
+  if (survey == nullptr) return text;
+  for (const FlightFlag& flag : survey->flags)
+    if (frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
+      text.append(text.empty() ? "" : "\n").append(flag.text());
+  return text;
+}
+
+// Keys as diamonds, hollow where the waypoint's time follows from the others; below them stretches that no such
+// aircraft could fly.
+void draw_key_marks(ImDrawList& list, const KeyMarks& marks) {
+  const ImVec2 low{marks.strip.left(), marks.top_y};
+  const ImVec2 high{marks.strip.right(), marks.top_y + marks.height};
+  if (marks.current) list.AddRectFilled(low, high, IM_COL32(255, 255, 255, 9));
+  draw_flags(list, marks);
+  draw_flown_line(list, marks);
+  float last_x = -std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < marks.frames.size(); ++i) {
+    const float x = marks.strip.moment_x(marks.frames[i]);
+    // Thousands of waypoints on a few pixels are one mark.
+    if (!marks.strip.shows(marks.frames[i]) || std::abs(x - last_x) < 1) continue;
+    draw_key(list, marks, i);
+    last_x = x;
+  }
+  for (const int on_top : {marks.selected, marks.hot})
+    if (on_top >= 0 && on_top < static_cast<int>(marks.frames.size()))
+      draw_key(list, marks, static_cast<std::size_t>(on_top));
+}
+
+// What there is to say of the place below the mouse.
+void tooltip_for_keys(const KeyMarks& marks, double mouse_frame) {
+  if (marks.hot >= 0 && marks.hot < static_cast<int>(marks.frames.size())) {
+    tooltip_for_item(key_text(marks, static_cast<std::size_t>(marks.hot)).c_str());
+    return;
+  }
+  const std::string flags = flags_text(marks, mouse_frame);
+  tooltip_for_item(flags.empty() ? "double click: add a waypoint on the curve here" : flags.c_str());
+}
+
+}  // namespace
 
 // What is worked out once for the row that is drawn.
 struct KeyRows::Row {
@@ -29,10 +163,6 @@ struct KeyRows::Row {
 };
 
 namespace {
-
-int rounded_frame(double frame) {
-  return static_cast<int>(std::lround(std::clamp(frame, 0.0, 1e9)));
-}
 
 void select(const ViewContext& context, int intruder, int waypoint) {
   const Selected kind = waypoint < 0 ? Selected::intruder : Selected::waypoint;
@@ -52,7 +182,7 @@ void set_frame(const ViewContext& context, int intruder, int waypoint, double fr
 void add_on_curve(const ViewContext& context, int intruder, double frame) {
   if (const std::optional<glm::dvec3> position_m = position_of(context, intruder, frame)) {
     add_waypoint(context, intruder, frame, *position_m);
-    go_by_hand(context, rounded_frame(frame));
+    go_to_moment(context, frame);
   } else {
     context.edits.ask(ShowMessage{"The trajectory is not known yet; try again in a moment.", true});
   }
@@ -122,24 +252,21 @@ void KeyRows::probe_places(const ViewContext& context, const Row& row) {
 void KeyRows::drag(const ViewContext& context, const Row& row) {
   Held& held = *held_;
   if (held.waypoint >= static_cast<int>(row.frames.size())) return;
-  if (!held.moving && !ImGui::IsMouseDragging(ImGuiMouseButton_Left, scaled(3))) return;
-  held.moving = true;
+  const bool leaves =
+      ImGui::IsMouseDown(ImGuiMouseButton_Left) && held.gesture.has_left_press(dv(ImGui::GetMousePos()));
+  if (!held.gesture.is_moving && !leaves) return;
+  held.gesture.is_moving = true;
   const double now = row.frames[static_cast<std::size_t>(held.waypoint)];
-  go_by_hand(context, rounded_frame(now));  // one update behind, but where its neighbours let it go
+  go_to_moment(context, now);  // one update behind, but where its neighbours let it go
   const double wanted = snapped(row.strip.moment_at(ImGui::GetIO().MousePos.x) + held.offset);
   if (wanted == now) return;
-  set_frame(context, held.intruder, held.waypoint, wanted, gesture_of(held.intruder, held.waypoint));
+  set_frame(context, held.intruder, held.waypoint, wanted, held.gesture.name);
 }
 
-// Numbers count what they counted as long as nothing but this drag has changed the project.
 void KeyRows::hold(const ViewContext& context, const Row& row) {
-  const std::string gesture = gesture_of(held_->intruder, held_->waypoint);
-  const bool is_cancelled = pressed(Key::escape);
-  if (is_cancelled && held_->moving) {
-    context.edits.cancel_gesture(gesture);
-    go_by_hand(context, rounded_frame(held_->frame_before));
-  }
-  if (is_cancelled || context.document.has_other_changes(held_->revision_before, held_->moving ? gesture : ""))
+  const bool is_cancelled = held_->gesture.cancelled_by_key(context);
+  if (is_cancelled && held_->gesture.is_moving) go_to_moment(context, held_->frame_before);
+  if (is_cancelled || held_->gesture.is_lost(context))
     held_.reset();
   else
     drag(context, row);
@@ -161,18 +288,18 @@ void KeyRows::handle_mouse(const ViewContext& context, const Row& row) {
     select(context, row.intruder, row.under);
     if (row.under >= 0) {
       const double frame = row.frames[static_cast<std::size_t>(row.under)];
-      go_by_hand(context, rounded_frame(frame));
+      go_to_moment(context, frame);
       held_ = Held{.intruder = row.intruder,
                    .waypoint = row.under,
                    .offset = frame - row.strip.moment_at(ImGui::GetIO().MousePos.x),
                    .frame_before = frame,
-                   .revision_before = context.document.revision().number};
+                   .gesture = drag_gesture_at(context, dv(ImGui::GetMousePos()), gesture_of(row.intruder, row.under))};
     }
   }
   if (ImGui::IsItemActive() && held_ && held_->intruder == row.intruder) hold(context, row);
   if (ImGui::IsItemDeactivated() && held_) {
     hold(context, row);
-    if (held_ && held_->moving) context.edits.end_gesture();
+    if (held_) held_->gesture.end(context);
     held_.reset();
   }
 }
@@ -180,7 +307,7 @@ void KeyRows::handle_mouse(const ViewContext& context, const Row& row) {
 void KeyRows::draw_key_menu(const ViewContext& context) {
   ImGui::TextDisabled("waypoint %d, frame %.6g", menu_.waypoint + 1, menu_.frame);
   ImGui::Separator();
-  if (ImGui::MenuItem("Go to")) go_by_hand(context, rounded_frame(menu_.frame));
+  if (ImGui::MenuItem("Go to")) go_to_moment(context, menu_.frame);
   if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(context);
   if (ImGui::MenuItem("Delete", "Del")) delete_selected(context);
   if (!ImGui::BeginMenu("Set frame...")) return;
@@ -190,7 +317,7 @@ void KeyRows::draw_key_menu(const ViewContext& context) {
   ImGui::SameLine();
   if ((ImGui::Button("Set") || entered) && std::isfinite(menu_.typed)) {
     set_frame(context, menu_.intruder, menu_.waypoint, menu_.typed, {});
-    go_by_hand(context, rounded_frame(menu_.typed));
+    go_to_moment(context, menu_.typed);
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndMenu();
@@ -209,7 +336,7 @@ void KeyRows::draw_menu(const ViewContext& context) {
                         menu_.frame);
     ImGui::Separator();
     if (ImGui::MenuItem("Add waypoint")) add_on_curve(context, menu_.intruder, menu_.frame);
-    if (ImGui::MenuItem("Go there")) go_by_hand(context, rounded_frame(menu_.frame));
+    if (ImGui::MenuItem("Go there")) go_to_moment(context, menu_.frame);
     ImGui::Separator();
     if (ImGui::MenuItem("Duplicate intruder")) duplicate_selected(context);
     if (ImGui::MenuItem("Delete intruder")) delete_selected(context);

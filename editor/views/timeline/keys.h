@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
-#include "editor/views/timeline/strip.h"
+#include "editor/views/drag_gesture.h"
+#include "editor/views/timeline/ruler.h"
 
 namespace sigs::editor {
 
@@ -23,8 +23,7 @@ class KeyRows {
     int waypoint = 0;
     double offset = 0;  // frames from the mouse to the key
     double frame_before = 0;
-    std::uint64_t revision_before = 0;
-    bool moving = false;
+    DragGesture gesture;
   };
   // Where the right button was pressed; waypoint -1: on the row itself.
   struct Menu {

@@ -3,7 +3,9 @@
 
 #include <imgui.h>
 
+#include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,35 @@
 #include "editor/views/timeline/lane_curve.h"
 
 namespace sigs::editor {
+
+enum class Scaling { linear, logarithmic };  // logarithmic: by log(1 + value), so that 0 has a place
+
+// Which values a lane shows from its lower to its upper edge.
+struct LaneScale {
+  double low = 0;
+  double high = 1;
+  Scaling scaling = Scaling::linear;
+
+  // 0 at low, 1 at high, clamped to them.
+  [[nodiscard]] double share_of(double value) const;
+};
+
+// For all finite values: from 0 where they come near it, else a little more than they take; never less across than
+// min_span.
+[[nodiscard]] LaneScale scale_for(std::span<const double> values, double min_span, Scaling scaling = Scaling::linear);
+
+// Where a lane's curve is drawn.
+struct LaneBox {
+  double top_y = 0;
+  double height = 1;
+};
+
+// The values of successive frames as lines on the screen, no more points than it takes to be within a third of a pixel;
+// where several frames share a pixel both extremes show. Values that are not finite leave gaps. Frame n lies in the
+// middle of its cell.
+using Polyline = std::vector<glm::vec2>;
+[[nodiscard]] std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, const TimeRuler& ruler,
+                                             const LaneScale& scale, const LaneBox& box);
 
 // What the timeline shows of the current intruder from frame to frame.
 enum class Lane { visibility_state, distance, size, speed, load, climb };

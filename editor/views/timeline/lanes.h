@@ -7,7 +7,6 @@
 #include "editor/views/timeline/error_lane.h"
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/ruler.h"
-#include "editor/views/timeline/strip.h"
 
 namespace sigs::editor {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

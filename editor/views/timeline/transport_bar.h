@@ -2,6 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
+#include <string_view>
 
 #include "editor/views/context.h"
 
@@ -20,5 +23,11 @@ class TransportBar {
   std::array<char, 32> entry_{};  // what is typed into the frame field
   bool typing_ = false;
 };
+
+// The frame that a person means who types into the frame field: "133"; "+10" and "-5" from the playhead; a time with a
+// colon, "0:05.32" or "1:02:03.4", for the frame nearest to it in time (times_s: of each frame, ascending). Clamped to
+// the footage; times_s empty: to 0 and above. None for what is no number.
+[[nodiscard]] std::optional<int> frame_from_entry(std::string_view entry, int playhead,
+                                                  std::span<const double> times_s);
 
 }  // namespace sigs::editor

@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "editor/geometry/image_drag.h"
+#include "editor/geometry/lens_projection.h"
 #include "editor/views/context.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -23,20 +24,21 @@ struct FootageCamera {
   }
 };
 
-// By the newest scene that is open; none where there is none. The `plain` method knows no lens: a pinhole.
+// The camera of a frame in the newest scene that is open; nothing while no scene is open. For the `plain` method, which
+// ignores the lens, it is a pinhole camera with the same intrinsics.
 [[nodiscard]] std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int frame);
 
-// A waypoint as that camera sees it. In the waypoint's own frame it is where the intruder is.
+// A waypoint projected into the image of that camera. In the waypoint's own frame its pixel is where the intruder is.
 struct WaypointMark {
   int intruder = 0;
   int waypoint = 0;
-  double frame = 0;  // that it stands in
-  glm::dvec3 position_m{0, 0, 0};
-  glm::dvec2 pixel{0, 0};
+  double frame = 0;                // the waypoint's moment; not whole where frames are spread evenly
+  glm::dvec3 position_m{0, 0, 0};  // in the world
+  glm::dvec2 pixel{0, 0};          // of the image, pixel centres at whole numbers
 };
 
-// Of the document's project, all intruders; those without an image are left out. Kept until project, scene or frame
-// change.
+// Marks of all waypoints of all intruders of the document's project; waypoints that the lens does not image are left
+// out. The marks are computed again only when the project, the scene or the frame has changed.
 class WaypointMarks {
  public:
   [[nodiscard]] const std::vector<WaypointMark>& of(const ViewContext& context, const FootageCamera& eye);
@@ -52,11 +54,33 @@ class WaypointMarks {
   std::vector<WaypointMark> marks_;
 };
 
-// The project's number of an intruder that the scene counts otherwise (FrameTruth and stages do); none where the
-// project has changed since.
+// The index in the project of an intruder given by its index in the scene (as FrameTruth and stages count). The scene
+// leaves out intruders without waypoints. Nothing where the project has changed since the scene was opened.
 [[nodiscard]] std::optional<int> project_intruder(const ViewContext& context, int in_scene);
 
-// And back; none for one without waypoints.
+// The index in the scene of an intruder given by its index in the project; nothing for one without waypoints.
 [[nodiscard]] std::optional<int> scene_intruder(const ViewContext& context, int in_project);
+
+// The paths of all intruders, projected with the camera of one frame: pale before that frame, bright after it. The
+// polylines are computed again only when the scene or the frame has changed.
+class PathOverlay {
+ public:
+  void draw(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye);
+
+ private:
+  struct PathPiece {
+    int intruder = 0;  // the scene's number
+    bool past = false;
+    std::vector<PixelLine> lines;
+  };
+  void make(const Scene& scene, const FootageCamera& eye);
+
+  std::uint64_t scene_ = 0;
+  int frame_ = -1;
+  std::vector<PathPiece> pieces_;
+};
+
+// The horizon of a flat earth through the camera's lens, as a line over the image.
+void draw_horizon(const ImageCanvas& canvas, const FootageCamera& eye);
 
 }  // namespace sigs::editor

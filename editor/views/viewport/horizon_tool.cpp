@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/horizon_tool.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -15,8 +17,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kReach_px = 7;    // of the line, where text is 15 px high
-constexpr double kMinDrag_px = 3;  // a click's tremble is none
+constexpr double kLineReach_px = 7;  // of the line, where text is 15 px high
 
 glm::dvec2 image_size(const ToolContext& tool) {
   return {tool.canvas.image_px.width, tool.canvas.image_px.height};
@@ -53,14 +54,12 @@ std::optional<HorizonGrip> grip_at(const ToolContext& tool) {
       grip_of(horizon_of(tool), tool.canvas.view.image_of(tool.mouse), image_size(tool));
   if (!grip) return std::nullopt;
   const double away_px = glm::distance(tool.canvas.view.screen_of(grip->on_line_px), tool.mouse);
-  return away_px <= scaled(kReach_px) ? grip : std::nullopt;
+  return away_px <= scaled(kLineReach_px) ? grip : std::nullopt;
 }
 
 std::string readout(const Project& project) {
-  char text[64];
-  std::snprintf(text, sizeof text, "roll %.2f\u00b0   pitch %.2f\u00b0", project.camera.roll_deg.value_or(0),
-                project.camera.pitch_deg.value_or(0));
-  return text;
+  return fmt::format("roll {:.2f}\u00b0   pitch {:.2f}\u00b0", project.camera.roll_deg.value_or(0),
+                     project.camera.pitch_deg.value_or(0));
 }
 
 void draw_handle(const ImageCanvas& canvas, const glm::dvec2& pixel) {
@@ -70,13 +69,13 @@ void draw_handle(const ImageCanvas& canvas, const glm::dvec2& pixel) {
 }
 
 // Beside the line's left handle, where intruders are seldom.
-void draw_text(const ImageCanvas& canvas, const HorizonGrip& grip, const std::string& text, ImageLabels& labels) {
+void draw_text(const ImageCanvas& canvas, const HorizonGrip& grip, const std::string& text, LabelPlacer& labels) {
   const glm::dvec2 left = canvas.view.screen_of(grip.first_px) - glm::dvec2(scaled(6), 0);
   const glm::dvec2 right = canvas.view.screen_of(grip.last_px) + glm::dvec2(scaled(6) - label_size(text).x, 0);
   const glm::dvec2 below(0, scaled(10) + label_size(text).y);
   const glm::dvec2 above(0, -scaled(10));
   const std::array places{left + below, left + above, right + below, right + above};
-  labels.draw(canvas, places, text, color::kText, true);
+  draw_label(canvas, labels, places, text, color::kText, true);
 }
 
 }  // namespace
@@ -92,34 +91,27 @@ bool HorizonTool::press(const ToolContext& tool) {
                  .start = tilt_of(tool.context.project()),
                  .pivot_px = grip->middle_px,
                  .offset_px = grip->on_line_px - tool.canvas.view.image_of(tool.mouse),
-                 .pressed = tool.mouse,
-                 .revision_before = tool.context.document.revision().number,
-                 .gesture = "horizon " + std::to_string(++gestures_)};
+                 .gesture = drag_gesture_at(tool.context, tool.mouse, "horizon " + std::to_string(++gestures_))};
   return true;
 }
 
 void HorizonTool::drag(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (tool.context.document.has_other_changes(taken.revision_before, taken.gesture)) {
+  if (taken.gesture.is_lost(tool.context) || taken.gesture.cancelled_by_key(tool.context)) {
     taken_.reset();
     return;
   }
-  if (pressed(Key::escape)) {
-    if (taken.is_moving) tool.context.edits.cancel_gesture(taken.gesture);
-    taken_.reset();
-    return;
-  }
-  taken.is_moving = taken.is_moving || glm::distance(tool.mouse, taken.pressed) >= scaled(kMinDrag_px);
-  if (!taken.is_moving) return;
+  taken.gesture.is_moving = taken.gesture.is_moving || taken.gesture.has_left_press(tool.mouse);
+  if (!taken.gesture.is_moving) return;
   const glm::dvec2 pixel = tool.canvas.view.image_of(tool.mouse) + taken.offset_px;
   const std::optional<HorizonTilt> tilt = taken.part == HorizonPart::middle
                                               ? lifted_to(pixel, taken.start.roll_rad, tool.eye.lens)
                                               : through(taken.pivot_px, pixel, taken.start, tool.eye.lens);
-  if (tilt) put_tilt(tool.context, *tilt, taken.gesture);
+  if (tilt) put_tilt(tool.context, *tilt, taken.gesture.name);
 }
 
 void HorizonTool::release(const ViewContext& context) {
-  if (taken_ && taken_->is_moving) context.edits.end_gesture();
+  if (taken_) taken_->gesture.end(context);
   taken_.reset();
 }
 
@@ -129,7 +121,7 @@ std::optional<HorizonPart> HorizonTool::part_at(const ToolContext& tool) const {
   return grip ? std::optional(grip->part) : std::nullopt;
 }
 
-void HorizonTool::draw(const ToolContext& tool, bool highlighted, ImageLabels& labels) const {
+void HorizonTool::draw(const ToolContext& tool, bool highlighted, LabelPlacer& labels) const {
   draw_horizon(tool.canvas, tool.eye);
   const bool is_known = knows_horizon(tool.context.project().camera);
   if (is_known && !highlighted && !taken_) return;
@@ -143,7 +135,7 @@ void HorizonTool::draw(const ToolContext& tool, bool highlighted, ImageLabels& l
     for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px}) draw_handle(tool.canvas, pixel);
   if (!is_known)
     draw_text(tool.canvas, *grip, "Horizon not set: drag this line onto it, its ends to tilt it", labels);
-  else if (taken_ && taken_->is_moving)
+  else if (taken_ && taken_->gesture.is_moving)
     draw_text(tool.canvas, *grip, readout(tool.context.project()), labels);
 }
 

@@ -1,34 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "editor/geometry/horizon_drag.h"
+#include "editor/geometry/lens_projection.h"
 #include "editor/views/viewport/waypoint_tool.h"
 
 namespace sigs::editor {
 
-// Says that the line lies right where it is: roll and pitch are set from then on.
+// Accepts the line where it lies: writes the camera's present roll and pitch into the project.
 void keep_horizon(const ViewContext& context);
 
-// Lays the horizon's line over the footage's own: its middle half is dragged for pitch, its ends for roll about the
-// line's middle. A click without a drag changes nothing. One drag is one step of undo; Esc takes it back. Where an
-// attitude file says how the camera is turned, the line stays where it is.
+// Moves the simulated horizon over the footage's own with the mouse: a drag of the middle half of the line sets the
+// camera's pitch, a drag of its ends sets roll (about the line's middle) and pitch. A click without a drag changes
+// nothing. One drag is one undo step; Escape takes it back. With an attitude file the line cannot be dragged.
 class HorizonTool {
  public:
-  // Whether the press took hold of the line.
+  // For a press of the left button. True: the line was under the mouse and may be dragged.
   bool press(const ToolContext& tool);
   void drag(const ToolContext& tool);
   void release(const ViewContext& context);
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
 
-  // What is under the mouse, or held.
+  // The part of the line that is dragged or, if none is, under the mouse.
   [[nodiscard]] std::optional<HorizonPart> part_at(const ToolContext& tool) const;
 
   // The line, its handles, and what to do with it while nobody has said where it is.
-  void draw(const ToolContext& tool, bool highlighted, ImageLabels& labels) const;
+  void draw(const ToolContext& tool, bool highlighted, LabelPlacer& labels) const;
 
  private:
   struct Taken {
@@ -36,10 +35,7 @@ class HorizonTool {
     HorizonTilt start;
     glm::dvec2 pivot_px{0, 0};   // of the image
     glm::dvec2 offset_px{0, 0};  // from the mouse to the line
-    glm::dvec2 pressed{0, 0};    // where the mouse was, on the screen
-    std::uint64_t revision_before = 0;
-    std::string gesture;
-    bool is_moving = false;
+    DragGesture gesture;
   };
 
   std::optional<Taken> taken_;

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <string>
 
-#include "editor/geometry/thinning.h"
-#include "editor/views/readable.h"
+#include "editor/geometry/screen_marks.h"
 #include "editor/views/waypoint_actions.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -34,7 +34,7 @@ const char* why_not_visible(const IntruderTruth& truth) {
   return tiny ? "  too small to be seen" : "  hidden";
 }
 
-void draw_box(const ImageCanvas& canvas, const ViewContext& context, const IntruderTruth& truth, ImageLabels& labels) {
+void draw_box(const ImageCanvas& canvas, const ViewContext& context, const IntruderTruth& truth, LabelPlacer& labels) {
   const std::optional<int> intruder = project_intruder(context, truth.id);
   const Selection& selection = context.document.selection();
   const bool selected = intruder && selection.intruder == *intruder &&
@@ -55,7 +55,7 @@ void draw_box(const ImageCanvas& canvas, const ViewContext& context, const Intru
   const double below = outer.high.y + scaled(4) + height;
   const std::array places{glm::dvec2(outer.low.x, above), glm::dvec2(outer.low.x, below),
                           glm::dvec2(outer.low.x, above - height - 1), glm::dvec2(outer.low.x, below + height + 1)};
-  labels.draw(canvas, places, text, selected ? color::kAccent : color::kBox, true);
+  draw_label(canvas, labels, places, text, selected ? color::kAccent : color::kBox, true);
 }
 
 void draw_diamond(ImDrawList& draw, const glm::dvec2& at, double radius, ImU32 fill, ImU32 rim) {
@@ -71,13 +71,6 @@ void draw_open_diamond(ImDrawList& draw, const glm::dvec2& at, double radius, Im
   const glm::dvec2 down(0, radius);
   draw.AddQuad(im(at - down), im(at + across), im(at + down), im(at - across), IM_COL32(12, 13, 16, 200), scaled(3.4));
   draw.AddQuad(im(at - down), im(at + across), im(at + down), im(at - across), color, scaled(1.6));
-}
-
-// Frames are whole where they were set by hand; spread ones are not.
-std::string frame_text(double frame) {
-  char text[32];
-  std::snprintf(text, sizeof text, std::abs(frame - std::round(frame)) < 0.05 ? "%.0f" : "%.1f", frame);
-  return text;
 }
 
 struct MarkStyle {
@@ -98,7 +91,7 @@ void draw_mark(const ImageCanvas& canvas, const WaypointMark& mark, const MarkSt
 }
 
 void draw_frame(const ImageCanvas& canvas, const glm::dvec2& at, double frame, const MarkStyle& style,
-                ImageLabels& labels) {
+                LabelPlacer& labels) {
   const std::string text = frame_text(frame);
   const glm::dvec2 size = label_size(text);
   const double right = at.x + scaled(9);
@@ -107,7 +100,7 @@ void draw_frame(const ImageCanvas& canvas, const glm::dvec2& at, double frame, c
   const double above = at.y - scaled(4);
   const std::array places{glm::dvec2(right, below), glm::dvec2(left, below), glm::dvec2(right, above),
                           glm::dvec2(left, above)};
-  labels.draw(canvas, places, text, style.selected ? color::kAccent : color::kText, style.selected);
+  draw_label(canvas, labels, places, text, style.selected ? color::kAccent : color::kText, style.selected);
 }
 
 }  // namespace
@@ -143,12 +136,12 @@ void draw_image_grid(const ImageCanvas& canvas, ImageGrid grid) {
   canvas.draw.PopClipRect();
 }
 
-void draw_boxes(const ImageCanvas& canvas, const ViewContext& context, const PreviewImage& image, ImageLabels& labels) {
+void draw_boxes(const ImageCanvas& canvas, const ViewContext& context, const PreviewImage& image, LabelPlacer& labels) {
   for (const IntruderTruth& truth : image.truth.intruders) draw_box(canvas, context, truth, labels);
 }
 
 void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
-                         ImageLabels& labels) {
+                         LabelPlacer& labels) {
   const std::optional<int> current = current_intruder(context);
   const double radius = scaled(kMark_px) - 1;
   int kept = 0;
@@ -160,7 +153,7 @@ void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, 
 }
 
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
-                    const FootageCamera& eye, ImageLabels& labels) {
+                    const FootageCamera& eye, LabelPlacer& labels) {
   const Selection& selection = context.document.selection();
   const std::optional<int> current = current_intruder(context);
   const double radius = scaled(kMark_px);

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "editor/views/viewport/footage_camera.h"
-#include "editor/widgets/image_canvas.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
@@ -35,14 +34,14 @@ class OwnBodyTint {
 void draw_image_grid(const ImageCanvas& canvas, ImageGrid grid);
 
 // The boxes of an image's truth: of what is visible solid, of the whole silhouette dashed; name and distance.
-void draw_boxes(const ImageCanvas& canvas, const ViewContext& context, const PreviewImage& image, ImageLabels& labels);
+void draw_boxes(const ImageCanvas& canvas, const ViewContext& context, const PreviewImage& image, LabelPlacer& labels);
 
 // No label over the diamonds of the intruder that is worked on.
 void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
-                         ImageLabels& labels);
+                         LabelPlacer& labels);
 
 // Diamonds with the number of their frame; those of the intruder that is worked on larger.
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
-                    const FootageCamera& eye, ImageLabels& labels);
+                    const FootageCamera& eye, LabelPlacer& labels);
 
 }  // namespace sigs::editor

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/readout.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "editor/widgets/icons.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -22,12 +27,6 @@ struct Part {
   ImU32 color = color::kQuiet;
   std::optional<cv::Vec3b> swatch_bgr;
 };
-
-std::string formatted(const char* format, double a, double b = 0) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
 
 double mebibytes(std::size_t bytes) {
   return static_cast<double>(bytes) / (1 << 20);
@@ -42,8 +41,7 @@ void add_pixel(std::vector<Part>& parts, const ViewContext& context, const Viewp
   const cv::Mat* image = image_of(context, readout);
   if (!readout.pixel || image == nullptr || !cv::Rect({0, 0}, image->size()).contains(*readout.pixel)) return;
   const cv::Point at = *readout.pixel;
-  parts.push_back(
-      {"x " + formatted("%4.0f", at.x) + "  y " + formatted("%4.0f", at.y), "x 00000  y 00000", 0, color::kText});
+  parts.push_back({fmt::format("x {:4}  y {:4}", at.x, at.y), "x 00000  y 00000", 0, color::kText});
   parts.push_back({pixel_text(*image, at), "000 000 000", 0, color::kText,
                    image->type() == CV_8UC3 ? std::optional(image->at<cv::Vec3b>(at)) : std::nullopt});
   if (readout.of_footage) {
@@ -54,7 +52,7 @@ void add_pixel(std::vector<Part>& parts, const ViewContext& context, const Viewp
   const bool masked = mask.type() == CV_8UC1 && cv::Rect({0, 0}, mask.size()).contains(at);
   const double covered = masked ? mask.at<uchar>(at) / 2.55 : 0;
   parts.push_back(
-      {formatted("covered %5.1f%%", covered), "covered 100.0%", 1, covered > 0 ? color::kAccent : color::kQuiet});
+      {fmt::format("covered {:5.1f}%", covered), "covered 100.0%", 1, covered > 0 ? color::kAccent : color::kQuiet});
 }
 
 void add_image(std::vector<Part>& parts, const ViewContext& context, const ViewportReadout& readout) {
@@ -62,12 +60,12 @@ void add_image(std::vector<Part>& parts, const ViewContext& context, const Viewp
     parts.push_back({"updating...", "updating...", 2, color::kAccent});
   if (!context.shown.image) return;
   const MemoryUse& memory = context.shown.memory;
-  parts.push_back({formatted("memory %.0f of %.0f MiB", mebibytes(memory.sum()), mebibytes(memory.limit)),
+  parts.push_back({fmt::format("memory {:.0f} of {:.0f} MiB", mebibytes(memory.sum()), mebibytes(memory.limit)),
                    "memory 0000 of 0000 MiB", 5});
   const PreviewImage& image = *context.shown.image;
-  parts.push_back({formatted("%.0f%%", readout.zoom * 100), "0000%", 0, color::kText});
-  parts.push_back({formatted("%.0f x %.0f", image.bgr.cols, image.bgr.rows), "0000 x 0000", 3});
-  parts.push_back({formatted("%.1f ms", context.shown.compose_ms), "0000.0 ms", 4});
+  parts.push_back({fmt::format("{:.0f}%", readout.zoom * 100), "0000%", 0, color::kText});
+  parts.push_back({fmt::format("{} x {}", image.bgr.cols, image.bgr.rows), "0000 x 0000", 3});
+  parts.push_back({fmt::format("{:.1f} ms", context.shown.compose_ms), "0000.0 ms", 4});
 }
 
 float swatch_side() {
@@ -140,6 +138,102 @@ void draw_readout(const ViewContext& context, const ViewportReadout& readout) {
     x += width_of(part) + scaled(16);
   }
   ImGui::Dummy(size);
+}
+
+namespace {
+
+constexpr std::size_t kMaxShown = 4;
+
+float padding() {
+  return scaled(8);
+}
+
+float icon_side() {
+  return ImGui::GetFontSize();
+}
+
+std::string problem_count_text(std::size_t count) {
+  return count == 1 ? "1 problem" : std::to_string(count) + " problems";
+}
+
+}  // namespace
+
+std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image) {
+  std::vector<std::string> problems;
+  const auto add = [&](const std::string& problem) {
+    std::string shown = shortened(problem, 400);
+    if (!shown.empty() && std::find(problems.begin(), problems.end(), shown) == problems.end())
+      problems.push_back(std::move(shown));
+  };
+  if (context.shown.scene) {
+    const OpenedScene& scene = *context.shown.scene;
+    const bool no_footage = scene.footage && !scene.footage->problem.empty();
+    if (no_footage) add("Grey replaces the footage: " + scene.footage->problem);
+    for (const Problem& problem : scene.draft.problems)
+      if (!(no_footage && problem.field == "footage.video")) add(problem.field + ": " + problem.what);
+  }
+  // What the scene is known to lack is not said again of each image.
+  if (image != nullptr && problems.empty()) add(image->problem);
+  return problems;
+}
+
+void ProblemBanner::lay_out(const ScreenRect& rect) {
+  lines_.clear();
+  const float margin = scaled(8);
+  const float maximum_width = std::min(static_cast<float>(rect.size().x) - 2 * margin, scaled(640));
+  const float indent = 2 * padding() + icon_side();
+  const float room = std::max(scaled(60), maximum_width - indent - padding());
+  std::vector<std::string> texts{problem_count_text(problems_.size())};
+  if (!folded_) {
+    texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMaxShown, problems_.size())));
+    if (problems_.size() > kMaxShown)
+      texts.push_back("and " + std::to_string(problems_.size() - kMaxShown) +
+                      " more, at their fields in the inspector");
+  }
+  glm::dvec2 size(0, 2 * padding() - scaled(3));
+  for (const std::string& text : texts) {
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+    lines_.push_back({text, extent.y + scaled(3)});
+    size = {std::max(size.x, static_cast<double>(extent.x + indent + padding())), size.y + lines_.back().height};
+  }
+  plate_.low = rect.low + static_cast<double>(margin);
+  plate_.high = glm::min(plate_.low + glm::ceil(size), rect.high - 1.0);
+}
+
+void ProblemBanner::handle_mouse(const ScreenRect& rect, std::vector<std::string> problems) {
+  if (problems != problems_) folded_ = false;
+  problems_ = std::move(problems);
+  hovered_ = false;
+  if (problems_.empty()) return;
+  lay_out(rect);
+  if (plate_.size().x < 1 || plate_.size().y < 1) return;
+  const ImVec2 cursor = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos(im(plate_.low));
+  if (ImGui::InvisibleButton("problems", im(plate_.size()))) folded_ = !folded_;
+  hovered_ = ImGui::IsItemHovered();
+  tooltip_for_item(folded_ ? "Click to unfold" : "Click to fold up");
+  ImGui::SetCursorScreenPos(cursor);
+}
+
+void ProblemBanner::draw(ImDrawList& draw) const {
+  if (problems_.empty() || lines_.empty()) return;
+  draw.PushClipRect(im(plate_.low), im(plate_.high), true);
+  draw.AddRectFilled(im(plate_.low), im(plate_.high), hovered_ ? IM_COL32(46, 44, 40, 240) : IM_COL32(30, 29, 27, 225),
+                     scaled(4));
+  draw.AddRectFilled(im(plate_.low), im({plate_.low.x + scaled(3), plate_.high.y}), color::kPartly, scaled(4),
+                     ImDrawFlags_RoundCornersLeft);
+  const auto left = static_cast<float>(plate_.low.x) + padding();
+  const float text_x = left + icon_side() + padding();
+  float y = static_cast<float>(plate_.low.y) + padding();
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (i < kMaxShown)
+      draw_icon(draw, Icon::warning, {left + icon_side() / 2, y + icon_side() / 2}, icon_side(), color::kPartly);
+    const float room = static_cast<float>(plate_.high.x) - text_x - padding() + 1;
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y}, i < kMaxShown ? color::kText : color::kQuiet,
+                 lines_[i].text.c_str(), nullptr, room);
+    y += lines_[i].height;
+  }
+  draw.PopClipRect();
 }
 
 }  // namespace sigs::editor

@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor/views/context.h"
 #include "editor/views/viewport/overlays.h"
-#include "editor/views/viewport/wipe.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
+
+// The untouched footage left of a line that is dragged, or, while a key is held, everywhere.
+class ViewportWipe {
+ public:
+  [[nodiscard]] bool is_on() const { return on_; }
+  void toggle() { on_ = !on_; }
+
+  // Whether a press there takes hold of the line.
+  [[nodiscard]] bool is_at(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  [[nodiscard]] bool is_left_of_line(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  void drag_to(const ImageCanvas& canvas, const glm::dvec2& mouse);
+
+  // The footage over the image; asks for it in the context's needs.
+  void draw_footage(const ImageCanvas& canvas, const ViewContext& context, bool everywhere);
+  void draw_line(const ImageCanvas& canvas, bool highlighted) const;
+
+ private:
+  [[nodiscard]] double line_x(const ImageCanvas& canvas) const;
+
+  bool on_ = false;
+  double share_ = 0.5;  // of the rect's width
+};
 
 // What the toolbar above the image switches.
 struct ViewportSwitches {

@@ -4,26 +4,29 @@
 #include <optional>
 
 #include "editor/views/context.h"
+#include "editor/views/viewport/footage_camera.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/viewport/overlays.h"
-#include "editor/views/viewport/path.h"
-#include "editor/views/viewport/problem_banner.h"
+#include "editor/views/viewport/readout.h"
+#include "editor/views/viewport/toolbar.h"
 #include "editor/views/viewport/waypoint_tool.h"
-#include "editor/views/viewport/wipe.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
-// The composited frame at the playhead: zoom, pan, overlays, wipe, waypoints moved over the footage.
+// The view of the composited frame at the playhead. The user zooms and pans it, switches overlays, compares it with the
+// untouched footage (wipe), and moves waypoints and the horizon over it. A waypoint drag goes through handle_mouse to
+// WaypointTool, which puts changes of the project into context.edits; the frame that is shown comes in context.shown.
 class ViewportView {
  public:
   // Into what is left of the current ImGui window.
   void draw(const ViewContext& context);
 
-  // The horizon's line over the image, to be dragged.
+  // Switches the horizon's line on, so that it can be dragged.
   void show_horizon() { overlays_.horizon = true; }
 
  private:
+  // What the mouse holds since its press: the wipe's line, a waypoint or intruder, the horizon, or the image itself.
   enum class Grip { nothing, line, waypoint, horizon, ground };
 
   void draw_canvas(const ViewContext& context, const ScreenRect& rect);

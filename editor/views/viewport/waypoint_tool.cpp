@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/readable.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/zoomable_image.h"
 
@@ -16,7 +16,6 @@ namespace sigs::editor {
 namespace {
 
 constexpr double kReach_px = 9;    // of a waypoint, where text is 15 px high
-constexpr double kMinDrag_px = 3;  // a click's tremble is none
 constexpr double kMinBox_px = 16;  // a distant intruder is larger for the mouse than for the eye
 constexpr double kUsualDistance_m = 300;
 
@@ -41,17 +40,6 @@ int put_in_gesture(const ViewContext& context, int intruder, int frame, const gl
       gesture);
   context.edits.select({Selected::waypoint, intruder, number});
   return number;
-}
-
-void move_in_gesture(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m,
-                     const std::string& gesture) {
-  context.edits.change(
-      "move waypoint",
-      [=](Project& project) {
-        auto& waypoints = project.intruders.at(static_cast<std::size_t>(intruder)).trajectory.waypoints;
-        waypoints.at(static_cast<std::size_t>(waypoint)).position_m = position_m;
-      },
-      gesture);
 }
 
 bool moves_along_sight() {
@@ -111,14 +99,9 @@ bool WaypointTool::press(const ToolContext& tool) {
   if (const WaypointMark* mark = waypoint_at(tool)) {
     taken_ = Taken{.intruder = mark->intruder,
                    .waypoint = mark->waypoint,
-                   .revision_before = tool.context.document.revision().number,
-                   .selected_before = {Selected::waypoint, mark->intruder, mark->waypoint},
-                   .pressed = tool.mouse};
-    const double frame = std::clamp(std::round(mark->frame), 0.0, 1e9);
-    if (static_cast<int>(frame) != tool.eye.frame) {
-      tool.context.edits.ask(Play{0});
-      tool.context.edits.go_to_frame(static_cast<int>(frame));
-    }
+                   .gesture = drag_gesture_at(tool.context, tool.mouse),
+                   .selected_before = {Selected::waypoint, mark->intruder, mark->waypoint}};
+    if (std::lround(mark->frame) != tool.eye.frame) go_to_moment(tool.context, mark->frame);
     tool.context.edits.select(taken_->selected_before);
     return true;
   }
@@ -126,18 +109,16 @@ bool WaypointTool::press(const ToolContext& tool) {
   if (!intruder) return false;
   taken_ = Taken{.intruder = *intruder,
                  .waypoint = -1,
-                 .revision_before = tool.context.document.revision().number,
-                 .selected_before = {Selected::intruder, *intruder, 0},
-                 .pressed = tool.mouse};
+                 .gesture = drag_gesture_at(tool.context, tool.mouse),
+                 .selected_before = {Selected::intruder, *intruder, 0}};
   const Selection& selection = tool.context.document.selection();
   if (selection.kind != Selected::waypoint || selection.intruder != *intruder)
     tool.context.edits.select({Selected::intruder, *intruder, 0});
   return true;
 }
 
-// Numbers count what they counted as long as nothing but this drag has changed the project.
 bool WaypointTool::is_still_there(const ViewContext& context) const {
-  if (context.document.has_other_changes(taken_->revision_before, taken_->gesture)) return false;
+  if (taken_->gesture.is_lost(context)) return false;
   if (taken_->waypoint >= 0) return waypoint_position(context, taken_->intruder, taken_->waypoint).has_value();
   return static_cast<std::size_t>(taken_->intruder) < context.project().intruders.size();
 }
@@ -145,26 +126,27 @@ bool WaypointTool::is_still_there(const ViewContext& context) const {
 // Where going to a waypoint's frame has carried it away from the mouse, there is nothing to drag.
 bool WaypointTool::is_under_press(const ToolContext& tool, const glm::dvec3& position_m) const {
   const std::optional<glm::dvec2> pixel = pixel_of(position_m, tool.eye.world_from_camera, tool.eye.lens);
-  return pixel && glm::distance(tool.canvas.view.screen_of(*pixel), taken_->pressed) <= 2 * scaled(kReach_px);
+  return pixel && glm::distance(tool.canvas.view.screen_of(*pixel), taken_->gesture.pressed) <= 2 * scaled(kReach_px);
 }
 
 // Once the mouse has moved far enough to mean it.
 bool WaypointTool::begin(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (glm::distance(tool.mouse, taken.pressed) < scaled(kMinDrag_px)) return false;
+  if (!taken.gesture.has_left_press(tool.mouse)) return false;
   if (tool.context.playing) tool.context.edits.ask(Play{0});
   const bool makes_one = taken.waypoint < 0;
   const std::optional<glm::dvec3> start_m = makes_one ? position_of(tool.context, taken.intruder, tool.eye.frame)
                                                       : waypoint_position(tool.context, taken.intruder, taken.waypoint);
   if (!start_m) return false;
   if (!makes_one && !is_under_press(tool, *start_m)) return false;
-  taken.gesture = "over the footage " + std::to_string(++gestures_);
+  taken.gesture.name = "over the footage " + std::to_string(++gestures_);
   // Where a waypoint stands within a frame of this one, that is the one it gets.
-  if (makes_one) taken.waypoint = put_in_gesture(tool.context, taken.intruder, tool.eye.frame, *start_m, taken.gesture);
+  if (makes_one)
+    taken.waypoint = put_in_gesture(tool.context, taken.intruder, tool.eye.frame, *start_m, taken.gesture.name);
   taken.start_m = taken.now_m = taken.first_m = *start_m;
-  taken.start_mouse = taken.pressed;
+  taken.start_mouse = taken.gesture.pressed;
   taken.along = moves_along_sight();
-  taken.moving = true;
+  taken.gesture.is_moving = true;
   return !makes_one;  // the waypoint is there from the next update on
 }
 
@@ -173,11 +155,12 @@ void WaypointTool::drag(const ToolContext& tool) {
     taken_.reset();
     return;
   }
-  if (pressed(Key::escape)) {
-    cancel(tool.context);
+  if (taken_->gesture.cancelled_by_key(tool.context)) {
+    if (taken_->gesture.is_moving) selected_again_ = taken_->selected_before;
+    taken_.reset();
     return;
   }
-  if (!taken_->moving && !begin(tool)) return;
+  if (!taken_->gesture.is_moving && !begin(tool)) return;
   move(tool);
 }
 
@@ -196,15 +179,7 @@ void WaypointTool::move(const ToolContext& tool) {
                                                                  view.image_of(tool.mouse), pose, tool.eye.lens);
   if (!there_m || *there_m == taken.now_m) return;
   taken.now_m = *there_m;
-  move_in_gesture(tool.context, taken.intruder, taken.waypoint, *there_m, taken.gesture);
-}
-
-void WaypointTool::cancel(const ViewContext& context) {
-  if (taken_->moving) {
-    context.edits.cancel_gesture(taken_->gesture);
-    selected_again_ = taken_->selected_before;
-  }
-  taken_.reset();
+  move_waypoint(tool.context, taken.intruder, taken.waypoint, *there_m, taken.gesture.name);
 }
 
 // Taking back a drag brings back what was selected before its first move; what was dragged is to stay selected.
@@ -214,12 +189,12 @@ void WaypointTool::select_again(const ViewContext& context) {
 }
 
 void WaypointTool::release(const ViewContext& context) {
-  if (taken_ && taken_->moving) context.edits.end_gesture();
+  if (taken_) taken_->gesture.end(context);
   taken_.reset();
 }
 
 void WaypointTool::draw(const ToolContext& tool) const {
-  if (!taken_ || !taken_->moving) return;
+  if (!taken_ || !taken_->gesture.is_moving) return;
   const glm::dvec3 moved_m = taken_->now_m - taken_->first_m;
   const std::string how = taken_->along ? "along the line of sight" : "across";
   draw_label(tool.canvas, tool.mouse + glm::dvec2(scaled(16), scaled(54)),

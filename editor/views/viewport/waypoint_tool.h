@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "editor/views/drag_gesture.h"
 #include "editor/views/viewport/footage_camera.h"
-#include "editor/widgets/image_canvas.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -20,40 +20,40 @@ struct ToolContext {
   glm::dvec2 mouse{0, 0};  // on the screen
 };
 
-// The waypoint under the mouse: the selected one before others, then the nearest.
+// The waypoint within 9 px of the mouse (where text is 15 px high): the selected one if it is there, else the nearest;
+// null where there is none. The pointer is into tool.marks.
 [[nodiscard]] const WaypointMark* waypoint_at(const ToolContext& tool);
 
 // The intruder whose box, by the truth of the shown image, is under the mouse; the nearest to the camera of several.
 [[nodiscard]] std::optional<int> intruder_at(const ToolContext& tool);
 
-// A waypoint here, at the distance that the intruder has at this moment.
+// Adds a waypoint of the current intruder in this frame, behind a pixel of the image, at the distance that the intruder
+// has in this frame (300 m where that is not known). Says so where the lens has no ray for the pixel.
 void add_waypoint_at(const ToolContext& tool, const glm::dvec2& pixel);
 
-// Takes waypoints over the footage: at constant distance from the camera, with Alt or Shift along the line of sight. A
-// waypoint of another frame is gone to when it is taken; it is dragged on only where it is seen under the mouse then.
-// An intruder that has no waypoint in this frame gets one when it is dragged. One drag is one step of undo; Esc takes
-// it back.
+// Moves waypoints over the footage with the mouse: at constant distance from the camera, or along the line of sight
+// while Alt or Shift is held. A press on a waypoint of another frame moves the playhead to that frame; the drag goes on
+// only if the waypoint's image is still under the mouse there. Dragging an intruder that has no waypoint in this frame
+// adds one. One drag is one undo step; Escape takes it back.
 class WaypointTool {
  public:
-  // Whether the press took hold of something.
+  // For a press of the left button. True: a waypoint or an intruder was under the mouse and may be dragged.
   bool press(const ToolContext& tool);
   void drag(const ToolContext& tool);
   void release(const ViewContext& context);
-  void select_again(const ViewContext& context);  // once per update, before anything else
+  // Once per update, before the other calls: after Escape, selects what was dragged again.
+  void select_again(const ViewContext& context);
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
 
-  // Distance beside the mouse, while something is dragged.
+  // While something is dragged: its distance from the camera and how far it was moved, beside the mouse.
   void draw(const ToolContext& tool) const;
 
  private:
   struct Taken {
     int intruder = 0;
-    int waypoint = 0;     // -1: the intruder itself, which has none here
-    std::string gesture;  // "" until it moves
-    std::uint64_t revision_before = 0;
+    int waypoint = 0;  // -1: the intruder itself, which has none here
+    DragGesture gesture;
     Selection selected_before;  // what Esc comes back to
-    glm::dvec2 pressed{0, 0};   // where the mouse was taken, on the screen
-    bool moving = false;
     bool along = false;
     glm::dvec3 start_m{0, 0, 0};  // where the part of the drag that lasts began
     glm::dvec2 start_mouse{0, 0};
@@ -64,7 +64,6 @@ class WaypointTool {
   [[nodiscard]] bool is_still_there(const ViewContext& context) const;
   [[nodiscard]] bool is_under_press(const ToolContext& tool, const glm::dvec3& position_m) const;
   bool begin(const ToolContext& tool);
-  void cancel(const ViewContext& context);
   void move(const ToolContext& tool);
 
   std::optional<Taken> taken_;

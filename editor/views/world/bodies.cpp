@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "editor/views/readable.h"
+#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 

@@ -22,7 +22,7 @@ class BodyShapes {
 };
 
 // Aircraft at the playhead, far to near, flat shaded in their colours; drawn larger than they are where they would be
-// too small to be seen. With drop line and distance to the camera.
+// too small to be visible. With drop line and distance to the camera.
 void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& shapes, const Selection& hovered);
 
 // A sun where the light stands, or at the edge an arrow to it where it stands elsewhere.

@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kMinStep_px = 1.5;  // what lies nearer to the point before adds nothing to a polyline
 
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-}
-
 bool holds(const ScreenRect& outer, const ScreenRect& inner) {
   return inner.low.x >= outer.low.x && inner.low.y >= outer.low.y && inner.high.x <= outer.high.x &&
          inner.high.y <= outer.high.y;
@@ -97,9 +93,7 @@ void WorldCanvas::polyline(std::span<const glm::dvec3> points_m, ImU32 color, do
 bool WorldCanvas::put(const glm::dvec2& low, const std::string& text, ImU32 color, Font which) {
   ImFont* face = font(which);
   const ScreenRect place{low, low + size_of(text, which)};
-  const auto covers = [&](const ScreenRect& other) { return overlap(place, other); };
-  if (!holds(rect_, place) || std::any_of(taken_.begin(), taken_.end(), covers)) return false;
-  taken_.push_back({place.low - 2.0, place.high + 2.0});
+  if (!holds(rect_, place) || !labels_.place({&place, 1})) return false;
   const ImVec2 corner{std::round(static_cast<float>(place.low.x)), std::round(static_cast<float>(place.low.y))};
   list_.AddText(face, face->FontSize, {corner.x + 1, corner.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
   list_.AddText(face, face->FontSize, corner, color, text.c_str());

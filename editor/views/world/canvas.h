@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/geometry/orbit_camera.h"
+#include "editor/geometry/screen_marks.h"
 #include "editor/widgets/screen_vec.h"
 #include "editor/widgets/theme.h"
 
@@ -43,7 +44,7 @@ class WorldCanvas {
   // Beside a place of the screen, that far from it, on whichever side there is room.
   bool label_beside(const glm::dvec2& at, double gap_px, const std::string& text, ImU32 color);
   // No label may cover this.
-  void keep_free(const ScreenRect& taken) { taken_.push_back(taken); }
+  void keep_free(const ScreenRect& area) { labels_.keep_free(area); }
 
  private:
   // With its upper left corner there.
@@ -52,7 +53,7 @@ class WorldCanvas {
   ImDrawList& list_;
   const OrbitCamera& eye_;
   ScreenRect rect_;
-  std::vector<ScreenRect> taken_;
+  LabelPlacer labels_{2};
 };
 
 }  // namespace sigs::editor

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "editor/geometry/world_picking.h"
+#include "editor/geometry/screen_marks.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/views/world/bodies.h"
 
@@ -13,7 +13,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kReach_px = 9;
+constexpr double kPickReach_px = 9;
 constexpr double kBodyReach_px = 16;
 constexpr double kCurveReach_px = 6;
 constexpr double kMaxCoordinate_m = 1e6;  // of a new waypoint from the camera
@@ -109,7 +109,7 @@ const WaypointSettings* waypoint_of(const Project& project, const Selection& wha
 
 WorldPick pick_at(const WorldCanvas& canvas, const WorldContext& world, const glm::dvec2& mouse) {
   for (const bool of_current : {true, false})
-    if (const auto found = waypoints_offered(canvas, world.context, of_current).at(mouse, scaled(kReach_px)))
+    if (const auto found = waypoints_offered(canvas, world.context, of_current).at(mouse, scaled(kPickReach_px)))
       return {*found, {}};
   if (const auto found = things_offered(canvas, world).at(mouse, scaled(kBodyReach_px))) return {*found, {}};
   return curve_at(canvas, world, mouse);
@@ -136,7 +136,7 @@ std::string gesture_of(const Selection& moved) {
 void move_to(const WorldContext& world, const Movable& moved, const glm::dvec3& to_m) {
   Edits& edits = world.context.edits;
   if (moved.what.kind == Selected::waypoint)
-    move_waypoint(world.context, moved.what.intruder, moved.what.waypoint, to_m);
+    move_waypoint(world.context, moved.what.intruder, moved.what.waypoint, to_m, gesture_of(moved.what));
   if (moved.what.kind == Selected::light)
     edits.change(
         "move light", [=](Project& project) { project.light.position_m = to_m; }, gesture_of(moved.what));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/world/tools.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,20 +10,108 @@
 #include <string>
 #include <vector>
 
-#include "editor/geometry/ground_grid.h"
+#include "editor/geometry/rulers.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 
 namespace {
 
+constexpr const char* kId = "world menu";
+
+double frame_of(const ViewContext& context, const Selection& waypoint) {
+  return frames_of_waypoints(context, waypoint.intruder)[static_cast<std::size_t>(waypoint.waypoint)];
+}
+
+// The selection was moved to the waypoint when the menu was asked for; what follows acts on it.
+bool draw_waypoint_items(const WorldContext& world, const Selection& what) {
+  const ViewContext& context = world.context;
+  const std::string frame = std::to_string(std::lround(frame_of(context, what)));
+  if (ImGui::MenuItem(("Go to frame " + frame).c_str())) go_to_moment(context, frame_of(context, what));
+  const bool numbers = ImGui::MenuItem("Type its position ...", "N");
+  ImGui::Separator();
+  if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(context);
+  if (ImGui::MenuItem("Delete", "Del")) delete_selected(context);
+  return numbers;
+}
+
+void draw_curve_items(const WorldContext& world, int intruder, double frame) {
+  const double whole = std::round(frame);
+  const std::string text = std::to_string(std::lround(whole));
+  if (ImGui::MenuItem(("Insert a waypoint at frame " + text).c_str()))
+    if (const std::optional<glm::dvec3> at_m = position_of(world.context, intruder, whole))
+      add_waypoint(world.context, intruder, whole, *at_m);
+  if (ImGui::MenuItem(("Go to frame " + text).c_str())) go_to_moment(world.context, whole);
+}
+
+void draw_place_items(const WorldContext& world, const std::optional<glm::dvec3>& place_m) {
+  const ViewContext& context = world.context;
+  if (!current_intruder(context)) {
+    if (ImGui::MenuItem("Add an intruder")) add_intruder(context);
+    return;
+  }
+  const std::string frame = std::to_string(context.document.playhead());
+  const bool add =
+      ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value());
+  context.ui_probe.note_item("world/menu/add waypoint");
+  if (add) add_waypoint_here(context, place_m);
+  if (!place_m) return;
+  const double distance_m = glm::distance(*place_m, world.moment.world_from_camera.translation_m);
+  ImGui::TextDisabled("%s from the camera, %s high", distance_text(distance_m).c_str(),
+                      distance_text(std::max(0.0, -place_m->z)).c_str());
+}
+
+}  // namespace
+
+void WorldMenu::open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m) {
+  pick_ = pick;
+  place_m_ = place_m;
+  state_ = State::asked;
+}
+
+std::optional<Selection> WorldMenu::draw_items(const WorldContext& world) const {
+  const Selection& what = pick_.what;
+  if (pick_.frame) {
+    draw_curve_items(world, what.intruder, *pick_.frame);
+    return std::nullopt;
+  }
+  switch (what.kind) {
+    case Selected::waypoint:
+      if (!movable(world, what)) return std::nullopt;
+      return draw_waypoint_items(world, what) ? std::optional(what) : std::nullopt;
+    case Selected::light:
+    case Selected::camera:
+      return ImGui::MenuItem("Type its position ...", "N") ? std::optional(what) : std::nullopt;
+    case Selected::intruder:
+      if (ImGui::MenuItem("Add a waypoint here", "Enter")) add_waypoint_here(world.context);
+      return std::nullopt;
+    default:
+      draw_place_items(world, place_m_);
+      return std::nullopt;
+  }
+}
+
+std::optional<Selection> WorldMenu::draw(const WorldContext& world) {
+  if (state_ == State::closed) return std::nullopt;
+  if (state_ == State::asked) {
+    ImGui::OpenPopup(kId);
+    state_ = State::open;
+  }
+  if (!ImGui::BeginPopup(kId)) {
+    state_ = State::closed;
+    return std::nullopt;
+  }
+  const std::optional<Selection> numbers_for = draw_items(world);
+  ImGui::EndPopup();
+  return numbers_for;
+}
+
+namespace {
+
 constexpr double kClick_px = 4;     // a press that goes no farther is a click
 constexpr double kZoomStep = 1.18;  // a notch of the wheel
-
-glm::dvec2 mouse_now() {
-  return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
-}
 
 double snap_now_m(const WorldCanvas& canvas, const WorldViewState& look, const glm::dvec3& at_m) {
   return look.snap != ImGui::GetIO().KeyCtrl ? snap_step_m(canvas.eye(), at_m, canvas.rect()) : 0;
@@ -30,9 +119,7 @@ double snap_now_m(const WorldCanvas& canvas, const WorldViewState& look, const g
 
 std::string coordinates(const glm::dvec3& p_m, double step_m) {
   const int digits = step_m >= 1 ? 0 : step_m >= 0.1 || step_m == 0 ? 1 : 3;
-  char text[160];
-  std::snprintf(text, sizeof text, "X %.*f   Y %.*f   Z %.*f", digits, p_m.x, digits, p_m.y, digits, p_m.z);
-  return text;
+  return fmt::format("X {:.{}f}   Y {:.{}f}   Z {:.{}f}", p_m.x, digits, p_m.y, digits, p_m.z, digits);
 }
 
 void draw_plate(WorldCanvas& canvas, const std::vector<std::string>& lines) {
@@ -60,7 +147,7 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
   move_handle(world, canvas, look);
   if (handle_.dragging()) return;
   if (over && holding_ == Holding::nothing && handle_.part() == GizmoPart::none)
-    hovered_ = pick_at(canvas, world, mouse_now());
+    hovered_ = pick_at(canvas, world, dv(ImGui::GetMousePos()));
   if (hovered_.what.kind != Selected::nothing) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   if (over) press(world, canvas);
   hold(canvas.rect(), look);
@@ -68,7 +155,7 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
   if (!over) return;
   if (ImGui::GetIO().MouseWheel != 0) {
     const double factor = std::pow(kZoomStep, ImGui::GetIO().MouseWheel);
-    look.eye = approached(look.eye, factor, mouse_now(), canvas.rect());
+    look.eye = approached(look.eye, factor, dv(ImGui::GetMousePos()), canvas.rect());
     look.touched = true;
   }
   const bool may_type = !ImGui::GetIO().WantTextInput && !ImGui::GetIO().KeyCtrl;
@@ -77,9 +164,7 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
 
 void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
   moved_to_.reset();
-  // Numbers count what they counted as long as nothing but this drag has changed the project.
-  if (handle_.dragging() && world.context.document.has_other_changes(revision_before_, gesture_of(dragged_)))
-    handle_.abandon_drag();
+  if (handle_.dragging() && gesture_.is_lost(world.context)) handle_.abandon_drag();
   const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
   if (!target) {
     handle_.abandon_drag();
@@ -91,22 +176,23 @@ void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canva
                          .mouse_is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing,
                          .snap_m = snap_now_m(canvas, look, target->at_m)};
   const GizmoResult answer = handle_.update(target->at_m, input);
-  if (!was_dragging && handle_.dragging()) {
-    dragged_ = target->what;
-    revision_before_ = world.context.document.revision().number;
+  if (!was_dragging && handle_.dragging()) begin_drag(world, *target);
+  if (answer.moved_to) {
+    gesture_.is_moving = true;
+    move_to(world, *target, *answer.moved_to);
   }
-  if (answer.moved_to) move_to(world, *target, *answer.moved_to);
   moved_to_ = answer.moved_to;
   if (answer.released) world.context.edits.end_gesture();
-  if (answer.cancelled) cancel_drag(world);
+  if (answer.cancelled) gesture_.cancel(world.context);
   if (answer.wants_numbers || (answer.wants_middle && target->what.kind != Selected::waypoint))
     enter_position(world, target->what);
   else if (answer.wants_middle)
     handle_double_click(world);
 }
 
-void WorldTools::cancel_drag(const WorldContext& world) {
-  world.context.edits.cancel_gesture(gesture_of(dragged_));
+void WorldTools::begin_drag(const WorldContext& world, const Movable& moved) {
+  dragged_ = moved.what;
+  gesture_ = drag_gesture_at(world.context, dv(ImGui::GetMousePos()), gesture_of(dragged_));
 }
 
 void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
@@ -116,7 +202,7 @@ void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
   if (handle_.part() != GizmoPart::none && left) return;  // the handle has had it
   if (holding_ != Holding::nothing || !(left || middle || right)) return;
   held_px_ = 0;
-  hovered_ = pick_at(canvas, world, mouse_now());
+  hovered_ = pick_at(canvas, world, dv(ImGui::GetMousePos()));
   if (left && !ImGui::GetIO().KeyShift) {
     if (const std::optional<Movable> target = movable(world, hovered_.what);
         target && hovered_.what.kind == Selected::waypoint) {
@@ -133,8 +219,7 @@ void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
 void WorldTools::take_waypoint(const WorldContext& world, const Movable& waypoint) {
   world.context.edits.select(waypoint.what);
   handle_.take(GizmoPart::screen, waypoint.at_m);
-  dragged_ = waypoint.what;
-  revision_before_ = world.context.document.revision().number;
+  begin_drag(world, waypoint);
 }
 
 void WorldTools::hold(const ScreenRect& rect, WorldViewState& look) {
@@ -158,10 +243,10 @@ void WorldTools::release(const WorldContext& world, const WorldCanvas& canvas) {
   if (holding_ == Holding::nothing || down) return;
   const Holding held = std::exchange(holding_, Holding::nothing);
   if (held_px_ >= scaled(kClick_px) || held == Holding::pan) return;
-  const WorldPick pick = pick_at(canvas, world, mouse_now());
+  const WorldPick pick = pick_at(canvas, world, dv(ImGui::GetMousePos()));
   if (held == Holding::menu) {
     if (pick.what.kind != Selected::nothing) world.context.edits.select(pick.what);
-    menu_.open(pick, place_for_waypoint(canvas, world, mouse_now()));
+    menu_.open(pick, place_for_waypoint(canvas, world, dv(ImGui::GetMousePos())));
   } else if (pick.frame) {
     world.context.edits.select({Selected::intruder, pick.what.intruder, 0});
   } else {
@@ -173,10 +258,7 @@ void WorldTools::release(const WorldContext& world, const WorldCanvas& canvas) {
 void WorldTools::handle_double_click(const WorldContext& world) {
   const Selection& selection = world.context.document.selection();
   if (selection.kind != Selected::waypoint) return;
-  const double frame =
-      frames_of_waypoints(world.context, selection.intruder)[static_cast<std::size_t>(selection.waypoint)];
-  world.context.edits.ask(Play{0});
-  world.context.edits.go_to_frame(static_cast<int>(std::clamp(std::round(frame), 0.0, 1e9)));
+  go_to_moment(world.context, frame_of(world.context, selection));
 }
 
 void WorldTools::enter_position(const WorldContext& world, const Selection& what) {

@@ -1,25 +1,43 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
-#include "editor/views/world/menu.h"
+#include "editor/views/drag_gesture.h"
 #include "editor/views/world/picks.h"
 #include "editor/views/world/view_presets.h"
 #include "editor/widgets/gizmo_handle.h"
-#include "editor/widgets/point_entry.h"
 
 namespace sigs::editor {
 
-// What the mouse does in the world view: looks around, picks, moves what is selected, offers what can be done.
+// The menu of the right button, for what was under the mouse when it was clicked.
+class WorldMenu {
+ public:
+  // place_m: where a new waypoint would be, in the world; nothing where the mouse is beside the plane for waypoints.
+  void open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m);
+  // Once per update. Returns what the user wants to type a position for, in the update in which that is chosen.
+  [[nodiscard]] std::optional<Selection> draw(const WorldContext& world);
+
+ private:
+  enum class State { closed, asked, open };
+
+  [[nodiscard]] std::optional<Selection> draw_items(const WorldContext& world) const;
+
+  State state_ = State::closed;
+  WorldPick pick_;
+  std::optional<glm::dvec3> place_m_;
+};
+
+// The mouse in the world view. Drags beside everything orbit or pan the camera of the view, the wheel zooms, a click
+// selects, a drag of the selected point's handle moves it in the project (one undo step; Escape takes it back), and the
+// right button opens a menu.
 class WorldTools {
  public:
-  // Once per update, right after the canvas' item, before anything is drawn; moves the look.
+  // Once per update, right after the canvas' ImGui item and before anything is drawn. Changes `look` (camera, preset).
   void update(const WorldContext& world, const WorldCanvas& canvas, WorldViewState& look);
-  // Before labels are drawn: none may cover the handle.
+  // Before labels are drawn: keeps the handle's area free of them.
   void keep_handle_free(WorldCanvas& canvas, const WorldContext& world) const;
-  // After the world: the handle and what is being typed or chosen.
+  // After the world: draws the handle, the field for typed coordinates and the menu.
   void draw(WorldCanvas& canvas, const WorldContext& world, const WorldViewState& look);
 
   [[nodiscard]] const WorldPick& hovered() const { return hovered_; }
@@ -29,7 +47,7 @@ class WorldTools {
   enum class Holding { nothing, orbit, pan, menu };
 
   void move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
-  void cancel_drag(const WorldContext& world);
+  void begin_drag(const WorldContext& world, const Movable& moved);
   void take_waypoint(const WorldContext& world, const Movable& waypoint);
   void press(const WorldContext& world, const WorldCanvas& canvas);
   void hold(const ScreenRect& rect, WorldViewState& look);
@@ -40,8 +58,8 @@ class WorldTools {
   void draw_readout(WorldCanvas& canvas, const Movable& moved, double snap_m) const;
 
   GizmoHandle handle_;
-  Selection dragged_;                   // what the handle moves
-  std::uint64_t revision_before_ = 0;   // of the document, when that began
+  Selection dragged_;  // what the handle moves
+  DragGesture gesture_;
   std::optional<glm::dvec3> moved_to_;  // in this update
   PointEntry entry_;
   Selection entered_;  // what a position is typed for

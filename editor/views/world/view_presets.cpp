@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "editor/widgets/icons.h"
+#include "editor/widgets/toolbar.h"
 
 namespace sigs::editor {
 
@@ -53,6 +57,36 @@ WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTarge
   WorldViewState result = look;
   result.eye = framing(look.eye, targets.points_m, rect);
   return result;
+}
+
+WorldToolbarResult draw_world_toolbar(WorldViewState& look) {
+  WorldToolbarResult answer;
+  const auto preset = [&](ToolButton button, WorldViewPreset wanted) {
+    button.on = look.preset == wanted;
+    return ToolbarItem{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
+  };
+  const std::vector<ToolbarItem> items{
+      preset(
+          {"orbit", Icon::orbit, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
+          WorldViewPreset::orbit),
+      preset({"top", Icon::view_from_top, "Top", "From above, the camera's way upwards"}, WorldViewPreset::top),
+      preset({"side", Icon::view_from_side, "Side", "From the right-hand side, the camera flying to the right"},
+             WorldViewPreset::side),
+      preset({"camera", Icon::camera, "Camera", "From behind the camera, going with it"}, WorldViewPreset::camera),
+      {.is_gap = true},
+      {.button = {"frame", Icon::fit_contents, "", "Everything in sight (F); the light too while it is selected"},
+       .clicked = [&] { answer.frame_all = true; }},
+      {.button = {"perspective", Icon::perspective, "", "Perspective; off: parallel, true to scale",
+                  look.eye.projection == Projection::perspective},
+       .clicked =
+           [&] {
+             const bool is_on = look.eye.projection == Projection::perspective;
+             look.eye.projection = is_on ? Projection::parallel : Projection::perspective;
+           }},
+      toggle_item({"snap", Icon::snap, "", "Move in round steps (Ctrl: the other way for once)"}, look.snap),
+  };
+  draw_toolbar(items);
+  return answer;
 }
 
 }  // namespace sigs::editor

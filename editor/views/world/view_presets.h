@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 
-#include "editor/geometry/image_drag.h"
+#include "editor/geometry/lens_projection.h"
 #include "editor/geometry/orbit_camera.h"
 
 namespace sigs::editor {
 
 enum class WorldViewPreset { orbit, top, side, camera };
 
-// How a person looks at the world.
+// The camera of the world view and its switches.
 struct WorldViewState {
   OrbitCamera eye;
   WorldViewPreset preset = WorldViewPreset::orbit;
   bool snap = false;     // Ctrl turns it round
-  bool touched = false;  // moved by hand since the project was opened
+  bool touched = false;  // the user has moved the camera since the project was opened
 };
 
 // What a preset is taken from.
@@ -32,5 +33,14 @@ struct WorldViewTargets {
 // The same direction, all points in sight; behind the camera, that preset again.
 [[nodiscard]] WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTargets& targets,
                                               const ScreenRect& rect);
+
+// What the user asked for with a button in this update. Projection and snapping are switched in the state itself.
+struct WorldToolbarResult {
+  std::optional<WorldViewPreset> preset;
+  bool frame_all = false;
+};
+
+// One row over the world view.
+[[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look);
 
 }  // namespace sigs::editor

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/views/world/ground.h"
-#include "editor/views/world/toolbar.h"
+#include "editor/views/world/scene.h"
+#include "editor/views/world/view_presets.h"
 #include "editor/widgets/keys.h"
 
 namespace sigs::editor {

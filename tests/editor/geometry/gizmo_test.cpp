@@ -34,10 +34,6 @@ glm::dvec3 sight(const OrbitCamera& camera, const glm::dvec3& p) {
   return camera.projection == Projection::parallel ? camera.forward() : glm::normalize(p - camera.eye_m());
 }
 
-bool is_finite(const glm::dvec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 }  // namespace
 
 TEST_CASE("a point dragged on an axis stays on it and as near to the mouse as the axis comes") {

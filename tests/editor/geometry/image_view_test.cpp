@@ -10,9 +10,9 @@
 namespace sigs::editor {
 namespace {
 
-const glm::dvec2 kSize{1280, 960};
-const ScreenRect kRect{{200, 40}, {1100, 700}};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const glm::dvec2 kImageSize{1280, 960};
+const ScreenRect kPanel{{200, 40}, {1100, 700}};
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 bool is_whole(double value) {
   return value == std::round(value);
@@ -20,8 +20,8 @@ bool is_whole(double value) {
 
 // What of the image shows, along x and y, screen pixels.
 glm::dvec2 showing(const ImageView& view) {
-  const glm::dvec2 low = glm::max(view.screen_of({-0.5, -0.5}), kRect.low);
-  const glm::dvec2 high = glm::min(view.screen_of(kSize - 0.5), kRect.high);
+  const glm::dvec2 low = glm::max(view.screen_of({-0.5, -0.5}), kPanel.low);
+  const glm::dvec2 high = glm::min(view.screen_of(kImageSize - 0.5), kPanel.high);
   return high - low;
 }
 
@@ -44,31 +44,31 @@ TEST_CASE("screen and image are each other's inverse") {
 }
 
 TEST_CASE("a fitted image is whole, in the middle, and touches the rectangle on two sides") {
-  for (const glm::dvec2 size : {kSize, glm::dvec2{900, 100}, glm::dvec2{100, 3000}, glm::dvec2{33, 41}}) {
-    const ImageView view = fitted(size, kRect);
+  for (const glm::dvec2 size : {kImageSize, glm::dvec2{900, 100}, glm::dvec2{100, 3000}, glm::dvec2{33, 41}}) {
+    const ImageView view = fitted(size, kPanel);
     const glm::dvec2 low = view.screen_of({-0.5, -0.5});
     const glm::dvec2 high = view.screen_of(size - 0.5);
-    CHECK(low.x >= kRect.low.x - 0.5);  // whole screen pixels may take half a pixel
-    CHECK(low.y >= kRect.low.y - 0.5);
-    CHECK(high.x <= kRect.high.x + 0.5);
-    CHECK(high.y <= kRect.high.y + 0.5);
-    CHECK(glm::length((low + high) / 2.0 - (kRect.low + kRect.high) / 2.0) <= std::sqrt(0.5));
-    const glm::dvec2 spare = kRect.size() - (high - low);
+    CHECK(low.x >= kPanel.low.x - 0.5);  // whole screen pixels may take half a pixel
+    CHECK(low.y >= kPanel.low.y - 0.5);
+    CHECK(high.x <= kPanel.high.x + 0.5);
+    CHECK(high.y <= kPanel.high.y + 0.5);
+    CHECK(glm::length((low + high) / 2.0 - (kPanel.low + kPanel.high) / 2.0) <= std::sqrt(0.5));
+    const glm::dvec2 spare = kPanel.size() - (high - low);
     CHECK(std::min(spare.x, spare.y) == doctest::Approx(0).scale(1e3));
   }
 }
 
 TEST_CASE("an image or rectangle of no size is fitted at zoom 1") {
-  CHECK(fitted({0, 0}, kRect).zoom == 1);
-  CHECK(fitted({1280, 0}, kRect).zoom == 1);
-  CHECK(fitted(kSize, {}).zoom == 1);
-  CHECK(fitted(kSize, {{10, 10}, {5, 5}}).zoom == 1);
-  CHECK(fitted({kNan, 4}, kRect).zoom == 1);
+  CHECK(fitted({0, 0}, kPanel).zoom == 1);
+  CHECK(fitted({1280, 0}, kPanel).zoom == 1);
+  CHECK(fitted(kImageSize, {}).zoom == 1);
+  CHECK(fitted(kImageSize, {{10, 10}, {5, 5}}).zoom == 1);
+  CHECK(fitted({kNotANumber, 4}, kPanel).zoom == 1);
 }
 
 TEST_CASE("a tiny or huge image is fitted within the limits of zoom") {
-  CHECK(fitted({1, 1}, kRect).zoom == kMaxZoom);
-  CHECK(fitted({1e6, 1e6}, kRect).zoom == kMinZoom);
+  CHECK(fitted({1, 1}, kPanel).zoom == kMaxZoom);
+  CHECK(fitted({1e6, 1e6}, kPanel).zoom == kMinZoom);
 }
 
 TEST_CASE("zooming leaves the image point under the cursor, but for the step to whole screen pixels") {
@@ -110,22 +110,22 @@ TEST_CASE("slow zooming gets away from a whole number in both directions") {
 
 TEST_CASE("no factor at all leaves the view") {
   const ImageView view{1.37, {4.5, 5.5}};
-  for (const double factor : {1.0, 0.0, -2.0, kNan}) CHECK(zoomed(view, factor, {50, 50}) == view);
-  CHECK(zoomed(view, 2, {kNan, 50}) == view);
+  for (const double factor : {1.0, 0.0, -2.0, kNotANumber}) CHECK(zoomed(view, factor, {50, 50}) == view);
+  CHECK(zoomed(view, 2, {kNotANumber, 50}) == view);
 }
 
 TEST_CASE("a small pan moves the image by as much") {
   const ImageView view{1, {200, 40}};
-  CHECK(panned(view, {-30, 12}, kSize, kRect).origin_on_screen == glm::dvec2{170, 52});
+  CHECK(panned(view, {-30, 12}, kImageSize, kPanel).origin_on_screen == glm::dvec2{170, 52});
   const ImageView small{0.5, {300.25, 40}};
-  CHECK(panned(small, {0.5, 0}, kSize, kRect).origin_on_screen == glm::dvec2{300.75, 40});
+  CHECK(panned(small, {0.5, 0}, kImageSize, kPanel).origin_on_screen == glm::dvec2{300.75, 40});
 }
 
 TEST_CASE("however far it is panned, a quarter of the rectangle or of the image shows") {
   for (const double zoom : {0.05, 0.3, 1.0, 7.0, 64.0})
     for (const glm::dvec2 by : {glm::dvec2{1e7, 1e7}, glm::dvec2{-1e7, -1e7}, glm::dvec2{1e7, -1e7}}) {
-      const ImageView view = panned({zoom, {250, 60}}, by, kSize, kRect);
-      const glm::dvec2 minimum = glm::min(kSize * zoom, kRect.size()) / 4.0;
+      const ImageView view = panned({zoom, {250, 60}}, by, kImageSize, kPanel);
+      const glm::dvec2 minimum = glm::min(kImageSize * zoom, kPanel.size()) / 4.0;
       const double slack_px = zoom >= 1 ? 1 : 1e-6;  // whole screen pixels, never to the outside
       CHECK(showing(view).x >= minimum.x - 1e-6);
       CHECK(showing(view).y >= minimum.y - 1e-6);
@@ -137,9 +137,9 @@ TEST_CASE("however far it is panned, a quarter of the rectangle or of the image 
 
 TEST_CASE("panning by what is no number moves nothing") {
   const ImageView view{2, {4, 5}};
-  CHECK(panned(view, {kNan, 3}, kSize, kRect) == view);
-  CHECK(panned(view, {3, std::numeric_limits<double>::infinity()}, kSize, kRect) == view);
-  CHECK(panned(view, {3, 3}, {0, 0}, kRect) == view);
+  CHECK(panned(view, {kNotANumber, 3}, kImageSize, kPanel) == view);
+  CHECK(panned(view, {3, std::numeric_limits<double>::infinity()}, kImageSize, kPanel) == view);
+  CHECK(panned(view, {3, 3}, {0, 0}, kPanel) == view);
 }
 
 }  // namespace sigs::editor

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/lane_values.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "editor/views/timeline/lane_values.h"
 
 using namespace sigs;
 using namespace sigs::editor;
@@ -34,4 +37,89 @@ TEST_CASE("an intruder that is never in view has an empty lane of sizes") {
   CHECK(sizes.values.size() == 3);
   CHECK(sizes.minimum == sizes.maximum);
   CHECK(values_of(Survey(), Lane::speed).values.empty());
+}
+
+using namespace sigs::editor;
+
+namespace {
+
+const TimeRuler kRuler{.left_x = 10, .width = 1000, .first = 0, .count = 1000};
+const LaneBox kBox{.top_y = 100, .height = 50};
+
+std::vector<double> wave(int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(std::sin(i * 0.01));
+  return values;
+}
+
+// How far a line passes from a point, upright; infinity beside its ends.
+double miss(const Polyline& line, double x, double y) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const glm::vec2 a = line[i - 1];
+    const glm::vec2 b = line[i];
+    if (x >= a.x && x <= b.x) return std::abs(a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x) - y);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+TEST_CASE("a curve passes its values within the tolerance with far fewer points") {
+  TimeRuler near = kRuler;
+  near.count = 200;  // 5 px a frame: each frame counts
+  const std::vector<double> values = wave(200);
+  const auto lines = curve_of(values, 0, near, {.low = -1, .high = 1}, kBox);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].size() < 60);
+  for (int i = 0; i < 200; ++i)
+    CHECK(miss(lines[0], near.x_of(i + 0.5), 125 - 25 * values[static_cast<std::size_t>(i)]) < 0.34);
+}
+
+TEST_CASE("a single spike among many frames still shows") {
+  std::vector<double> values(100'000, 0.0);
+  values[54'321] = 1;
+  TimeRuler far = kRuler;
+  far.count = 100'000;
+  const auto lines = curve_of(values, 0, far, {.low = 0, .high = 1}, kBox);
+  REQUIRE(lines.size() == 1);
+  const auto top = std::min_element(lines[0].begin(), lines[0].end(), [](auto a, auto b) { return a.y < b.y; });
+  CHECK(top->y == doctest::Approx(100));
+  CHECK(top->x == doctest::Approx(far.x_of(54'321.5)));
+}
+
+TEST_CASE("values that are not finite leave gaps, and nothing gives nothing") {
+  std::vector<double> values = wave(300);
+  values[100] = std::numeric_limits<double>::quiet_NaN();
+  values[200] = std::numeric_limits<double>::infinity();
+  TimeRuler near = kRuler;
+  near.count = 300;
+  CHECK(curve_of(values, 0, near, {.low = -1, .high = 1}, kBox).size() == 3);
+  CHECK(curve_of({}, 0, kRuler, {}, kBox).empty());
+  CHECK(curve_of(values, 5000, kRuler, {}, kBox).empty());
+  CHECK(curve_of(values, 0, {.width = 0}, {}, kBox).empty());
+}
+
+TEST_CASE("a scale holds all values, begins at zero where they come near it, and never magnifies noise") {
+  const auto holds = [](std::vector<double> values) {
+    const LaneScale scale = scale_for(values, 1);
+    for (const double v : values) CHECK((v >= scale.low && v <= scale.high));
+    CHECK(scale.high - scale.low >= 1);
+    return scale;
+  };
+  CHECK(holds({1, 10}).low == 0);
+  CHECK(holds({90, 100}).low > 80);
+  CHECK(holds({-3, 2}).low < -3);
+  CHECK(holds({7, 7, 7}).share_of(7) == doctest::Approx(0.5));
+  holds({0, 0});
+  holds({1e7, 1e7 + 1e-9});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(scale_for(std::vector{nan, 5.0, 10.0}, 1).high > 10);
+  CHECK(scale_for({}, 2).high == 2);
+}
+
+TEST_CASE("a logarithmic scale has a place for zero and gives small values more room") {
+  const LaneScale scale = scale_for(std::vector{0.0, 1000.0}, 1, Scaling::logarithmic);
+  CHECK(scale.share_of(0) == 0);
+  CHECK(scale.share_of(10) > 0.3);
+  CHECK(scale.share_of(1e9) == 1);
 }

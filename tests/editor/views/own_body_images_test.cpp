@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "editor/views/own_body/mask_tiles.h"
-
 using namespace sigs;
 using namespace sigs::editor;
 
@@ -55,15 +53,15 @@ TEST_CASE("what was found is told in a line") {
 }
 
 TEST_CASE("a result is doubted where the engine warns, where most is masked and where little was looked through") {
-  CHECK(doubts_about({.share = 0.5}, 10).empty());
-  CHECK(doubts_about({.share = 0}, 60).empty());
+  CHECK(cautions_about({.share = 0.5}, 10).empty());
+  CHECK(cautions_about({.share = 0}, 60).empty());
   const std::vector<std::string> all =
-      doubts_about({.share = 0.501, .warnings = {{"clip.mp4", "3 damaged frames"}}}, 6.66);
+      cautions_about({.share = 0.501, .warnings = {{"clip.mp4", "3 damaged frames"}}}, 6.66);
   REQUIRE(all.size() == 3);
   CHECK(all[0] == "clip.mp4: 3 damaged frames");
   CHECK(all[1].starts_with("50.1 % of the image, more than half"));
   CHECK(all[2].starts_with("Only 6.7 s"));
-  CHECK(doubts_about({}, 9.99).size() == 1);
+  CHECK(cautions_about({}, 9.99).size() == 1);
 }
 
 TEST_CASE("progress is told with the time that is left") {

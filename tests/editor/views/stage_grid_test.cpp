@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/stages/stage_grid.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+
+#include "editor/views/stages/stage_grid.h"
 
 using namespace sigs::editor;
 
@@ -34,4 +35,78 @@ TEST_CASE("a grid of nothing, or in no room, is still a grid") {
   CHECK(cramped.columns * cramped.rows >= 7);
   const GridShape unknown = grid_shape(7, {0, 0}, {800, 600}, 22);
   CHECK(unknown.columns * unknown.rows >= 7);
+}
+
+using namespace sigs;
+using namespace sigs::editor;
+
+namespace {
+
+Stage stage(const char* name, int grey = 7) {
+  return {name, cv::Mat(3, 4, CV_8UC3, cv::Scalar::all(grey))};
+}
+
+std::vector<std::string> labels_of(const std::vector<StageTile>& tiles) {
+  std::vector<std::string> labels;
+  for (const StageTile& tile : tiles) labels.push_back(tile.label);
+  return labels;
+}
+
+}  // namespace
+
+TEST_CASE("a number before an underscore is the intruder's, anything else belongs to the name") {
+  CHECK(stage_name("12_bent").intruder == 12);
+  CHECK(stage_name("12_bent").stage == "bent");
+  CHECK(stage_name("0_a").intruder == 0);
+  for (const char* name : {"bent", "_bent", "1bent", "1", "-1_bent", "", "99999999999999999999_bent", "1 _bent"}) {
+    CAPTURE(name);
+    CHECK_FALSE(stage_name(name).intruder.has_value());
+    CHECK(stage_name(name).stage == name);
+  }
+}
+
+TEST_CASE("each intruder with stages is named once, rising") {
+  CHECK(intruders_of({stage("3_layer"), stage("1_layer"), stage("3_bent"), stage("output")}) == std::vector<int>{1, 3});
+  CHECK(intruders_of({stage("output")}).empty());
+  CHECK(intruders_of({}).empty());
+}
+
+TEST_CASE("an intruder's tiles are its own stages and the frame's, in the order in which they were made") {
+  std::vector<Stage> stages{stage("input1"), stage("0_layer"), stage("1_layer"), stage("1_bent"), stage("output")};
+  CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Warped", "Output"});
+  CHECK(labels_of(stage_tiles(stages, std::nullopt)) == std::vector<std::string>{"Input 1", "Output"});
+  stages[3].image = cv::Mat();
+  CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Output"});
+  CHECK(labels_of(stage_tiles({stage("not known yet")}, 0)) == std::vector<std::string>{"not known yet"});
+}
+
+TEST_CASE("every stage of the paper's figure 4 has its label") {
+  for (const char* name : {"input1", "input2", "a", "b", "c", "d", "f"}) {
+    const std::vector<StageTile> tiles = stage_tiles({stage(name)}, std::nullopt);
+    REQUIRE(tiles.size() == 1);
+    CHECK(tiles[0].label != name);
+    CHECK_FALSE(tiles[0].tooltip.empty());
+  }
+}
+
+TEST_CASE("a difference is its size times the gain in each channel, cut at white") {
+  const cv::Mat a(2, 2, CV_8UC3, cv::Scalar(10, 200, 50));
+  const cv::Mat b(2, 2, CV_8UC3, cv::Scalar(13, 100, 50));
+  CHECK(difference(a, b, 8).at<cv::Vec3b>(1, 1) == cv::Vec3b(24, 255, 0));
+  CHECK(difference(b, a, 8).at<cv::Vec3b>(1, 1) == cv::Vec3b(24, 255, 0));
+  CHECK(cv::countNonZero(difference(a, a, 64).reshape(1)) == 0);
+  CHECK(difference(a, cv::Mat(2, 3, CV_8UC3), 1).empty());
+  CHECK(difference(a, cv::Mat(2, 2, CV_8UC1), 1).empty());
+  CHECK(difference({}, {}, 1).empty());
+}
+
+TEST_CASE("a difference asked for again is the same memory, another gain is another image") {
+  const cv::Mat a = stage("a", 10).image;
+  const cv::Mat b = stage("b", 12).image;
+  Differences differences;
+  const cv::Mat first = differences.of(a, b, 4);
+  CHECK(differences.of(a, b, 4).data == first.data);
+  CHECK(differences.of(a, b, 5).at<cv::Vec3b>(0, 0) == cv::Vec3b(10, 10, 10));
+  for (int gain = 10; gain < 20; ++gain) (void)differences.of(a, b, gain);
+  CHECK(differences.of(a, b, 4).at<cv::Vec3b>(0, 0) == first.at<cv::Vec3b>(0, 0));  // made again
 }
