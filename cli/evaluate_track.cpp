@@ -16,6 +16,7 @@
 #include "evaluation/results.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
+#include "scene/scene_files.h"
 #include "tracked_clip.h"
 
 namespace sigs::cli {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/paths.h"
+#include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/report.h"
 
@@ -66,7 +67,8 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
 Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
                                                     const std::vector<fs::path>& inputs) {
   const fs::path place = canonical_path(folder);
-  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{folder}, inputs); !kept) return fail(kept.error());
+  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{folder}, inputs); !kept)
+    return fail(kept.error());
   if (const Result<void> free = check_free(folder, place, overwrite); !free) return fail(free.error());
   CreatedFolders above;
   if (const Result<void> made = above.make(place.parent_path()); !made) return fail(made.error());

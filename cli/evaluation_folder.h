@@ -8,7 +8,8 @@
 
 #include "base/result.h"
 #include "base/staged_outputs.h"
-#include "created_folders.h"
+#include "cli/output_files.h"
+#include "evaluation/results.h"
 
 namespace sigs::cli {
 

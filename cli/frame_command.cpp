@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "created_folders.h"
+#include "cli/output_files.h"
+#include "cli/process.h"
+#include "export/export_project.h"
 #include "frame/compose_frame.h"
 #include "scene/opened_project.h"
+#include "scene/scene_files.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
 

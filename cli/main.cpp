@@ -7,14 +7,7 @@
 #include <vector>
 
 #include "base/threads.h"
-#include "cli/check_command.h"
-#include "cli/dataset_command.h"
-#include "cli/evaluate_command.h"
-#include "cli/export_command.h"
-#include "cli/frame_command.h"
-#include "cli/info_command.h"
-#include "cli/interrupt.h"
-#include "cli/mask_command.h"
+#include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/process.h"
 

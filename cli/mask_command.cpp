@@ -14,6 +14,7 @@
 #include "cli/options.h"
 #include "cli/process.h"
 #include "cli/progress.h"
+#include "export/export_project.h"
 #include "occlusion/detect.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/paths.h"
-#include "cli/overlay.h"
 
 namespace sigs::cli {
 

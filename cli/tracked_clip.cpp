@@ -11,9 +11,16 @@
 #include <system_error>
 #include <vector>
 
+#include "base/input_file.h"
+#include "base/paths.h"
+#include "base/result.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "evaluation/tracker_group.h"
+#include "base/threads.h"
+#include "cli/process.h"
+#include "cli/progress.h"
+#include "evaluation/clip_truth.h"
+#include "evaluation/opencv_tracker.h"
 #include "export/frame_stream.h"
 #include "labels/labels.h"
 #include "video/frame_source.h"

@@ -5,7 +5,7 @@
 
 #include "editor/document/dropped_file.h"
 #include "editor/document/project_paths.h"
-#include "editor/widgets/elided.h"
+#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 

@@ -15,7 +15,7 @@
 
 #include "base/file_lock.h"
 #include "base/staged_outputs.h"
-#include "editor/document/mask_file.h"
+#include "editor/document/mask_painting.h"
 #include "project/json_reading.h"
 
 namespace sigs::editor {

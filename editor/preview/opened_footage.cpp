@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "export/export_project.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {

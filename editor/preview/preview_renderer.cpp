@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "base/threads.h"
-#include "editor/preview/thread_priority.h"
+#include "editor/preview/thumbnails.h"
+#include "editor/preview/worker_thread.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::editor {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/threads.h"
-#include "editor/preview/outline_truth.h"
-#include "editor/preview/thread_priority.h"
+#include "editor/preview/surveys.h"
+#include "editor/preview/worker_thread.h"
 #include "evaluation/track_score.h"
 
 namespace sigs::editor {

@@ -8,6 +8,7 @@
 #include "project/project.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
+#include "export/frame_stream.h"
 
 namespace sigs::editor {
 

@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/pose.h"
 #include "base/threads.h"
+#include "base/transfer.h"
 #include "export/export_project.h"
 #include "frame/compose_frame.h"
 #include "project/json.h"

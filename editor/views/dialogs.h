@@ -11,6 +11,7 @@
 #include "editor/document/settings.h"
 #include "editor/views/context.h"
 #include "editor/widgets/ui_probe.h"
+#include "editor/document/project_paths.h"
 
 namespace sigs::editor {
 

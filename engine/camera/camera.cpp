@@ -12,10 +12,8 @@
 #include <utility>
 
 #include "base/staged_outputs.h"
-#include "camera/calibration_fields.h"
-#include "camera/gyroflow.h"
-#include "camera/opencv_storage.h"
-#include "camera/plain_yaml.h"
+#include "camera/calibration_fit.h"
+#include "camera/calibration_formats.h"
 
 namespace sigs::calibration {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/ensure.h"
 #include "compositor/occlude.h"
 #include "compositor/resample.h"
-#include "video/transfer_function.h"
+#include "video/color_space.h"
 
 namespace sigs {
 

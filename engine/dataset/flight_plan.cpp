@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/ensure.h"
 #include "base/pose.h"
 #include "dataset/encounter.h"
 #include "dataset/short_text.h"

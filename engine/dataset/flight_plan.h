@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "base/pose.h"
 #include "camera/camera.h"
 #include "dataset/encounter.h"
 #include "dataset/flight_quantities.h"

@@ -3,11 +3,12 @@
 
 #include <map>
 
-#include "scene/opened_project.h"
+#include "export/export_project.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 #include "video/frame_source.h"
+#include "scene/opened_project.h"
 
 namespace sigs {
 

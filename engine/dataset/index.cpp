@@ -9,6 +9,7 @@
 
 #include "base/renaming.h"
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "dataset/checksum.h"
 #include "dataset/dataset_lock.h"
 #include "dataset/entry.h"

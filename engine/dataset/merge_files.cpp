@@ -9,7 +9,7 @@
 
 #include "base/staged_outputs.h"
 #include "dataset/merge_labels.h"
-#include "labels/text_file.h"
+#include "labels/label_files.h"
 #include "project/json_reading.h"
 
 // The formats that have one file for each split: COCO, AOT and CSV. All of them are put together from the label files

@@ -3,7 +3,7 @@
 
 #include "base/paths.h"
 #include "base/staged_outputs.h"
-#include "dataset/merge_formats.h"
+#include "dataset/merge_labels.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 

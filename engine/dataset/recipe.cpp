@@ -6,11 +6,9 @@
 #include <filesystem>
 #include <string>
 
+#include "base/paths.h"
 #include "base/staged_outputs.h"
-#include "dataset/quantity_json.h"
-#include "dataset/recipe_node.h"
-#include "dataset/recipe_sections.h"
-#include "dataset/recipe_videos.h"
+#include "dataset/recipe_reading.h"
 #include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json_reading.h"

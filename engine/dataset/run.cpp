@@ -9,10 +9,12 @@
 #include <thread>
 #include <utility>
 
+#include "base/paths.h"
 #include "base/staging_folder.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
-#include "dataset/fingerprint.h"
+#include "dataset/checksum.h"
+#include "dataset/index.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"

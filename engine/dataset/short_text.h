@@ -3,6 +3,8 @@
 
 #include "base/text.h"
 
+#include <charconv>
+#include <string>
 namespace sigs {
 
 // short_number_text() of base/text.h by its older name.

@@ -17,6 +17,8 @@
 #include <system_error>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
+#include "labels/label_text.h"
 
 namespace sigs {
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/report_files.h"
 

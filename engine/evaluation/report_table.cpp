@@ -9,7 +9,8 @@
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "evaluation/report_numbers.h"
+#include "evaluation/report_files.h"
+#include "labels/label_text.h"
 
 namespace sigs {
 

@@ -8,8 +8,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/staged_outputs.h"
-#include "evaluation/numbers.h"
+#include "base/csv.h"
+#include "base/input_file.h"
+#include "base/text.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_parsing.h"
 

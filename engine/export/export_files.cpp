@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/opened_project.h"
+#include "export/frame_stream.h"
 
 namespace sigs {
 

@@ -6,7 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "base/threads.h"
-#include "scene/visibility_estimate.h"
+#include "scene/visibility.h"
 
 namespace sigs {
 

@@ -82,12 +82,6 @@ void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderC
 
 }  // namespace
 
-Camera compositing_camera(const Scene& scene) {
-  if (scene.compositing.method != MethodChoice::plain) return scene.camera;
-  const LensParameters& lens = scene.camera.lens.parameters();
-  return {*Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}), scene.camera.size_px};
-}
-
 IntruderLayers placed_layers(const Scene& scene, const PlacedIntruder& placed, const Camera& camera) {
   const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
   IntruderLayers layers{.placed = placed};

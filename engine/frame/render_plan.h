@@ -16,10 +16,6 @@
 
 namespace sigs {
 
-// The camera that the scene's method composites with: the footage's own, or for `plain`, which ignores the lens, a
-// pinhole camera with the same matrix.
-[[nodiscard]] Camera compositing_camera(const Scene& scene);
-
 // Where an intruder is, before anything is rendered: its silhouette through the lens and the blur at its distance. The
 // lens evaluations are counted.
 [[nodiscard]] IntruderLayers placed_layers(const Scene& scene, const PlacedIntruder& placed, const Camera& camera);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
 
 namespace sigs {

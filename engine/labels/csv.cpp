@@ -5,8 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv.h"
 #include "base/pose.h"
 #include "base/text.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
 
 namespace sigs {

@@ -10,9 +10,6 @@
 
 #include "labels/label_files.h"
 #include "labels/label_text.h"
-#include "labels/text_file.h"
-#include "labels/xml_elements.h"
-#include "labels/xml_text.h"
 #include "truth/measure.h"
 
 namespace sigs {

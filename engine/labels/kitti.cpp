@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "labels/kitti_box.h"
+#include "labels/label_files.h"
+#include "labels/label_masks.h"
 #include "labels/label_text.h"
-#include "labels/numbered_images.h"
-#include "labels/own_body_boxes.h"
-#include "labels/text_file.h"
 #include "truth/measure.h"
 
 namespace sigs {

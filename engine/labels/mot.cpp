@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "labels/label_files.h"
+#include "labels/label_masks.h"
 #include "labels/label_text.h"
 
 namespace sigs {

@@ -8,7 +8,8 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "labels/xml_text.h"
+#include "labels/formats.h"
+#include "labels/label_text.h"
 
 namespace sigs {
 

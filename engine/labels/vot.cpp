@@ -11,9 +11,8 @@
 
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
-#include "labels/numbered_images.h"
-#include "labels/text_file.h"
 #include "truth/measure.h"
 
 namespace sigs {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/text.h"
-#include "labels/hard_link.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
 
 namespace sigs {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/threads.h"
-#include "occlusion/luma.h"
 
 namespace sigs {
 

@@ -19,7 +19,7 @@
 #include "base/pose.h"
 #include "base/result.h"
 #include "base/transfer.h"
-#include "camera/pinhole_view.h"
+#include "camera/virtual_camera.h"
 #include "render/draw_list.h"
 #include "render/egl_context.h"
 #include "render/gl_objects.h"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/pose.h"
-#include "scene/waypoint_times.h"
 
 namespace sigs {
 

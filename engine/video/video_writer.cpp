@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/result.h"
 #include "base/threads.h"
+#include "video/frame.h"
 #include "video/libav/video_file.h"
 
 namespace sigs {

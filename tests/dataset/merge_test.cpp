@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/staged_outputs.h"
-#include "dataset/merge_formats.h"
+#include "dataset/merge_labels.h"
 #include "dataset/tiny_plan.h"
 #include "support/test_data.h"
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "base/staged_outputs.h"
+#include "evaluation/clips.h"
 #include "evaluation/results.h"
 #include "support/test_data.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/staged_outputs.h"
+#include "evaluation/clips.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
 

@@ -9,8 +9,8 @@
 
 #include "base/pose.h"
 #include "base/staged_outputs.h"
-#include "labels/label_sequence.h"
-#include "labels/run_length.h"
+#include "labels/label_masks.h"
+#include "labels/label_writing.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
 

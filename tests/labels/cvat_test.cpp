@@ -8,7 +8,7 @@
 #include <random>
 
 #include "base/staged_outputs.h"
-#include "labels/label_sequence.h"
+#include "labels/label_writing.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
 

@@ -6,7 +6,7 @@
 #include <pugixml.hpp>
 
 #include "base/staged_outputs.h"
-#include "labels/label_sequence.h"
+#include "labels/label_writing.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/pose.h"
+#include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 
 using namespace sigs;

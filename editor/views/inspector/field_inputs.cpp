@@ -10,9 +10,8 @@
 #include <utility>
 
 #include "editor/document/field_edits.h"
-#include "editor/geometry/round_steps.h"
-#include "editor/widgets/elided.h"
-#include "editor/widgets/text_input.h"
+#include "editor/geometry/rulers.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {

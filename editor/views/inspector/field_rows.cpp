@@ -12,7 +12,6 @@
 
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
-#include "editor/widgets/elided.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"

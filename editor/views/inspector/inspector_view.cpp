@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/inputs.h"
-#include "editor/views/results/results_panel.h"
+#include "editor/views/inspector/scene_blocks.h"
+#include "editor/views/results/results_view.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"

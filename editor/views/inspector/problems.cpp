@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/flight_summary.h"
-#include "editor/widgets/elided.h"
+#include "editor/views/inspector/trajectory.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
+#include "export/export_project.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {

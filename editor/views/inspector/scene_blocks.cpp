@@ -9,8 +9,10 @@
 #include <numbers>
 #include <optional>
 
+#include "base/pose.h"
 #include "editor/document/field_edits.h"
 #include "editor/preview/thumbnails.h"
+#include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"

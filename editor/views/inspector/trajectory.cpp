@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "editor/document/field_texts.h"
+#include "editor/document/field_edits.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"

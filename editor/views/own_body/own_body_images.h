@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "editor/preview/background_job.h"
-#include "editor/views/stages/stage_tiles.h"
+#include "editor/views/stages/stage_grid.h"
+#include "editor/widgets/textures.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "editor/document/field_texts.h"
-#include "editor/document/moved_paths.h"
+#include "editor/document/field_edits.h"
+#include "editor/document/project_paths.h"
 #include "occlusion/mask_geometry.h"
 #include "scene/scene_files.h"
 

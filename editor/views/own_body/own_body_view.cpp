@@ -110,7 +110,7 @@ void OwnBodyCanvas::draw_layers(const ViewContext& context, const OwnBodySession
 
 void OwnBodyCanvas::draw_confidence(const ViewContext& context, const OwnBodySession& session,
                                     const ImageCanvas& canvas) {
-  const std::shared_ptr<const OwnBody>& found = session.detection().found;
+  const std::shared_ptr<const OwnBody>& found = session.detection().value;
   if (!found || found->confidence.size() != canvas.image_px) {
     draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
                "Nothing is detected yet. Detect first.", color::kPartly);
@@ -148,7 +148,7 @@ void OwnBodyCanvas::draw_readout(const OwnBodySession& session) const {
   std::string left;
   if (pixel_ && cv::Rect({0, 0}, mask.size()).contains(*pixel_)) {
     left = fmt::format("x {:4}  y {:4}   mask {:3.0f}%", pixel_->x, pixel_->y, mask.at<uchar>(*pixel_) / 2.55);
-    const std::shared_ptr<const OwnBody>& found = session.detection().found;
+    const std::shared_ptr<const OwnBody>& found = session.detection().value;
     if (found && found->confidence.size() == mask.size())
       left += fmt::format("   confidence {:3.0f}%", found->confidence.at<ushort>(*pixel_) / 655.35);
   }

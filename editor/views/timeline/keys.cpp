@@ -19,6 +19,7 @@
 #include "editor/widgets/keys.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/screen_vec.h"
 
 namespace sigs::editor {
 

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "editor/geometry/rulers.h"
 #include "editor/preview/preview_output.h"
-#include "editor/views/timeline/lane_curve.h"
+#include "editor/views/timeline/lane_values.h"
 
 namespace sigs::editor {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "editor/geometry/image_drag.h"
+#include "editor/geometry/lens_projection.h"
 #include "editor/preview/preview_output.h"
 #include "editor/views/context.h"
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/staged_outputs.h"
+#include "editor/document/document.h"
 #include "project/json.h"
 #include "support/test_data.h"
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "../preview/comes_true.h"
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"

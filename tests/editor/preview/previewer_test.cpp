@@ -11,6 +11,7 @@
 
 #include "base/staged_outputs.h"
 #include "cli/program.h"
+#include "export/export_project.h"
 #include "preview_client.h"
 #include "project/json.h"
 #include "scene/opened_project.h"

@@ -11,8 +11,8 @@
 
 #include "base/staged_outputs.h"
 #include "cli/tiny_project.h"
-#include "editor/preview/outline_truth.h"
-#include "editor/preview/survey_builder.h"
+#include "comes_true.h"
+#include "editor/preview/surveys.h"
 #include "evaluation/track_score.h"
 #include "export/export_project.h"
 #include "preview_client.h"

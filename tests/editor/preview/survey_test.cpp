@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "editor/preview/survey_builder.h"
+#include "editor/preview/surveys.h"
+#include "export/export_project.h"
 #include "preview_client.h"
 #include "scene/opened_project.h"
 
