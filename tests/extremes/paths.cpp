@@ -38,7 +38,7 @@ void check_sound_flight(const Flight& flight, const TrajectorySettings& settings
   std::vector<TimedWaypoint> waypoints = flight.waypoints;
   const glm::dvec3 to_middle = kEye_m + glm::dvec3(3000, 0, 0) - waypoints[waypoints.size() / 2].position_m;
   for (TimedWaypoint& waypoint : waypoints) waypoint.position_m += to_middle;
-  scene.intruders[0].trajectory = made(waypoints, settings);
+  scene.intruders[0].trajectory = trajectory_through(waypoints, settings);
   const double last_s = waypoints.back().time_s;
   scene.footage.times_s = {0.1 * last_s, 0.5 * last_s, last_s};
   for (int frame = 0; frame < 3; ++frame) {
@@ -54,7 +54,7 @@ TEST_CASE("waypoints that nearly coincide neither stop the numbers nor break the
     for (const glm::dvec3& direction : {glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0)})
       for (const TrajectorySettings& settings : all_settings()) {
         INFO(name_of(settings) << ", " << apart_m << " m along " << direction.x << " " << direction.y);
-        const Trajectory trajectory = made(nearly_coincident(apart_m, direction), settings);
+        const Trajectory trajectory = trajectory_through(nearly_coincident(apart_m, direction), settings);
         CHECK(is_finite(trajectory.acceleration_mps2(0.5)));
         CHECK(fastest_turn_rad(trajectory, 1.0) < 0.1);  // 100 rad/s, as tests/spline/continuity_test.cpp has it
       }
@@ -66,7 +66,7 @@ TEST_CASE("waypoints that nearly coincide and follow each other in a nanosecond 
     waypoints[3].time_s = waypoints[2].time_s + 1.5e-9;
     for (const TrajectorySettings& settings : all_settings()) {
       INFO(name_of(settings) << ", " << apart_m);
-      const Trajectory trajectory = made(waypoints, settings);
+      const Trajectory trajectory = trajectory_through(waypoints, settings);
       for (double time_s = -1; time_s < 2; time_s += 0.01) {
         REQUIRE(std::abs(length(trajectory.world_from_body(time_s).rotation) - 1) < 1e-14);
         REQUIRE(is_finite(trajectory.position_m(time_s)));
@@ -90,7 +90,7 @@ TEST_CASE("cusps and reversals and loops and climbs and stops give valid frames 
 
 TEST_CASE("through a vertical loop the annotated angles make one turn that never jumps") {
   const std::vector<TimedWaypoint> waypoints = loop(80, 60);
-  const Trajectory trajectory = made(waypoints);
+  const Trajectory trajectory = trajectory_through(waypoints);
   double turned_deg = 0;  // of the nose as seen from the side, up is positive
   double steepest_rad = 0;
   glm::dquat before = trajectory.world_from_body(0).rotation;
@@ -121,7 +121,7 @@ TEST_CASE("what stands still is drawn alike in every frame and level") {
         std::vector<TimedWaypoint>{{0, place_m}, {0.01, place_m}, {0.02, place_m}, {50, place_m}}})
     for (const TrajectorySettings& settings : all_settings()) {
       INFO(name_of(settings));
-      scene.intruders[0].trajectory = made(waypoints, settings);
+      scene.intruders[0].trajectory = trajectory_through(waypoints, settings);
       for (int frame = 0; frame < 3; ++frame)
         CHECK(same_planes(valid_frame(scene, frame, background).composed.image, hovering.composed.image));
     }

@@ -39,7 +39,7 @@ TEST_CASE("one frame and a hundred thousand frames in one trajectory give valid 
   Scene scene = with_long_footage(scenario.opened());
   for (const TrajectorySettings& settings : all_settings()) {
     INFO(name_of(settings));
-    scene.intruders[0].trajectory = made(frame_and_1e5_frames(), settings);
+    scene.intruders[0].trajectory = trajectory_through(frame_and_1e5_frames(), settings);
     for (const int frame : {0, 1, 30'000, kLong + 1, kLong + 99}) {
       CAPTURE(frame);
       const ValidFrame valid = valid_frame(scene, frame, even_frame(scenario.size_px(), 100));
@@ -73,7 +73,7 @@ TEST_CASE("from one waypoint to ten thousand each is passed at its time and the 
       // Each a second or two of work at ten thousand; two of the eight will do there.
       if (count == 10'000 && (settings.bank == Bank::level || settings.timing == Timing::constant_speed)) continue;
       INFO(name_of(settings));
-      const Trajectory trajectory = made(waypoints, settings);
+      const Trajectory trajectory = trajectory_through(waypoints, settings);
       if (settings.spline == SplineKind::interpolating && settings.timing == Timing::frames)
         for (const TimedWaypoint& waypoint : waypoints)
           REQUIRE(distance(trajectory.position_m(waypoint.time_s), waypoint.position_m) < 1e-9);
@@ -94,7 +94,7 @@ TEST_CASE("frame times that all fall together stand still and times an hour apar
   add_aircraft(scenario, {60, 0, -150});
   Scene scene = scenario.opened();
   scene.footage.times_s = {0, 0, 3600};  // a clip whose clock stood, then jumped
-  scene.intruders[0].trajectory = made({{0, {60, -5, -150}}, {3600, {60, 5, -150}}});
+  scene.intruders[0].trajectory = trajectory_through({{0, {60, -5, -150}}, {3600, {60, 5, -150}}});
   const Frame background = even_frame(scenario.size_px(), 100);
   const ValidFrame first = valid_frame(scene, 0, background);
   const ValidFrame second = valid_frame(scene, 1, background);

@@ -12,6 +12,7 @@
 
 #include "flights/flights.h"
 #include "occlusion/mask_geometry.h"
+#include "occlusion/method.h"
 #include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {
