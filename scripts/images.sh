@@ -36,14 +36,14 @@ ffmpeg -v error -y "${stages[@]}" -filter_complex "
   cat "$work/ui_test.log"
   exit 1
 }
-editor_picture() {  # NAME SCREENSHOT
+editor_image() {  # NAME SCREENSHOT
   ffmpeg -v error -y -i "$build/screenshots/$2.png" -vf scale=1200:-1:flags=lanczos -q:v 5 \
     "docs/images/editor-$1.jpg"
 }
-editor_picture open ui_test-open
-editor_picture footage ui_test-footage
-editor_picture world ui_test-world
-editor_picture light ui_test-light
-editor_picture stages ui_test-stages-classic
-editor_picture own-body own-body-found
-editor_picture results results-loaded
+editor_image open ui_test-open
+editor_image footage ui_test-footage
+editor_image world ui_test-world
+editor_image light ui_test-light
+editor_image stages ui_test-stages-classic
+editor_image own-body own-body-found
+editor_image results results-loaded

@@ -11,7 +11,7 @@
 namespace sigs {
 namespace {
 
-// Newell's method: right for concave and slightly bent polygons too.
+// Newell's method: right for concave and slightly warped polygons too.
 glm::dvec3 normal_of(std::span<const glm::vec3> corners) {
   glm::dvec3 normal{0, 0, 0};
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kKilled = 128 + 9;
 constexpr const char* kNoFlags = "SIGS_TEST_NO_RENAMEAT2=1 ";
 
-int pictures_in(const fs::path& folder) {
+int image_count(const fs::path& folder) {
   return fs::exists(folder) ? static_cast<int>(std::distance(fs::directory_iterator(folder), {})) : 0;
 }
 
@@ -46,7 +46,7 @@ struct Exported {
   void check_whole(const std::string& when) const {
     for (const char* const name : {"tiny", "tiny.masks", "tiny.kitti/training/image_02/0000"}) {
       if (!fs::exists(fs::path(tiny.out()) / name) && std::string(name).find('/') != std::string::npos) continue;
-      const int count = pictures_in(fs::path(tiny.out()) / name);
+      const int count = image_count(fs::path(tiny.out()) / name);
       CHECK_MESSAGE((count == 10 || count == 5), when << ": " << name << " has " << count << " images");
     }
     for (const char* const name : {"tiny.xml", "tiny.kitti"})
@@ -68,7 +68,7 @@ TEST_CASE("killed before any of its renamings, an export has left whole results 
   }
   CHECK(kills >= 4);  // one output at least is renamed once each
   exported.check_whole("at the end");
-  CHECK(pictures_in(fs::path(exported.tiny.out()) / "tiny") == 5);
+  CHECK(image_count(fs::path(exported.tiny.out()) / "tiny") == 5);
   CHECK_FALSE(has_staging_folder(exported.tiny.out()));
 }
 
@@ -119,8 +119,8 @@ TEST_CASE("signals wait while outputs get their names") {
     const bool was_reported = run.err.find("interrupted") != std::string::npos;
     CHECK_MESSAGE((run.status == 0 || was_reported), number << ": killed half way, status " << run.status);
     exported.check_whole("signalled at " + std::to_string(number));
-    CHECK(pictures_in(fs::path(exported.tiny.out()) / "tiny") ==
-          pictures_in(fs::path(exported.tiny.out()) / "tiny.masks"));
+    CHECK(image_count(fs::path(exported.tiny.out()) / "tiny") ==
+          image_count(fs::path(exported.tiny.out()) / "tiny.masks"));
     CHECK_FALSE(has_staging_folder(exported.tiny.out()));
   }
 }

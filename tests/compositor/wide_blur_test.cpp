@@ -26,7 +26,7 @@ cv::Mat patches(cv::Size size, int type) {
 }
 
 // The whole kernel, cut as OpenCV cuts it for 8 bits, in doubles.
-cv::Mat softened_in_full(const cv::Mat& image, double sigma_px) {
+cv::Mat blurred_in_full(const cv::Mat& image, double sigma_px) {
   cv::Mat exact;
   image.convertTo(exact, CV_64F);
   const int size = 2 * static_cast<int>(std::round(3 * sigma_px)) + 1;
@@ -122,7 +122,7 @@ TEST_CASE("energy stays within a thousandth on both sides of sigma 16, and nothi
   }
 }
 
-TEST_CASE("a whole image is softened within a code value of the kernel in full") {
+TEST_CASE("a whole image is blurred within a code value of the kernel in full") {
   for (const int type : {CV_8UC3, CV_8UC1})
     for (const cv::Size size : {cv::Size(203, 151), cv::Size(40, 97), cv::Size(1, 30), cv::Size(1, 1)})
       for (const double sigma_px : {16.01, 24.0, 50.0, 150.0, 700.0}) {
@@ -131,19 +131,19 @@ TEST_CASE("a whole image is softened within a code value of the kernel in full")
         const cv::Mat image = patches(size, type);
         const cv::Mat out = gaussian_blurred(image, sigma_px);
         CHECK(out.type() == type);
-        CHECK(cv::norm(out, softened_in_full(image, sigma_px), cv::NORM_INF) <= 1);
+        CHECK(cv::norm(out, blurred_in_full(image, sigma_px), cv::NORM_INF) <= 1);
       }
 }
 
-TEST_CASE("an image softened beyond its size is its mean") {
+TEST_CASE("an image blurred beyond its size is its mean") {
   const cv::Mat image = patches({160, 120}, CV_8UC3);
   // Mirrored without its border twice: the mean in which border samples count half.
-  const cv::Mat wanted = softened_in_full(image, 500);
+  const cv::Mat wanted = blurred_in_full(image, 500);
   for (const double sigma_px : {1e3, 1e6, 1e9, 1e30})
     CHECK(cv::norm(gaussian_blurred(image, sigma_px), wanted, cv::NORM_INF) <= 1);
 }
 
-TEST_CASE("pure green stays pure green however far it is softened") {
+TEST_CASE("pure green stays pure green however far it is blurred") {
   const cv::Mat green(90, 120, CV_8UC3, cv::Scalar(0, 255, 0));
   for (const double sigma_px : {17.0, 80.0, 1e5}) CHECK(same_bytes(gaussian_blurred(green, sigma_px), green));
 }

@@ -192,7 +192,7 @@ TEST_CASE("an intruder too slow to keep before a fast camera is impossible") {
       planned_flight(FlightKind::moving_away, values_with(FlightKind::moving_away, {{"speed_mps", 59}}), context);
   REQUIRE(!flight);
   CHECK(flight.error() ==
-        "speed_mps: at 59 m/s the intruder cannot fly that way before a camera that flies 60 m/s itself");
+        "speed_mps: at 59 m/s the intruder cannot fly along that line before a camera that flies 60 m/s itself");
 }
 
 TEST_CASE("a template that leads under the ground is impossible") {

@@ -13,7 +13,7 @@ namespace sigs::test {
 
 namespace {
 
-RawImage picture_of(const AVFrame& frame, double tick_s) {
+RawImage image_of(const AVFrame& frame, double tick_s) {
   RawImage image{.planes = {}, .time_s = static_cast<double>(frame.best_effort_timestamp) * tick_s};
   const AVPixFmtDescriptor* const format = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
   REQUIRE((format->flags & AV_PIX_FMT_FLAG_PLANAR || format->nb_components == 1));
@@ -36,7 +36,7 @@ void take_images(AVCodecContext* decoder, AVFrame* frame, double tick_s, std::si
       video.primaries = frame->color_primaries;
       video.transfer = frame->color_trc;
     }
-    if (video.images.size() < most) video.images.push_back(picture_of(*frame, tick_s));
+    if (video.images.size() < most) video.images.push_back(image_of(*frame, tick_s));
     av_frame_unref(frame);
   }
 }

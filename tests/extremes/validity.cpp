@@ -18,7 +18,7 @@ namespace sigs::test {
 
 namespace {
 
-constexpr double kRounding = 1e-3;  // of sums of floats; far blur may swing by a thousandth below nothing
+constexpr double kRounding = 1e-3;  // of sums of floats; wide blur may swing by a thousandth below nothing
 
 bool is_share(double value) {
   return value >= 0 && value <= 1;  // false for NaN

@@ -151,7 +151,7 @@ TEST_CASE("an intruder too small for one code value is still in the image by its
   CHECK(is_finite(truth));
 }
 
-TEST_CASE("far blur over the whole image neither fails nor adds light") {
+TEST_CASE("wide blur over the whole image neither fails nor adds light") {
   Scenario scenario;
   add_aircraft(scenario, {1e5, 0, -150});
   scenario.project.compositing.blur_px_per_m = CompositingSettings{}.blur_px_per_m;  // 200 px

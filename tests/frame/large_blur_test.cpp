@@ -148,7 +148,7 @@ void add_aircraft(Scenario& scenario, const glm::dvec3& position_m) {
 
 }  // namespace
 
-TEST_CASE("far blur of the sample projects is that of the full resolution") {
+TEST_CASE("wide blur of the sample projects is that of the full resolution") {
   const struct {
     const char* project;
     int frame;
@@ -161,7 +161,7 @@ TEST_CASE("far blur of the sample projects is that of the full resolution") {
     }
 }
 
-TEST_CASE("far blur of a near aircraft, also one across the edge or beside it, is that of the full resolution") {
+TEST_CASE("wide blur of a near aircraft, also one across the edge or beside it, is that of the full resolution") {
   for (const double right_m : {3.0, 14.0, 22.0}) {
     CAPTURE(right_m);
     Scenario scenario;
@@ -173,7 +173,7 @@ TEST_CASE("far blur of a near aircraft, also one across the edge or beside it, i
   }
 }
 
-TEST_CASE("far blur keeps the energy within a thousandth") {
+TEST_CASE("wide blur keeps the energy within a thousandth") {
   for (const double sigma_px : {16.01, 20.0, 33.3, 60.0, 100.0}) {
     CAPTURE(sigma_px);
     Scenario scenario({960, 720});

@@ -29,7 +29,7 @@ Json coco_of(const LabelSequence& sequence, const std::vector<FrameTruth>& frame
   return Json::parse(coco_text(sequence, frames));
 }
 
-std::vector<Json> of_picture(const Json& coco, int image_id, int iscrowd) {
+std::vector<Json> of_image(const Json& coco, int image_id, int iscrowd) {
   std::vector<Json> list;
   for (const Json& annotation : coco["annotations"])
     if (annotation["image_id"] == image_id && annotation["iscrowd"] == iscrowd) list.push_back(annotation);
@@ -140,9 +140,9 @@ TEST_CASE("coco: each image has its intruders, and thresholds leave some out") {
                                                  {visible_intruder(0, {0, 0, 4, 1}), hidden},
                                                  {invisible_intruder(0), invisible_intruder(1)}}));
   check_is_coco(coco);
-  CHECK(of_picture(coco, 1, 0).size() == 2);
-  CHECK(of_picture(coco, 2, 0).empty());
-  CHECK(of_picture(coco, 3, 0).empty());
+  CHECK(of_image(coco, 1, 0).size() == 2);
+  CHECK(of_image(coco, 2, 0).empty());
+  CHECK(of_image(coco, 3, 0).empty());
   CHECK(coco["info"]["least_pixels"] == 5);
   CHECK(coco["info"]["least_visible_fraction"] == 0.5);
 }
@@ -175,7 +175,7 @@ TEST_CASE("coco: each part of the own body is a crowd region of each image and c
   check_is_coco(coco);
   for (const int image_id : {1, 2}) {
     std::map<int, std::vector<Json>> boxes;
-    for (const Json& region : of_picture(coco, image_id, 1)) {
+    for (const Json& region : of_image(coco, image_id, 1)) {
       boxes[region["category_id"].get<int>()].push_back(region["bbox"]);
       CHECK(region["own_body"] == true);
       CHECK_FALSE(region.contains("track_id"));
@@ -183,7 +183,7 @@ TEST_CASE("coco: each part of the own body is a crowd region of each image and c
     const std::vector<Json> expected{{50, 30, 14, 18}, {0, 40, 10, 8}};
     CHECK(boxes == std::map<int, std::vector<Json>>{{1, expected}, {2, expected}});
   }
-  const Json region = of_picture(coco, 2, 1)[1];
+  const Json region = of_image(coco, 2, 1)[1];
   CHECK(region["area"] == 80);
   // 40 px above in the first column, 8 of the body, then 40 and 8 by turns; the last run is all the rest.
   const std::vector<std::uint32_t> runs{40, 8, 40, 8, 40, 8, 40, 8, 40, 8, 40, 8, 40, 8, 40, 8, 40, 8, 40, 8, 54 * 48};

@@ -65,10 +65,10 @@ auto ExactLens<Real>::brown_conrady(const Vec2& point) const -> Image {
   const Number below = Real(1) + r2 * (k4 + r2 * (k5 + k6 * r2));
   const Number radial = (Real(1) + r2 * (k1 + r2 * (k2 + k3 * r2))) / below;
   const Number xy = Real(2) * (x * y);
-  const Number bent_x = x * radial + p1 * xy + p2 * (r2 + Real(2) * (x * x)) + s1 * r2 + s2 * r4;
-  const Number bent_y = y * radial + p1 * (r2 + Real(2) * (y * y)) + p2 * xy + s3 * r2 + s4 * r4;
-  if (tau_x == 0 && tau_y == 0) return {bent_x, bent_y, below.value > 0};
-  const auto row = [&](std::size_t i) { return tilt_[i][2] + tilt_[i][0] * bent_x + tilt_[i][1] * bent_y; };
+  const Number distorted_x = x * radial + p1 * xy + p2 * (r2 + Real(2) * (x * x)) + s1 * r2 + s2 * r4;
+  const Number distorted_y = y * radial + p1 * (r2 + Real(2) * (y * y)) + p2 * xy + s3 * r2 + s4 * r4;
+  if (tau_x == 0 && tau_y == 0) return {distorted_x, distorted_y, below.value > 0};
+  const auto row = [&](std::size_t i) { return tilt_[i][2] + tilt_[i][0] * distorted_x + tilt_[i][1] * distorted_y; };
   const Number depth = row(2);
   return {row(0) / depth, row(1) / depth, below.value > 0 && depth.value * tilt_[2][2] > 0};
 }

@@ -71,7 +71,7 @@ TEST_CASE("a model that was saved again is read again, and its scenes keep the f
   CHECK(after->mesh.high_m.x == 5);
 }
 
-TEST_CASE("an error lasts until the file is mended") {
+TEST_CASE("an error lasts until the file is repaired") {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder / "a.obj";
   SceneFiles files;

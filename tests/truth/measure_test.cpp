@@ -104,7 +104,7 @@ TEST_CASE("the silhouette of a sphere is its tangent cone") {
               2e-3);
 }
 
-TEST_CASE("through a bent lens the silhouette is what OpenCV projects") {
+TEST_CASE("through a distorted lens the silhouette is what OpenCV projects") {
   const std::vector<double> coefficients{-0.28, 0.07, 0.001, -0.0007, 0.01};
   const Lens lens = *Lens::make({.fx = kFx, .fy = kFy, .cx = kCx, .cy = kCy, .coefficients = coefficients});
   const CameraFromBody pose{rotation_of({.roll_rad = 0.3, .pitch_rad = -0.2, .yaw_rad = 2.1}), {50, -12, 7}};

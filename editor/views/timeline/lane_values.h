@@ -11,7 +11,6 @@
 
 #include "editor/geometry/rulers.h"
 #include "editor/preview/preview_output.h"
-#include "editor/views/timeline/lane_values.h"
 
 namespace sigs::editor {
 

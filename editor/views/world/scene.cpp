@@ -188,9 +188,9 @@ void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 c
 
 double view_depth_m(const WorldModel& model) {
   // A curved edge bulges around the camera and would hide what is within.
-  const bool is_bent = std::any_of(model.border.rays.begin(), model.border.rays.end(),
-                                   [](const glm::dvec3& ray) { return ray.x < 0.999; });
-  return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_bent ? 0.35 : 1.05), 20.0, 5000.0) : 200;
+  const bool is_curved = std::any_of(model.border.rays.begin(), model.border.rays.end(),
+                                     [](const glm::dvec3& ray) { return ray.x < 0.999; });
+  return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_curved ? 0.35 : 1.05), 20.0, 5000.0) : 200;
 }
 
 void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color) {

@@ -116,7 +116,7 @@ TEST_CASE("mask, truth, untouched frame, stages and the other method are those o
   CHECK(is_same_image(shown.compared->bgr, bgr_of(Engine(classic).composed(kFrame).image)));
 }
 
-TEST_CASE("another lens after the first is bent as by itself") {
+TEST_CASE("another lens after the first warps as by itself") {
   const TemporaryFolder folder;
   Project one = sample("head-on");
   one.compositing.method = MethodChoice::classic;
@@ -154,7 +154,7 @@ TEST_CASE("the next frames are composed ahead and a cached frame is there at onc
   wanted.revision = revision(2, moved(sample("head-on"), 5));
   preview_client.show(wanted);
   CHECK_FALSE(preview_client.shown().cached[17]);
-  wanted.revision.number = 1;  // undo
+  wanted.revision = revision(1, sample("head-on"));  // undo brings the whole revision back
   wanted.frame = 17;
   preview_client.want(wanted);
   CHECK(preview_client.shown().image_is_current);

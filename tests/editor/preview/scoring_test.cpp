@@ -192,7 +192,7 @@ TEST_CASE("a project that cannot be drawn is scored by outlines, and says why") 
   CHECK(scoring.scored()->truth == TruthKind::outlines);
 }
 
-TEST_CASE("a wrong line is named with its file, and a file that is mended is read again") {
+TEST_CASE("a wrong line is named with its file, and a file that is repaired is read again") {
   const TinyProject tiny;
   const Project project = read(tiny);
   const fs::path file = tiny.file("bad.csv");
