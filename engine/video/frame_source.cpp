@@ -105,14 +105,19 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
 
 Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bool>* cancel) {
   return guarded([&]() -> Result<FrameSource> {
+    // Once `cancel` is set, FFmpeg's readers act as if the file ended: any error may follow from that.
+    const auto failed = [&](const Error& error) -> tl::unexpected<Error> {
+      if (cancel != nullptr && cancel->load()) return libav::interrupted();
+      return fail(libav::named(error, path));
+    };
     Result<libav::Demuxer> demuxer = libav::Demuxer::open(path, cancel);
-    if (!demuxer) return fail(demuxer.error());
+    if (!demuxer) return failed(demuxer.error());
     auto state = std::make_unique<State>();
     state->info.path = path;
     state->file = State::state_of(path);
     state->cancel = cancel;
     const Result<void> opened = state->open(std::move(*demuxer));
-    if (!opened) return fail(libav::named(opened.error(), path));
+    if (!opened) return failed(opened.error());
     return FrameSource(std::move(state));
   });
 }

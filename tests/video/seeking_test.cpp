@@ -2,8 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
 
 #include "support/test_data.h"
 #include "video/clips.h"
@@ -167,4 +170,27 @@ TEST_CASE("reading a frame twice gives the same samples, and they are not shared
   const Samples before = samples_of(*first);
   first->planes[0].setTo(0);
   CHECK(samples_of(*source.read(1)) == before);
+}
+
+TEST_CASE("a cancellation while a video is opened is never another error") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.mp4";
+  if (!make_clip("-c:v libx264 -bf 3 -g 20", path, "testsrc2=size=640x480:rate=25:duration=8")) return;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  (void)opened(path);
+  const Clock::duration whole = Clock::now() - start;
+  constexpr int kMoments = 200;  // spread over the time that opening takes
+  for (int k = 0; k < kMoments; ++k) {
+    CAPTURE(k);
+    std::atomic<bool> cancel{false};
+    std::thread canceller([&] {
+      const Clock::time_point until = Clock::now() + whole * k / kMoments;
+      while (Clock::now() < until) std::this_thread::yield();
+      cancel = true;
+    });
+    const Result<FrameSource> source = FrameSource::open(path, &cancel);
+    canceller.join();
+    if (!source) CHECK_MESSAGE(source.error().kind == ErrorKind::interrupted, source.error().what);
+  }
 }
