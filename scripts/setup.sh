@@ -47,10 +47,12 @@ sigs_install() {
   sigs_as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${sigs_missing[@]}"
 }
 
-# sigs_build PRESET [cmake options] [-- targets]: without targets everything is built.
+# sigs_build PRESET [cmake options] [-- targets]: without targets everything is built. A build from nothing compiles
+# several sources at a time (SIGS_UNITY); a build folder that is there keeps its setting.
 sigs_build() {
   local preset=$1 options=()
   shift
+  [ -e "build/$preset/CMakeCache.txt" ] || options+=(-DSIGS_UNITY=ON)
   while [ $# -gt 0 ] && [ "$1" != -- ]; do
     options+=("$1")
     shift

@@ -15,7 +15,7 @@ namespace sigs::test {
 namespace {
 
 // What rounding to a code value may take, and some 24-bit roundings.
-constexpr double kRounding = 0.502;
+constexpr double kBlendRounding = 0.502;
 
 std::vector<Sort> sorts_with_shared_chroma() {
   std::vector<Sort> sorts = all_sorts();
@@ -167,7 +167,7 @@ TEST_CASE("planes are those of the blended full-resolution image averaged at the
         const Layer layer = speckled_layer(place.rect, 3);
         const cv::Mat codes = blended(sort, layer, whole_codes(frame, sort), space);
         blend_over(frame, layer, space);
-        CHECK(largest_error(frame, codes, sort, is_within ? 1 : 0) < kRounding);
+        CHECK(largest_error(frame, codes, sort, is_within ? 1 : 0) < kBlendRounding);
       }
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("an opaque layer of many colours leaves nothing of the chroma below") 
     for (cv::Vec4f& color : cv::Mat_<cv::Vec4f>(layer.color)) color[3] = 1;
     const cv::Mat codes = blended(sort, layer, whole_codes(frame, sort), BlendSpace::linear);
     blend_over(frame, layer, BlendSpace::linear);
-    CHECK(largest_error(frame, codes, sort) < kRounding);
+    CHECK(largest_error(frame, codes, sort) < kBlendRounding);
   }
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("an even opacity keeps the rest of every chroma sample below") {
         for (int x = 0; x < samples.cols; ++x) {
           const double old_code = before.planes[static_cast<std::size_t>(plane)].at<uchar>(y, x);
           const double wanted = kOpacity * averaged(above, sort, plane, x, y) + (1 - kOpacity) * old_code;
-          REQUIRE(std::abs(samples.at<uchar>(y, x) - std::clamp(wanted, 0.0, 255.0)) < kRounding);
+          REQUIRE(std::abs(samples.at<uchar>(y, x) - std::clamp(wanted, 0.0, 255.0)) < kBlendRounding);
         }
     }
   }
@@ -268,7 +268,7 @@ TEST_CASE("an image put in place of pixels has its chroma at the footage's site"
           code = share * codes_of(sort, {pixel[2] / 255.0, pixel[1] / 255.0, pixel[0] / 255.0}) + (1 - share) * code;
         }
       replace_pixels(frame, place.rect, bgr, weight);
-      CHECK(largest_error(frame, codes, sort) < kRounding);
+      CHECK(largest_error(frame, codes, sort) < kBlendRounding);
     }
 }
 

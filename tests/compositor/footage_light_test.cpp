@@ -47,7 +47,7 @@ const Curve kCurves[] = {
 };
 
 // How far a code value may be off: rounding, and the floats between.
-constexpr double kRounding = 0.51;
+constexpr double kLightRounding = 0.51;
 
 }  // namespace
 
@@ -71,8 +71,8 @@ TEST_CASE("half an opacity mixes light by the footage's own transfer function") 
           blend_over(by_codes, layer, BlendSpace::display);
           const double light = low + span * curve.display(0.5 * above + 0.5 * curve.light(old_display));
           const double codes = low + span * (0.5 * curve.display(above) + 0.5 * old_display);
-          CHECK(std::abs(frame.planes[0].at<uchar>(3, 4) - std::min(light, 255.0)) < kRounding);
-          CHECK(std::abs(by_codes.planes[0].at<uchar>(3, 4) - std::min(codes, 255.0)) < kRounding);
+          CHECK(std::abs(frame.planes[0].at<uchar>(3, 4) - std::min(light, 255.0)) < kLightRounding);
+          CHECK(std::abs(by_codes.planes[0].at<uchar>(3, 4) - std::min(codes, 255.0)) < kLightRounding);
         }
 }
 

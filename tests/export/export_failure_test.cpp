@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFrames = 8;
-const cv::Size kSize(160, 120);
+constexpr int kClipFrames = 8;
+const cv::Size kClipSize(160, 120);
 
-void prepare(Scenario& scenario) {
-  write_footage(scenario.path("footage.mkv"), kSize, kFrames, PixelLayout::yuv420);
+void prepare_one_aircraft(Scenario& scenario) {
+  write_footage(scenario.path("footage.mkv"), kClipSize, kClipFrames, PixelLayout::yuv420);
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
   scenario.add("aircraft.obj", {60, 0, -150});
 }
@@ -29,11 +29,6 @@ void prepare(Scenario& scenario) {
 std::string text_in(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
 }
 
 // Files below a folder, also those with names of parts.
@@ -75,8 +70,8 @@ void set_codec(Project& project, CodecChoice codec) {
 }  // namespace
 
 TEST_CASE("progress is told once for every frame and in order") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kClipSize, kClipFrames);
+  prepare_one_aircraft(scenario);
   std::vector<int> done;
   std::vector<int> totals;
   const ExportControl control{.progress = [&](int n, int total) {
@@ -94,12 +89,12 @@ TEST_CASE("progress is told once for every frame and in order") {
 
 TEST_CASE("a cancelled export says so and leaves no file") {
   for (const CodecChoice codec : kCodecs)
-    for (const int at : {0, 1, kFrames - 1})
+    for (const int at : {0, 1, kClipFrames - 1})
       for (const int jobs : {1, 2}) {
         CAPTURE(static_cast<int>(codec));
         CAPTURE(at);
-        Scenario scenario(kSize, kFrames);
-        prepare(scenario);
+        Scenario scenario(kClipSize, kClipFrames);
+        prepare_one_aircraft(scenario);
         set_codec(scenario.project, codec);
         std::atomic<bool> cancel{at == 0};
         const ExportControl control{.progress = [&](int n, int) { cancel = n >= at; }, .cancel = &cancel};
@@ -112,8 +107,8 @@ TEST_CASE("a cancelled export says so and leaves no file") {
 }
 
 TEST_CASE("a cancelled export leaves the results of the one before") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kClipSize, kClipFrames);
+  prepare_one_aircraft(scenario);
   REQUIRE(export_project({.project = scenario.project, .folder = scenario.path("out")}, {}).has_value());
   const std::string before = text_in(scenario.path("out/lot.mkv"));
   const std::vector<std::string> files = files_below(scenario.path("out"));
@@ -129,9 +124,9 @@ TEST_CASE("a cancelled export leaves the results of the one before") {
 TEST_CASE("what is there already is not overwritten unasked and no other file appears") {
   for (const char* const name : {"lot.mkv", "lot.masks.mkv", "lot.xml"}) {
     CAPTURE(name);
-    Scenario scenario(kSize, kFrames);
-    prepare(scenario);
-    put(scenario.path("out") / name, "mine");
+    Scenario scenario(kClipSize, kClipFrames);
+    prepare_one_aircraft(scenario);
+    write_file_and_folder(scenario.path("out") / name, "mine");
     const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
     const Result<ExportReport> report = export_project(request, {});
     REQUIRE(!report.has_value());
@@ -145,8 +140,8 @@ TEST_CASE("what is there already is not overwritten unasked and no other file ap
 TEST_CASE("what is there already is overwritten when asked to") {
   for (const CodecChoice codec : kCodecs) {
     CAPTURE(static_cast<int>(codec));
-    Scenario scenario(kSize, kFrames);
-    prepare(scenario);
+    Scenario scenario(kClipSize, kClipFrames);
+    prepare_one_aircraft(scenario);
     set_codec(scenario.project, codec);
     ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
     REQUIRE(export_project(request, {}).has_value());
@@ -158,15 +153,15 @@ TEST_CASE("what is there already is overwritten when asked to") {
     if (!again) FAIL(again.error().text());
     // Images of the longer export do not stay among those of the shorter one.
     CHECK(files_below(scenario.path("out")).size() ==
-          files.size() - (codec == CodecChoice::png ? 2 * (kFrames - 4) : 0));
+          files.size() - (codec == CodecChoice::png ? 2 * (kClipFrames - 4) : 0));
   }
 }
 
 TEST_CASE("an export never replaces a folder that holds anything but its own images") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kClipSize, kClipFrames);
+  prepare_one_aircraft(scenario);
   set_codec(scenario.project, CodecChoice::png);
-  put(scenario.path("out/lot/diary.txt"), "mine");
+  write_file_and_folder(scenario.path("out/lot/diary.txt"), "mine");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, {});
   REQUIRE(!report.has_value());
@@ -175,8 +170,8 @@ TEST_CASE("an export never replaces a folder that holds anything but its own ima
 }
 
 TEST_CASE("an export never overwrites what it reads") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kClipSize, kClipFrames);
+  prepare_one_aircraft(scenario);
   const std::string footage = text_in(scenario.path("footage.mkv"));
   scenario.project.name = "footage";
   const Result<ExportReport> over_footage =
@@ -195,8 +190,8 @@ TEST_CASE("an export never overwrites what it reads") {
 TEST_CASE("a disk that is full is said and nothing is left behind") {
   for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png}) {
     CAPTURE(static_cast<int>(codec));
-    Scenario scenario(kSize, kFrames);
-    prepare(scenario);
+    Scenario scenario(kClipSize, kClipFrames);
+    prepare_one_aircraft(scenario);
     set_codec(scenario.project, codec);
     scenario.project.output.crf = 0;  // large
     Result<ExportReport> report = fail("", "not run");
@@ -211,7 +206,7 @@ TEST_CASE("a disk that is full is said and nothing is left behind") {
 }
 
 TEST_CASE("labels that cannot be written to their end fail the export") {
-  Scenario scenario(kSize, 60);
+  Scenario scenario(kClipSize, 60);
   write_footage(scenario.path("footage.mkv"), {16, 16}, 60, PixelLayout::gray);
   write_calibration(scenario.path("pinhole.xml"), {20, 0, 8, 0, 20, 8, 0, 0, 1}, {0, 0, 0, 0}, {16, 16});
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
@@ -229,9 +224,9 @@ TEST_CASE("labels that cannot be written to their end fail the export") {
 }
 
 TEST_CASE("frames that the project does not have are a usage error and make nothing") {
-  for (const FrameRange range : {FrameRange{0, kFrames}, FrameRange{5, 4}, FrameRange{-1, 3}}) {
-    Scenario scenario(kSize, kFrames);
-    prepare(scenario);
+  for (const FrameRange range : {FrameRange{0, kClipFrames}, FrameRange{5, 4}, FrameRange{-1, 3}}) {
+    Scenario scenario(kClipSize, kClipFrames);
+    prepare_one_aircraft(scenario);
     const Result<ExportReport> report =
         export_project({.project = scenario.project, .folder = scenario.path("out"), .frames = range}, {});
     REQUIRE(!report.has_value());
@@ -241,9 +236,9 @@ TEST_CASE("frames that the project does not have are a usage error and make noth
 }
 
 TEST_CASE("a folder that cannot be made is said") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
-  put(scenario.path("wall"), "a file");
+  Scenario scenario(kClipSize, kClipFrames);
+  prepare_one_aircraft(scenario);
+  write_file_and_folder(scenario.path("wall"), "a file");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("wall/out")}, {});
   REQUIRE(!report.has_value());

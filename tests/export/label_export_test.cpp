@@ -21,16 +21,16 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr int kFrames = 6;
-const cv::Size kSize(160, 120);
+constexpr int kLabelledFrames = 6;
+const cv::Size kLabelledSize(160, 120);
 
 // One aircraft before the camera, one that the image's border cuts, and an own body below.
-void prepare(Scenario& scenario) {
-  write_footage(scenario.path("footage.mkv"), kSize, kFrames, PixelLayout::yuv420);
+void prepare_two_aircraft(Scenario& scenario) {
+  write_footage(scenario.path("footage.mkv"), kLabelledSize, kLabelledFrames, PixelLayout::yuv420);
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
   scenario.add("aircraft.obj", {60, 0, -150});
   scenario.add("aircraft.obj", {60, 16, -150});
-  cv::Mat body = cv::Mat::zeros(kSize, CV_8UC1);
+  cv::Mat body = cv::Mat::zeros(kLabelledSize, CV_8UC1);
   body.rowRange(100, 120).setTo(255);
   cv::imwrite(scenario.path("body.png").string(), body);
   scenario.project.footage.own_body_mask = "body.png";
@@ -45,11 +45,6 @@ ExportRequest request_of(const Scenario& scenario, bool overwrite = false, int f
           .frames = FrameRange{first, last},
           .jobs = 2,
           .overwrite = overwrite};
-}
-
-void put(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
 }
 
 // Boxes of a frame by the XML file of our own, x y width height.
@@ -87,8 +82,8 @@ std::size_t lines_in(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("labels of an export tell the same truth in every format, and images lie beside them") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kLabelledSize, kLabelledFrames);
+  prepare_two_aircraft(scenario);
   const Result<ExportReport> report = export_project(request_of(scenario), {});
   REQUIRE_MESSAGE(report.has_value(), (report ? "" : report.error().text()));
   const Json coco = Json::parse(*read_text(scenario.path("out/lot.coco.json")));
@@ -112,7 +107,7 @@ TEST_CASE("labels of an export tell the same truth in every format, and images l
     CHECK(boxes_in_voc(scenario, stem) == boxes);
     CHECK(lines_in(scenario.path("out/lot.yolo/labels/lot/" + stem + ".txt")) == 2);
     REQUIRE(fs::exists(scenario.path("out") / file_name));
-    CHECK(cv::imread((scenario.path("out") / file_name).string()).size() == kSize);
+    CHECK(cv::imread((scenario.path("out") / file_name).string()).size() == kLabelledSize);
     for (const char* const folder : {"out/lot.yolo/images/lot", "out/lot.voc/JPEGImages"})
       CHECK(fs::equivalent(scenario.path(folder) / file_name.filename(), scenario.path("out") / file_name));
   }
@@ -121,8 +116,8 @@ TEST_CASE("labels of an export tell the same truth in every format, and images l
 }
 
 TEST_CASE("a video's labels have no images and name the video") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kLabelledSize, kLabelledFrames);
+  prepare_two_aircraft(scenario);
   scenario.project.output.codec = CodecChoice::ffv1;
   REQUIRE(export_project(request_of(scenario), {}).has_value());
   CHECK(Json::parse(*read_text(scenario.path("out/lot.coco.json")))["videos"][0]["file_name"] == "lot.mkv");
@@ -132,11 +127,11 @@ TEST_CASE("a video's labels have no images and name the video") {
 }
 
 TEST_CASE("a folder of labels is replaced whole by a later export") {
-  Scenario scenario(kSize, kFrames);
-  prepare(scenario);
+  Scenario scenario(kLabelledSize, kLabelledFrames);
+  prepare_two_aircraft(scenario);
   REQUIRE(export_project(request_of(scenario), {}).has_value());
   CHECK_FALSE(export_project(request_of(scenario), {}).has_value());
-  put(scenario.path("out/lot.yolo/labels/lot.cache"), "what a reader leaves there");
+  write_file_and_folder(scenario.path("out/lot.yolo/labels/lot.cache"), "what a reader leaves there");
   const Result<ExportReport> again = export_project(request_of(scenario, true, 4, 5), {});
   REQUIRE_MESSAGE(again.has_value(), (again ? "" : again.error().text()));
   CHECK_FALSE(fs::exists(scenario.path("out/lot.yolo/labels/lot/frame_000002.txt")));
@@ -148,9 +143,9 @@ TEST_CASE("a folder of labels that holds anything that no export wrote is never 
   for (const char* const name : {"lot.yolo/notes.txt", "lot.yolo/runs/best.pt", "lot.yolo/labels/lot/frame_x.txt",
                                  "lot.voc/ImageSets/Main/mine.txt", "lot.voc/JPEGImages/frame_000001.jpg"}) {
     CAPTURE(name);
-    Scenario scenario(kSize, kFrames);
-    prepare(scenario);
-    put(scenario.path("out") / name, "mine");
+    Scenario scenario(kLabelledSize, kLabelledFrames);
+    prepare_two_aircraft(scenario);
+    write_file_and_folder(scenario.path("out") / name, "mine");
     const Result<ExportReport> report = export_project(request_of(scenario, true), {});
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::cannot_create);
@@ -167,14 +162,14 @@ TEST_CASE("every file of every folder of labels is one that a later export knows
     if (!format.is_folder) continue;
     CAPTURE(format.name);
     for (const CodecChoice codec : {CodecChoice::png, CodecChoice::ffv1}) {
-      Scenario scenario(kSize, kFrames);
-      prepare(scenario);
+      Scenario scenario(kLabelledSize, kLabelledFrames);
+      prepare_two_aircraft(scenario);
       scenario.project.output.codec = codec;
       scenario.project.output.labels = {std::string(format.name)};
       REQUIRE(export_project(request_of(scenario), {}).has_value());
       const Result<ExportReport> again = export_project(request_of(scenario, true), {});
       CHECK_MESSAGE(again.has_value(), (again ? "" : again.error().text()));
-      put(scenario.path("out") / ("lot" + std::string(format.suffix)) / "mine", "mine");
+      write_file_and_folder(scenario.path("out") / ("lot" + std::string(format.suffix)) / "mine", "mine");
       CHECK_FALSE(export_project(request_of(scenario, true), {}).has_value());
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 namespace sigs::test {
@@ -25,5 +26,8 @@ struct RawVideo {
 
 // The first `most` images. Only planar 8-bit formats. A failure fails the test.
 [[nodiscard]] RawVideo raw_video(const std::filesystem::path& path, int most);
+
+// Writes a text into a file, whose folder is made where it does not exist.
+void write_file_and_folder(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace sigs::test

@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const cv::Size kSize(64, 48);
+const cv::Size kImageSize(64, 48);
 
 VideoFormat images_format() {
-  return {.codec = VideoCodec::png, .size_px = kSize, .layout = PixelLayout::gray};
+  return {.codec = VideoCodec::png, .size_px = kImageSize, .layout = PixelLayout::gray};
 }
 
 VideoWriter images_in(const fs::path& folder) {
@@ -45,7 +45,7 @@ int images_there(const fs::path& folder) {
 }
 
 ComposedFrame frame_to_write(int number) {
-  ComposedFrame frame{.image = grainy_frame(kSize, number), .mask = cv::Mat(kSize, CV_8UC1, cv::Scalar(9))};
+  ComposedFrame frame{.image = grainy_frame(kImageSize, number), .mask = cv::Mat(kImageSize, CV_8UC1, cv::Scalar(9))};
   frame.image.time_s = number / 25.0;
   frame.truth.index = number;
   return frame;
@@ -53,13 +53,13 @@ ComposedFrame frame_to_write(int number) {
 
 VideoInfo footage_info() {
   VideoInfo info;
-  info.size_px = kSize;
+  info.size_px = kImageSize;
   info.path = "footage.mkv";
   return info;
 }
 
 Scene empty_scene() {
-  return {.camera = {*Lens::make({.fx = 100, .fy = 100, .cx = 50, .cy = 40}), kSize}};
+  return {.camera = {*Lens::make({.fx = 100, .fy = 100, .cx = 50, .cy = 40}), kImageSize}};
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ TEST_CASE("all that was handed to a writer is written once it has settled") {
   const fs::path folder = scenario.path("images");
   WriterThread writer(images_in(folder));
   for (int n = 0; n < 9; ++n) {
-    const Frame frame = grainy_frame(kSize, n, PixelLayout::gray);
+    const Frame frame = grainy_frame(kImageSize, n, PixelLayout::gray);
     CHECK((n % 3 == 1 ? writer.put_blank(n / 25.0, n) : writer.put(frame, n)));
   }
   CHECK(!writer.join());
@@ -87,7 +87,7 @@ TEST_CASE("a writer tells the frame that failed and writes nothing after it") {
   bool goes_on = true;
   int handed_over = 0;
   for (; goes_on && handed_over < 1000; ++handed_over)
-    goes_on = writer.put(grainy_frame(kSize, handed_over), handed_over % 9);
+    goes_on = writer.put(grainy_frame(kImageSize, handed_over), handed_over % 9);
   CHECK(!goes_on);
   const std::optional<FrameFailure> failure = writer.join();
   REQUIRE(failure);
@@ -101,7 +101,7 @@ TEST_CASE("a writer that is given up does not wait for what is queued") {
   const fs::path folder = scenario.path("images");
   {
     WriterThread writer(images_in(folder));
-    for (int n = 0; n < 3; ++n) CHECK(writer.put(grainy_frame(kSize, n), n));
+    for (int n = 0; n < 3; ++n) CHECK(writer.put(grainy_frame(kImageSize, n), n));
   }
   CHECK(images_there(folder) <= 3);
 }

@@ -186,11 +186,6 @@ void add_plate(Scenario& scenario, double side_m, const glm::dvec3& p_in_world) 
   scenario.add("plate.obj", p_in_world);
 }
 
-void add_aircraft(Scenario& scenario, const glm::dvec3& p_in_world) {
-  write_obj(scenario.path("aircraft.obj"), aircraft(), 2);
-  scenario.add("aircraft.obj", p_in_world);
-}
-
 void add_cube(Scenario& scenario, double side_m, const glm::dvec3& p_in_world) {
   write_obj(scenario.path("cube.obj"), {{glm::dvec3(-side_m / 2), glm::dvec3(side_m / 2), {1, 1, 1}}}, 2);
   scenario.add("cube.obj", p_in_world);

@@ -37,9 +37,6 @@ void set_lens(Scenario& scenario, const cv::Matx33d& matrix, const std::vector<d
 // A flat plate across the line of sight: side by side metres, white, facing against world X.
 void add_plate(Scenario& scenario, double side_m, const glm::dvec3& p_in_world);
 
-// Some 12 m long, no two views of it alike.
-void add_aircraft(Scenario& scenario, const glm::dvec3& p_in_world);
-
 // A cube that looks the same from six sides.
 void add_cube(Scenario& scenario, double side_m, const glm::dvec3& p_in_world);
 

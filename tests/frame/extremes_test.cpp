@@ -21,15 +21,6 @@ bool is_finite(const IntruderTruth& truth) {
   return fine;
 }
 
-void add_aircraft(Scenario& scenario, const glm::dvec3& position_m) {
-  write_obj(scenario.path("aircraft.obj"), aircraft(), 2);
-  scenario.add("aircraft.obj", position_m);
-}
-
-ComposedFrame composed(const Scenario& scenario) {
-  return test::composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
-}
-
 // A made 200 degree fisheye.
 void see_nearly_all(Scenario& scenario) {
   write_calibration(scenario.path("wide.xml"), {180, 0, 319.5, 0, 180, 239.5, 0, 0, 1}, {0, 0, 0, 0}, {640, 480}, true);

@@ -141,11 +141,6 @@ double seconds_for(const Scenario& scenario, ComposedFrame& frame) {
   return s;
 }
 
-void add_aircraft(Scenario& scenario, const glm::dvec3& position_m) {
-  write_obj(scenario.path("aircraft.obj"), aircraft(), 2);
-  scenario.add("aircraft.obj", position_m);
-}
-
 }  // namespace
 
 TEST_CASE("wide blur of the sample projects is that of the full resolution") {

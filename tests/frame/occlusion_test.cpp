@@ -51,7 +51,7 @@ TEST_CASE("a nearer intruder hides a farther one whichever is named first") {
     if (near_first) scenario.add("wall.obj", {100, 0, -150});
     add_plate(scenario);
     if (!near_first) scenario.add("wall.obj", {100, 0, -150});
-    const ComposedFrame frame = composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
+    const ComposedFrame frame = composed(scenario);
     REQUIRE(frame.truth.intruders.size() == 2);
     const IntruderTruth& plate = frame.truth.intruders[near_first ? 1 : 0];
     const IntruderTruth& wall = frame.truth.intruders[near_first ? 0 : 1];
@@ -71,8 +71,7 @@ TEST_CASE("an intruder wholly behind another is in the image and not visible") {
   write_plate(scenario, "wall.obj", {-30, -30}, {30, 30});
   add_plate(scenario);
   scenario.add("wall.obj", {100, 0, -150});
-  const IntruderTruth plate =
-      composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1)).truth.intruders.front();
+  const IntruderTruth plate = composed(scenario).truth.intruders.front();
   CHECK(plate.in_image);
   CHECK(plate.visible_fraction == 0);
   CHECK(!plate.visible_box);
@@ -172,8 +171,7 @@ TEST_CASE("an intruder half or three quarters outside the image is visible by th
     Scenario scenario;
     add_plate(scenario);
     scenario.project.intruders.front().trajectory.waypoints.front().position_m = c.position_m;
-    const IntruderTruth truth =
-        composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1)).truth.intruders.front();
+    const IntruderTruth truth = composed(scenario).truth.intruders.front();
     CHECK(std::abs(truth.visible_fraction - c.fraction) < 2 * kEdge);
     CHECK(truth.in_image == (c.fraction > 0));
     CHECK(truth.visible_box.has_value() == (c.fraction > 0));
@@ -187,7 +185,7 @@ TEST_CASE("a large intruder far outside the image is visible by the share that t
   Scenario scenario;
   write_plate(scenario, "wall.obj", {-30, -20}, {30, 20});
   scenario.add("wall.obj", {20, 0, -150});
-  const ComposedFrame frame = composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
+  const ComposedFrame frame = composed(scenario);
   const IntruderTruth& truth = frame.truth.intruders.front();
   CHECK(truth.visible_fraction == doctest::Approx(320.0 * 240 / (900 * 600)).epsilon(0.02));  // 256 steps across
   CHECK(truth.visible_box == cv::Rect({0, 0}, scenario.size_px()));

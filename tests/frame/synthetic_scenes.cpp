@@ -199,6 +199,15 @@ ComposedFrame composed(const Scene& scene, int frame, const Frame& background) {
   return std::move(*result);
 }
 
+ComposedFrame composed(const Scenario& scenario) {
+  return composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
+}
+
+void add_aircraft(Scenario& scenario, const glm::dvec3& position_m) {
+  write_obj(scenario.path("aircraft.obj"), aircraft(), 2);
+  scenario.add("aircraft.obj", position_m);
+}
+
 cv::Rect box_of(const cv::Mat& mask) {
   return mask.empty() ? cv::Rect() : cv::boundingRect(mask);
 }

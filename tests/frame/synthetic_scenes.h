@@ -76,6 +76,11 @@ class Scenario {
 
 // compose_frame with a context of its own; an error fails the test.
 [[nodiscard]] ComposedFrame composed(const Scene& scene, int frame, const Frame& background);
+// Frame 1 of a scenario, over grainy_frame(1).
+[[nodiscard]] ComposedFrame composed(const Scenario& scenario);
+
+// Adds an intruder of the model aircraft() at a position in the world.
+void add_aircraft(Scenario& scenario, const glm::dvec3& position_m);
 
 // Smallest rectangle around the pixels of a CV_8UC1 that are not 0.
 [[nodiscard]] cv::Rect box_of(const cv::Mat& mask);

@@ -96,11 +96,11 @@ pid_t start_screen(const fs::path& home, int width_px, int height_px, std::strin
   return screen;
 }
 
+}  // namespace
+
 bool shows(const nlohmann::json& state, const std::string& place) {
   return state.contains("places") && state["places"].contains(place);
 }
-
-}  // namespace
 
 bool can_drive_windows() {
   if (is_installed("Xvfb") && is_installed("xdotool")) return true;

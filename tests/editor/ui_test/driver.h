@@ -27,6 +27,9 @@ constexpr double kPatience_s = 240;
 // True where Xvfb and xdotool are there; else says skipped.
 [[nodiscard]] bool can_drive_windows();
 
+// Whether the interface shows an element in a state of the editor, by its name.
+[[nodiscard]] bool shows(const nlohmann::json& state, const std::string& place);
+
 // A screen without hardware and the editor on it, driven with real mouse and key events. Throws std::runtime_error
 // where something does not come about in kPatience_s.
 class EditorDriver {

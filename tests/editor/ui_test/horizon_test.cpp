@@ -17,13 +17,13 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr double kMouse_px = 2;  // the mouse stands on whole pixels, places are rounded outwards
+constexpr double kLineAccuracy_px = 2;  // the mouse stands on whole pixels, places are rounded outwards
 constexpr double kRounding_deg = 0.01;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 // assets/calibrations/sample.xml, a fisheye: near its middle an angle is a distance by focal length.
 constexpr double kFocal_px = 561.27;
-constexpr double kWidth_px = 1280;
+constexpr double kFootageWidth_px = 1280;
 
 Json project_without_attitude() {
   Json project = sample_project("head-on");
@@ -49,7 +49,7 @@ Json angle_in(const Json& project, const char* name) {
 }
 
 double screen_px_a_pixel(EditorDriver& editor) {
-  return editor.place("viewport/image").width / kWidth_px;
+  return editor.place("viewport/image").width / kFootageWidth_px;
 }
 
 // What labels say of the head-on sample's intruder at frame 150, when it flies 25 m below the camera.
@@ -155,7 +155,7 @@ TEST_CASE("the horizon's end is dragged for roll, its middle for pitch, each dra
   editor.settle();
   const int half_way = revision_of(editor.state());
   CHECK(half_way != revision);
-  CHECK(std::abs(editor.place("viewport/horizon").center_y() - level.center_y() - down_px / 2) < kMouse_px);
+  CHECK(std::abs(editor.place("viewport/horizon").center_y() - level.center_y() - down_px / 2) < kLineAccuracy_px);
   editor.move(level.center_x(), level.center_y() + down_px);
   editor.settle();
   editor.screenshot(build_dir() / "screenshots/horizon-dragged-held.png");
@@ -164,7 +164,7 @@ TEST_CASE("the horizon's end is dragged for roll, its middle for pitch, each dra
   const double pitch_deg = down_px / scale / kFocal_px * kDegrees;
   CHECK(angle_in(pitched, "pitch").get<double>() == doctest::Approx(pitch_deg).epsilon(0.02));  // a pixel of 48
   CHECK(std::abs(angle_in(pitched, "roll").get<double>()) <= kRounding_deg);
-  CHECK(std::abs(editor.place("viewport/horizon").center_y() - level.center_y() - down_px) < kMouse_px);
+  CHECK(std::abs(editor.place("viewport/horizon").center_y() - level.center_y() - down_px) < kLineAccuracy_px);
   ui_test.edit([&] { editor.key("ctrl+z"); });  // all of it
   CHECK(revision_of(editor.state()) == revision);
   const Json undone = ui_test.saved(project);

@@ -19,10 +19,6 @@ namespace {
 constexpr int kWidth_px = 1280;  // of the sample's footage
 constexpr int kHeight_px = 960;
 
-bool shows(const Json& state, const std::string& place) {
-  return state.contains("places") && state["places"].contains(place);
-}
-
 fs::path open_without_mask(UiTest& ui_test) {
   Json project = sample_project("head-on");
   project["footage"].erase("own_body_mask");
@@ -50,17 +46,13 @@ void stroke(UiTest& ui_test, const glm::dvec2& from_px, const glm::dvec2& to_px,
   ui_test.editor().drag(from.x, from.y, to.x, to.y, 1, held_key);
 }
 
-void wait_for_place(UiTest& ui_test, const std::string& place) {
-  ui_test.editor().wait_for(place, [&](const Json& now) { return shows(now, place); });
-}
-
 void detect_in(UiTest& ui_test, int frames) {
   ui_test.edit([&] {
     ui_test.fill_in("own body/own_body.frames", std::to_string(frames));
     ui_test.editor().key("Return");
   });
   ui_test.editor().click("own body/detect");
-  wait_for_place(ui_test, "own body/found");
+  ui_test.wait_for_place("own body/found");
 }
 
 // The mask comes first, then the project that names it.
@@ -96,7 +88,7 @@ TEST_CASE("strokes that were not saved outlive a crash") {
     editor.settle();
   }
   editor.release();
-  wait_for_place(ui_test, "own body/unsaved");
+  ui_test.wait_for_place("own body/unsaved");
   editor.wait_for("the recovery files", [&](const Json&) { return keeps_mask(ui_test.folder()); });
   editor.kill();
   CHECK(bytes_of(project) == original);
@@ -108,14 +100,14 @@ TEST_CASE("strokes that were not saved outlive a crash") {
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   editor.wait_for_image();
   editor.click("tab/own body");
-  wait_for_place(ui_test, "own body/unsaved");
+  ui_test.wait_for_place("own body/unsaved");
   editor.settle();
   ui_test.image("recovered");
   editor.click("own body/use");
   (void)editor.place("browser/answer");
   editor.settle();
   ui_test.edit([&] { editor.key("Return"); });
-  wait_for_place(ui_test, "own body/used");
+  ui_test.wait_for_place("own body/used");
   const fs::path mask = ui_test.folder() / "flight_own_body.png";
   for (const int x_px : {200, 350, 500}) CHECK(value_at(mask, x_px, 200) == 255);
   CHECK(value_at(mask, 350, 300) == 0);
@@ -135,7 +127,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   const fs::path project = open_without_mask(ui_test);
   editor.click("own body/detect");
   editor.click("own body/stop");
-  wait_for_place(ui_test, "own body/stopped");
+  ui_test.wait_for_place("own body/stopped");
   CHECK_FALSE(shows(editor.state(), "own body/unsaved"));
 
   detect_in(ui_test, 400);  // all that are there
@@ -164,7 +156,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   (void)editor.place("browser/answer");
   editor.settle();
   ui_test.edit([&] { editor.key("Return"); });  // the name that is proposed
-  wait_for_place(ui_test, "own body/used");
+  ui_test.wait_for_place("own body/used");
   CHECK(value_at(mask, 250, 200) == 255);
   CHECK(value_at(mask, 350, 200) == 0);  // erased
   CHECK(value_at(mask, 350, 400) == 0);  // undone
@@ -178,7 +170,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   editor.settle();
   ui_test.image("undone");
   ui_test.edit([&] { editor.key("ctrl+y"); });
-  wait_for_place(ui_test, "own body/used");
+  ui_test.wait_for_place("own body/used");
 
   // With the wheel turned in, a stroke lies where the mouse was.
   const glm::dvec2 corner = on_screen(ui_test, 900, 300);
@@ -187,7 +179,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   stroke(ui_test, {900, 300}, {930, 310});
   editor.click("own body/use");
   editor.click("own body/replace");
-  wait_for_place(ui_test, "own body/used");
+  ui_test.wait_for_place("own body/used");
   CHECK(value_at(mask, 915, 305) == 255);
   CHECK(value_at(mask, 915, 345) == 0);
   editor.key("ctrl+q");
@@ -200,7 +192,7 @@ TEST_CASE("an unsaved mask is not given up without a question") {
   EditorDriver& editor = ui_test.editor();
   open_without_mask(ui_test);
   stroke(ui_test, {200, 200}, {500, 200});
-  wait_for_place(ui_test, "own body/unsaved");
+  ui_test.wait_for_place("own body/unsaved");
   editor.key("ctrl+q");
   (void)editor.place("question/Cancel");
   ui_test.image("question");

@@ -14,14 +14,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-bool shows(const Json& state, const std::string& place) {
-  return state.contains("places") && state["places"].contains(place);
-}
-
-void wait_for_place(UiTest& ui_test, const std::string& place) {
-  ui_test.editor().wait_for(place, [&](const Json& now) { return shows(now, place); });
-}
-
 // As a person measures trackers of OpenCV; where their boxes lie then.
 fs::path results_of_trackers(const fs::path& project, const fs::path& folder) {
   std::ostringstream command;  // paths come quoted
@@ -51,7 +43,7 @@ void load(UiTest& ui_test, const fs::path& file) {
     editor.click("menu/Load tracker results...");
   }
   choose(ui_test, file);
-  wait_for_place(ui_test, "results/" + file.stem().string());
+  ui_test.wait_for_place("results/" + file.stem().string());
 }
 
 }  // namespace
@@ -74,7 +66,7 @@ TEST_CASE("a person loads what trackers said and sees them beside the truth") {
   load(ui_test, ui_test.folder() / "csrt.csv");
   load(ui_test, ui_test.folder() / "medianflow.csv");
   load(ui_test, ui_test.folder() / "kcf.csv");
-  wait_for_place(ui_test, "results/measured");
+  ui_test.wait_for_place("results/measured");
   CHECK(shows(editor.state(), "timeline/lane/Centre error"));
   CHECK(shows(editor.state(), "viewport/legend"));
   ui_test.scrub_to(140);
@@ -88,7 +80,7 @@ TEST_CASE("a person loads what trackers said and sees them beside the truth") {
   // A broken file is told with its line, and can be sent away.
   editor.click("results/load");
   choose(ui_test, "broken.csv");
-  wait_for_place(ui_test, "results/broken/problem");
+  ui_test.wait_for_place("results/broken/problem");
   editor.settle();
   ui_test.image("problem");
   editor.click("results/broken/remove");

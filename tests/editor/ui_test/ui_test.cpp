@@ -51,6 +51,10 @@ void UiTest::image(const std::string& what) {
   editor_.screenshot(build_dir() / "screenshots" / (name_ + "-" + what + ".png"));
 }
 
+void UiTest::wait_for_place(const std::string& place) {
+  editor_.wait_for(place, [&](const nlohmann::json& now) { return shows(now, place); });
+}
+
 void UiTest::scrub_to(int frame, int last) {
   const ScreenPlace ruler = editor_.place("timeline/ruler");
   const double first_x = editor_.place("timeline/row/0/key/0").center_x();

@@ -26,6 +26,9 @@ class UiTest {
   // Into the build folder's screenshots/, where the mouse marks nothing.
   void image(const std::string& what);
 
+  // Until the interface shows the element of this name.
+  void wait_for_place(const std::string& place);
+
   // With the mouse on the ruler. The first intruder's waypoints have to reach from frame 0 to `last`.
   void scrub_to(int frame, int last = 199);
   // What changes the project; returns when it has, and the image with it.
