@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <optional>
-#include <string_view>
 #include <utility>
 
 #include "base/staged_outputs.h"
@@ -25,6 +20,8 @@ namespace {
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+
+constexpr const char* kUnreadableLabels = "cannot be put together: labels of a video are not as sigs writes them";
 
 // What has to be added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
 struct IdOffsets {
@@ -57,8 +54,8 @@ class List {
   bool is_first_ = true;
 };
 
-// The COCO labels of one video. Error: the file cannot be read or is no JSON.
-Result<Json> read_coco(const fs::path& file) {
+// The labels of one video. Error: the file cannot be read or is no JSON.
+Result<Json> read_labels(const fs::path& file) {
   const Result<std::string> text = read_text(file);
   return text ? parsed_json(*text, file.string(), ErrorKind::bad_data) : fail(text.error());
 }
@@ -85,7 +82,7 @@ class CocoMerge {
     Json categories;
     IdOffsets next;
     for (const VideoLabels& labels : labels_.videos) {
-      Result<Json> coco = read_coco(labels.path);
+      Result<Json> coco = read_labels(labels.path);
       if (!coco) return fail(coco.error());
       offsets_.push_back(next);
       Json video = coco->at("videos").at(0);
@@ -117,7 +114,7 @@ class CocoMerge {
   Result<void> put_annotations() {
     List list(out_);
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
-      Result<Json> coco = read_coco(labels_.videos[i].path);
+      Result<Json> coco = read_labels(labels_.videos[i].path);
       if (!coco) return fail(coco.error());
       for (Json& annotation : coco->at("annotations")) {
         add_offset(annotation, "id", offsets_[i].annotation);
@@ -134,7 +131,7 @@ class CocoMerge {
     if (const Result<void> begin = out_.put("\n],\n\"images\": ["); !begin) return begin;
     List list(out_);
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
-      Result<Json> coco = read_coco(labels_.videos[i].path);
+      Result<Json> coco = read_labels(labels_.videos[i].path);
       if (!coco) return fail(coco.error());
       for (Json& image : coco->at("images")) {
         add_offset(image, "id", offsets_[i].image);
@@ -151,51 +148,28 @@ class CocoMerge {
   std::vector<IdOffsets> offsets_;  // of each video
 };
 
-// Reads a text that this program wrote line by line. The first error stays, and names the file and the line; lines are
-// empty from then on.
-class LineReader {
- public:
-  explicit LineReader(fs::path file) : file_(std::move(file)), in_(file_, std::ios::binary) {
-    if (!in_)
-      problem_ = Error{file_.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read};
-  }
-
-  // The next line without its end; none at the end of the text.
-  [[nodiscard]] std::optional<std::string> next() {
-    std::string line;
-    if (problem_) return std::nullopt;
-    if (std::getline(in_, line)) {
-      ++number_;
-      return line;
+// The flights of all videos, as one file of the data set has those of several.
+Result<void> put_flights(const SplitLabels& labels, TextFile& out) {
+  bool is_first = true;
+  for (const VideoLabels& video : labels.videos) {
+    const Result<Json> aot = read_labels(video.path);
+    if (!aot) return fail(aot.error());
+    for (const auto& [name, flight] : aot->at("samples").items()) {
+      const std::string before =
+          is_first ? "{\"metadata\": " + text_of(aot->at("metadata")) + ",\n\"samples\": {" : ",\n";
+      is_first = false;
+      Result<void> step = out.put(before + text_of(Json(name)) + ": {\"metadata\": " + text_of(flight.at("metadata")) +
+                                  ",\n\"entities\": [");
+      List entities(out);
+      for (const Json& entity : flight.at("entities"))
+        if (step) step = entities.put(entity);
+      if (step) step = out.put("\n]}");
+      if (!step) return step;
     }
-    if (in_.bad()) problem_ = Error{file_.string(), "cannot be read to its end", ErrorKind::cannot_read};
-    return std::nullopt;
   }
-
-  // What stands in the next line between a beginning and an end that the program wrote.
-  [[nodiscard]] std::string between(std::string_view before, std::string_view after) {
-    const std::optional<std::string> line = next();
-    if (line && line->size() >= before.size() + after.size() && line->starts_with(before) && line->ends_with(after))
-      return line->substr(before.size(), line->size() - before.size() - after.size());
-    mark_malformed();
-    return {};
-  }
-
-  // To be called where the line last read is not what it should be.
-  void mark_malformed() {
-    if (!problem_)
-      problem_ = Error{file_.string() + ": line " + std::to_string(number_),
-                       "is not as sigs writes it; make the video anew", ErrorKind::bad_data};
-  }
-
-  [[nodiscard]] Result<void> state() const { return problem_ ? Result<void>(fail(*problem_)) : Result<void>(); }
-
- private:
-  fs::path file_;
-  std::ifstream in_;
-  std::optional<Error> problem_;
-  int number_ = 0;
-};
+  const Result<void> end = out.put("}}\n");
+  return end ? out.close() : end;
+}
 
 }  // namespace
 
@@ -205,56 +179,34 @@ Result<void> merge_coco(const SplitLabels& labels, const fs::path& file) {
   try {
     return CocoMerge(labels, std::move(*out)).run();
   } catch (const Json::exception&) {
-    return fail(file.string(), "cannot be put together: labels of a video are not as sigs writes them");
+    return fail(file.string(), kUnreadableLabels);
   }
 }
 
 Result<void> merge_csv(const SplitLabels& labels, const fs::path& file) {
   Result<TextFile> out = TextFile::create(file);
   if (!out) return fail(out.error());
-  std::optional<std::string> header;
+  std::string header;
   for (const VideoLabels& video : labels.videos) {
-    LineReader lines(video.path);
-    const std::optional<std::string> first = lines.next();
-    if (!first || (header && *first != *header)) lines.mark_malformed();
-    if (!header && first)
-      if (const Result<void> put = out->put(*first + "\n"); !put) return put;
-    if (!header) header = first;
-    while (const std::optional<std::string> line = lines.next())
-      if (const Result<void> put = out->put(*line + "\n"); !put) return put;
-    if (const Result<void> state = lines.state(); !state) return state;
+    const Result<std::string> text = read_text(video.path);
+    if (!text) return fail(text.error());
+    const std::string first = text->substr(0, text->find('\n') + 1);
+    if (first.empty() || (!header.empty() && first != header))
+      return fail(video.path.string() + ": line 1", "is not as sigs writes it; make the video anew");
+    if (const Result<void> put = out->put(header.empty() ? *text : text->substr(first.size())); !put) return put;
+    header = first;
   }
   return out->close();
 }
 
-// The lines are copied as they are: a JSON library would write numbers and blanks another way.
-//   {"metadata": {...},
-//   "samples": {"FLIGHT": {"metadata": {...},
-//   "entities": [
-//   {...},
-//   {...}
-//   ]}}}
 Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
-  constexpr std::string_view kSamples = "\"samples\": {";
-  constexpr std::string_view kEnd = "]}}}";
   Result<TextFile> out = TextFile::create(file);
   if (!out) return fail(out.error());
-  std::string before;
-  for (const VideoLabels& video : labels.videos) {
-    LineReader lines(video.path);
-    const std::string metadata = lines.between("{\"metadata\": ", ",");
-    const std::string sample = lines.between(kSamples, "");
-    before += before.empty() ? "{\"metadata\": " + metadata + ",\n" + std::string(kSamples) : ",\n";
-    if (const Result<void> put = out->put(before + sample + "\n"); !put) return put;
-    std::optional<std::string> line = lines.next();
-    for (; line && *line != kEnd; line = lines.next())
-      if (const Result<void> put = out->put(*line + "\n"); !put) return put;
-    if (!line) lines.mark_malformed();
-    if (const Result<void> state = lines.state(); !state) return state;
-    before = "]}";
+  try {
+    return put_flights(labels, *out);
+  } catch (const Json::exception&) {
+    return fail(file.string(), kUnreadableLabels);
   }
-  const Result<void> end = out->put(std::string(kEnd) + "\n");
-  return end ? out->close() : end;
 }
 
 }  // namespace sigs
