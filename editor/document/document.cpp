@@ -57,6 +57,16 @@ std::size_t waypoints_in(const Project& project) {
 
 }  // namespace
 
+void Edits::move_waypoint(int intruder, int waypoint, const glm::dvec3& position_m, std::string gesture) {
+  change(
+      "move waypoint",
+      [=](Project& project) {
+        auto& waypoints = project.intruders.at(static_cast<std::size_t>(intruder)).trajectory.waypoints;
+        waypoints.at(static_cast<std::size_t>(waypoint)).position_m = position_m;
+      },
+      std::move(gesture));
+}
+
 Document::Document() : Document(Project()) {}
 
 Document::Document(Project project, std::uint64_t first_number)

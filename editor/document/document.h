@@ -118,6 +118,8 @@ class Edits {
   void change(std::string name, std::function<void(Project&)> change, std::string gesture = {}) {
     edits_.emplace_back(ChangeProject{std::move(name), std::move(change), std::move(gesture)});
   }
+  // Moves a waypoint, as part of the gesture of that name, which ends with end_gesture(). position_m is in the world.
+  void move_waypoint(int intruder, int waypoint, const glm::dvec3& position_m, std::string gesture);
   void end_gesture() { edits_.emplace_back(EndGesture{}); }
   void cancel_gesture(std::string gesture) { edits_.emplace_back(CancelGesture{std::move(gesture)}); }
   void undo() { edits_.emplace_back(Undo{}); }

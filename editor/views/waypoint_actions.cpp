@@ -46,6 +46,22 @@ std::optional<int> current_intruder(const ViewContext& context) {
   return chosen ? selection.intruder : 0;
 }
 
+std::optional<int> project_intruder(const ViewContext& context, int in_scene) {
+  if (!context.shown.scene) return std::nullopt;
+  const std::vector<int>& numbers = context.shown.scene->draft.intruder_of_project;
+  for (std::size_t i = 0; i < numbers.size() && i < context.project().intruders.size(); ++i)
+    if (numbers[i] == in_scene) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+std::optional<int> scene_intruder(const ViewContext& context, int in_project) {
+  if (!context.shown.scene || in_project < 0) return std::nullopt;
+  const std::vector<int>& numbers = context.shown.scene->draft.intruder_of_project;
+  const auto index = static_cast<std::size_t>(in_project);
+  if (index >= numbers.size() || numbers[index] < 0) return std::nullopt;
+  return numbers[index];
+}
+
 std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder) {
   return waypoint_frames(plan_of(context, intruder).waypoints, context.document.first_frame(),
                          context.document.last_frame());
@@ -152,17 +168,6 @@ void go_to_waypoint(const ViewContext& context, int direction) {
 
 std::string gesture_of_waypoint(int intruder, int waypoint) {
   return fmt::format("move {} {}", intruder, waypoint);
-}
-
-void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m,
-                   const std::string& gesture) {
-  context.edits.change(
-      "move waypoint",
-      [=](Project& project) {
-        auto& waypoints = project.intruders.at(static_cast<std::size_t>(intruder)).trajectory.waypoints;
-        waypoints.at(static_cast<std::size_t>(waypoint)).position_m = position_m;
-      },
-      gesture);
 }
 
 IntruderSettings new_intruder(const ViewContext& context) {

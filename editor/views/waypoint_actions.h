@@ -15,6 +15,13 @@ namespace sigs::editor {
 // The intruder that is worked on: the selected one, else the only or first one. None where the project has none.
 [[nodiscard]] std::optional<int> current_intruder(const ViewContext& context);
 
+// The index in the project of an intruder given by its index in the scene (as FrameTruth and stages count). The scene
+// leaves out intruders without waypoints. Nothing where the project has changed since the scene was opened.
+[[nodiscard]] std::optional<int> project_intruder(const ViewContext& context, int in_scene);
+
+// The index in the scene of an intruder given by its index in the project; nothing for one without waypoints.
+[[nodiscard]] std::optional<int> scene_intruder(const ViewContext& context, int in_project);
+
 // The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
 
@@ -40,11 +47,6 @@ void go_to_waypoint(const ViewContext& context, int direction);
 
 // The gesture's name for moves of a waypoint that may join one undo step.
 [[nodiscard]] std::string gesture_of_waypoint(int intruder, int waypoint);
-
-// Moves one, as part of a drag with the gesture of that name; position_m in the world. The drag ends with
-// context.edits.end_gesture().
-void move_waypoint(const ViewContext& context, int intruder, int waypoint, const glm::dvec3& position_m,
-                   const std::string& gesture);
 
 // An intruder of the same model as the last one (or none) 300 m ahead of the camera, crossing. Adding selects it.
 [[nodiscard]] IntruderSettings new_intruder(const ViewContext& context);

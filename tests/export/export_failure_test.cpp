@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "export/export_project.h"
+#include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"
 
 namespace sigs::test {

@@ -12,6 +12,7 @@
 #include "base/staged_outputs.h"
 #include "export/export_files.h"
 #include "export/export_project.h"
+#include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"
 #include "truth/measure.h"
 

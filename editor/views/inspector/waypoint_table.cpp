@@ -109,7 +109,7 @@ void WaypointTable::draw_position(const ViewContext& context, int intruder, int 
     ImGui::TableSetColumnIndex(2 + axis);
     const char* const id = kIds[static_cast<std::size_t>(axis)];
     if (number_input(id, position_m[axis], part, ImGui::GetContentRegionAvail().x))
-      move_waypoint(context, intruder, waypoint, position_m, gesture_of_waypoint(intruder, waypoint));
+      context.edits.move_waypoint(intruder, waypoint, position_m, gesture_of_waypoint(intruder, waypoint));
     if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
     if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   }

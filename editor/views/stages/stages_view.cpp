@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "editor/views/viewport/footage_camera.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"

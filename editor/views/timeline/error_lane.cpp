@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/timeline/error_lane.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -217,7 +218,7 @@ void ErrorLane::draw(const ViewContext& context, const TimelineStrip& strip, flo
   tooltip_for_item(kHelp);
   ImGui::SetCursorScreenPos({strip.left(), top_y});
   ImGui::InvisibleButton("lane", {std::max(1.0F, strip.right() - strip.left()), height});
-  context.ui_probe.note_item(std::string("timeline/lane/") + kTitle);
+  context.ui_probe.note_item(fmt::format("timeline/lane/{}", kTitle));
   ruler.scrub_on_item(context, strip);
   const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
 

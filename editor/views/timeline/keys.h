@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "editor/views/drag_gesture.h"
+#include "editor/views/context.h"
 #include "editor/views/timeline/ruler.h"
 
 namespace sigs::editor {

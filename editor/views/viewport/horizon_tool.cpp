@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "base/pose.h"
-#include "editor/views/viewport/footage_camera.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
+#include <vector>
 
-#include "editor/views/viewport/footage_camera.h"
+#include "editor/views/viewport/waypoint_tool.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
@@ -43,5 +45,27 @@ void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, 
 // Diamonds with the number of their frame; those of the intruder that is worked on larger.
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
                     const FootageCamera& eye, LabelPlacer& labels);
+
+// The paths of all intruders, projected with the camera of one frame: pale before that frame, bright after it. The
+// polylines are computed again only when the scene or the frame has changed.
+class PathOverlay {
+ public:
+  void draw(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye);
+
+ private:
+  struct PathPiece {
+    int intruder = 0;  // the scene's number
+    bool past = false;
+    std::vector<PixelLine> lines;
+  };
+  void make(const Scene& scene, const FootageCamera& eye);
+
+  std::uint64_t scene_ = 0;
+  int frame_ = -1;
+  std::vector<PathPiece> pieces_;
+};
+
+// The horizon of a flat earth through the camera's lens, as a line over the image.
+void draw_horizon(const ImageCanvas& canvas, const FootageCamera& eye);
 
 }  // namespace sigs::editor

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "editor/views/context.h"
-#include "editor/views/viewport/footage_camera.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/views/viewport/readout.h"

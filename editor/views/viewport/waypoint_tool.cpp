@@ -10,6 +10,7 @@
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/zoomable_image.h"
+#include "scene/scene_at.h"
 
 namespace sigs::editor {
 
@@ -42,11 +43,42 @@ int put_in_gesture(const ViewContext& context, int intruder, int frame, const gl
   return number;
 }
 
+Lens lens_of(const Scene& scene) {
+  if (scene.compositing.method != MethodChoice::plain) return scene.camera.lens;
+  const LensParameters& lens = scene.camera.lens.parameters();
+  return Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}).value_or(scene.camera.lens);
+}
+
 bool moves_along_sight() {
   return ImGui::GetIO().KeyAlt || ImGui::GetIO().KeyShift;
 }
 
 }  // namespace
+
+std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int frame) {
+  if (!context.shown.scene) return std::nullopt;
+  const Scene& scene = context.shown.scene->draft.scene;
+  return FootageCamera{frame, camera_at(scene.motion, time_of_frame_s(scene.footage, frame)), lens_of(scene)};
+}
+
+const std::vector<WaypointMark>& WaypointMarks::of(const ViewContext& context, const FootageCamera& eye) {
+  const MadeFor wanted{context.document.revision().number, context.shown.scene ? context.shown.scene->revision : 0,
+                       eye.frame};
+  if (wanted == made_for_) return marks_;
+  made_for_ = wanted;
+  marks_.clear();
+  const std::vector<IntruderSettings>& intruders = context.project().intruders;
+  for (std::size_t i = 0; i < intruders.size(); ++i) {
+    const std::vector<double> frames = frames_of_waypoints(context, static_cast<int>(i));
+    const std::vector<WaypointSettings>& waypoints = intruders[i].trajectory.waypoints;
+    for (std::size_t k = 0; k < waypoints.size() && k < frames.size(); ++k) {
+      const std::optional<glm::dvec2> pixel = pixel_of(waypoints[k].position_m, eye.world_from_camera, eye.lens);
+      if (pixel)
+        marks_.push_back({static_cast<int>(i), static_cast<int>(k), frames[k], waypoints[k].position_m, *pixel});
+    }
+  }
+  return marks_;
+}
 
 const WaypointMark* waypoint_at(const ToolContext& tool) {
   const WaypointMark* best = nullptr;
@@ -179,7 +211,7 @@ void WaypointTool::move(const ToolContext& tool) {
                                                                  view.image_of(tool.mouse), pose, tool.eye.lens);
   if (!there_m || *there_m == taken.now_m) return;
   taken.now_m = *there_m;
-  move_waypoint(tool.context, taken.intruder, taken.waypoint, *there_m, taken.gesture.name);
+  tool.context.edits.move_waypoint(taken.intruder, taken.waypoint, *there_m, taken.gesture.name);
 }
 
 // Taking back a drag brings back what was selected before its first move; what was dragged is to stay selected.

@@ -1,15 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "editor/views/drag_gesture.h"
-#include "editor/views/viewport/footage_camera.h"
+#include "editor/geometry/lens_projection.h"
+#include "editor/views/context.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
+
+// The footage's camera in one frame, with the lens that the images are made through.
+struct FootageCamera {
+  int frame = 0;
+  CameraPose world_from_camera;
+  Lens lens;
+
+  [[nodiscard]] double distance_m(const glm::dvec3& p_in_world) const {
+    return glm::distance(p_in_world, world_from_camera.translation_m);
+  }
+};
+
+// The camera of a frame in the newest scene that is open; nothing while no scene is open. For the `plain` method, which
+// ignores the lens, it is a pinhole camera with the same intrinsics.
+[[nodiscard]] std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int frame);
+
+// A waypoint projected into the image of that camera. In the waypoint's own frame its pixel is where the intruder is.
+struct WaypointMark {
+  int intruder = 0;
+  int waypoint = 0;
+  double frame = 0;                // the waypoint's moment; not whole where frames are spread evenly
+  glm::dvec3 position_m{0, 0, 0};  // in the world
+  glm::dvec2 pixel{0, 0};          // of the image, pixel centres at whole numbers
+};
+
+// Marks of all waypoints of all intruders of the document's project; waypoints that the lens does not image are left
+// out. The marks are computed again only when the project, the scene or the frame has changed.
+class WaypointMarks {
+ public:
+  [[nodiscard]] const std::vector<WaypointMark>& of(const ViewContext& context, const FootageCamera& eye);
+
+ private:
+  struct MadeFor {
+    std::uint64_t document = 0;
+    std::uint64_t scene = 0;
+    int frame = 0;
+    [[nodiscard]] bool operator==(const MadeFor&) const = default;
+  };
+  MadeFor made_for_;
+  std::vector<WaypointMark> marks_;
+};
 
 // What the waypoint tool works with in one update.
 struct ToolContext {

@@ -136,7 +136,7 @@ std::string gesture_of(const Selection& moved) {
 void move_to(const WorldContext& world, const Movable& moved, const glm::dvec3& to_m) {
   Edits& edits = world.context.edits;
   if (moved.what.kind == Selected::waypoint)
-    move_waypoint(world.context, moved.what.intruder, moved.what.waypoint, to_m, gesture_of(moved.what));
+    world.context.edits.move_waypoint(moved.what.intruder, moved.what.waypoint, to_m, gesture_of(moved.what));
   if (moved.what.kind == Selected::light)
     edits.change(
         "move light", [=](Project& project) { project.light.position_m = to_m; }, gesture_of(moved.what));

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "editor/views/drag_gesture.h"
+#include "editor/views/context.h"
 #include "editor/views/world/picks.h"
 #include "editor/views/world/view_presets.h"
 #include "editor/widgets/gizmo_handle.h"
