@@ -16,17 +16,21 @@ namespace sigs::editor {
 // Escape takes them back; a change that anything else makes to the project meanwhile ends the drag, because its numbers
 // may no longer count the same intruders and waypoints.
 struct DragGesture {
-  std::string name;                   // of the gesture, for Edits::change
-  std::uint64_t revision_before = 0;  // of the document when the mouse was pressed
-  glm::dvec2 pressed{0, 0};           // where, on the screen
-  bool is_moving = false;             // a change has been made or is about to be
+  // Of the gesture, for Edits::change. Two drags that follow each other need different names, or an end() between them.
+  std::string name;
+  // Number of the document's revision when the mouse was pressed.
+  std::uint64_t revision_before = 0;
+  // Where it was pressed, on the screen.
+  glm::dvec2 pressed{0, 0};
+  // A change has been made or is about to be. The caller sets it, once has_left_press().
+  bool is_moving = false;
 
   // A press moves nothing until the mouse has gone 3 px (where text is 15 px high).
   [[nodiscard]] bool has_left_press(const glm::dvec2& mouse) const {
     return glm::distance(mouse, pressed) >= static_cast<double>(scaled(3));
   }
 
-  // Whether the project has been changed by anything but this drag.
+  // Whether the project has been changed by anything but this drag. The caller drops the drag then, without an end().
   [[nodiscard]] bool is_lost(const ViewContext& context) const {
     return context.document.has_other_changes(revision_before, is_moving ? name : "");
   }
@@ -38,6 +42,7 @@ struct DragGesture {
     return true;
   }
 
+  // Takes back all changes of this drag.
   void cancel(const ViewContext& context) const {
     if (is_moving) context.edits.cancel_gesture(name);
   }

@@ -9,9 +9,10 @@
 
 namespace sigs::editor {
 
-enum class ImageGrid { none, thirds, eighths };  // eighths: 8 x 6 fields
+// Lines across the image: thirds are 3 x 3 fields, eighths 8 x 6.
+enum class ImageGrid { none, thirds, eighths };
 
-// What is drawn over the image.
+// What is drawn over the image; the toolbar's buttons switch it. Not part of the project.
 struct OverlayChoice {
   bool box = true;
   bool path = true;
@@ -24,23 +25,27 @@ struct OverlayChoice {
 // The own body's mask as a tint, made once for each mask.
 class OwnBodyTint {
  public:
+  // own_body: CV_32FC1, 0..1, of the image's size; draws nothing where it is empty.
   void draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& own_body);
 
  private:
-  cv::Mat made_for_;  // CV_32FC1; kept, so that its address stays its own
+  // CV_32FC1; kept, so that its address stays its own.
+  cv::Mat made_for_;
   cv::Mat tint_;
 };
 
 void draw_image_grid(const ImageCanvas& canvas, ImageGrid grid);
 
-// The boxes of an image's truth: of what is visible solid, of the whole silhouette dashed; name and distance.
+// The boxes of an image's truth: of what is visible solid, of the whole silhouette dashed; name and distance, and why
+// one is not visible.
 void draw_boxes(const ImageCanvas& canvas, const ViewContext& context, const PreviewImage& image, LabelPlacer& labels);
 
-// No label over the diamonds of the intruder that is worked on.
+// To be called before labels are placed: none may cover the diamonds of the intruder that is worked on.
 void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
                          LabelPlacer& labels);
 
-// Diamonds with the number of their frame; those of the intruder that is worked on larger.
+// Diamonds with the number of their frame, open where the waypoint is of the frame that is shown; those of the intruder
+// that is worked on larger. Marks less than 3 px apart are thinned out, except for the selected one.
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
                     const FootageCamera& eye, LabelPlacer& labels);
 

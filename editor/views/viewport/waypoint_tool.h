@@ -11,13 +11,14 @@
 
 namespace sigs::editor {
 
-// What the waypoint tool works with in one update.
+// What the waypoint tool and the horizon tool work with in one update; valid for that update.
 struct ToolContext {
   const ViewContext& context;
   const ImageCanvas& canvas;
   const FootageCamera& eye;
   std::span<const WaypointMark> marks;
-  glm::dvec2 mouse{0, 0};  // on the screen
+  // On the screen.
+  glm::dvec2 mouse{0, 0};
 };
 
 // The waypoint within 9 px of the mouse (where text is 15 px high): the selected one if it is there, else the nearest;
@@ -43,6 +44,7 @@ class WaypointTool {
   void release(const ViewContext& context);
   // Once per update, before the other calls: after Escape, selects what was dragged again.
   void select_again(const ViewContext& context);
+  // Between a press on a waypoint or an intruder and its release, Escape or loss.
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
 
   // While something is dragged: its distance from the camera and how far it was moved, beside the mouse.
