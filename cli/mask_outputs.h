@@ -15,9 +15,10 @@ namespace sigs::cli {
 
 // Where `sigs mask` writes.
 struct MaskPaths {
+  // PNG files, and a folder for images of the steps. Confidence and stages may be empty: not asked for.
   std::filesystem::path mask;
-  std::filesystem::path confidence;  // empty: not asked for
-  std::filesystem::path stages;      // a folder; empty: not asked for
+  std::filesystem::path confidence;
+  std::filesystem::path stages;
 };
 
 // The images of one run. They get their names together, or none of them and no folder is left.
@@ -36,10 +37,12 @@ class MaskOutputs {
 
  private:
   MaskOutputs(MaskPaths paths, bool overwrite) : paths_(std::move(paths)), overwrite_(overwrite), files_(overwrite) {}
+  // Checks a name against the inputs, makes the folder that it lies in and takes it. option: named in the error.
   [[nodiscard]] Result<void> reserve(const char* option, const std::filesystem::path& path,
                                      const std::vector<std::filesystem::path>& inputs);
   [[nodiscard]] Result<void> reserve_stages(const std::vector<std::filesystem::path>& inputs);
   [[nodiscard]] Result<void> write_stages(const OwnBody& found, const cv::Mat& bgr);
+  // File of a step in the folder, by its number and name.
   [[nodiscard]] std::filesystem::path stage(std::size_t number, std::string_view name) const;
 
   MaskPaths paths_;

@@ -29,7 +29,8 @@ class ImageFiles {
 
  private:
   StagedOutputs outputs_;
-  std::map<std::filesystem::path, std::filesystem::path> staged_;  // by final name
+  // Temporary files by their final names.
+  std::map<std::filesystem::path, std::filesystem::path> staged_;
 };
 
 // Folders made for what is to be written. Those that are empty at the end go again: a run that fails or is interrupted

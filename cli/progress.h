@@ -6,17 +6,19 @@
 
 namespace sigs::cli {
 
+// automatic as below; plain: lines of text; json: a JSON object a line; none: nothing.
 enum class ProgressStyle { automatic, plain, json, none };
 
-// "auto", "plain", "json", "none".
+// "auto", "plain", "json", "none"; anything else counts as "auto".
 [[nodiscard]] ProgressStyle progress_style(const std::string& name);
 
-// Says on stderr how far a long job is and how long it still takes. automatic: a bar where stderr is a terminal, else
-// nothing but the end. NO_COLOR is respected.
+// Says on stderr how far a long job is and how long it still takes, at most ten times a second (bar) or once a second.
+// automatic: a bar where stderr is a terminal, else nothing. NO_COLOR is respected. The clock starts with the object.
 class Progress {
  public:
   explicit Progress(ProgressStyle style);
 
+  // Frames done and in all, 0 < done <= total. To be called from one thread at a time.
   void update(int done, int total);
 
   // Ends the bar's line, so that what follows begins on its own.
@@ -27,6 +29,7 @@ class Progress {
   void draw_bar(int done, int total, double elapsed_s);
 
   ProgressStyle style_;
+  // A bar is drawn, in colour; its line is not ended yet.
   bool bar_ = false;
   bool color_ = false;
   bool line_open_ = false;

@@ -16,15 +16,23 @@ namespace sigs::cli {
 
 // What `sigs evaluate track` was asked for.
 struct TrackRequest {
-  ProjectOptions input;  // a project or, by its name, a label file
+  // A project or, by its name, a label file.
+  ProjectOptions input;
+  // Names of OpenCV's trackers that are to run; may be empty.
   std::vector<std::string> trackers;
+  // Files with results of other trackers, and their format.
   std::vector<std::filesystem::path> results;
   ResultsFormat format = ResultsFormat::automatic;
+  // Index of the intruder that is followed; none: the only one.
   std::optional<int> intruder;
   TrackPolicy policy;
+  // Trackers start in the first frame in which the visible box has sides of at least this length.
   double min_side_px = kMinSide_px;
-  std::filesystem::path video;  // empty: what lies beside the labels
+  // The images of a label file; empty: what lies beside the labels.
+  std::filesystem::path video;
+  // Of a project, in place of its own range.
   std::optional<FrameRange> frames;
+  // Frames composed in parallel.
   int jobs = 1;
   std::string progress = "auto";
 };
@@ -33,7 +41,8 @@ struct TrackRequest {
 struct TrackedClip {
   std::string name;
   ClipTruth truth;
-  int target = 0;      // place in truth.targets
+  // Index in truth.targets of the intruder that is followed.
+  int target = 0;
   TrackPolicy policy;  // as asked for, from the frame where trackers start
   std::vector<Results> results;
   std::vector<std::string> remarks;

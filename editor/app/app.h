@@ -24,66 +24,87 @@
 
 namespace sigs::editor {
 
+// What the probe reports beside the document and the preview.
+struct ProbedWindow {
+  // "start" or "project".
+  std::string page;
+  // Of the loop, over the last second.
+  double updates_per_second = 0;
+  // Number of keys released so far, modifiers aside.
+  int released_keys = 0;
+  // There is input that a later update will receive.
+  bool has_input_left = false;
+};
+
 // For programs that drive the window from outside: writes what it shows into a JSON file, anew after each update that
-// changed it.
+// changed it. The file is replaced as a whole, so a reader never finds half of it.
 //   {"turn": 12, "frame": 3, "revision": 4, "unsaved": true, "current": true, "busy": false, "page": "project",
 //    "problems": ["footage.video: ..."], "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...},
 //    "memory": {"pictures": 1000, "decoded": ..., "shown": ..., "textures": ..., "sum": ..., "limit": ...}, in bytes
 //    "mouse": [x, y], "buttons": 1, "released_keys": 7, "at_rest": true}
 // By the last line a driver learns that its input has arrived: position of the mouse in this update, one bit for each
 // button that is down, number of keys released so far, and whether some updates have passed since without any input.
-struct ProbedWindow {
-  std::string page;               // "start" or "project"
-  double updates_per_second = 0;  // of the loop, over the last second
-  int released_keys = 0;          // modifiers aside
-  bool has_input_left = false;    // that a later update will receive
-};
-
 class ProbeWriter {
  public:
   // Nothing is written where the path is empty.
   explicit ProbeWriter(std::filesystem::path file) : file_(std::move(file)) {}
 
   [[nodiscard]] bool wanted() const { return !file_.empty(); }
+  // Once per update, after drawing. A file that cannot be written is tried again in the next update.
   void write(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe, const ProbedWindow& window);
 
  private:
+  // Whether input has been the same for three updates and none is left.
   [[nodiscard]] bool is_at_rest(const nlohmann::json& input, bool has_input_left);
 
   std::filesystem::path file_;
+  // The text that was written last, without its "turn", and the input of the update before.
   std::string last_;
   int update_ = 0;
   nlohmann::json last_input_;
+  // Updates until it is at rest.
   int turns_to_rest_ = 0;
 };
 
-// The editor: one window, one document, and everything that connects them.
+// The editor: one window, one document, and everything that connects them. It lives on the window's thread; the
+// previewer, the scoring and the jobs that it owns have threads of their own and wake the window.
 class App {
  public:
+  // The window must outlive it. Throws std::system_error where the system gives no threads. No project is open at
+  // first.
   App(Window& window, Settings settings, ProbeWriter probe);
 
-  // Opens a project; the start page is shown until then. Errors are shown in the window.
+  // Opens a project; the start page is shown until it is read. Errors are shown in the window.
   void open(const std::filesystem::path& path);
 
-  // One update of the loop: draws everything, then lets the document apply the edits and the program the requests that
-  // the views queued.
+  // One update of the loop: draws everything, then lets the document apply the edits and the program handle the
+  // requests that the views queued, then asks the preview for what is to be shown next. Nothing here waits for the
+  // preview.
   //   now_s               seconds of a steady clock
   //   something_happened  an event or a wake came since the last update
   void update(double now_s, bool something_happened);
-  // Seconds until the next update is due if nothing happens.
+  // Seconds until the next update is due if nothing happens: 0 while it plays or ImGui needs some more updates, 0.1
+  // while something on the screen changes by itself, else 0.25.
   [[nodiscard]] double wait_timeout_s() const;
+  // The person has quit; the settings are written by then.
   [[nodiscard]] bool done() const { return done_; }
 
  private:
+  // Sends the previewer what the document and the views want.
   void ask_preview();
+  // Moves the playhead while it plays.
   void advance(const PreviewOutput& shown);
+  // Lets the document apply what is queued; playing goes on from where the playhead was moved to.
   void take_edits();
+  // Asks to save the own-body mask; next: once the edit that uses it is applied.
   void keep_mask_then(std::function<void()> next);
   void play(double speed);
   void draw(const PreviewOutput& shown);
   void handle(const Request& request);
+  // Requests of trackers' results. False: it was another one.
   bool handle_results(const Request& request);
   void ask_scores(const ViewContext& context);
+  // Says once of each result file what is wrong with it.
   void report_result_problems();
   void show_title();
   void count_updates();
@@ -93,6 +114,7 @@ class App {
   Textures textures_;
   Document document_;
   Edits edits_;
+  // What the views that were drawn in the last update need from the preview.
   ViewNeeds needs_;
   UiProbe ui_probe_;
   ProbeWriter probe_writer_;
@@ -100,16 +122,20 @@ class App {
   OwnBodySession own_body_;
   ResultFiles results_;
   Scoring scoring_;
-  std::shared_ptr<const Scored> scored_;          // of this update
-  std::map<int, std::string> reported_problems_;  // by the result file's id
+  // Of this update; null: no results are loaded.
+  std::shared_ptr<const Scored> scored_;
+  // By the result file's id.
+  std::map<int, std::string> reported_problems_;
   AppShell shell_;
   std::string title_;
   Playback playback_;
   Layout layout_;
   double now_s_ = 0;
+  // Since when updates_ are counted, for the rate that the probe reports.
   double counted_since_s_ = 0;
   int updates_ = 0;
   double updates_per_second_ = 0;
+  // Updates that follow at once: ImGui needs some to show all that an event leads to.
   int redraw_updates_left_ = 0;
   bool done_ = false;
 };

@@ -23,14 +23,18 @@ namespace sigs::editor {
 class AppShell {
  public:
   struct Setup {
-    std::filesystem::path samples;          // folder of sample projects
-    std::filesystem::path recovery_folder;  // where unsaved work is kept for the case of a crash
-    std::string version;                    // of the program, for the About dialog
-    std::vector<HelpLine> help;             // lines of the help page
-    std::function<void()> wake;             // may be called from any thread: something is to be drawn
+    // Folder of the sample projects; it need not be there.
+    std::filesystem::path samples;
+    // Where unsaved work is kept for the case of a crash.
+    std::filesystem::path recovery_folder;
+    // Of the program, for the About dialog.
+    std::string version;
+    std::vector<HelpLine> help;  // lines of the help page
+    // May be called from any thread: something is to be drawn.
+    std::function<void()> wake;
     ProjectSession::UnsavedMask mask;
   };
-  // Document and settings must outlive it.
+  // Document and settings must outlive it. All calls come from the window's thread.
   AppShell(Document& document, Settings& settings, Setup setup);
 
   // Draws the menu bar at the upper edge of the window; to be called first in an update.
@@ -38,27 +42,33 @@ class AppShell {
   // Fills the current ImGui window with the start page; to be called in place of the panels while has_project() is
   // false.
   void draw_start_page(const ViewContext& context);
-  // Draws dialogs and messages above everything else; to be called last, outside of every ImGui window.
+  // Draws the one dialog that is to be answered first, and messages above everything else; to be called last, outside
+  // of every ImGui window.
   void draw_over_all(const ViewContext& context);
 
-  // Handles a request that a view queued while it was drawn. False: the request concerns somebody else.
+  // Handles a request that a view queued while it was drawn. False: the request concerns somebody else, and nothing
+  // happened.
   bool handle(const Request& request);
   // Opens a file that was dropped onto the window, or puts it into the project.
   void handle_dropped(const std::filesystem::path& path, Edits& edits) { session_.handle_dropped(path, edits); }
-  // To be called once per update, after the document has applied its edits. May replace the document by another one.
+  // To be called once per update, after the document has applied its edits: carries out the answers given while
+  // drawing. May replace the document by another one, whose revisions then begin at another first_number().
   void update(double now_s);
 
-  // The unsaved mask of a project that was recovered; given once.
+  // The unsaved mask of a project that was recovered; given once, none afterwards.
   [[nodiscard]] std::optional<RecoveredMask> take_recovered_mask() { return session_.take_recovered_mask(); }
   [[nodiscard]] bool has_project() const { return session_.has_project(); }
   [[nodiscard]] bool is_exporting() const { return export_.is_running(); }
+  // The program is to end.
   [[nodiscard]] bool is_done() const { return session_.is_done(); }
   // Whether something on the screen changes without an event, so that it has to be drawn ten times a second.
   [[nodiscard]] bool needs_redraw() const;
 
  private:
+  // Opens the file browser for the next file that is wanted, once it is closed.
   void ask_for_files();
   void handle_own_requests();
+  // A message, where an export has ended while its window was closed.
   void report_export();
   void draw_dialog(const ViewContext& context);
 
@@ -70,16 +80,20 @@ class AppShell {
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;
+  // Waiting for the file browser, oldest first.
   std::deque<AskForFile> files_wanted_;
-  std::function<void(const std::filesystem::path&)> chosen_;  // for what the browser asks
+  // For what the browser asks at the moment.
+  std::function<void(const std::filesystem::path&)> chosen_;
   ExportView export_view_;
   RelinkDialog relink_;
   SettingsDialog settings_dialog_;
   bool shows_settings_ = false;
   bool shows_help_ = false;
   bool shows_about_ = false;
-  std::vector<std::function<void()>> answered_;  // while drawing; done in update()
-  std::filesystem::path project_file_;           // of the last update
+  // What was answered while drawing; done in update(), when the document may change.
+  std::vector<std::function<void()>> answered_;
+  // Of the document in the last update: by it another project is noticed.
+  std::filesystem::path project_file_;
   bool was_exporting_ = false;
   double now_s_ = 0;
 };

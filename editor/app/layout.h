@@ -12,15 +12,18 @@
 
 namespace sigs::editor {
 
-// Draws all panels of an open project: footage and world side by side above the timeline, the inspector at the right.
-// The lines between panels can be dragged; their positions are kept in the settings.
+// Draws all panels of an open project: footage, stages or own body as tabs and the world view side by side above the
+// timeline, the inspector at the right. The lines between panels can be dragged, and a double click puts them back;
+// their positions are kept in the settings. It owns the views, and with them their zoom and switches, as long as the
+// program runs.
 class Layout {
  public:
   // Fills the current ImGui window, which is the window below the menu bar. Settings change where a line is dragged.
   void draw(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
-  // Height of the timeline in pixels where the panels have room_px of height in all.
+  // Height of the timeline in screen pixels where the panels have room_px of height in all: what the settings want, as
+  // far as the images above keep some room.
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
-  // Shows the own-body view, or the horizon line over the footage, from the next update on.
+  // Brings the own-body view to the front, or the footage with the horizon line over it, in the next update.
   void show_own_body() { wants_own_body_ = true; }
   void show_horizon() {
     wants_footage_ = true;
@@ -28,6 +31,7 @@ class Layout {
   }
 
  private:
+  // What is above the timeline. The world view makes room while the own body is worked on.
   void draw_images(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
   void draw_tabs(const ViewContext& context, OwnBodySession& own_body);
 
@@ -38,8 +42,10 @@ class Layout {
   StagesView stages_;
   OwnBodyView own_body_;
   FirstSteps first_steps_;
+  // A tab that is to come to the front in the next update.
   bool wants_own_body_ = false;
   bool wants_footage_ = false;
+  // The own-body view was in front in the last update.
   bool shows_own_body_ = false;
 };
 

@@ -19,7 +19,8 @@ struct LoadedProject {
 };
 
 // Reads project files on threads of their own, so that the window does not wait for a slow disk. The last file asked
-// for counts; the result of an earlier request is dropped.
+// for counts; the result of an earlier request is dropped. A thread may outlive the loader where a disk does not
+// answer, so wake has to stay callable until the program ends. For the window's thread.
 class ProjectLoader {
  public:
   // wake  called from the other thread once a file is read
@@ -27,6 +28,7 @@ class ProjectLoader {
 
   // Begins to read a file; take() gives the result once it is there.
   void start(std::filesystem::path path);
+  // Forgets the request; its result is dropped.
   void drop() { pending_.reset(); }
   // Absolute path of the file that is being read; "" while none is.
   [[nodiscard]] std::filesystem::path path() const;
@@ -36,10 +38,12 @@ class ProjectLoader {
  private:
   struct Pending;
   std::function<void()> wake_;
+  // Shared with the thread that reads; null: nothing is asked for.
   std::shared_ptr<Pending> pending_;
 };
 
-// Notices that another program has written the project's file since it was last read or saved here.
+// Notices that another program has written the project's file since it was last read or saved here. Looks at the disk
+// in the calls alone.
 class DiskChange {
  public:
   // To be called right after reading or saving. "": there is no file.
@@ -50,6 +54,7 @@ class DiskChange {
   [[nodiscard]] bool changed() const;
 
  private:
+  // A file by size and time; equal for all files that are not there.
   struct State {
     bool is_there = false;
     std::uintmax_t bytes = 0;

@@ -21,74 +21,102 @@ namespace sigs::editor {
 // which questions and messages to show, and the AppShell shows them. Unsaved work is never dropped without a question.
 class ProjectSession {
  public:
-  // The own-body mask that is being painted, which belongs to no project yet.
+  // What has to be asked of the own-body mask that is being painted, which belongs to no project yet. Empty functions:
+  // there is none.
   struct UnsavedMask {
-    std::function<std::uint64_t()> unsaved;                     // 0: it may go; else the state that would be lost
-    std::function<void(std::function<void()> next)> save_then;  // asks for its name; next: once it is written
-    std::function<MaskToKeep()> to_keep;                        // for the case of a crash
+    // 0: it may go; else the number of the state that would be lost.
+    std::function<std::uint64_t()> unsaved;
+    // Asks for its name and saves it. next: called once it is written.
+    std::function<void(std::function<void()> next)> save_then;
+    // What recovery keeps of it for the case of a crash.
+    std::function<MaskToKeep()> to_keep;
   };
+  // What the session needs from the program around it.
   struct Environment {
     std::filesystem::path recovery_folder;
-    std::function<void()> wake;          // called from another thread when a file was read
-    std::function<bool()> is_exporting;  // an export is lost by quitting
+    // Called from another thread when a file was read.
+    std::function<void()> wake;
+    // Whether an export would be lost by quitting; empty: none.
+    std::function<bool()> is_exporting;
     UnsavedMask mask;
-    std::function<bool()> is_asking_for_file;  // a file is being chosen: no other project comes meanwhile
+    // Whether a file is being chosen: no other project comes meanwhile.
+    std::function<bool()> is_asking_for_file;
   };
-  // Document and settings must outlive it. At first no project is open.
+  // Document and settings must outlive it. At first no project is open. Looks for abandoned projects on disk.
   ProjectSession(Document& document, Settings& settings, Environment environment);
 
-  // Open, new, save, close, quit. False: it was another request, nothing happened. While a question is open it waits
-  // until that is answered.
+  // Open, new, save, close, quit. False: it was another request, and nothing happened. While a question is open the
+  // request waits until that is answered. Files are read on another thread, so a project that is opened is there in a
+  // later update.
   bool handle(const Request& request);
-  // A file came from outside: opened, or put into the project.
+  // A file came from outside, of the kind that classified_drop() finds: a project is opened; results of a tracker are
+  // asked to be loaded; all else is put into the project by an edit, into an empty project where none is open.
   void handle_dropped(const std::filesystem::path& path, Edits& edits);
 
+  // Opens an abandoned project in place of the present one, once that may go.
   void recover(const AbandonedProject& abandoned);
+  // Asks whether its files may be removed for good.
   void discard(const AbandonedProject& abandoned);
-  // As of the start and of what was done with them since.
+  // As of the start, or of the last project that was closed, and of what was done with them since.
   [[nodiscard]] const std::vector<AbandonedProject>& abandoned() const { return abandoned_; }
 
-  // Once per update, when the document has taken its edits.
+  // Once per update, when the document has taken its edits: shows a project that was read, and keeps unsaved work for
+  // recovery.
+  //   now_s  seconds of a steady clock
   void update(double now_s);
 
-  // The mask of the project that was recovered, for whoever paints it; once, none else.
+  // The mask of the project that was recovered, for whoever paints it; given once, none afterwards.
   [[nodiscard]] std::optional<RecoveredMask> take_recovered_mask() { return std::exchange(recovered_mask_, {}); }
 
-  // What to ask; answer it by the number of its answer. Nothing else goes on meanwhile.
+  // What to ask; answer() it by the index of its answer. Nothing else goes on meanwhile.
   [[nodiscard]] const std::optional<Question>& question() const { return question_; }
   void answer(int number);
 
-  // What to tell and which files to ask for, since the last call.
+  // What to tell and which files to ask for, since the last call: ShowMessage, ClearMessages and AskForFile.
   [[nodiscard]] std::vector<Request> take_requests();
 
   [[nodiscard]] bool has_project() const { return has_project_; }
+  // The project file that is being read; "": none.
   [[nodiscard]] std::filesystem::path loading() const { return loader_.path(); }
+  // The person has quit, and nothing unsaved was lost by it.
   [[nodiscard]] bool is_done() const { return done_; }
 
  private:
+  // What is done after an answer, or after something was saved. May be empty.
   using Step = std::function<void()>;
 
   void show_message(std::string text, bool is_error = false);
+  // Asks, with a step for each answer; while another question is open, after that.
   void ask(Question question, std::vector<Step> steps);
-  [[nodiscard]] bool waits(Step step);  // for the question that is open; false: none is
+  // Whether the step has to wait for the question that is open, and is queued for that; false: none is open.
+  [[nodiscard]] bool waits(Step step);
+  // Runs what waited, until one of it asks again.
   void run_next_waiting();
   [[nodiscard]] bool is_of_files(const Request& request) const;
+  // The same function, but without effect once another document is open.
   [[nodiscard]] std::function<void(const std::filesystem::path&)> for_this_document(
       std::function<void(const std::filesystem::path&)> chosen) const;
   void ask_which_to_open();
-  void leave_then(Step next);  // next: once nothing unsaved is lost by it
+  // Asks for the mask and the document's changes in turn, where they are not saved. next: once nothing unsaved is lost
+  // by it.
+  void leave_then(Step next);
   void leave_document_then(Step next);
+  // As UnsavedMask::unsaved; 0 without a project.
   [[nodiscard]] std::uint64_t unsaved_mask() const;
   void quit();
   void open(const std::filesystem::path& path);
+  // Makes a project the document, without a question.
   void show(Project project);
   void close();
+  // Under its name, else under one that is asked for. `next` is called only if it was written.
   void save_then(Step next);
   void save_as_then(const std::filesystem::path& path, Step next);
   void write_then(const std::filesystem::path& path, const Step& next);
+  // Shows a project that was read, unless something unsaved has come meanwhile: then it is asked for.
   void take_loaded();
   void show_recovered(const AbandonedProject& abandoned);
   [[nodiscard]] MaskToKeep mask_to_keep() const;
+  // The project is on disk; an unsaved mask stays kept for recovery.
   void keep_mask_after_saving();
 
   Document& document_;
@@ -96,15 +124,19 @@ class ProjectSession {
   Environment environment_;
   ProjectLoader loader_;
   Recovery recovery_;
+  // Notices that another program has written the project's file.
   DiskChange disk_;
   std::vector<AbandonedProject> abandoned_;
   std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;
-  std::vector<Step> steps_;   // one for each answer
-  std::deque<Step> waiting_;  // what came while a question was open, oldest first
+  // One for each answer of question_.
+  std::vector<Step> steps_;
+  // What came while a question was open, oldest first.
+  std::deque<Step> waiting_;
   std::vector<Request> requests_;
-  std::uint64_t discardable_state_ = 0;       // the unsaved state that the person agreed to give up
-  std::uint64_t discardable_mask_state_ = 0;  // and of the mask
+  // The unsaved states of the document and of the mask that the person agreed to give up; 0: none.
+  std::uint64_t discardable_state_ = 0;
+  std::uint64_t discardable_mask_state_ = 0;
   bool has_project_ = false;
   bool done_ = false;
 };

@@ -14,6 +14,7 @@ struct Shortcut {
   const char* keys;
   const char* what;
 };
+// In the order of the help page; lines of one group follow each other. The texts are literals.
 [[nodiscard]] std::span<const Shortcut> shortcuts();
 
 // Asks for what the keys pressed in this update mean. Not while text is typed or a dialog is open; while the mouse

@@ -15,14 +15,15 @@ namespace sigs::editor {
 // thread that opened it.
 class Window {
  public:
-  // Opens a window of the size that the settings remember. Error unavailable where there is no display or no
-  // OpenGL 3.3.
+  // Opens a window of the size that the settings remember, no larger than the screen has room for. Error unavailable
+  // where there is no display or no OpenGL 3.3.
   [[nodiscard]] static Result<std::unique_ptr<Window>> open(const Settings& settings);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // Waits for an event or a wake(), at most timeout_s seconds. Returns whether one came.
+  // Waits for an event or a wake(), at most timeout_s seconds; not at all while input of earlier events is left.
+  // Returns whether one came. Events are only received here.
   bool wait(double timeout_s);
   // Ends a wait(); may be called from any thread.
   static void wake();

@@ -8,7 +8,9 @@
 namespace sigs::editor {
 
 // Finds the parts of the window that look different from the update before. ImGui issues all draw commands in each
-// update; with OpenGL in software most of the time would be spent on pixels that do not change.
+// update; with OpenGL in software most of the time would be spent on pixels that do not change. Draw commands are
+// compared by a digest of their vertices, so a texture whose content changes has to be another texture (Textures sees
+// to that).
 class ChangedRegions {
  public:
   // Rectangles (left, top, right, bottom, in ImGui's coordinates) that together contain every pixel that may differ
@@ -21,18 +23,23 @@ class ChangedRegions {
  private:
   // One draw command: one texture, one clip rectangle.
   struct Piece {
+    // Of its texture, clip rectangle, vertices and the order of their indices.
     std::uint64_t fingerprint = 0;
     ImVec4 bounds{0, 0, 0, 0};  // of the pixels that it may touch
   };
   // The draw commands of one ImGui window.
   struct Panel {
+    // Address of ImGui's draw list; only compared.
     const void* list = nullptr;
     std::vector<Piece> pieces;
   };
+  // What ImGui draws, as far as it is compared.
   [[nodiscard]] static Piece piece_of(const ImDrawList& list, const ImDrawCmd& command);
   [[nodiscard]] static Panel panel_of(const ImDrawList& list);
+  // Adds the region of a panel in which it differs, where it does.
   static void add_changes(const Panel& before, const Panel& after, std::vector<ImVec4>& regions);
 
+  // Of the call before, and the window's size then. Empty: the next call returns the whole window.
   std::vector<Panel> panels_;
   ImVec2 size_{0, 0};
 };
@@ -50,18 +57,21 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  // Draws the regions that differ from the update before. Size in pixels of the framebuffer. False: nothing differs,
-  // and the window was not touched.
+  // Draws the regions that differ from the update before and copies all to the window's back buffer; the caller swaps.
+  // Size in pixels of the framebuffer; another one than before has everything drawn. False: nothing differs, or the
+  // size is 0, and the window was not touched.
   bool draw(ImDrawData& data, int width_px, int height_px);
 
   // Has the next call draw everything (after other fonts, or when the window was hidden).
   void forget() { changed_.forget(); }
 
  private:
+  // Makes the framebuffer anew in this size.
   void make(int width_px, int height_px);
   void draw_region(ImDrawData& data, const ImVec4& region) const;
 
   ChangedRegions changed_;
+  // OpenGL's names of the framebuffer and its image; 0: not made yet.
   unsigned int framebuffer_ = 0;
   unsigned int color_ = 0;
   int width_px_ = 0;

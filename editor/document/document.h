@@ -17,9 +17,11 @@
 
 namespace sigs::editor {
 
+// Kinds of things that can be selected in the views.
 enum class Selected { nothing, footage, camera, light, intruder, waypoint };
 
-// What is selected. intruder and waypoint are indices into the project, used where the kind needs them.
+// What is selected. The indices count in the project; `intruder` means something for the kinds intruder and waypoint,
+// `waypoint` for the latter alone. Document keeps them valid.
 struct Selection {
   Selected kind = Selected::nothing;
   int intruder = 0;
@@ -28,12 +30,17 @@ struct Selection {
   [[nodiscard]] bool operator==(const Selection&) const = default;
 };
 
-// One change of the project. A change with the same gesture as the one before joins its undo step: a drag is one step.
+// One change of the project.
 struct ChangeProject {
-  std::string name;  // "move waypoint", for the menu: "Undo move waypoint"
+  // For the menu: "move waypoint" reads "Undo move waypoint".
+  std::string name;
+  // Called once, on a copy of the project; it may throw, and then nothing changes.
   std::function<void(Project&)> change;
-  std::string gesture;  // "": a step of its own
+  // A change with the same gesture as the one before joins its undo step, so that a drag is one step. "": a step of its
+  // own.
+  std::string gesture;
 };
+// The drag is over: what follows is another undo step, even with the same gesture.
 struct EndGesture {};
 // As if the gesture had never begun: the project, the selection, and what could be undone and redone are as before it.
 // Nothing happens where another change has come since.
@@ -42,41 +49,54 @@ struct CancelGesture {
 };
 struct Undo {};
 struct Redo {};
+// Moves the playhead; clamped to the project's range.
 struct GoToFrame {
   int frame = 0;
 };
 struct Select {
   Selection selection;
 };
-// Nothing set: the whole of the project's range.
+// Marks a part of the project's range, by frames of the footage, both included; swapped where in > out. Nothing set:
+// the whole range.
 struct SetInOut {
   std::optional<int> in;
-  std::optional<int> out;  // included
+  std::optional<int> out;
 };
 
+// What changes the document; see Document::apply().
 using Edit = std::variant<ChangeProject, EndGesture, CancelGesture, Undo, Redo, GoToFrame, Select, SetInOut>;
 
-// Requests to the program rather than to the document.
+// Requests to the program rather than to the document. An empty path asks for one.
 struct OpenProject {
   std::filesystem::path path;
 };
 struct NewProject {};
-struct SaveProject {};  // asks for a name where there is none
+// Asks for a name where there is none.
+struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path path;  // empty: ask
 };
-struct CloseProject {};  // back to the start page
+// Back to the start page.
+struct CloseProject {};
 struct Quit {};
-struct AskForFile {  // opens the file browser; the answer comes as the call
+// Opens the file browser. The answer comes as the call of `chosen`, in a later update; without an answer nothing is
+// called.
+struct AskForFile {
   std::string title;
-  std::vector<std::string> extensions;  // ".json"; empty: all
+  // With their dots: ".json"; empty: all files.
+  std::vector<std::string> extensions;
+  // The file need not be there; one that is there is asked about.
   bool for_saving = false;
-  bool of_folder = false;  // a folder is wanted, extensions do not count
+  // A folder is wanted; extensions do not count.
+  bool of_folder = false;
+  // As FileDialogRequest::start.
   std::filesystem::path start;
   std::function<void(const std::filesystem::path&)> chosen;
 };
+// Plays from the playhead on.
 struct Play {
-  double speed = 1;  // times the footage's own; negative: backwards; 0: stop
+  // Times the footage's own speed; negative: backwards; 0: stop.
+  double speed = 1;
 };
 struct TogglePlay {};
 struct SetLoop {
@@ -86,33 +106,43 @@ struct ShowExport {};
 struct ShowHelp {};
 struct ShowSettings {};
 struct ShowAbout {};
-struct ShowOwnBody {};       // where the own body's mask is found and painted
-struct ShowHorizon {};       // its line over the footage, to be laid onto the footage's own
-struct ShowMissingFiles {};  // to tell where they are
+// Where the own body's mask is found and painted.
+struct ShowOwnBody {};
+// The simulated horizon over the footage, to be moved onto the footage's own.
+struct ShowHorizon {};
+// A dialog that asks where the project's missing files are.
+struct ShowMissingFiles {};
 struct ToggleFullScreen {};
-struct LoadResults {           // of a tracker, to be shown beside the truth
-  std::filesystem::path path;  // empty: ask
+// Results of a tracker, to be shown beside the truth. An empty path asks for one.
+struct LoadResults {
+  std::filesystem::path path;
 };
+// The file with this ResultFile::id is no longer shown; on disk it stays.
 struct RemoveResults {
-  int id = 0;  // ResultFile::id; the file on disk stays
+  int id = 0;
 };
+// Switches whether the boxes and the curve of ResultFile::id are drawn.
 struct ShowResults {
   int id = 0;
   bool shown = true;
 };
-struct ClearMessages {};  // those that are shown speak of a project that is no longer open
-struct ShowMessage {      // a passing message above the timeline
+// Those that are shown speak of a project that is no longer open.
+struct ClearMessages {};
+// A passing message above the timeline.
+struct ShowMessage {
   std::string text;
   bool is_error = false;
 };
 
+// What the program does, and the document does not know of: App and what it owns handle them.
 using Request =
     std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
                  SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
                  ToggleFullScreen, LoadResults, RemoveResults, ShowResults, ClearMessages, ShowMessage>;
 
-// Views queue here what they want while they draw. After that the document applies the edits and the program handles
-// the requests, in order.
+// Views queue here what they want while they draw, so that the project does not change under the views that are drawn
+// after them. After that the document applies the edits and the program handles the requests, in the order in which
+// they came. For the window's thread.
 class Edits {
  public:
   void change(std::string name, std::function<void(Project&)> change, std::string gesture = {}) {
@@ -129,6 +159,7 @@ class Edits {
   void set_in_out(std::optional<int> in, std::optional<int> out) { edits_.emplace_back(SetInOut{in, out}); }
   void ask(Request request) { requests_.emplace_back(std::move(request)); }
 
+  // Each removes and returns what was queued since the last call.
   [[nodiscard]] std::vector<Edit> take_edits() { return std::exchange(edits_, {}); }
   [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
 
@@ -141,47 +172,58 @@ class Edits {
 struct Question {
   std::string title;
   std::string text;
-  std::vector<std::string> answers;  // the first is the usual one, the last changes nothing
+  // The first is the usual one; the last changes nothing, and Escape means it.
+  std::vector<std::string> answers;
 };
 
 // A state of the project, kept for undo. The project never changes; other threads may keep it. Undo comes back to the
-// number and the content that the state had.
+// number and the content that the state had, so what was computed for it is found again.
 struct Revision {
   Revision() = default;
   Revision(std::uint64_t revision_number, std::shared_ptr<const Project> state)
       : number(revision_number), project(std::move(state)), content(content_id_of(*project)) {}
 
-  std::uint64_t number = 0;  // each state has its own, from 1 on; 0: no state
+  // Each state has its own, from 1 on; 0: no state.
+  std::uint64_t number = 0;
+  // Null for number 0 alone.
   std::shared_ptr<const Project> project;
-  ContentId content;  // of the project's settings; states with equal images share it
+  // Digest of the project's settings; states with equal images share it.
+  ContentId content;
 
   // Numbers are never given twice.
   [[nodiscard]] bool operator==(const Revision& other) const { return number == other.number; }
 };
 
-// The project that is edited, its history, its selection and the playhead. It changes only in apply(), which is called
-// once per update of the window's loop, after drawing. Frames are indices of the footage, from 0.
+// The project that is edited, its history, its selection and the playhead. It changes in apply(), which is called once
+// per update of the window's loop, after drawing, and in the other calls that are not const. Frames are indices of the
+// footage, from 0. For the window's thread; other threads work with the revision() that they were given.
 class Document {
  public:
   // An empty project; file "" until it is saved.
   Document();
-  // Revisions are numbered from first_number on, so that documents opened one after the other have no number in common.
+  // Opens a project as it was read; it counts as saved. Revisions are numbered from first_number on, so that documents
+  // opened one after the other have no number in common. The playhead is at the project's first frame.
   explicit Document(Project project, std::uint64_t first_number = 1);
 
   [[nodiscard]] const Project& project() const { return *revision_.project; }
+  // The present state; keep a copy, not the reference.
   [[nodiscard]] const Revision& revision() const { return revision_; }
+  // Which numbers were given to revisions of this document: by them a result is known to be of another document.
   [[nodiscard]] std::uint64_t first_number() const { return first_number_; }
   [[nodiscard]] std::uint64_t last_number() const { return last_number_; }
   [[nodiscard]] const Selection& selection() const { return selection_; }
+  // The frame that is shown; always within first_frame() .. last_frame().
   [[nodiscard]] int playhead() const { return playhead_; }
+  // The marks as they were set, even where the project's range does not reach them; range_first() and range_last()
+  // count.
   [[nodiscard]] std::optional<int> in() const { return in_; }
   [[nodiscard]] std::optional<int> out() const { return out_; }
 
-  // Whether the project has changed since that revision by anything but this gesture. A drag has to end then: the
-  // waypoint that it holds may have another index.
+  // Whether the project is not as in that revision any more, for another reason than changes of this gesture. A drag
+  // has to end then: the waypoint that it holds may have another index.
   [[nodiscard]] bool has_other_changes(std::uint64_t since_revision, const std::string& gesture) const;
 
-  // Number of frames of the footage; 0: not known. The playhead is moved into the project's range.
+  // Number of frames of the footage, once it is open; 0: not known. The playhead is moved into the project's range.
   void set_frame_count(int count);
   [[nodiscard]] int frame_count() const { return frame_count_; }
 
@@ -192,11 +234,15 @@ class Document {
   [[nodiscard]] int range_first() const;
   [[nodiscard]] int range_last() const;
 
+  // Undo goes back by steps of the project, not of the selection or the playhead; a step brings back the selection from
+  // before it. At most 1000 steps are kept, fewer of projects with very many waypoints.
   [[nodiscard]] bool can_undo() const { return !past_.empty(); }
   [[nodiscard]] bool can_redo() const { return !future_.empty(); }
-  [[nodiscard]] std::string undo_name() const;  // "" where there is nothing
+  // Names of the steps, for the menu; "" where there is none.
+  [[nodiscard]] std::string undo_name() const;
   [[nodiscard]] std::string redo_name() const;
 
+  // Whether the present state is another one than that which was read or saved; undo may lead back to it.
   [[nodiscard]] bool has_unsaved_changes() const { return revision_.number != saved_number_; }
   [[nodiscard]] bool has_file() const { return !project().file.empty(); }
 
@@ -206,7 +252,8 @@ class Document {
   void apply(const std::vector<Edit>& edits);
 
   // Writes the project to its own file, or to another path; it belongs there from then on, and its relative paths are
-  // rewritten to mean the same files. Errors: cannot_create, write_failed.
+  // rewritten to mean the same files. A file that is there is replaced at once by the complete one. Errors:
+  // cannot_create (without a file name too), write_failed; then nothing has changed.
   [[nodiscard]] Result<void> save();
   [[nodiscard]] Result<void> save_as(const std::filesystem::path& path);
 
@@ -214,29 +261,36 @@ class Document {
   void mark_unsaved() { saved_number_ = 0; }
 
  private:
+  // What an undo step goes back to. In future_ the same is what redo goes on to.
   struct Step {
     std::string name;
     Revision before;
     Selection selection;
   };
 
+  // One for each kind of edit.
   void change(const ChangeProject& change);
   void end_gesture();
   void cancel_gesture(const std::string& gesture);
+  // Drops steps beyond the limit of the history.
   void forget_oldest();
   void step_back();
   void step_forward();
+  // After every edit: indices and frames that no longer exist become the nearest that do.
   void keep_selection_valid();
   void keep_playhead_valid();
 
   Revision revision_;
   std::uint64_t first_number_;
   std::uint64_t last_number_;
-  std::uint64_t saved_number_;  // 0: what is in memory was never written
+  // Number of the state that lies in the file; 0: what is in memory was never written.
+  std::uint64_t saved_number_;
   std::vector<Step> past_;
   std::vector<Step> future_;
-  std::string gesture_;                  // of the last step, while it lasts
-  std::vector<Step> future_of_gesture_;  // what could be redone before it, for taking it back
+  // Of the last step, while it lasts; "": none.
+  std::string gesture_;
+  // What could be redone before it, so that CancelGesture can bring it back.
+  std::vector<Step> future_of_gesture_;
   Selection selection_;
   int playhead_ = 0;
   int frame_count_ = 0;

@@ -10,21 +10,29 @@
 namespace sigs::editor {
 
 // What the editor remembers between runs: sizes of the window and its panels, and recent projects. Not part of any
-// project.
+// project. A plain value; the ranges are enforced by read_settings() alone.
 struct Settings {
-  double font_px = 15;  // 10..32, times the screen's own scale; everything else follows the text
+  // Height of the text, kMinFont_px .. kMaxFont_px, times the screen's own scale. Everything else follows the text.
+  double font_px = 15;
+  // Of the window without the desktop's frame, divided by the screen's scale.
   int window_width_px = 1600;
   int window_height_px = 960;
   bool maximised = false;
-  double inspector_width = 330;  // where the text is 15 px high
+  // Sizes of panels, in pixels where the text is 15 px high.
+  double inspector_width = 330;
   double timeline_height = 210;
-  double world_share = 0.38;  // of the width between footage and world view
+  // Share of the width that the world view has beside the footage, 0..1.
+  double world_share = 0.38;
   bool show_world = true;
   bool show_inspector = true;
-  bool loop = true;        // playing starts again at the range's end
-  double autosave_s = 20;  // seconds after an edit until the recovery file is written
+  // Playing starts again at the range's end.
+  bool loop = true;
+  // Seconds from an edit until the recovery file is written.
+  double autosave_s = 20;
+  // Where the file browser was last; "": nowhere yet.
   std::filesystem::path last_folder;
-  std::vector<std::filesystem::path> recent;  // projects, newest first, at most 12
+  // Project files, absolute, newest first, at most 12.
+  std::vector<std::filesystem::path> recent;
 
   [[nodiscard]] bool operator==(const Settings&) const = default;
 };
@@ -37,9 +45,10 @@ inline constexpr double kMaxFont_px = 32;
 
 // Values out of range are brought into it; a file that is missing or unreadable gives the defaults.
 [[nodiscard]] Settings read_settings(const std::filesystem::path& file);
+// Makes the folder where it is not there. Errors: those of write_text().
 [[nodiscard]] Result<void> write_settings(const Settings& settings, const std::filesystem::path& file);
 
-// Puts a project at the head of the recent ones.
+// Puts a project at the head of the recent ones, once; the oldest beyond 12 goes.
 void remember_project(Settings& settings, const std::filesystem::path& project);
 
 }  // namespace sigs::editor

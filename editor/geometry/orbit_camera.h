@@ -10,6 +10,7 @@
 
 namespace sigs::editor {
 
+// A half line in the world.
 struct Ray {
   glm::dvec3 origin_m{0, 0, 0};
   glm::dvec3 direction{1, 0, 0};  // unit

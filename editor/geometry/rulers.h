@@ -45,6 +45,7 @@ struct Tick {
 // "1:02.48": minutes, seconds and hundredths; hours where there are any; a minus sign before negative ones.
 [[nodiscard]] std::string time_text(double time_s);
 
+// A line of the ground grid, parallel to world X or Y.
 struct GridLine {
   std::array<glm::dvec3, 2> ends_m;  // in the world, z = 0
   bool bold = false;

@@ -12,6 +12,7 @@
 
 namespace sigs::editor {
 
+// A point of the world that the mouse may pick, as the screen shows it.
 struct PickPoint {
   std::optional<glm::dvec2> at;  // on the screen; none: not in sight
   double depth_m = 0;            // before the eye
@@ -22,6 +23,7 @@ struct PickPoint {
 [[nodiscard]] std::optional<std::size_t> nearest_point(std::span<const PickPoint> points, const glm::dvec2& mouse,
                                                        double reach_px);
 
+// A place of a polyline on the screen (window pixels).
 struct PlaceOnLine {
   std::size_t segment = 0;  // from point `segment` to the next
   double share = 0;         // of the segment on the screen, 0..1

@@ -19,68 +19,90 @@
 
 namespace sigs::editor {
 
-// Rate of a long piece of work over the last eight seconds: it neither jumps nor is slow to follow a change.
+// Rate of a long piece of work over the last eight seconds: it neither jumps nor is slow to follow a change. Not
+// protected by a lock; its owner has to see to that.
 class RateMeter {
  public:
-  // done  pieces that are done altogether; times and numbers only grow
+  // Call it whenever some pieces have been finished. Notes closer than 0.1 s replace each other, so their number is
+  // bounded.
+  //   now_s  seconds of any steady clock
+  //   done   pieces that are done altogether
+  // Neither may become smaller from one call to the next.
   void note(double now_s, int done);
 
-  // Pieces a second; none before there are notes over 0.2 s.
+  // Pieces a second. None before the notes span 0.2 s, and while no piece was done in the last eight seconds.
   [[nodiscard]] std::optional<double> rate_hz() const;
 
-  // Seconds from the last note until `total` pieces are done, at this rate.
+  // Seconds from the last note until `total` pieces are done, at this rate; 0 where they are done already. None where
+  // rate_hz() is none.
   [[nodiscard]] std::optional<double> left_s(int total) const;
 
  private:
   struct Note {
+    // Of the caller's clock.
     double time_s = 0;
     int done = 0;
   };
   std::deque<Note> notes_;
 };
 
-// Seconds of a steady clock.
+// Seconds of std::chrono::steady_clock. Its zero is arbitrary: only differences mean something.
 [[nodiscard]] double steady_now_s();
 
+// none: not started yet, or forgotten. The last three say how the last run ended.
 enum class JobPhase { none, running, done, cancelled, failed };
 
-// A job at one moment.
+// A job at one moment, as a copy that the caller may keep. While it runs, the numbers are those of the last progress.
 template <class Request, class Value>
 struct JobState {
   JobPhase phase = JobPhase::none;
-  bool is_stopping = false;  // running, and asked to stop
-  int done = 0;              // frames
-  int total = 0;             // 0: not known yet
+  // The job is running and has been asked to stop; it ends as soon as its work notices.
+  bool is_stopping = false;
+  // Frames that are done, of `total`. total == 0: not known yet.
+  int done = 0;
+  int total = 0;
+  // Frames a second and seconds until the end, as RateMeter gives them; none where it gives none.
   std::optional<double> rate_hz;
   std::optional<double> left_s;
+  // Of this run, in the order in which they came.
   std::vector<Warning> warnings;
-  Error error;                         // of phase failed
-  Request request;                     // the last one
-  std::shared_ptr<const Value> value;  // of the last run that came to its end; null: none has
-  Request value_request;               // what that run was asked for
+  // Why the last run did not end well. Set where phase is failed, and with the kind interrupted where it is cancelled.
+  Error error;
+  // What the last run was asked for, whether it is still running or has ended in any way.
+  Request request;
+  // Result of the last run that came to its end, and what that run was asked for. Both stay while another run is under
+  // way and when it fails. Null: no run has come to its end, or forget() was called.
+  std::shared_ptr<const Value> value;
+  Request value_request;
 
   [[nodiscard]] bool is_running() const { return phase == JobPhase::running; }
 };
 
-// What a job's work reports while it runs, and how it learns that it is to stop.
+// What a job's work reports while it runs, and how it learns that it is to stop. Both functions may be called from any
+// thread, as long as work has not returned.
 struct JobControl {
+  // Frames done so far and in all.
   std::function<void(int done, int total)> progress;
+  // Adds to JobState::warnings. It does not wake the window by itself.
   std::function<void(const Warning&)> warn;
-  const std::atomic<bool>* cancel = nullptr;  // true: end soon, with an error of kind interrupted
+  // True: end soon, with an error of kind interrupted. A BackgroundJob always sets it; alive until work returns.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
-// Runs a long piece of work in the background, one at a time, at low priority: the window and its images come first.
-// All calls come from one thread, the window's.
+// Runs a long piece of work in the background, one at a time, at low priority (kBackgroundNiceness): the window and its
+// images come first. All public calls come from one thread, the window's. None of them waits for the work, save for the
+// destructor. Request: copyable and default-constructible. Value: movable.
 template <class Request, class Value>
 class BackgroundJob {
  public:
   using State = JobState<Request, Value>;
+  // What is run. An error of kind interrupted means that it stopped because it was asked to.
   using Work = std::function<Result<Value>(const Request&, const JobControl&)>;
 
   // work  called on the job's own thread; what it throws is an error like any other
   // wake  called from that thread as the work goes on, at most ten times a second, and at the end
   BackgroundJob(std::function<void()> wake, Work work) : wake_(std::move(wake)), work_(std::move(work)) {}
-  // Stops the work and waits for it.
+  // Stops the work and waits until it has ended.
   ~BackgroundJob() {
     cancel_ = true;
     if (thread_.joinable()) thread_.join();
@@ -88,8 +110,8 @@ class BackgroundJob {
   BackgroundJob(const BackgroundJob&) = delete;
   BackgroundJob& operator=(const BackgroundJob&) = delete;
 
-  // False, and nothing happens, while one is running. Where the system gives no thread the job has failed at once. The
-  // value of the run before stays until this one ends well.
+  // Begins a run and returns true. Returns false, and does nothing, while one is running. Where the system gives no
+  // thread, the job has failed at once. The value of the run before stays until this one ends well.
   bool start(Request request) {
     if (is_running()) return false;
     if (thread_.joinable()) thread_.join();
@@ -109,7 +131,8 @@ class BackgroundJob {
     return true;
   }
 
-  // Asks the work to stop; the phase is cancelled as soon as it has.
+  // Asks the work to stop and returns at once; the phase is cancelled as soon as the work has stopped. A run that
+  // reaches its end all the same is done. Nothing happens where none is running.
   void cancel() {
     const std::lock_guard lock(mutex_);
     if (!state_.is_running()) return;
@@ -136,6 +159,7 @@ class BackgroundJob {
     return state_.is_running();
   }
 
+  // A copy of the state, once per update of the window.
   [[nodiscard]] State state() const {
     const std::lock_guard lock(mutex_);
     State state = state_;
@@ -145,8 +169,10 @@ class BackgroundJob {
   }
 
  private:
+  // Shortest time between two calls of wake() for progress alone.
   static constexpr double kWakeInterval_s = 0.1;
 
+  // The thread's body. wake() is called a last time after the state says how it ended.
   void run(const Request& request) {
     lower_thread_priority(kBackgroundNiceness);
     finish(guarded([&] {
@@ -161,6 +187,7 @@ class BackgroundJob {
     wake_();
   }
 
+  // JobControl::progress. wake() is called without the lock, so it may ask for the state.
   void note(int done, int total) {
     {
       const std::lock_guard lock(mutex_);
@@ -174,6 +201,7 @@ class BackgroundJob {
     wake_();
   }
 
+  // Enters how the run ended, or drops it where forget() was called meanwhile.
   void finish(Result<Value> result) {
     const std::lock_guard lock(mutex_);
     if (forget_) {
@@ -194,23 +222,27 @@ class BackgroundJob {
 
   std::function<void()> wake_;
   Work work_;
+  // Guards state_, rate_, last_wake_s_ and forget_.
   mutable std::mutex mutex_;
   State state_;
   RateMeter rate_;
   double last_wake_s_ = 0;
+  // The run that is under way was forgotten: its outcome is dropped.
   bool forget_ = false;
+  // JobControl::cancel of the run that is under way.
   std::atomic<bool> cancel_{false};
   std::thread thread_;
 };
 
-// Exports a project as `sigs export` does. A run that is stopped leaves no files behind.
+// Exports a project as `sigs export` does. A run that is stopped leaves no files behind. The request holds the project
+// by value, so edits made meanwhile do not matter.
 using ExportState = JobState<ExportRequest, ExportReport>;
 class ExportJob : public BackgroundJob<ExportRequest, ExportReport> {
  public:
   explicit ExportJob(std::function<void()> wake);
 };
 
-// What is looked through for the own body, and how.
+// Which video is looked through for the own body, from which frame on (counted from 0), and how.
 struct DetectionRequest {
   std::filesystem::path video;
   int first_frame = 0;
@@ -219,13 +251,15 @@ struct DetectionRequest {
   [[nodiscard]] bool operator==(const DetectionRequest&) const = default;
 };
 
-// Opens the video and runs the engine's detection in it, as control asks.
+// Opens the video and runs the engine's detection in it, with the progress and the cancellation of `control`. On the
+// calling thread, for seconds or minutes. Errors: those of FrameSource::open() and of detect_own_body().
 [[nodiscard]] Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control);
 
-// Finds the own body in footage; images of all stages are kept with it.
+// Finds the own body in footage. Images of all stages are kept with the result. The request is copied, as in ExportJob.
 using DetectionState = JobState<DetectionRequest, OwnBody>;
 class OwnBodyJob : public BackgroundJob<DetectionRequest, OwnBody> {
  public:
+  // What does the work; tests give one that reads no video.
   using Detect = std::function<Result<OwnBody>(const DetectionRequest&, const DetectionControl&)>;
 
   explicit OwnBodyJob(std::function<void()> wake, Detect detect = detected);

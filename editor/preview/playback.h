@@ -5,7 +5,7 @@
 
 namespace sigs::editor {
 
-// Frames that are played, both included.
+// Frames that are played, both included. loop: from the end it goes on at the other end.
 struct PlayRange {
   int first = 0;
   int last = 0;
@@ -14,7 +14,9 @@ struct PlayRange {
 
 // Times of the frames: frame n is shown from times_s[n] until times_s[n + 1], the last one for interval_s.
 struct PlayTimes {
-  std::span<const double> times_s;  // not decreasing, at least one
+  // Not decreasing, at least one. Must outlive the call alone.
+  std::span<const double> times_s;
+  // How long the last frame is shown.
   double interval_s = 0.04;
 };
 
@@ -41,6 +43,7 @@ class Playback {
   [[nodiscard]] PlayedFrame frame_at(double now_s, const PlayTimes& times, const PlayRange& range) const;
 
  private:
+  // When playing began, and the frame that it began at.
   double start_s_ = 0;
   int start_frame_ = 0;
   double speed_ = 0;

@@ -20,66 +20,93 @@
 
 namespace sigs::editor {
 
-// The footage of a project: a video that was opened, or grey frames that replace it.
+// The footage of a project: a video that was opened, or grey frames that replace it. Immutable and shared between
+// threads.
 struct Footage {
+  // Size and times of the frames. For footage that was opened in vain it is filled by footage_for().
   FootageShape shape;
-  std::optional<VideoInfo> video;  // none: it could not be opened
-  std::string problem;             // why there is no video; "" where there is one
+  // None: it could not be opened; `problem` says why. Where there is a video, problem is "".
+  std::optional<VideoInfo> video;
+  std::string problem;
 };
 
-// A revision of the project with all that it names opened, as far as it can be.
+// A revision of the project with all that it names opened, as far as it can be. Made by the rendering thread, then
+// immutable and shared with the window.
 struct OpenedScene {
+  // Revision::number.
   std::uint64_t revision = 0;
-  ContentId content;  // combined_id() of the project and its files
+  // combined_id() of the project's settings and its files: images with this id show this scene.
+  ContentId content;
   std::shared_ptr<const Project> project;
   std::shared_ptr<const Footage> footage;
+  // The scene, with placeholders for what cannot be read, and its problems.
   DraftScene draft;
 };
 
-// One composited frame, ready to be shown. It belongs to all revisions with the same content; `revision` is the first
-// of them.
+// One composited frame, ready to be shown. It belongs to all revisions with the same content; `revision` is the number
+// of the first of them.
 struct PreviewImage {
   std::uint64_t revision = 0;
+  // Of the footage, from 0.
   int frame = 0;
-  std::optional<MethodChoice> method;  // other than the project's own, for comparing
-  cv::Mat bgr;                         // CV_8UC3, what `sigs frame` writes
-  cv::Mat mask;                        // CV_8UC1 or empty, as ComposedFrame::mask
+  // Set where it was composited by another method than the project's own, for comparing.
+  std::optional<MethodChoice> method;
+  // CV_8UC3 of the footage's size: what `sigs frame` writes.
+  cv::Mat bgr;
+  // Opacity of the intruders: CV_8UC1 or empty, as ComposedFrame::mask.
+  cv::Mat mask;
   FrameTruth truth;
-  std::vector<Stage> stages;  // where asked for
-  std::string problem;        // why bgr is the untouched footage, another frame or grey; "" where it is itself
+  // Intermediate images; empty unless they were asked for.
+  std::vector<Stage> stages;
+  // Why bgr is the untouched footage, another frame or grey; "" where it is the frame itself.
+  std::string problem;
   FrameTimes times;
 };
 
-// What the lanes of the timeline show of one intruder, frame by frame. Index 0 is first_frame.
+// What the lanes of the timeline show of one intruder, frame by frame, known without rendering. Index 0 is first_frame.
 struct Survey {
   std::uint64_t revision = 0;
+  // The scene's first frame, as a frame of the footage.
   int first_frame = 0;
-  std::vector<VisibilityEstimate> estimates;  // one a frame; fewer while the survey is being made
-  std::vector<FlightState> flight;            // one a frame
+  // One a frame each; fewer while the survey is being made. All is empty for an intruder without waypoints.
+  std::vector<VisibilityEstimate> estimates;
+  std::vector<FlightState> flight;
+  // Known once all frames are there: where the flight exceeds a limit, and where it is nearest to the camera.
   std::vector<FlightFlag> flags;
   ClosestApproach closest;
 };
 
-// A small image of a turned model.
+// A small image of an intruder's model by itself, as turntable_image() draws it.
 struct ModelImage {
   std::filesystem::path file;
+  // About the model's vertical axis, positive to the right, as yaw.
   double turn_rad = 0;
-  cv::Mat rgba;                // CV_8UC4, straight alpha
+  // CV_8UC4, straight alpha; empty where it could not be drawn.
+  cv::Mat rgba;
   glm::dvec3 size_m{0, 0, 0};  // extents along body X, Y, Z
+  // Why it is a cross or empty; "" where it is the model.
   std::string problem;
 };
 
-// What the window wants to show. It is sent in each update; work that is no longer wanted is dropped.
+// What the window wants to show. It is sent in each update; work that is no longer wanted is dropped. All frames are
+// indices of the footage, from 0.
 struct PreviewRequest {
   Revision revision;
   int frame = 0;
-  int direction = 1;    // +1 or -1: towards later or earlier frames, which are then composited ahead
-  int range_first = 0;  // frames outside of the range are not composited ahead
+  // +1 or -1: towards later or earlier frames, which are then composited ahead.
+  int direction = 1;
+  // Frames outside of the range, both ends included, are not composited ahead.
+  int range_first = 0;
   int range_last = 0;
+  // Whether the frames ahead go on at the range's other end.
   bool playing = false;
-  bool footage = false;                      // the untouched frame too (for the wipe)
-  bool stages = false;                       // images of all stages of the frame too
-  std::optional<MethodChoice> compare_with;  // the same frame by another method
+  // The untouched frame is wanted too (for the wipe).
+  bool footage = false;
+  // Images of all stages of the frame are wanted too.
+  bool stages = false;
+  // The same frame by another method is wanted too.
+  std::optional<MethodChoice> compare_with;
+  // An image of the model of one of the project's intruders, by index, of that size.
   struct Turntable {
     int intruder = 0;
     double turn_rad = 0;
@@ -95,28 +122,43 @@ struct PreviewRequest {
 // Bytes of images that are kept to be shown (again), by where they are kept. Files that were read, working memory and
 // the steps of undo do not count.
 struct MemoryUse {
-  std::size_t images = 0;    // composited frames
-  std::size_t decoded = 0;   // frames of the footage
-  std::size_t shown = 0;     // what the view asked for at this moment, where no cache holds it
-  std::size_t textures = 0;  // the window's, as it says
-  std::size_t limit = 0;     // for all of them
+  // Composited frames in the cache.
+  std::size_t images = 0;
+  // Frames of the footage in the cache.
+  std::size_t decoded = 0;
+  // What the view shows or asks for at this moment, where no cache holds it.
+  std::size_t shown = 0;
+  // On the graphics card with the images they are made of, as the window says.
+  std::size_t textures = 0;
+  // PreviewLimits::cache_bytes: for all of them together.
+  std::size_t limit = 0;
 
   [[nodiscard]] std::size_t sum() const { return images + decoded + shown + textures; }
 };
 
 // What there is to show at this moment. What the pointers point to never changes; each of them may be null at first.
+// One output may hold results of different revisions, as their numbers or content say.
 struct PreviewOutput {
-  std::shared_ptr<const OpenedScene> scene;            // newest revision that is open
-  std::shared_ptr<const PreviewImage> image;           // of the wanted frame and revision, else the best there is
-  bool image_is_current = false;                       // exactly what was wanted
-  std::shared_ptr<const cv::Mat> footage;              // the wanted frame untouched, BGR; null: not there (yet)
-  std::shared_ptr<const PreviewImage> staged;          // the wanted frame with its stages
-  std::shared_ptr<const PreviewImage> compared;        // by compare_with
-  std::vector<std::shared_ptr<const Survey>> surveys;  // one for each of the project's intruders, null: not yet
+  // The newest revision that is open.
+  std::shared_ptr<const OpenedScene> scene;
+  // Of the wanted frame and content where image_is_current, else the last that could be shown.
+  std::shared_ptr<const PreviewImage> image;
+  bool image_is_current = false;  // exactly what was wanted
+  // The wanted frame untouched, CV_8UC3 BGR; null: not there yet, or not asked for.
+  std::shared_ptr<const cv::Mat> footage;
+  // The wanted frame with its stages, and by the method of compare_with; null as above.
+  std::shared_ptr<const PreviewImage> staged;
+  std::shared_ptr<const PreviewImage> compared;
+  // One for each of the project's intruders, null: not yet.
+  std::vector<std::shared_ptr<const Survey>> surveys;
   std::shared_ptr<const ModelImage> model;
-  std::vector<bool> cached;  // by frame: composited and in memory, of the newest revision
-  bool opening = false;      // the wanted footage is still being opened; the scene is the one before, or null
-  double compose_ms = 0;     // of the newest image
+  // By frame of the footage: whether it is composited and in the cache, for the wanted content.
+  std::vector<bool> cached;
+  // The wanted footage is still being opened; the scene is the one before, or null.
+  bool opening = false;
+  // Time that composing the newest wanted image took.
+  double compose_ms = 0;
+  // Something that is wanted is still being made, or frames are being made ahead.
   bool busy = false;
   MemoryUse memory;
 };
@@ -124,7 +166,8 @@ struct PreviewOutput {
 struct PreviewLimits {
   // Limit for all of MemoryUse. Caches give way to what is shown; only that may exceed the limit.
   std::size_t cache_bytes = std::size_t(3) << 29;
-  int ahead = 48;  // frames composited ahead of the playhead at most
+  // How many frames are composited ahead of the playhead at most.
+  int ahead = 48;
 
   // Limit for textures that are not on the screen.
   [[nodiscard]] std::size_t texture_bytes() const { return cache_bytes / 16; }

@@ -14,9 +14,10 @@ namespace sigs::editor {
 // intruders at once, then what needs the whole flight.
 class SurveyBuilder {
  public:
-  // Begins the surveys of a scene.
+  // Begins the surveys of a scene, and drops those of the one before.
   void begin(std::shared_ptr<const OpenedScene> scene);
 
+  // Whether there is nothing left to do; true without a scene.
   [[nodiscard]] bool done() const { return !scene_ || (next_frame_ > last_frame() && next_whole_ >= surveys_.size()); }
 
   // Works for about budget_s seconds, at least one step. True where there is enough new to be shown.
@@ -36,7 +37,8 @@ class SurveyBuilder {
   std::vector<Survey> surveys_;
   int next_frame_ = 0;
   std::size_t next_whole_ = 0;
-  std::size_t handed_out_ = 0;  // frames
+  // Frames that the last call of surveys() gave out.
+  std::size_t handed_out_ = 0;
 };
 
 // What result files of this scene's footage count in.

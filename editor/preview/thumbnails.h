@@ -31,7 +31,7 @@ class ProjectThumbnails {
   ProjectThumbnails(const ProjectThumbnails&) = delete;
   ProjectThumbnails& operator=(const ProjectThumbnails&) = delete;
 
-  // Null: not there yet, or there is none to be had.
+  // CV_8UC3 of the size given. Asks for the image and returns at once. Null: not there yet, or there is none to be had.
   [[nodiscard]] std::shared_ptr<const cv::Mat> of(const std::filesystem::path& project);
 
  private:
@@ -42,9 +42,11 @@ class ProjectThumbnails {
   std::mutex mutex_;
   std::condition_variable asked_;
   std::deque<std::filesystem::path> queue_;
-  std::map<std::filesystem::path, std::shared_ptr<const cv::Mat>> images_;  // null while it is made
+  // By project file; null while it is made, and where it could not be.
+  std::map<std::filesystem::path, std::shared_ptr<const cv::Mat>> images_;
   bool stop_ = false;
-  std::thread thread_;  // started at the first question
+  // Started when the first image is asked for.
+  std::thread thread_;
 };
 
 // A model by itself: seen three-quarters from the front and slightly above, turned by turn_rad about its vertical

@@ -12,8 +12,8 @@
 #include <thread>
 #include <utility>
 
-#include "base/threads.h"
 #include "base/result.h"
+#include "base/threads.h"
 
 namespace sigs::editor {
 
@@ -27,8 +27,9 @@ inline void lower_thread_priority(int niceness) {
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), niceness);
 }
 
-// One thread that works on the latest request. A request replaces the one before, whether that was worked on or not.
-// Request: copyable, default-constructible (the value before the first want()), with operator==.
+// One thread that works on the latest request. A request replaces the one before, whether that was worked on or not, so
+// a slow work never falls behind. All calls but stop() and the destructor may come from any thread, also from work
+// itself. Request: copyable, default-constructible (the value before the first want()), with operator==.
 template <class Request>
 class LatestRequestWorker {
  public:
@@ -36,19 +37,22 @@ class LatestRequestWorker {
     // Called on the thread once for each request that it finds, and again after wake() or repeat_after. What it throws
     // ends this call alone.
     std::function<void(const Request&)> work;
+    // Of the thread, from its start on.
     int niceness = kPreviewNiceness;
-    // After how long work is called again with the same request; none: not by itself.
+    // After how long work is called again with the same request; none, or an empty function: not by itself. Called with
+    // the worker's lock held, so it must not call the worker.
     std::function<std::optional<std::chrono::milliseconds>(const Request&)> repeat_after;
   };
 
-  // Throws std::system_error where the system gives no thread.
+  // Starts the thread; work is first called after want() or wake(), or after repeat_after. Throws std::system_error
+  // where the system gives no thread.
   explicit LatestRequestWorker(Setup setup) : setup_(std::move(setup)), thread_([this] { run(); }) {}
   ~LatestRequestWorker() { stop(); }
   LatestRequestWorker(const LatestRequestWorker&) = delete;
   LatestRequestWorker& operator=(const LatestRequestWorker&) = delete;
 
-  // Ends the thread, after the call of work that is under way; that one can see it by latest(). Other calls have no
-  // effect any more.
+  // Ends the thread and waits for the call of work that is under way, which can notice it by latest(). Not from work
+  // itself. Afterwards the other calls have no effect.
   void stop() {
     {
       const std::lock_guard lock(mutex_);
@@ -58,7 +62,7 @@ class LatestRequestWorker {
     if (thread_.joinable()) thread_.join();
   }
 
-  // A request equal to the latest changes nothing.
+  // Returns at once. A request equal to the latest changes nothing.
   void want(Request request) {
     {
       const std::lock_guard lock(mutex_);
@@ -78,20 +82,21 @@ class LatestRequestWorker {
     changed_.notify_all();
   }
 
-  // None: the worker is about to end.
+  // A copy of what is wanted by now; work compares it with its own to see whether it is still wanted. None: the worker
+  // is about to end.
   [[nodiscard]] std::optional<Request> latest() const {
     const std::lock_guard lock(mutex_);
     return stop_ ? std::nullopt : std::optional(latest_);
   }
 
-  // For work: waits so long, at most until another request comes or the worker ends; false then.
+  // For work: waits for `time` and returns true, or returns false as soon as another request comes or the worker ends.
   [[nodiscard]] bool stays_latest(const Request& request, std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     return !changed_.wait_for(lock, time, [&] { return stop_ || latest_ != request; });
   }
 
  private:
-  // None: stop.
+  // Waits for the next request to work on. None: stop.
   std::optional<Request> next() {
     std::unique_lock lock(mutex_);
     const auto is_due = [this] { return stop_ || is_due_; };
@@ -117,6 +122,7 @@ class LatestRequestWorker {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
+  // work is to be called though it may have seen this request.
   bool is_due_ = false;
   Request latest_{};
   std::thread thread_;  // last: it uses all of the above

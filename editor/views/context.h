@@ -20,28 +20,39 @@ namespace sigs::editor {
 // What the views that are drawn in this update need from the preview. Empty at the start of each update; each view sets
 // what it needs while it draws.
 struct ViewNeeds {
-  bool footage = false;  // the decoded frame without intruders
+  // The decoded frame without intruders.
+  bool footage = false;
+  // The images of all stages of the frame.
   bool stages = false;
+  // The frame by this method too.
   std::optional<MethodChoice> compare_with;
+  // An image of one intruder's model.
   std::optional<PreviewRequest::Turntable> turntable;
-  bool own_undo = false;    // the view that is worked in takes undo and redo itself
-  bool own_escape = false;  // a view has taken Escape
+  // The view that is worked in takes undo and redo itself: the program's own keys for them do nothing in this update.
+  bool own_undo = false;
+  // A view has taken Escape.
+  bool own_escape = false;
 };
 
 // The input and output of a view in one update. Input: the document, the newest preview, the settings. Output: changes
 // and requests of the user in `edits`, what the preview is to compute in `needs`, named places for tests in `ui_probe`.
-// A view changes nothing else but its own state (zoom, which overlay is on).
+// A view changes nothing else but its own state (zoom, which overlay is on). It is valid while the update draws:
+// functions that are called later must not keep it.
 struct ViewContext {
   const Document& document;
+  // May be of an older revision than the document, and empty at first.
   const PreviewOutput& shown;
   const Settings& settings;
   Textures& textures;
+  // Outlives the update, so what an AskForFile calls later may keep a reference to it.
   Edits& edits;
   ViewNeeds& needs;
   UiProbe& ui_probe;
   bool playing = false;
-  double speed = 0;                // of playing, 0 while it stands
-  const Scored* scored = nullptr;  // null: no results of trackers are loaded
+  // Of playing, times the footage's own; negative: backwards; 0 while it pauses.
+  double speed = 0;
+  // Null: no results of trackers are loaded.
+  const Scored* scored = nullptr;
 
   [[nodiscard]] const Project& project() const { return document.project(); }
 };
@@ -50,17 +61,21 @@ struct ViewContext {
 // Escape takes them back; a change that anything else makes to the project meanwhile ends the drag, because its numbers
 // may no longer count the same intruders and waypoints.
 struct DragGesture {
-  std::string name;                   // of the gesture, for Edits::change
-  std::uint64_t revision_before = 0;  // of the document when the mouse was pressed
-  glm::dvec2 pressed{0, 0};           // where, on the screen
-  bool is_moving = false;             // a change has been made or is about to be
+  // Of the gesture, for Edits::change. Two drags that follow each other need different names, or an end() between them.
+  std::string name;
+  // Number of the document's revision when the mouse was pressed.
+  std::uint64_t revision_before = 0;
+  // Where it was pressed, on the screen.
+  glm::dvec2 pressed{0, 0};
+  // A change has been made or is about to be. The caller sets it, once has_left_press().
+  bool is_moving = false;
 
   // A press moves nothing until the mouse has gone 3 px (where text is 15 px high).
   [[nodiscard]] bool has_left_press(const glm::dvec2& mouse) const {
     return glm::distance(mouse, pressed) >= static_cast<double>(scaled(3));
   }
 
-  // Whether the project has been changed by anything but this drag.
+  // Whether the project has been changed by anything but this drag. The caller drops the drag then, without an end().
   [[nodiscard]] bool is_lost(const ViewContext& context) const {
     return context.document.has_other_changes(revision_before, is_moving ? name : "");
   }
@@ -72,6 +87,7 @@ struct DragGesture {
     return true;
   }
 
+  // Takes back all changes of this drag.
   void cancel(const ViewContext& context) const {
     if (is_moving) context.edits.cancel_gesture(name);
   }

@@ -14,15 +14,19 @@ namespace sigs::editor {
 // is changed by edits, as in the inspector; folder, range and threads belong to this export.
 class ExportView {
  public:
+  // Shows the window in the next update; where an export runs or has ended, that export.
   void open(const Document& document);
   [[nodiscard]] bool is_open() const { return open_; }
-  // Once per update while it is open.
+  // Once per update while it is open. Starts, stops and forgets the job as the person asks; closing the window does not
+  // stop it.
   void draw(const ViewContext& context, ExportJob& job);
-  // A project was opened or closed: the folder is chosen anew.
+  // The project has another file: the folder is chosen anew.
   void forget_folder() { folder_.clear(); }
 
  private:
+  // What would be exported, as it is set at the moment.
   [[nodiscard]] ExportRequest request_of(const ViewContext& context) const;
+  // One of the next for each phase of the job: before it, its parts; while it runs; after it.
   void draw_setup(const ViewContext& context, ExportJob& job);
   void draw_choices(const ViewContext& context);
   void draw_folder(const ViewContext& context);
@@ -33,12 +37,18 @@ class ExportView {
   void draw_done(const ViewContext& context, ExportJob& job, const ExportState& state);
 
   bool open_ = false;
+  // The person has closed it in this update.
   bool closed_ = false;
+  // Where the files go, as typed; "": not chosen yet.
   std::string folder_;
+  // From in to out rather than the project's whole range.
   bool only_range_ = false;
-  int jobs_ = 0;  // 0: chosen by the number of cores
+  // Frames composed in parallel; 0: by the number of cores.
+  int jobs_ = 0;
+  // The question whether the files in there_ may be replaced is shown.
   bool overwrite_asked_ = false;
-  std::vector<std::filesystem::path> there_;  // what would be overwritten
+  // What would be overwritten.
+  std::vector<std::filesystem::path> there_;
 };
 
 }  // namespace sigs::editor

@@ -13,22 +13,26 @@
 
 namespace sigs::editor {
 
-// What is there before a project is.
+// What the page shows beside samples and recent projects; valid for the call.
 struct StartPageContent {
   const std::vector<AbandonedProject>& abandoned;
-  std::filesystem::path loading;  // a project file that is being read; "": none
+  // A project file that is being read; "": none.
+  std::filesystem::path loading;
 };
 
-// What the person wants with an abandoned project; everything else goes through the context's edits.
+// What the person wants with an abandoned project, in the update in which it is chosen; everything else goes through
+// the context's edits.
 struct StartPageChoice {
   std::optional<AbandonedProject> recover;
   std::optional<AbandonedProject> discard;
 };
 
+// A project that comes with the program.
 struct SampleProject {
   std::filesystem::path file;
   std::string name;
-  std::string text;  // the first sentence of its README
+  // The first sentence of the README beside it; "": it has none.
+  std::string text;
 };
 
 // The projects NAME/NAME.json below a folder, by name; other files of that name (recipes of datasets) are none. Empty
@@ -38,17 +42,21 @@ struct SampleProject {
 // The page that is shown while no project is open: sample projects, recent ones, and what a crash left behind.
 class StartPage {
  public:
-  // samples  a folder whose folders hold a project and a README.md each; one that is not there: none
-  // wake     called from another thread when an image is ready
+  // Reads the samples, once.
+  //   samples  a folder whose folders hold a project and a README.md each; one that is not there: none
+  //   wake     called from another thread when an image is ready
   StartPage(const std::filesystem::path& samples, std::function<void()> wake);
 
+  // Once per update, into the current ImGui window.
   [[nodiscard]] StartPageChoice draw(const ViewContext& context, const StartPageContent& content);
 
  private:
+  // A project of Settings::recent.
   struct Recent {
     std::filesystem::path file;
     bool is_there = false;
   };
+  // Looks which recent projects are there, when the list has changed.
   void look_for(const std::vector<std::filesystem::path>& recent);
   void draw_head(const ViewContext& context, const StartPageContent& content);
   void draw_samples(const ViewContext& context, float width);
@@ -57,11 +65,13 @@ class StartPage {
   void draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice);
 
   std::vector<SampleProject> samples_;
-  std::vector<Recent> recent_;  // with the look at the disk from when the list last changed
+  // As the disk was when the list last changed.
+  std::vector<Recent> recent_;
   ProjectThumbnails images_;
 };
 
-// The text's first sentence below its headings, up to a semicolon or colon, without line breaks.
+// The text's first sentence below its headings, without line breaks and backquotes. A semicolon or colon before a space
+// ends it too, and becomes a full stop.
 [[nodiscard]] std::string first_sentence(const std::string& markdown);
 
 }  // namespace sigs::editor

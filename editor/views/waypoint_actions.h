@@ -16,7 +16,8 @@ namespace sigs::editor {
 [[nodiscard]] std::optional<int> current_intruder(const ViewContext& context);
 
 // The index in the project of an intruder given by its index in the scene (as FrameTruth and stages count). The scene
-// leaves out intruders without waypoints. Nothing where the project has changed since the scene was opened.
+// leaves out intruders without waypoints. Nothing while no scene is open and for an index that it does not have. Both
+// this and the next go by the scene that is open, which may be of an older revision than the document.
 [[nodiscard]] std::optional<int> project_intruder(const ViewContext& context, int in_scene);
 
 // The index in the scene of an intruder given by its index in the project; nothing for one without waypoints.

@@ -11,13 +11,18 @@
 
 namespace sigs::editor {
 
+// What the answer is: a file that is there, a file that need not be there, or a folder.
 enum class FileDialogMode { to_open, to_save, folder };
 
+// A question to the person.
 struct FileDialogRequest {
   std::string title;
-  std::vector<std::string> extensions;  // ".json"; empty: all files
+  // With their dots: ".json"; empty: all files. The first is added to a name that is typed without one.
+  std::vector<std::string> extensions;
   FileDialogMode wanted = FileDialogMode::to_open;
-  std::filesystem::path start;  // a folder, or a file: its name is proposed; "": where the last question ended
+  // Where to begin: a folder, or a file whose name is proposed (to_save) or selected. "": where the last question
+  // ended. What is not there is replaced by the nearest folder above it.
+  std::filesystem::path start;
 };
 
 // A folder that is offered at the left.
@@ -26,38 +31,50 @@ struct BrowserPlace {
   std::filesystem::path folder;
 };
 
-// Home, the present folder and the root.
+// The person's home, the current folder of the program and the root.
 [[nodiscard]] std::vector<BrowserPlace> usual_places();
 
-// Asks for a file or a folder. Folders are read when they are entered, beside the window's thread.
+// Asks for a file or a folder in a dialog of our own. Folders are read when they are entered, on another thread, so
+// that a disk that does not answer does not stop the window. For the window's thread, within an ImGui update.
 class FileBrowser {
  public:
+  // Opens the dialog; a question that is open is replaced. `places` are offered at the left.
   void ask(FileDialogRequest question, std::vector<BrowserPlace> places);
+  // Without an answer.
   void close() { open_ = false; }
   [[nodiscard]] bool is_open() const { return open_; }
 
-  // Once per update while it is open. The answer, absolute, in the update in which it is given. A file to save is only
-  // overwritten after a question.
+  // Once per update while it is open. The answer, absolute, in the update in which it is given; none in all others, and
+  // when the dialog was closed without one. A file to save is only overwritten after a question.
   [[nodiscard]] std::optional<std::filesystem::path> draw(UiProbe& ui_probe);
 
-  // Where the person was last.
+  // Where the person was last; the next question without a start begins there.
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   void set_folder(std::filesystem::path folder) { folder_ = std::move(folder); }
 
  private:
+  // What the lower edge shows: the answer, "replace it?", or the name of a folder to be made.
   enum class Bottom { answer, overwrite, new_folder };
 
+  // Each of these changes what is shown; the listing follows in a later update.
   void enter(const std::filesystem::path& folder);
   void go_up();
   void refresh();
+  // Shows a listing that has arrived.
   void take_listing();
+  // Entries are indices into shown_; others are clamped, or do nothing.
   void select(int entry);
+  // As a double click: enters a folder, answers with a file.
   void activate(int entry);
+  // Closes the dialog with this answer.
   void answer_with(const std::filesystem::path& path);
+  // With name_, in the present folder: asks before a file is replaced, enters what is a folder.
   void answer_by_name();
   void make_folder();
+  // What was typed as a path: absolute, from the present folder, or from "~".
   void go_to_text(const std::string& text);
   void handle_keys();
+  // Letters select the entry whose name begins with them.
   void handle_typed();
 
   void draw_path_bar();
@@ -73,31 +90,42 @@ class FileBrowser {
   void draw_new_folder();
 
   FileDialogRequest question_;
-  UiProbe* ui_probe_ = nullptr;  // while drawing
+  // Valid while draw() runs.
+  UiProbe* ui_probe_ = nullptr;
   std::vector<BrowserPlace> places_;
   bool open_ = false;
+  // Given in this update, to be returned by draw().
   std::optional<std::filesystem::path> answer_;
 
+  // The folder that is shown, while reading_ still without its entries.
   std::filesystem::path folder_;
   FolderReader reader_;
   bool reading_ = false;
   std::vector<FolderEntry> shown_;
   ListingOrder order_;
+  // The filter by extension is switched off.
   bool all_files_ = false;
+  // Index into shown_; -1: none.
   int selected_ = -1;
   bool scroll_to_selected_ = false;
-  std::string select_when_read_;  // a name
+  // Name of the entry to be selected once the listing is there; "": none.
+  std::string select_when_read_;
 
-  std::string name_;  // of the file to save
+  // Of the file to save, as typed.
+  std::string name_;
   bool focus_name_ = false;
-  std::string problem_;  // of the last try to answer or to make a folder
+  // Why the last try to answer or to make a folder failed; "": it did not.
+  std::string problem_;
 
+  // The bar of folders is a text field at the moment, with this text.
   bool editing_path_ = false;
   std::string path_text_;
   Bottom bottom_ = Bottom::answer;
   std::string new_folder_;
   bool focus_bottom_ = false;
-  std::string typed_;  // to find an entry by
+  // Letters to find an entry by, and when the last of them came (ImGui's time); after a pause of a second they begin
+  // anew.
+  std::string typed_;
   double typed_at_s_ = 0;
 };
 

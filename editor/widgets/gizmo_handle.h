@@ -13,31 +13,43 @@ struct ImDrawList;
 
 namespace sigs::editor {
 
-// Where a handle is looked at from.
+// Where a handle is looked at from in this update. The camera has to outlive it.
 struct GizmoInput {
   const OrbitCamera& camera;
+  // Of the view on the screen.
   ScreenRect rect;
-  bool mouse_is_free = false;  // over the canvas, nothing else has it
-  double snap_m = 0;           // > 0: coordinates are rounded while dragging
+  // The mouse is over the canvas and nothing else has it. A drag goes on without it.
+  bool mouse_is_free = false;
+  // > 0: coordinates are rounded to multiples of it while dragging.
+  double snap_m = 0;
 };
 
 // What the mouse did to the handle in this update.
 struct GizmoResult {
-  std::optional<glm::dvec3> moved_to;  // while it is dragged, once it has left its place
-  bool released = false;               // the drag is over
-  bool cancelled = false;              // by Esc: back to where it was
-  bool wants_numbers = false;          // a double click on an arrow or a plane
-  bool wants_middle = false;           // a double click on the middle
+  // In the world: where the point is to be, while it is dragged and once the mouse has gone 3 px.
+  std::optional<glm::dvec3> moved_to;
+  // The drag is over; moved_to of the same update still counts.
+  bool released = false;
+  // By Esc: the point is to be where it was (start_m()).
+  bool cancelled = false;
+  // A double click on an arrow or a plane: the point is to be typed.
+  bool wants_numbers = false;
+  // A double click on the middle.
+  bool wants_middle = false;
 };
 
-// The handle of a point on the screen: three arrows, three planes, the middle. It turns the mouse into new positions of
-// the point and knows nothing of projects.
+// The handle of a point on the screen: three arrows along the world's axes, three planes, and the middle, which moves
+// the point in the plane of the screen. It turns the mouse into new positions of the point and knows nothing of
+// projects: the caller moves the point and passes it in again. Points are of the world, in metres. Within an ImGui
+// update, on the window's thread.
 class GizmoHandle {
  public:
-  // Once per update with the point as it is; takes the mouse.
+  // Once per update with the point as it is; takes the mouse. Where the point is behind the camera of the view, it has
+  // no handle.
   [[nodiscard]] GizmoResult update(const glm::dvec3& at_m, const GizmoInput& input);
+  // After the world that it lies on.
   void draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoInput& input) const;
-  // What it covers on the screen, in small rects.
+  // What it covers on the screen, in small rects, so that labels can keep away from it.
   [[nodiscard]] std::vector<ScreenRect> covered(const glm::dvec3& at_m, const GizmoInput& input) const;
   // Where its arrows' tips and its middle are: "gizmo/x", ..., "gizmo/middle".
   void probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const GizmoInput& input) const;
@@ -49,9 +61,11 @@ class GizmoHandle {
     hovered_ = GizmoPart::none;
   }
 
+  // Between the press, or take(), and its release or end.
   [[nodiscard]] bool dragging() const { return drag_.part != GizmoPart::none; }
-  // Under the mouse, or dragged.
+  // Under the mouse, or dragged; none otherwise.
   [[nodiscard]] GizmoPart part() const { return dragging() ? drag_.part : hovered_; }
+  // Where the point was when the drag began; meaningful while dragging().
   [[nodiscard]] const glm::dvec3& start_m() const { return drag_.start_m; }
 
  private:
@@ -59,18 +73,24 @@ class GizmoHandle {
 
   GizmoDrag drag_;
   GizmoPart hovered_ = GizmoPart::none;
+  // The mouse has gone 3 px since the press: a click that trembles moves nothing.
   bool has_moved_ = false;
 };
 
-// A small window in which a point is typed: x, y, z in metres. Enter takes it, Esc or a click beside leaves it.
+// A small window in which a point is typed: x, y, z in metres in the world frame (forward, right, down). Enter takes
+// it, Esc or a click beside leaves it.
 class PointEntry {
  public:
+  // It appears at the next draw(), beside the mouse, with these numbers.
   void open(std::string title, const glm::dvec3& point_m);
-  // Once per update, within the same ImGui window each time; the point, in the update in which it is taken.
+  // Once per update, within the same ImGui window each time; the point, in the update in which it is taken. It is
+  // finite and each coordinate within +-1e8 m.
   [[nodiscard]] std::optional<glm::dvec3> draw();
   [[nodiscard]] bool is_open() const { return state_ != State::closed; }
 
  private:
+  // asked: to be opened by the next draw(). leaving: it closes one update after the key that closes it, so that nothing
+  // else takes that key.
   enum class State { closed, asked, open, leaving };
 
   void draw_fields();

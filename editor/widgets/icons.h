@@ -5,7 +5,8 @@
 
 namespace sigs::editor {
 
-// All icons of the editor. They are drawn from lines, so that no icon font is needed and every size is sharp.
+// All icons of the editor. They are drawn from lines, so that no icon font is needed and every size is sharp. An icon
+// that is added needs its drawing in the table of icons.cpp, in the same order.
 enum class Icon {
   play,
   pause,
@@ -54,20 +55,24 @@ enum class Icon {
 };
 
 // Draws an icon within a square of side `size` (screen pixels) about a centre, which is moved to the middle of its
-// pixel.
+// pixel. Takes no mouse.
 void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color);
 
-// A square button as high as a line of controls; true when clicked. `tooltip` may be "". `on`: drawn as switched on.
+// A square button at the cursor, as high as a line of controls; true when clicked.
+//   id       names it within the ImGui window; not shown
+//   tooltip  may be ""
+//   on       drawn as switched on
 [[nodiscard]] bool icon_button(const char* id, Icon icon, const char* tooltip, bool on = false);
+// Its side, in screen pixels.
 [[nodiscard]] float icon_button_width();
 
 // An icon of the text's size at the cursor, as an item of its own.
 void icon_label(Icon icon, ImU32 color);
 
-// For the item before, once the mouse has rested on it for a moment; wrapped where it is long. "": none.
+// For the item that ImGui drew last, once the mouse has rested on it for a moment; wrapped where it is long. "": none.
 void tooltip_for_item(const char* text);
 
-// The same for tooltips that are more than text: true once the mouse has rested.
+// The same for tooltips that are more than text: true once the mouse has rested, in every update until it leaves.
 [[nodiscard]] bool item_wants_tooltip();
 
 }  // namespace sigs::editor

@@ -7,7 +7,7 @@
 
 namespace sigs::editor {
 
-// Points on the screen, as ImGui has them and as we do.
+// Points on the screen, as ImGui has them (float) and as we do (double), in the same coordinates.
 [[nodiscard]] inline ImVec2 im(const glm::dvec2& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y)};
 }

@@ -11,7 +11,8 @@
 
 namespace sigs::editor {
 
-// An image by the address of its samples, so many times smaller.
+// What a texture is known by: the address of an image's samples, and how many times smaller it is. Valid as long as the
+// image is kept, which Textures does.
 struct TextureKey {
   const unsigned char* samples = nullptr;
   int divisor = 1;
@@ -20,13 +21,14 @@ struct TextureKey {
 };
 
 // Which textures are kept, and which goes first: what was not drawn for longest. What was drawn in this update never
-// goes. Knows nothing of OpenGL.
+// goes. Knows nothing of OpenGL, so that it can be tested without it.
 class TextureOrder {
  public:
+  // The texture is drawn in this update; it counts that many bytes from now on.
   void use(TextureKey key, std::size_t bytes);
 
-  // Names those that must go: what was not drawn for 30 updates and, while all hold more than that, what was not drawn
-  // in this one.
+  // Ends the update and names those that must go; they are removed already. They are what was not drawn for 30 updates
+  // and, while all hold more than max_bytes, what was not drawn in this one, oldest first.
   [[nodiscard]] std::vector<TextureKey> end_update(std::size_t max_bytes);
 
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
@@ -34,16 +36,19 @@ class TextureOrder {
  private:
   struct Use {
     std::size_t bytes = 0;
-    long update = 0;  // that it was drawn in last
+    // In which it was drawn last.
+    long update = 0;
   };
   std::map<TextureKey, Use> uses_;
   std::size_t bytes_ = 0;
   long update_ = 0;
 };
 
+// How a texture is enlarged: with sharp pixels, or smoothly.
 enum class Filter { nearest, smooth };
 
-// Images on the graphics card, uploaded when first drawn and dropped when no longer drawn. The window's thread only.
+// Images on the graphics card, uploaded when first drawn and dropped when no longer drawn. The window's thread only,
+// with its OpenGL context current, in the destructor too.
 class Textures {
  public:
   Textures() = default;
@@ -51,19 +56,23 @@ class Textures {
   Textures(const Textures&) = delete;
   Textures& operator=(const Textures&) = delete;
 
-  // CV_8UC1 (shown grey), CV_8UC3 (BGR) or CV_8UC4 (RGBA, straight). The image's samples must not change any more.
-  // divisor  a copy so many times smaller each way, averaged
+  // The texture of an image, valid until the end of this update. CV_8UC1 (shown grey), CV_8UC3 (BGR) or CV_8UC4 (RGBA,
+  // straight), not empty. The image is known by the address of its samples and is kept with its texture; the samples
+  // must not change any more.
+  //   divisor  a copy so many times smaller each way, averaged; 1: the image itself
   [[nodiscard]] ImTextureID of(const cv::Mat& image, Filter filter, int divisor = 1);
 
-  // Once per update, after drawing: what was not drawn for some updates goes, and sooner where all hold more than that.
+  // Once per update, after drawing: what was not drawn for 30 updates goes, and sooner where all hold more than
+  // max_bytes.
   void end_update(std::size_t max_bytes);
 
-  // On the graphics card, and the images they were made of: these are kept with them.
+  // Of the textures and of the images they were made of, which are kept with them.
   [[nodiscard]] std::size_t bytes() const { return order_.bytes(); }
 
  private:
   struct Entry {
     cv::Mat image;  // keeps the samples, and so their address, from being used for another one
+    // OpenGL's.
     unsigned int name = 0;
     Filter filter = Filter::smooth;
   };
@@ -71,7 +80,8 @@ class Textures {
   std::map<TextureKey, Entry> entries_;
 };
 
-// A copy that is so many times smaller each way, of at least one pixel; the image itself at 1.
+// A copy that is so many times smaller each way, rounded down, of at least one pixel, averaged over areas; the image
+// itself, not copied, where divisor < 2.
 [[nodiscard]] cv::Mat reduced_copy(const cv::Mat& image, int divisor);
 
 }  // namespace sigs::editor

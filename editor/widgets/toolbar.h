@@ -13,18 +13,22 @@
 
 namespace sigs::editor {
 
-// A button of a toolbar, with an icon, a short label or both.
+// A button of a toolbar, with an icon, a short label or both. The texts are not copied: use literals, or strings that
+// live until it is drawn.
 struct ToolButton {
+  // Names it within the ImGui window; not shown.
   const char* id = "";
   std::optional<Icon> icon;
   const char* label = "";
-  const char* tooltip = "";  // what it does, and its key
-  bool on = false;           // highlighted
+  // What it does, and its key.
+  const char* tooltip = "";
+  bool on = false;  // highlighted
   bool enabled = true;
 };
 
-// As high as a line of text in its frame; true when it is clicked.
+// Draws it at the cursor, as high as a line of text in its frame; true when it is clicked.
 bool tool_button(const ToolButton& button);
+// All widths and heights here are in screen pixels.
 [[nodiscard]] float tool_button_width(const ToolButton& button);
 
 // A thin upright line between groups of buttons.
@@ -32,23 +36,28 @@ void toolbar_gap();
 [[nodiscard]] float toolbar_gap_width();
 
 // One item of a toolbar: a button, a gap (a thin line between groups of buttons), or any other content of a given
-// width.
+// width. A toolbar is a list of items that is made anew in each update.
 struct ToolbarItem {
   ToolButton button;
-  std::function<void()> clicked;  // called after a click; may be empty
+  // Called while drawing, after a click on the button; may be empty.
+  std::function<void()> clicked;
   bool is_gap = false;
-  float width = 0;                // of the other content, in screen pixels
-  std::function<void()> content;  // draws the other content at the cursor
-  std::function<void()> drawn;    // called after the item was drawn, while it is ImGui's last item
+  // Of the other content, in screen pixels.
+  float width = 0;
+  // Draws the other content at the cursor; empty: the item is a button or a gap.
+  std::function<void()> content;
+  // Called after the item was drawn, while it is ImGui's last item: to note its place for tests, for example.
+  std::function<void()> drawn;
 };
 
-// On while a setting is on; a click switches it.
+// A button that is on while a setting is on; a click switches it. The setting must live until the toolbar is drawn.
 [[nodiscard]] inline ToolbarItem toggle_item(ToolButton button, bool& setting) {
   button.on = setting;
   return {.button = button, .clicked = [&setting] { setting = !setting; }};
 }
 
-// One of several choices: on while `value` is `choice`; a click sets it and then calls `then`.
+// One of several choices: on while `value` is `choice`; a click sets it and then calls `then`. The value must live
+// until the toolbar is drawn.
 template <class Value>
 [[nodiscard]] ToolbarItem choice_item(ToolButton button, Value& value, Value choice, std::function<void()> then = {}) {
   button.on = value == choice;
@@ -61,10 +70,12 @@ template <class Value>
 // The buttons "Fit" and "1:1" of an image that is zoomed and panned, on while it is fitted or shown pixel by pixel.
 struct ZoomChoice {
   bool is_fitted = false;
-  double zoom = 1;  // screen pixels an image pixel
+  // Screen pixels for each pixel of the image.
+  double zoom = 1;
   std::function<void()> fit;
   std::function<void()> to_exact;
 };
+// Appends both buttons.
 void add_zoom_items(std::vector<ToolbarItem>& items, const ZoomChoice& zoom);
 
 // Draws a row of items on the panel's colour at the cursor, as wide as the window. Where the items are too wide

@@ -9,18 +9,22 @@
 namespace sigs::editor {
 
 // Where things with a name lie on the screen in this update, so that whoever drives the window from outside (a test, a
-// guided tour) finds them. Costs nothing while nobody asks.
+// guided tour) finds them. Costs nothing while nobody asks. Names are like "own body/detect"; the last note of a name
+// counts.
 class UiProbe {
  public:
+  // rect: in ImGui's screen coordinates.
   void note(const std::string& name, const ScreenRect& rect) {
     if (wanted_) ui_probe_[name] = rect;
   }
   // The item that ImGui drew last.
   void note_item(const std::string& name);
 
+  // Off at first: note() does nothing then.
   void set_wanted(bool wanted) { wanted_ = wanted; }
   [[nodiscard]] bool wanted() const { return wanted_; }
   [[nodiscard]] const std::map<std::string, ScreenRect>& all() const { return ui_probe_; }
+  // At the start of each update.
   void clear() { ui_probe_.clear(); }
 
  private:

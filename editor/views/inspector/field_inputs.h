@@ -11,10 +11,14 @@ namespace sigs::editor {
 
 // How a field is shown, where its type does not say all.
 struct RowOptions {
-  std::string label;                // "": by its key
-  std::string off_because;          // not empty: cannot be edited, and why
-  std::vector<std::string> names;   // a text that is one of these
-  std::optional<double> suggested;  // of an optional number, when it is switched on
+  // "": by its key.
+  std::string label;
+  // Not empty: it cannot be edited, and why.
+  std::string off_because;
+  // A text that is one of these is chosen from a list.
+  std::vector<std::string> names;
+  // The value of an optional number when it is switched on.
+  std::optional<double> suggested;
   bool is_color = false;
 };
 
@@ -31,14 +35,15 @@ struct Edited {
   bool is_finished = false;
 };
 
-// The editor of a field by its type, from the cursor on, `width` wide.
+// The editor of a field by its type, from the cursor on, `width` screen pixels wide. None: nothing was edited in this
+// update.
 [[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width,
                                                 TypedText& typed);
 
 // A number with its unit: dragged, or typed after a click; true in updates in which it has changed. Stays in the range.
 [[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
 
-// X, Y, Z side by side, or below each other where there is no room.
+// X, Y, Z side by side, or below each other where there is no room; true in updates in which one has changed.
 [[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width);
 
 }  // namespace sigs::editor

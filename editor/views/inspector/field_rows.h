@@ -14,43 +14,50 @@
 
 namespace sigs::editor {
 
-// What is wrong, by the key of the field that it is in.
+// What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
 
-// What rows remember from one update to the next.
+// What rows remember from one update to the next; the view that makes FieldRows owns it.
 struct RowMemory {
   TypedText typed;
-  std::string wanted_key;  // a row to be scrolled to and given the keyboard, once it is drawn
-  int wanted_updates = 0;  // for how many updates yet
+  // A row to be scrolled to and given the keyboard, once it is drawn; "": none.
+  std::string wanted_key;
+  // For how many updates it is still waited for.
+  int wanted_updates = 0;
+  // A value is being dragged or typed, so its undo step is not complete.
   bool gesture_is_open = false;
 };
 
-// Draws fields, each as a row: label, editor with its unit, a way back to the default, and what is wrong with it. Made
-// anew each update.
+// Draws fields, each as a row: label, editor with its unit, a way back to the default, and what is wrong with it.
+// Changes become edits of the project. Made anew each update; what it is made from must outlive it.
 class FieldRows {
  public:
-  // place  what the fields' places on the screen begin with
+  // place  what the names of the fields' places in the UI probe begin with
   FieldRows(const ViewContext& context, const FieldSheet& sheet, const ProblemsByField& problems, RowMemory& memory,
             std::string place = "inspector/")
       : context_(context), sheet_(sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
 
-  // Nothing where there is no such field.
+  // Nothing is drawn where there is no such field.
   void row(std::string_view key, const RowOptions& look = {});
-  // Those whose keys begin so, in the project's order.
+  // The rows of all fields whose keys begin so, in the project's order. look_of: may be empty.
   void rows(std::string_view prefix, const std::function<RowOptions(const Field&)>& look_of = {});
+  // What is wrong with a key, with advice; nothing where nothing is.
   void problem_lines(std::string_view key);
 
-  // Any label and controls in the same columns: the width that the controls have from the cursor on.
+  // Draws a label and leaves the cursor where its controls go; returns the width that they have, in screen pixels.
+  // below: the controls go into the next line and have all of its width.
   [[nodiscard]] float begin_row(const std::string& label, bool below = false);
 
   [[nodiscard]] const FieldSheet& sheet() const { return sheet_; }
   [[nodiscard]] const ProblemsByField& problems() const { return problems_; }
 
-  // At the update's end: a gesture whose editor has gone away is finished.
+  // To be called when all rows of the update are drawn: a gesture whose editor has gone away is finished.
   void finish();
 
  private:
+  // The tooltip: help, range, default and key.
   void draw_hint(const Field& field, const RowOptions& look) const;
+  // At the right of a row: choosing a file, or back to the default.
   void draw_side_buttons(const Field& field, float top_y);
   void browse(const Field& field);
   void change(const Field& field, const Edited& edited);
@@ -68,10 +75,12 @@ void note(const std::string& text, bool is_warning = false);
 // Buttons with texts, side by side as long as there is room.
 class ButtonFlow {
  public:
+  // True when it is clicked. tooltip may be "".
   [[nodiscard]] bool button(const char* label, const char* tooltip, bool enabled = true);
 
  private:
-  float right_x_ = -1;  // of the last one, on the screen
+  // Right edge of the last one, on the screen; -1: there is none yet.
+  float right_x_ = -1;
 };
 
 }  // namespace sigs::editor

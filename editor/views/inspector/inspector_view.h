@@ -14,21 +14,29 @@
 
 namespace sigs::editor {
 
-// Every setting of the project, made from project/fields, and problems where they are.
+// Every setting of the project, made from project/fields, with problems where they are. Blocks fold; a filter shows
+// only the settings whose key, label or help has all its words. Changes become edits of the project.
 class InspectorView {
  public:
-  // Into what is left of the current ImGui window.
+  // Once per update, into what is left of the current ImGui window.
   void draw(const ViewContext& context);
 
  private:
+  // Lists the fields and problems anew where the project or its surveys are others.
   void refresh(const ViewContext& context);
+  // Opens the block of what was selected in another view.
   void follow_selection(const ViewContext& context);
+  // Opens the block of a field's key, selects what it belongs to, and gives its row the keyboard.
   void go_to_problem(const ViewContext& context, const std::string& key);
   void draw_top(const ViewContext& context, FieldRows& rows);
   void draw_blocks(const ViewContext& context, FieldRows& rows);
+  // The rows that the filter lets through, in place of the blocks.
   void draw_found(const ViewContext& context, FieldRows& rows) const;
+  // A header that folds, with the number of its problems, and below it `content` while it is open. opens_first: whether
+  // it is open when the program starts.
   void block(const ViewContext& context, const char* title, bool opens_first, const std::function<void()>& content);
 
+  // Of the revision with this number; made anew for another one.
   std::optional<FieldSheet> sheet_;
   std::uint64_t sheet_revision_ = 0;
   ProblemList problems_;
@@ -37,8 +45,10 @@ class InspectorView {
   ModelBlock model_;
   TrajectoryBlock trajectory_;
   std::string filter_;
+  // Title of the block that is to be opened, and for how many updates yet: rows appear only when they are drawn.
   std::string block_to_open_;
-  int updates_to_open_ = 0;  // for how many updates yet
+  int updates_to_open_ = 0;
+  // The document's selection in the update before.
   Selection followed_;
 };
 

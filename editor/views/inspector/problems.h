@@ -20,8 +20,10 @@ namespace sigs::editor {
 // surveys: what `sigs check` says of it.
 class ProblemList {
  public:
+  // Once per update, before the others; does something only where the scene or a survey is another one.
   void refresh(const ViewContext& context);
   [[nodiscard]] const ProblemsByField& by_field() const { return by_field_; }
+  // Number of problems, warnings not counted, in a block.
   [[nodiscard]] int count_in(const std::string& block) const;
 
   // "2 problems" and "3 warnings", to be opened as lists; the key of the one that was clicked.

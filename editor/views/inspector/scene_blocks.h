@@ -8,28 +8,31 @@
 
 namespace sigs::editor {
 
-// The light's fields, and where it stands as the camera sees it in the playhead's frame.
+// The light's fields, and its bearing, elevation and distance from the camera in the playhead's frame, with presets.
 class LightBlock {
  public:
   void draw(const ViewContext& context, FieldRows& rows);
 
  private:
+  // The camera in the playhead's frame: its place in the world, and its heading from world X to the right.
   struct Viewpoint {
     glm::dvec3 camera_m{0, 0, 0};
     double camera_bearing_rad = 0;
   };
   [[nodiscard]] static Viewpoint viewpoint_of(const ViewContext& context);
   void draw_direction(const ViewContext& context, FieldRows& rows, const Viewpoint& viewpoint);
+  // Buttons that put the light behind, above or beside the camera, at the distance that it has.
   void draw_presets(const ViewContext& context, const Viewpoint& viewpoint) const;
 
   // While it is dragged: a light overhead has no bearing to read back.
   std::optional<LightDirection> dragged_;
 };
 
-// Footage, calibration and own-body mask, and what was found in them.
+// Footage, calibration and own-body mask, and what was found in the video and the calibration.
 void draw_inputs(const ViewContext& context, FieldRows& rows);
 
-// The intruders, and the model of the one that is worked on.
+// The intruders as a list with buttons to add and remove, and the model of the one that is worked on, with an image of
+// it that is turned by dragging.
 class ModelBlock {
  public:
   void draw(const ViewContext& context, FieldRows& rows);
@@ -38,7 +41,8 @@ class ModelBlock {
   void draw_list(const ViewContext& context, const FieldRows& rows);
   void draw_preview(const ViewContext& context, int intruder);
 
-  double turn_rad_ = 0;  // of the turntable
+  // Of the turntable, as PreviewRequest::Turntable.
+  double turn_rad_ = 0;
 };
 
 }  // namespace sigs::editor

@@ -21,8 +21,10 @@ namespace sigs::editor {
 // painted is never given up silently.
 class OwnBodySession {
  public:
-  // edits  where changes of the project and requests go; must outlive this
-  // wake   called from another thread as a detection goes on
+  // For the window's thread, all calls.
+  //   edits   where changes of the project and requests go; must outlive this
+  //   wake    called from another thread as a detection goes on
+  //   detect  what a detection does; tests give one that reads no video
   OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect = detected);
 
   // Once per update in which the mask is looked at: begins with the project's mask and follows it as long as nothing
@@ -36,7 +38,7 @@ class OwnBodySession {
   [[nodiscard]] MaskToKeep to_keep() const;
   void recover(const RecoveredMask& mask);
 
-  // In the footage as the project has it.
+  // Begins a detection in the footage as the project has it, with the project's settings. False: one is running.
   bool start(const Document& document);
   [[nodiscard]] OwnBodyJob& job() { return job_; }
   // As of the last follow().

@@ -14,25 +14,35 @@
 
 namespace sigs::editor {
 
+// The mask as a tint over the footage, the mask alone (white: own body), or the detection's confidence.
 enum class CanvasMode { over_footage, mask_alone, confidence };
 
-// The footage with the mask over it, or one of the others instead: zoomed, panned and painted on.
+// The footage with the mask over it, or one of the others instead: zoomed, panned and painted on. Strokes go into the
+// session's painting at once; they are no edits of the project. Pixels are those of the footage.
 class OwnBodyCanvas {
  public:
+  // Into `rect` of the screen, once per update; takes the mouse and the keys B, E, [ and ] while the mouse is over it.
   void draw(const ViewContext& context, OwnBodySession& session, const ScreenRect& rect, CanvasMode look);
-  // The line below: what the mouse is over.
+  // The line below: position, mask and confidence of the pixel that the mouse is over, at the right zoom and size. Into
+  // what is left of the current ImGui window.
   void draw_readout(const OwnBodySession& session) const;
 
+  // Zoom and place of the image, for the toolbar.
   [[nodiscard]] ZoomableImage& look() { return look_; }
+  // Of the brush, kMinRadius_px .. kMaxRadius_px.
   [[nodiscard]] double radius_px() const { return radius_px_; }
   void set_radius_px(double radius_px) { radius_px_ = radius_px; }
+  // Whether the brush takes away, unless Shift is held.
   [[nodiscard]] bool erases() const { return erases_; }
   void set_erases(bool erases) { erases_ = erases; }
 
  private:
+  // As it is in this update: with the soft edge of the project's settings, and turned round by Shift.
   [[nodiscard]] Brush brush(const ViewContext& context) const;
   void handle_keys();
+  // Strokes and panning. paints: whether a left drag paints.
   void handle_mouse(const ViewContext& context, OwnBodySession& session, const ImageCanvas& canvas, bool paints);
+  // The footage, and over it what `look` says; the footage alone while the backslash key is held.
   void draw_layers(const ViewContext& context, const OwnBodySession& session, const ImageCanvas& canvas,
                    CanvasMode look);
   void draw_confidence(const ViewContext& context, const OwnBodySession& session, const ImageCanvas& canvas);
@@ -40,39 +50,51 @@ class OwnBodyCanvas {
 
   ZoomableImage look_;
   MaskTiles tiles_;
+  // The detection that confidence_ is the image of; null: none yet.
   std::shared_ptr<const OwnBody> shown_confidence_of_;
   cv::Mat confidence_;
   double radius_px_ = 20;
   bool erases_ = false;
+  // The mouse was over the canvas in this update.
   bool hovered_ = false;
+  // The press that lasts moves the image instead of painting.
   bool pans_ = false;
-  std::optional<cv::Point> pixel_;  // under the mouse
+  // Under the mouse; none: beside the image.
+  std::optional<cv::Point> pixel_;
 };
 
-// Where the own body's mask is made: found in the footage, looked at step by step, painted, saved and used.
+// Where the own body's mask is made: found in the footage, looked at step by step, painted, saved and used. A toolbar
+// above the image, a panel beside it. What it shows and changes is in the session, which outlives it.
 class OwnBodyView {
  public:
-  // Into what is left of the current ImGui window.
+  // Once per update in which it is shown, into what is left of the current ImGui window. Also has the session follow
+  // the document.
   void draw(const ViewContext& context, OwnBodySession& session);
 
  private:
+  // What is in the image's place; paint and mask can be painted on.
   enum class Mode { paint, mask, confidence, stages };
 
   [[nodiscard]] bool paints() const { return look_ == Mode::paint || look_ == Mode::mask; }
+  // The button of one mode.
   [[nodiscard]] ToolbarItem look_button(const ViewContext& context, const char* label, const char* tooltip, Mode look);
   void add_brush_items(std::vector<ToolbarItem>& items, const ViewContext& context, MaskPainting& painting);
+  // The number field of the brush's radius.
   void draw_radius(const ViewContext& context);
   void draw_toolbar_of(const ViewContext& context, OwnBodySession& session);
   void draw_image_of(const ViewContext& context, OwnBodySession& session, const ScreenRect& rect);
   void draw_stages(const ViewContext& context, const OwnBodySession& session, const ScreenRect& rect);
+  // Undo and redo count strokes while the last press was in `worked_in`; otherwise the document's steps.
   void handle_undo(const ViewContext& context, MaskPainting& painting, const ScreenRect& worked_in);
 
   Mode look_ = Mode::paint;
   OwnBodyCanvas canvas_;
   OwnBodyPanel panel_;
   StageGrid grid_;
-  bool is_worked_in_ = false;  // the last press was on the image or its toolbar, or gave the painting another start
-  int last_update_ = -1;       // in which it was drawn
+  // The last press was on the image or its toolbar, or gave the painting another start.
+  bool is_worked_in_ = false;
+  // Number of the ImGui frame in which it was drawn last.
+  int last_update_ = -1;
 };
 
 }  // namespace sigs::editor

@@ -8,12 +8,15 @@
 
 namespace sigs::editor {
 
-// One row for each intruder: its waypoints as keys in time, and where it flies as no such aircraft could.
+// One row for each intruder: its waypoints as keys in time, and red where it flies as no such aircraft could. A drag
+// moves a key in time, by whole frames unless Alt is held, as one undo step; a double click adds a waypoint on the
+// curve; the right button opens a menu.
 class KeyRows {
  public:
+  // In screen pixels.
   [[nodiscard]] static float row_height();
 
-  // At the cursor, one row below the other.
+  // At the cursor, one row below the other; takes the mouse on them.
   void draw(const ViewContext& context, const TimelineStrip& strip);
 
  private:
@@ -21,7 +24,9 @@ class KeyRows {
   struct Held {
     int intruder = 0;
     int waypoint = 0;
-    double offset = 0;  // frames from the mouse to the key
+    // Frames from the mouse to the key.
+    double offset = 0;
+    // Of the key when it was pressed.
     double frame_before = 0;
     DragGesture gesture;
   };
@@ -30,21 +35,26 @@ class KeyRows {
     int intruder = 0;
     int waypoint = -1;
     double frame = 0;
-    double typed = 0;  // into "set frame"
+    // What is typed into "set frame".
+    double typed = 0;
   };
   struct Row;
 
   void draw_row(const ViewContext& context, const TimelineStrip& strip, int intruder);
+  // Notes where the keys are, for tests.
   static void probe_places(const ViewContext& context, const Row& row);
   void handle_mouse(const ViewContext& context, const Row& row);
   void drag(const ViewContext& context, const Row& row);
+  // Goes on with the drag of the held key; drops it after Escape or another change of the project.
   void hold(const ViewContext& context, const Row& row);
+  // under: the waypoint below the mouse, -1: none.
   void open_menu(const ViewContext& context, const Row& row, int under);
   void draw_menu(const ViewContext& context);
   void draw_key_menu(const ViewContext& context);
 
   std::optional<Held> held_;
   Menu menu_;
+  // The menu is to be opened in this update.
   bool menu_asked_ = false;
 };
 

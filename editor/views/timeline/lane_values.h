@@ -14,7 +14,8 @@
 
 namespace sigs::editor {
 
-enum class Scaling { linear, logarithmic };  // logarithmic: by log(1 + value), so that 0 has a place
+// logarithmic: by log(1 + value), so that 0 has a place; negative values count as 0.
+enum class Scaling { linear, logarithmic };
 
 // Which values a lane shows from its lower to its upper edge.
 struct LaneScale {
@@ -22,7 +23,7 @@ struct LaneScale {
   double high = 1;
   Scaling scaling = Scaling::linear;
 
-  // 0 at low, 1 at high, clamped to them.
+  // Height of a value: 0 at low, 1 at high, clamped to them; 0.5 where low and high are equal.
   [[nodiscard]] double share_of(double value) const;
 };
 
@@ -43,37 +44,45 @@ using Polyline = std::vector<glm::vec2>;
 [[nodiscard]] std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, const TimeRuler& ruler,
                                              const LaneScale& scale, const LaneBox& box);
 
-// What the timeline shows of the current intruder from frame to frame.
+// What the timeline shows of the current intruder from frame to frame. distance in metres, size in pixels, speed and
+// climb in m/s, load in g.
 enum class Lane { visibility_state, distance, size, speed, load, climb };
 inline constexpr int kLanes = 6;
 
-// Words, colours and limits of a lane.
+// Words, colours and limits of a lane. The texts are literals.
 struct LaneStyle {
   const char* title;
   const char* help;
   ImU32 color;
-  double min_span;  // of the scale: what varies less looks level
+  // Of the scale, in the lane's unit: what varies less looks level.
+  double min_span;
   Scaling scaling;
-  std::optional<double> reference;  // a line at a value that means something
+  // A line at a value that means something: level flight, no climb.
+  std::optional<double> reference;
 };
 [[nodiscard]] const LaneStyle& style_of(Lane lane);
 
-// Values of all frames of a survey, and how they are shown. None for visibility_states, which are no numbers.
+// Values of all frames of a survey, and how they are shown. Without values for Lane::visibility_state, whose states are
+// no numbers.
 struct LaneValues {
   std::vector<double> values;
   LaneScale scale;
+  // Of the finite values; 0 where there is none.
   double minimum = 0;
   double maximum = 0;
 };
-// Not for visibility_states; i counts the survey's frames.
+// Not for Lane::visibility_state; i is an index of the survey's frames. NaN: nothing of it is in the image, so it has
+// no size.
 [[nodiscard]] double value_in(const Survey& survey, Lane lane, std::size_t i);
 [[nodiscard]] LaneValues values_of(const Survey& survey, Lane lane);
 
-// "933 m", "13.4 px", "+2.1 m/s".
+// "933 m", "13.4 px", "+2.1 m/s"; "-" for what is not finite.
 [[nodiscard]] std::string value_text(Lane lane, double value);
 
+// Whether a fault of the flight is marked in this lane.
 [[nodiscard]] bool belongs_to(FlightFault fault, Lane lane);
 
+// "in view", "partly hidden", ... as the views write it, and its colour.
 [[nodiscard]] const char* name_of(VisibilityState visibility_state);
 [[nodiscard]] ImU32 color_of(VisibilityState visibility_state);
 

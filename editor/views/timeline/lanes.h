@@ -14,20 +14,24 @@ namespace sigs::editor {
 // well trackers follow it, where their results are loaded. Pressing or dragging on a lane moves the playhead.
 class LaneRows {
  public:
-  // A button for choosing lanes, at the cursor.
+  // A button at the cursor, with a popup in which lanes are switched on and off.
   void draw_chooser(const ViewContext& context);
 
-  // At the cursor; room_px is how much height there is for all of them, which they take if they can use it.
+  // At the cursor. room_px is how much height there is for all of them, in screen pixels; curves take it between a
+  // minimum and a maximum height, so all may be higher than that and scroll. Drags move the playhead by `ruler`.
   void draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler);
 
  private:
   struct Row;
 
+  // Takes the values of another survey; null: none is known.
   void refresh(std::shared_ptr<const Survey> survey);
   [[nodiscard]] bool shows_errors(const ViewContext& context) const;
+  // Of one curve, in screen pixels.
   [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
   void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const;
 
+  // By Lane.
   std::array<bool, kLanes> shown_{true, true, true, true, false, false};
   bool shows_errors_ = true;  // where there are any
   ErrorLane errors_;

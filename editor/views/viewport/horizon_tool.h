@@ -19,8 +19,10 @@ class HorizonTool {
  public:
   // For a press of the left button. True: the line was under the mouse and may be dragged.
   bool press(const ToolContext& tool);
+  // Each update while it is active and the button is down. A change of the project by anything else ends it.
   void drag(const ToolContext& tool);
   void release(const ViewContext& context);
+  // Between a press on the line and release() or Escape.
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
 
   // The part of the line that is dragged or, if none is, under the mouse.
@@ -30,8 +32,10 @@ class HorizonTool {
   void draw(const ToolContext& tool, bool highlighted, LabelPlacer& labels) const;
 
  private:
+  // The drag that lasts.
   struct Taken {
     HorizonPart part = HorizonPart::middle;
+    // Of the camera when the drag began.
     HorizonTilt start;
     glm::dvec2 pivot_px{0, 0};   // of the image
     glm::dvec2 offset_px{0, 0};  // from the mouse to the line

@@ -11,9 +11,10 @@
 
 namespace sigs::editor {
 
-enum class ImageGrid { none, thirds, eighths };  // eighths: 8 x 6 fields
+// Lines across the image: thirds are 3 x 3 fields, eighths 8 x 6.
+enum class ImageGrid { none, thirds, eighths };
 
-// What is drawn over the image.
+// What is drawn over the image; the toolbar's buttons switch it. Not part of the project.
 struct OverlayChoice {
   bool box = true;
   bool path = true;
@@ -26,30 +27,35 @@ struct OverlayChoice {
 // The own body's mask as a tint, made once for each mask.
 class OwnBodyTint {
  public:
+  // own_body: CV_32FC1, 0..1, of the image's size; draws nothing where it is empty.
   void draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& own_body);
 
  private:
-  cv::Mat made_for_;  // CV_32FC1; kept, so that its address stays its own
+  // CV_32FC1; kept, so that its address stays its own.
+  cv::Mat made_for_;
   cv::Mat tint_;
 };
 
 void draw_image_grid(const ImageCanvas& canvas, ImageGrid grid);
 
-// The boxes of an image's truth: of what is visible solid, of the whole silhouette dashed; name and distance.
+// The boxes of an image's truth: of what is visible solid, of the whole silhouette dashed; name and distance, and why
+// one is not visible.
 void draw_boxes(const ImageCanvas& canvas, const ViewContext& context, const PreviewImage& image, LabelPlacer& labels);
 
-// No label over the diamonds of the intruder that is worked on.
+// To be called before labels are placed: none may cover the diamonds of the intruder that is worked on.
 void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
                          LabelPlacer& labels);
 
-// Diamonds with the number of their frame; those of the intruder that is worked on larger.
+// Diamonds with the number of their frame, open where the waypoint is of the frame that is shown; those of the intruder
+// that is worked on larger. Marks less than 3 px apart are thinned out, except for the selected one.
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
                     const FootageCamera& eye, LabelPlacer& labels);
 
-// The paths of all intruders, projected with the camera of one frame: pale before that frame, bright after it. The
-// polylines are computed again only when the scene or the frame has changed.
+// The paths of all intruders over the scene's range, projected with the camera of one frame: pale before that frame,
+// bright after it. The polylines are computed again only when the scene or the frame has changed.
 class PathOverlay {
  public:
+  // Draws nothing while no scene is open.
   void draw(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye);
 
  private:
@@ -58,6 +64,7 @@ class PathOverlay {
     bool past = false;
     std::vector<PixelLine> lines;
   };
+  // Computes the polylines, in pixels of the image.
   void make(const Scene& scene, const FootageCamera& eye);
 
   std::uint64_t scene_ = 0;
@@ -65,7 +72,8 @@ class PathOverlay {
   std::vector<PathPiece> pieces_;
 };
 
-// The horizon of a flat earth through the camera's lens, as a line over the image.
+// The horizon of a flat earth through the camera's lens, as a line over the image; nothing where the image does not
+// show it.
 void draw_horizon(const ImageCanvas& canvas, const FootageCamera& eye);
 
 }  // namespace sigs::editor

@@ -13,9 +13,11 @@ class ViewportWipe {
   [[nodiscard]] bool is_on() const { return on_; }
   void toggle() { on_ = !on_; }
 
-  // Whether a press there takes hold of the line.
+  // Whether a press there takes hold of the line. Points are on the screen.
   [[nodiscard]] bool is_at(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  // Whether the untouched footage is shown there, while it is on.
   [[nodiscard]] bool is_left_of_line(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  // Moves the line to the mouse, but not out of sight.
   void drag_to(const ImageCanvas& canvas, const glm::dvec2& mouse);
 
   // The footage over the image; asks for it in the context's needs.
@@ -26,17 +28,18 @@ class ViewportWipe {
   [[nodiscard]] double line_x(const ImageCanvas& canvas) const;
 
   bool on_ = false;
-  double share_ = 0.5;  // of the rect's width
+  // Where the line is, of the width of the canvas: it stays there while the image is zoomed and panned.
+  double share_ = 0.5;
 };
 
-// What the toolbar above the image switches.
+// What the toolbar above the image switches; it is changed while drawing.
 struct ViewportSwitches {
   OverlayChoice& overlays;
   ViewportWipe& wipe;
   ZoomableImage& look;
 };
 
-// One row: labels where they have room, else icons alone; what has no room at all is left out.
+// One row: labels where they have room, else icons alone; what still has no room is in a popup at the end of the row.
 void draw_viewport_toolbar(const ViewportSwitches& switches);
 
 }  // namespace sigs::editor

@@ -18,29 +18,38 @@ namespace sigs::editor {
 // WaypointTool, which puts changes of the project into context.edits; the frame that is shown comes in context.shown.
 class ViewportView {
  public:
-  // Into what is left of the current ImGui window.
+  // Once per update, into what is left of the current ImGui window: toolbar, image, readout.
   void draw(const ViewContext& context);
 
   // Switches the horizon's line on, so that it can be dragged.
   void show_horizon() { overlays_.horizon = true; }
 
  private:
-  // What the mouse holds since its press: the wipe's line, a waypoint or intruder, the horizon, or the image itself.
+  // What the mouse holds since its press: nothing, the wipe's line, a waypoint or intruder, the horizon, or the image
+  // itself, which is panned.
   enum class Grip { nothing, line, waypoint, horizon, ground };
 
+  // The image and all over it, in `rect` of the screen. `tool` below is null while no scene is open.
   void draw_canvas(const ViewContext& context, const ScreenRect& rect);
+  // A line of text while there is no image yet.
   void draw_opening(const ScreenRect& rect, const ViewContext& context) const;
+  // Goes on with what the mouse holds, or lets it go.
   void handle_mouse(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
+  // What a press of the left button takes, save for the wipe's line; the tool that it belongs to begins its drag.
   [[nodiscard]] Grip grip_of_press(const ToolContext* tool);
   void handle_press(const ImageCanvas& canvas, const ToolContext* tool);
+  // Adds a waypoint where that is possible, else fits the image.
   void handle_double_click(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
+  // The menu of the right button, for what was under the mouse when it opened.
   void draw_menu(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
   void draw_waypoint_menu(const ViewContext& context);
   void draw_image_menu(const ViewContext& context, const ToolContext* tool);
+  // The composited image, and the untouched footage over it where the wipe says so.
   void draw_image_layers(const ViewContext& context, const ImageCanvas& canvas);
   void draw_overlays(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool,
                      std::span<const WaypointMark> marks);
 
+  // Zoom and place of the image.
   ZoomableImage look_;
   OverlayChoice overlays_;
   OwnBodyTint own_body_;
@@ -52,11 +61,16 @@ class ViewportView {
   ProblemBanner banner_;
 
   bool hovered_ = false;
-  bool footage_alone_ = false;  // while its key is held
-  bool over_footage_ = false;   // what the mouse is at is not composited
+  // The key that shows the footage alone is held.
+  bool footage_alone_ = false;
+  // What the mouse is at is the untouched footage.
+  bool over_footage_ = false;
   Grip grip_ = Grip::nothing;
+  // Where the mouse was pressed, on the screen.
   glm::dvec2 grip_mouse_{0, 0};
-  std::optional<cv::Point> pixel_;  // under the mouse
+  // Under the mouse; none: beside the image.
+  std::optional<cv::Point> pixel_;
+  // What the menu was opened on: a waypoint, an intruder by its index in the project, and the pixel of the image.
   std::optional<WaypointMark> menu_waypoint_;
   std::optional<int> menu_intruder_;
   glm::dvec2 menu_pixel_{0, 0};

@@ -14,37 +14,45 @@
 
 namespace sigs::editor {
 
-// The footage's camera in one frame, with the lens that the images are made through.
+// The footage's camera in one frame, with the lens that the images are made through. Overlays are projected by it, so
+// they lie where compositing puts the intruders.
 struct FootageCamera {
   int frame = 0;
   CameraPose world_from_camera;
   Lens lens;
 
+  // From the camera.
   [[nodiscard]] double distance_m(const glm::dvec3& p_in_world) const {
     return glm::distance(p_in_world, world_from_camera.translation_m);
   }
 };
 
-// The camera of a frame in the newest scene that is open; nothing while no scene is open. For the `plain` method, which
-// ignores the lens, it is a pinhole camera with the same intrinsics.
+// The camera of a frame (of the footage, from 0) in the newest scene that is open; nothing while no scene is open. For
+// the `plain` method, which ignores the lens, it is a pinhole camera with the same intrinsics.
 [[nodiscard]] std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int frame);
 
 // A waypoint projected into the image of that camera. In the waypoint's own frame its pixel is where the intruder is.
+// The indices count in the project.
 struct WaypointMark {
   int intruder = 0;
   int waypoint = 0;
-  double frame = 0;                // the waypoint's moment; not whole where frames are spread evenly
-  glm::dvec3 position_m{0, 0, 0};  // in the world
-  glm::dvec2 pixel{0, 0};          // of the image, pixel centres at whole numbers
+  // The waypoint's moment; not whole where frames are spread evenly.
+  double frame = 0;
+  // In the world.
+  glm::dvec3 position_m{0, 0, 0};
+  // Of the image, pixel centres at whole numbers. It may lie outside of the image.
+  glm::dvec2 pixel{0, 0};
 };
 
 // Marks of all waypoints of all intruders of the document's project; waypoints that the lens does not image are left
 // out. The marks are computed again only when the project, the scene or the frame has changed.
 class WaypointMarks {
  public:
+  // Valid until the next call.
   [[nodiscard]] const std::vector<WaypointMark>& of(const ViewContext& context, const FootageCamera& eye);
 
  private:
+  // Revision of the document and of the scene, and the frame, that the marks are of.
   struct MadeFor {
     std::uint64_t document = 0;
     std::uint64_t scene = 0;
@@ -55,13 +63,14 @@ class WaypointMarks {
   std::vector<WaypointMark> marks_;
 };
 
-// What the waypoint tool works with in one update.
+// What the waypoint tool and the horizon tool work with in one update; valid for that update.
 struct ToolContext {
   const ViewContext& context;
   const ImageCanvas& canvas;
   const FootageCamera& eye;
   std::span<const WaypointMark> marks;
-  glm::dvec2 mouse{0, 0};  // on the screen
+  // On the screen.
+  glm::dvec2 mouse{0, 0};
 };
 
 // The waypoint within 9 px of the mouse (where text is 15 px high): the selected one if it is there, else the nearest;
@@ -87,6 +96,7 @@ class WaypointTool {
   void release(const ViewContext& context);
   // Once per update, before the other calls: after Escape, selects what was dragged again.
   void select_again(const ViewContext& context);
+  // Between a press on a waypoint or an intruder and its release, Escape or loss.
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
 
   // While something is dragged: its distance from the camera and how far it was moved, beside the mouse.

@@ -40,13 +40,16 @@ struct WorldTick {
   glm::dvec3 next_m{0, 0, 0};
 };
 
-// An intruder's path through the world, over the range and as far as its waypoints go.
+// An intruder's path through the world, over the range and as far as its waypoints go. Parameters are frames of the
+// footage.
 struct WorldCurve {
-  int intruder = 0;      // of the project
+  // Index in the project.
+  int intruder = 0;
   CurveSamples samples;  // by frame
   double range_first = 0;
   double range_last = 0;
-  std::vector<WorldTick> ticks;  // each tick_step_s of the range
+  // One each tick_step_s of the range.
+  std::vector<WorldTick> ticks;
   double tick_step_s = 1;
 };
 
@@ -57,22 +60,24 @@ struct ImageBorder {
   std::vector<std::size_t> corners;  // which of them are the image's corners
 };
 
-// What takes some time to find out of an opened scene, found once for each.
+// What takes some time to find out of an opened scene, found once for each. revision is the scene's; 0: no scene yet.
 struct WorldModel {
   std::uint64_t revision = 0;
   std::vector<WorldCurve> curves;
   ImageBorder border;
-  double farthest_m = 0;  // of all intruders from the camera, over the range; 0: there is none
+  // Distance of the farthest intruder from the camera, over the range; 0: there is none.
+  double farthest_m = 0;
 };
 [[nodiscard]] WorldModel world_model(const OpenedScene& opened);
 [[nodiscard]] ImageBorder image_border(const Camera& camera);
 
-// The playhead's moment. The camera is the document's own, so that it does not lag behind a drag.
+// An aircraft at the playhead's moment. Those of the scene that is open: without one there are none.
 struct WorldBody {
   int intruder = 0;  // of the project
   Pose<frame::World, frame::Body> world_from_body;
   std::shared_ptr<const Model> model;
 };
+// The playhead's moment. The camera is the document's own, so that it does not lag behind a drag.
 struct WorldMoment {
   double time_s = 0;
   CameraPose world_from_camera;
@@ -80,10 +85,10 @@ struct WorldMoment {
 };
 [[nodiscard]] WorldMoment world_moment(const ViewContext& context);
 
-// By the document's settings, with what carries the camera level.
+// The camera by the document's settings, with what carries the camera level (an attitude file does not count).
 [[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
 
-// Of a frame, by the footage where it is known, else by 25 frames a second.
+// Time of a frame in seconds, by the footage where it is known, else by 25 frames a second.
 [[nodiscard]] double time_of(const ViewContext& context, double frame);
 
 // Everything near that should be in sight when a project is first shown: camera, trajectories within the range,

@@ -15,7 +15,8 @@ class WorldMenu {
  public:
   // place_m: where a new waypoint would be, in the world; nothing where the mouse is beside the plane for waypoints.
   void open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m);
-  // Once per update. Returns what the user wants to type a position for, in the update in which that is chosen.
+  // Once per update. Returns what the user wants to type a position for, in the update in which that is chosen; what
+  // else is chosen goes into the context's edits.
   [[nodiscard]] std::optional<Selection> draw(const WorldContext& world);
 
  private:
@@ -24,6 +25,7 @@ class WorldMenu {
   [[nodiscard]] std::optional<Selection> draw_items(const WorldContext& world) const;
 
   State state_ = State::closed;
+  // What was under the mouse when it was opened.
   WorldPick pick_;
   std::optional<glm::dvec3> place_m_;
 };
@@ -40,32 +42,43 @@ class WorldTools {
   // After the world: draws the handle, the field for typed coordinates and the menu.
   void draw(WorldCanvas& canvas, const WorldContext& world, const WorldViewState& look);
 
+  // What is under the mouse while nothing is held; the views draw it highlighted.
   [[nodiscard]] const WorldPick& hovered() const { return hovered_; }
+  // Whether the project's camera is being dragged.
   [[nodiscard]] bool moves_camera() const { return handle_.dragging() && dragged_.kind == Selected::camera; }
 
  private:
+  // What a press beside the handle has become: orbiting or panning the view, or a menu when it is let go.
   enum class Holding { nothing, orbit, pan, menu };
 
+  // Lets the handle of what is selected take the mouse, and moves that point.
   void move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   void begin_drag(const WorldContext& world, const Movable& moved);
+  // A press on a waypoint: selects it and begins a drag in the plane of the screen.
   void take_waypoint(const WorldContext& world, const Movable& waypoint);
   void press(const WorldContext& world, const WorldCanvas& canvas);
   void hold(const ScreenRect& rect, WorldViewState& look);
   void release(const WorldContext& world, const WorldCanvas& canvas);
+  // Goes to the frame of the selected waypoint.
   void handle_double_click(const WorldContext& world);
+  // Opens the field for typed coordinates, where `what` can be moved.
   void enter_position(const WorldContext& world, const Selection& what);
   void draw_entry(const WorldContext& world);
   void draw_readout(WorldCanvas& canvas, const Movable& moved, double snap_m) const;
 
   GizmoHandle handle_;
-  Selection dragged_;  // what the handle moves
+  // What the handle moves while it is dragged.
+  Selection dragged_;
   DragGesture gesture_;
-  std::optional<glm::dvec3> moved_to_;  // in this update
+  // Where it was moved to in this update, in the world: the document has it only in the next.
+  std::optional<glm::dvec3> moved_to_;
   PointEntry entry_;
-  Selection entered_;  // what a position is typed for
+  // What a position is typed for.
+  Selection entered_;
   WorldMenu menu_;
   Holding holding_ = Holding::nothing;
-  double held_px_ = 0;  // how far the mouse has gone since the press
+  // How far the mouse has gone since the press, in screen pixels: a short way is a click.
+  double held_px_ = 0;
   WorldPick hovered_;
 };
 

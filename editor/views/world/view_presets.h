@@ -9,21 +9,27 @@
 
 namespace sigs::editor {
 
+// Where the world view looks from: from behind and above, straight from above, from the right-hand side, or from behind
+// the project's camera.
 enum class WorldViewPreset { orbit, top, side, camera };
 
-// The camera of the world view and its switches.
+// The camera of the world view and its switches. Not part of the project.
 struct WorldViewState {
   OrbitCamera eye;
   WorldViewPreset preset = WorldViewPreset::orbit;
-  bool snap = false;     // Ctrl turns it round
-  bool touched = false;  // the user has moved the camera since the project was opened
+  // Drags go in round steps; holding Ctrl turns it round.
+  bool snap = false;
+  // The user has moved the camera since the project was opened: it is not framed anew by itself.
+  bool touched = false;
 };
 
 // What a preset is taken from.
 struct WorldViewTargets {
-  std::span<const glm::dvec3> points_m;  // to have in sight
+  // What is to be in sight, in the world.
+  std::span<const glm::dvec3> points_m;
   CameraPose world_from_camera;
-  double view_depth_m = 200;  // how far the camera's field of view is drawn
+  // How far the camera's field of view is drawn.
+  double view_depth_m = 200;
 };
 
 // From behind, above or the right-hand side with all points in sight; or from behind the camera, looking as it does.
@@ -40,7 +46,7 @@ struct WorldToolbarResult {
   bool frame_all = false;
 };
 
-// One row over the world view.
+// One row over the world view, at the cursor.
 [[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look);
 
 }  // namespace sigs::editor
