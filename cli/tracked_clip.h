@@ -10,7 +10,6 @@
 #include "cli/options.h"
 #include "evaluation/results.h"
 #include "evaluation/track_score.h"
-#include "options.h"
 
 namespace sigs::cli {
 

@@ -28,8 +28,6 @@ class ProjectLoader {
 
   // Begins to read a file; take() gives the result once it is there.
   void start(std::filesystem::path path);
-  // Forgets the request; its result is dropped.
-  void drop() { pending_.reset(); }
   // Absolute path of the file that is being read; "" while none is.
   [[nodiscard]] std::filesystem::path path() const;
   // The result, once; none while the file is being read.

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kNames{{
     {"compositing.blur_px_per_m", "Blur with distance"},
     {"export.video.crf", "Quality (crf)"},
     {"export.video.codec", "Codec"},
@@ -25,7 +25,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kNames{{
     {"own_body.every", "Every nth"},
     {"own_body.settled_percent", "Settled below"},
     {"own_body.stable.vibration_px", "Vibration"},
-    {"own_body.stable.least_moving_percent", "Least that moves"},
+    {"own_body.paper.least_area_percent", "Min area"},
+    {"own_body.stable.least_area_percent", "Min area"},
+    {"own_body.stable.least_moving_percent", "Min moving"},
     {"footage.calibration", "Calibration"},
 }};
 

@@ -146,6 +146,7 @@ class BackgroundJob {
     const std::lock_guard lock(mutex_);
     if (!state_.is_running()) {
       state_ = {};
+      rate_ = {};
       return;
     }
     cancel_ = true;
@@ -206,6 +207,7 @@ class BackgroundJob {
     const std::lock_guard lock(mutex_);
     if (forget_) {
       state_ = {};
+      rate_ = {};
       return;
     }
     state_.is_stopping = false;

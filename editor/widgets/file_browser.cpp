@@ -171,8 +171,8 @@ void FileBrowser::make_folder() {
 void FileBrowser::go_to_text(const std::string& text) {
   editing_path_ = false;
   if (text.empty()) return;
-  fs::path path =
-      text.starts_with("~") ? home() / fs::path(text.substr(std::min<std::size_t>(2, text.size()))) : folder_ / text;
+  const bool is_in_home = text == "~" || text.starts_with("~/");  // "~name" is an ordinary name
+  fs::path path = is_in_home ? home() / fs::path(text.substr(std::min<std::size_t>(2, text.size()))) : folder_ / text;
   path = path.lexically_normal();
   std::error_code code;
   if (is_folder(path)) {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kMinDistance_m = 1;
 constexpr double kMaxDistance_m = 1e7;
-constexpr double kUsualDistance_m = 4000;  // where the light has with_preset at the camera itself
+constexpr double kUsualDistance_m = 4000;  // of the light, where it is at the camera itself
 
 struct Preset {
   const char* label;
@@ -121,7 +121,7 @@ void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
     return look;
   });
   ImGui::Spacing();
-  note("As viewpoint from the camera");
+  note("As seen from the camera");
   const Viewpoint viewpoint = viewpoint_of(context);
   draw_direction(context, rows, viewpoint);
   draw_presets(context, viewpoint);

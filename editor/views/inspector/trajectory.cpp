@@ -137,7 +137,7 @@ void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intrud
   const Survey& survey = *surveys[index];
   measure(surveys[index]);
   note_row(rows, "Speed", tenths(speed_mps_.minimum) + " to " + tenths(speed_mps_.maximum) + " m/s",
-           "Least and maximum");
+           "Minimum and maximum");
   note_row(rows, "Load factor", tenths(load_.minimum, 0.01) + " to " + tenths(load_.maximum, 0.01) + " g",
            "Lift by weight; 1 in level flight");
   note_row(rows, "Climb", tenths(climb_mps_.minimum) + " to " + tenths(climb_mps_.maximum) + " m/s", "Up is positive");

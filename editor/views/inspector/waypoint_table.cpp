@@ -121,7 +121,7 @@ void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypo
   if (is_selected) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, color::kAccentSoft);
   ImGui::TableSetColumnIndex(0);
   ImGui::AlignTextToFramePadding();
-  const std::string number = std::to_string(waypoint);
+  const std::string number = std::to_string(waypoint + 1);  // as on the timeline and in menus
   if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
   if (ImGui::Selectable(number.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) {
     context.edits.select({Selected::waypoint, intruder, waypoint});

@@ -93,13 +93,13 @@ void StagesView::forget() {
   differences_ = {};
 }
 
-const PreviewImage* StagesView::frames_checked(const ViewContext& context) const {
+const PreviewImage* StagesView::image_with_stages(const ViewContext& context) const {
   const bool other = look_ != Mode::against_method && other_method(context) != own_method(context);
   return other ? compared_.get() : staged_.get();
 }
 
 std::vector<int> StagesView::choices(const ViewContext& context) const {
-  const PreviewImage* const image = frames_checked(context);
+  const PreviewImage* const image = image_with_stages(context);
   return image != nullptr ? intruders_of(image->stages) : std::vector<int>();
 }
 
@@ -138,7 +138,7 @@ std::vector<StageTile> StagesView::method_tiles(const ViewContext& context) {
 
 std::vector<StageTile> StagesView::tiles(const ViewContext& context) {
   if (look_ == Mode::against_method) return method_tiles(context);
-  const PreviewImage* const image = frames_checked(context);
+  const PreviewImage* const image = image_with_stages(context);
   if (image == nullptr) return {};
   if (look_ == Mode::against_input) return input_tiles(*image);
   std::vector<StageTile> made = stage_tiles(image->stages, intruder(context));
@@ -200,7 +200,7 @@ void StagesView::draw_gain() {
 }
 
 void StagesView::zoom_to_intruder(const ViewContext& context) {
-  const PreviewImage* const image = frames_checked(context);
+  const PreviewImage* const image = image_with_stages(context);
   if (image == nullptr) return;
   const std::optional<int> chosen = intruder(context);
   for (const IntruderTruth& truth : image->truth.intruders) {
@@ -235,7 +235,7 @@ void StagesView::draw_toolbar_of(const ViewContext& context) {
 }
 
 void StagesView::draw_notice(const ViewContext& context, const ScreenRect& rect) const {
-  const PreviewImage* const image = frames_checked(context);
+  const PreviewImage* const image = image_with_stages(context);
   std::string text;
   if (image == nullptr)
     text = context.shown.scene ? "Making the stages..." : "Opening the project...";
@@ -259,7 +259,7 @@ void StagesView::draw(const ViewContext& context) {
   const glm::dvec2 low = glm::round(dv(ImGui::GetCursorScreenPos()));
   const ScreenRect rect{low, low + glm::max(glm::floor(dv(ImGui::GetContentRegionAvail())), 1.0)};
   const std::vector<StageTile> shown = tiles(context);
-  const PreviewImage* const image = frames_checked(context);
+  const PreviewImage* const image = image_with_stages(context);
   if (!shown.empty() && grid_.handle_escape()) context.needs.own_escape = true;
   if (!shown.empty() && image != nullptr) grid_.draw(shown, image->bgr.size(), rect, context.textures);
   draw_notice(context, rect);

@@ -42,7 +42,7 @@ class StagesView {
   // The method that is looked at, or compared with; never the project's own where two are compared.
   [[nodiscard]] MethodChoice other_method(const ViewContext& context) const;
   // The image whose stages are shown: by the project's own method, or by the other one. Null: not there yet.
-  [[nodiscard]] const PreviewImage* frames_checked(const ViewContext& context) const;
+  [[nodiscard]] const PreviewImage* image_with_stages(const ViewContext& context) const;
   // Numbers, in the scene, of the intruders that have stages in that image.
   [[nodiscard]] std::vector<int> choices(const ViewContext& context) const;
   // The one whose stages are shown: the chosen one, else the one that is worked on, else the first; none where no

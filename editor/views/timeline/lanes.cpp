@@ -219,7 +219,7 @@ void draw_hover(ImDrawList& list, const LaneMarks& marks, int frame) {
   draw_label(list, marks, x, marks.top_y + marks.height / 2, color::kText, text + " at " + std::to_string(frame));
 }
 
-// Once the mouse has rested: over visibility_states all that is known of a frame, over curves why it is flagged.
+// Once the mouse has rested: over the lane of visibility all that is known of a frame, over curves why it is flagged.
 void tooltip_for_lanes(const ViewContext& context, const LaneMarks& marks, int frame) {
   const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
   if (!index || !item_wants_tooltip()) return;

@@ -45,7 +45,7 @@ class EditorDriver {
   [[nodiscard]] bool running();     // false once the program has ended
   [[nodiscard]] int exit_status();  // waits for the end
 
-  // What the editor tells (editor/app/probe_writer.h), as of now.
+  // What the editor tells (editor/app/app.h), as of now.
   [[nodiscard]] nlohmann::json state() const;
   [[nodiscard]] bool has_place(const std::string& name) const;
   [[nodiscard]] ScreenPlace place(const std::string& name);  // waits for it
