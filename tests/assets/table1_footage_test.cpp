@@ -103,7 +103,7 @@ TEST_CASE("the vibration is known for every frame, has no mean, and is strongest
   CHECK(yaw.rms > 1.5 * pitch.rms);
 }
 
-TEST_CASE("the vibrating image moves as its attitude file says") {
+TEST_CASE("the vibrating image moves as its attitude file states") {
   const Camera lens = camera();
   const std::vector<AttitudeAtFrame> all = attitudes();
   FrameSource source = opened("table1_vibration");
@@ -126,7 +126,7 @@ TEST_CASE("the vibrating image moves as its attitude file says") {
   CHECK(farthest_px > 4);
 }
 
-TEST_CASE("the calm clips tremble by a pixel or two at most") {
+TEST_CASE("the clips without vibration shake by a pixel or two at most") {
   for (const char* const clip : {"table1_clouds", "table1_clear"}) {
     CAPTURE(clip);
     FrameSource source = opened(clip);

@@ -96,7 +96,7 @@ TEST_CASE("no YAML that OpenCV reads is nested deeper than computed") {
   CHECK(deepest >= 6);
 }
 
-TEST_CASE("what OpenCV writes is nested as deep as computed or a level less") {
+TEST_CASE("a file that OpenCV writes is nested as deep as computed or a level less") {
   for (int depth = 1; depth < 30; ++depth)
     for (const int style : {0, int(cv::FileNode::FLOW)}) {
       cv::FileStorage out(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);

@@ -107,7 +107,7 @@ TEST_CASE("killed at ten moments and resumed, a dataset is what an uninterrupted
   CHECK_FALSE(fs::exists(recipe.out("killed") + "/.part"));
 }
 
-TEST_CASE("stopped by the user, a dataset ends with 130 and keeps what is finished") {
+TEST_CASE("stopped by the user, a dataset exits with status 130 and keeps the finished videos") {
   const TinyRecipe recipe(300);
   const pid_t child = started(recipe, "out", "--resume");
   while (!fs::exists(recipe.out("out") + "/red LR")) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -44,7 +44,7 @@ TEST_CASE("without an attitude the side of the horizon is unknown in every forma
   check_unknown(labels_of(tiny));
 }
 
-TEST_CASE("an attitude that is set, in the file or for once, tells the side of the horizon") {
+TEST_CASE("an attitude set in the file or on the command line determines the side of the horizon") {
   TinyProject tiny;
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.pitch=0").xml, "horizon=\"on\""));
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.roll=0").xml, "horizon=\"on\""));
@@ -60,7 +60,7 @@ TEST_CASE("an attitude that is set, in the file or for once, tells the side of t
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.pitch=null").xml, "horizon=\"unknown\""));
 }
 
-TEST_CASE("an attitude file tells the side of the horizon") {
+TEST_CASE("an attitude file determines the side of the horizon") {
   TinyProject tiny;
   put_text(tiny.file("turns.csv"), "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n9,1,1,0\n");
   tiny.change(R"("intruders")", R"("camera": {"attitude_file": "turns.csv"}, "intruders")");

@@ -112,7 +112,7 @@ TEST_CASE("one renaming that fails leaves no new result either") {
   }
 }
 
-TEST_CASE("signals wait while outputs get their names") {
+TEST_CASE("signals are deferred while outputs get their final names") {
   const Exported exported;
   for (int number = 1; number <= 12; ++number) {
     const Run run = run_sigs_with_fault("SIGS_TEST_TERM_AT=" + std::to_string(number), exported.replacing());
@@ -125,7 +125,7 @@ TEST_CASE("signals wait while outputs get their names") {
   }
 }
 
-TEST_CASE("file systems without flags of rename or without locks are written to all the same") {
+TEST_CASE("outputs are written to file systems without rename flags or without locks too") {
   for (const std::string& fault :
        {std::string(kNoFlags), "SIGS_TEST_FLOCK=" + std::to_string(ENOLCK), "SIGS_TEST_FLOCK=" + std::to_string(ENOSYS),
         "SIGS_TEST_FLOCK=" + std::to_string(EOPNOTSUPP), "SIGS_TEST_FLOCK=" + std::to_string(EINVAL)}) {
@@ -152,7 +152,7 @@ TEST_CASE("file systems without flags of rename or without locks are written to 
   }
 }
 
-TEST_CASE("a video of a dataset that cannot get its name leaves the older one in its place") {
+TEST_CASE("a dataset's video that cannot be renamed leaves the older one in place") {
   const TinyRecipe recipe;
   REQUIRE(recipe.run("out").status == 0);
   const auto video = [&] { return contents_of(fs::path(recipe.out("out")) / "red LR"); };

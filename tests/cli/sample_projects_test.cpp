@@ -21,7 +21,7 @@ bool is_recipe(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("every sample project is whole and exports, every sample recipe makes a plan") {
+TEST_CASE("every sample project is complete and exports, every sample recipe makes a plan") {
   const TemporaryFolder folder;
   int projects = 0;
   int recipes = 0;

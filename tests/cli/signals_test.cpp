@@ -53,7 +53,7 @@ bool has_staging(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("SIGHUP, SIGINT and SIGTERM end with 128 and their number and leave no file") {
+TEST_CASE("SIGHUP, SIGINT and SIGTERM exit with status 128 plus their number and leave no file") {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
     const TinyProject tiny(3000);
     const pid_t child = started(tiny, 0);
@@ -82,7 +82,7 @@ TEST_CASE("what nohup starts goes on after SIGHUP") {
   CHECK(status_of(child) == 128 + SIGINT);
 }
 
-TEST_CASE("nobody who reads what is said is an error of writing, and the files are there") {
+TEST_CASE("output to a pipe without a reader is a write error, and the files exist") {
   const TinyProject tiny;
   const std::string status = tiny.file("status").string();
   const std::string command = "( sleep 0.2; " + (build_dir() / "sigs").string() + " export " + tiny.project() +
@@ -96,7 +96,7 @@ TEST_CASE("nobody who reads what is said is an error of writing, and the files a
   CHECK_FALSE(has_staging(tiny.out()));
 }
 
-TEST_CASE("with any number of files that may be open, an export is there whole or not at all") {
+TEST_CASE("with any limit of open files, an export is written whole or not at all") {
   int refused = 0;
   int done = 0;
   for (int most = 5; most <= 60; most += 2) {

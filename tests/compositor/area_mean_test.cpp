@@ -84,7 +84,7 @@ TEST_CASE("the mean over a quadrilateral weighs texels by the area they share wi
   }
 }
 
-TEST_CASE("quadrilaterals that tile a layer share out all of its energy, thin ones and slanted ones too") {
+TEST_CASE("quadrilaterals that tile a layer divide all of its energy, thin ones and slanted ones too") {
   const Layer layer = noise({40, 30}, 5);
   for (const double step : {1.0, 1.37, 2.0, 5.2, 11.0, 37.0, 400.0}) {
     CAPTURE(step);

@@ -81,7 +81,7 @@ TEST_CASE("blur of an empty layer is empty") {
   CHECK(blurred(Layer{}, 3).empty());
 }
 
-TEST_CASE("blur reaches three sigmas") {
+TEST_CASE("blur extends to three sigmas") {
   CHECK(blur_margin_px(0) == 0);
   CHECK(blur_margin_px(1e-6) == 1);
   CHECK(blur_margin_px(1) == 3);
@@ -149,7 +149,7 @@ TEST_CASE("an edge comes out as its light blurred before pixels average it") {
   CHECK(max_off(0.3) < 0.65 * (blurred_edge(0, 0.5, 0.3)));
 }
 
-TEST_CASE("a blur of next to nothing is none") {
+TEST_CASE("a negligible blur is no blur") {
   const Layer layer = cloudy_layer({-5, 7, 60, 50}, 1);
   for (const double sigma_px : {1e-300, 1e-9, 1e-6}) {
     CAPTURE(sigma_px);

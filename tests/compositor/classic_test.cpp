@@ -245,7 +245,7 @@ TEST_CASE("green comes out of the key as input 1 bit for bit") {
   }
 }
 
-TEST_CASE("the former method pastes without lens and blur") {
+TEST_CASE("the plain method composites without lens and blur") {
   const cv::Size size(200, 150);
   const cv::Mat input1 = textured(size);
   const cv::Mat input2 = green_screen(size);

@@ -101,7 +101,7 @@ TEST_CASE("a single texel keeps its energy wherever it lies") {
     }
 }
 
-TEST_CASE("a soft spot keeps its energy and lands with its middle where OpenCV throws it") {
+TEST_CASE("a soft spot keeps its energy and its centre is where OpenCV projects it") {
   for (const NamedCamera& named : distorting_cameras(kSize)) {
     CAPTURE(named.name);
     const Lens& lens = named.camera.lens;
@@ -239,7 +239,7 @@ TEST_CASE("the faces of a cube around the camera join without a seam") {
   }
 }
 
-TEST_CASE("what the view does not reach stays empty") {
+TEST_CASE("pixels outside the view stay empty") {
   const RenderedView drawn = view_ahead(even_layer({0, 0, 20, 20}, {1, 1, 1, 1}), 300, {9.5, 9.5});
   const Camera camera = pinhole(300, {160, 120});
   const Layer beside = warped(std::vector<RenderedView>{drawn}, camera, {0, 0, 100, 100});
@@ -262,7 +262,7 @@ TEST_CASE("pixels beyond the valid field of the lens stay empty") {
   CHECK(is_valid(out));
 }
 
-TEST_CASE("a table that is kept bends as one made for the layer") {
+TEST_CASE("a cached table warps as one made for the layer") {
   for (const NamedCamera& named : distorting_cameras(kSize)) {
     CAPTURE(named.name);
     LensTable table(named.camera);

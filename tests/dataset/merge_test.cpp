@@ -173,7 +173,7 @@ TEST_CASE("merged labels are the same whoever merges them, and go with the forma
   CHECK(fs::exists(made.labels() / "csv/train.csv"));
 }
 
-TEST_CASE("videos whose labels do not go together are refused before anything is made") {
+TEST_CASE("videos whose labels cannot be merged are refused before anything is made") {
   TinyPlan tiny(2);
   for (PlannedVideo& video : tiny.plan.videos) video.project.output.labels = {"coco"};
   tiny.plan.videos[1].project.output.categories = {"drone"};
@@ -193,7 +193,7 @@ TEST_CASE("videos whose labels do not go together are refused before anything is
   }
 }
 
-TEST_CASE("labels that are not as the program writes them are named, with the line") {
+TEST_CASE("labels that differ from the program's own format are reported, with the line") {
   const Labelled made({"coco", "aot"});
   for (const std::string file : {"v1.coco.json", "v1.aot.json"}) {
     CAPTURE(file);
@@ -217,7 +217,7 @@ TEST_CASE("labels that are not as the program writes them are named, with the li
 }
 
 // YAML readers take "\ud83d\ude00" for two halves of a letter; so do PyYAML and all that build on it.
-TEST_CASE("names with letters beyond the basic plane stand in YOLO's data.yaml as they are") {
+TEST_CASE("characters beyond the basic plane are unchanged in YOLO's data.yaml") {
   const TemporaryFolder folder;
   const std::string name = "clip \xF0\x9F\x98\x80 \"\xC3\xA9\"";
   fs::create_directories(folder / name / "v.yolo/labels/v");

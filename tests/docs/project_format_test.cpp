@@ -150,7 +150,7 @@ TEST_CASE("the project format's page describes every setting as the code does") 
   }
 }
 
-TEST_CASE("the project format's page describes no setting that there is not") {
+TEST_CASE("the project format's page describes no unknown setting") {
   const std::map<std::string, Row> in_code = rows_in_code();
   for (const auto& [key, row] : rows_on_page()) CHECK_MESSAGE(in_code.contains(key), key);
 }

@@ -119,7 +119,7 @@ TEST_CASE("the annotation file of the documentation is read as documented") {
   CHECK_FALSE(clip->targets[1].frames[0].visible);
 }
 
-TEST_CASE("an annotation file that is not what it should be is refused with its line") {
+TEST_CASE("an invalid annotation file is refused with its line") {
   const TemporaryFolder folder;
   const Result<std::string> good = read_text(written(folder));
   REQUIRE(good);

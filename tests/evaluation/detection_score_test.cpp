@@ -49,7 +49,7 @@ int encounters(const std::function<TargetFrame(int)>& target, int frames = 120, 
 
 }  // namespace
 
-TEST_CASE("extended overlap is the plain one where the truth has area enough") {
+TEST_CASE("extended overlap is the plain one where the truth is large enough") {
   CHECK(extended_overlap({0, 0, 10, 10}, {5, 0, 10, 10}, 100) == doctest::Approx(1.0 / 3).epsilon(1e-12));
   // A small report on a large truth stays small.
   CHECK(extended_overlap({0, 0, 20, 10}, {0, 0, 2, 1}, 100) == doctest::Approx(0.01).epsilon(1e-12));
@@ -67,7 +67,7 @@ TEST_CASE("extended overlap grows a small truth and the report on it about their
   CHECK(extended_overlap({0, 0, 2, 2}, {10.1, 0, 2, 2}, 100) == 0);
 }
 
-TEST_CASE("an encounter followed in good time is detected") {
+TEST_CASE("an encounter tracked early enough is detected") {
   const DetectionScore score = score_of(approach(), matched(30, 60));  // the 31 frames before 300 m is passed
   REQUIRE(score.encounters.size() == 1);
   const EncounterScore& encounter = score.encounters[0];
@@ -97,7 +97,7 @@ TEST_CASE("half the frames of the last window before 300 m are enough, one less 
   CHECK(is_detected(approach(), half));
 }
 
-TEST_CASE("what is late has a range and a time all the same") {
+TEST_CASE("a late detection has a range and a time all the same") {
   const DetectionScore score = score_of(approach(), matched(100, 119));
   CHECK_FALSE(score.encounters[0].is_detected);
   CHECK(*score.encounters[0].first_detection_range_m == 100);
@@ -105,7 +105,7 @@ TEST_CASE("what is late has a range and a time all the same") {
   CHECK(score.all.rate() == 0);
 }
 
-TEST_CASE("matches of different tracks do not add up to one that is followed") {
+TEST_CASE("matches of different tracks do not add up to one tracked intruder") {
   Results broken;
   for (int frame = 31; frame <= 60; ++frame) report(broken, frame, kTarget, frame);
   CHECK_FALSE(is_detected(approach(), broken));
@@ -152,7 +152,7 @@ TEST_CASE("a gap of three frames lies within an encounter, one of four ends it")
   CHECK(encounters(far_amid(4)) == 2);
 }
 
-TEST_CASE("frames of a gap are not asked for") {
+TEST_CASE("frames of a gap are not required") {
   const ClipTruth clip = clip_of(33, kRate_hz, [](int i) {
     return i >= 10 && i < 13 ? TargetFrame{.distance_m = 250} : visible_at(kTarget, 250);
   });
@@ -162,7 +162,7 @@ TEST_CASE("frames of a gap are not asked for") {
   CHECK(score_of(clip, {}).encounters[0].frames_visible == 30);
 }
 
-TEST_CASE("an encounter lasts three seconds or is none") {
+TEST_CASE("an encounter lasts at least three seconds") {
   const auto for_frames = [](int count) {
     return [count](int i) { return i < count ? visible_at(kTarget, 250) : TargetFrame{}; };
   };
@@ -189,7 +189,7 @@ TEST_CASE("times of six digits do not cost an encounter a frame, nor a window") 
   CHECK(is_detected(clip, matched(15, 29)));
 }
 
-TEST_CASE("what never comes near is not asked for, and is counted apart") {
+TEST_CASE("an intruder that stays beyond the range is not required, and is counted separately") {
   const ClipTruth clip = clip_of(60, kRate_hz, [](int) { return visible_at(kTarget, 331); });
   const DetectionScore score = score_of(clip, matched(0, 59));
   CHECK(score.all.encounters == 0);
@@ -247,7 +247,7 @@ TEST_CASE("false alarms are counted by track for the hour and by box for the fra
   CHECK(score.false_boxes_per_frame == doctest::Approx(14.0 / 120).epsilon(1e-12));
 }
 
-TEST_CASE("between a match and a false alarm lies what is neither") {
+TEST_CASE("some reports are neither a match nor a false alarm") {
   // Boxes 20 wide, shifted by d: overlap (20 - d) / (20 + d).
   const auto at_overlap = [](double overlap) {
     Results results;
@@ -273,7 +273,7 @@ TEST_CASE("a report where a hidden intruder is raises no false alarm, and detect
   CHECK(std::isnan(score.frame_detection_rate));
 }
 
-TEST_CASE("reports of a low score are as if they were not") {
+TEST_CASE("reports of a low score are ignored") {
   Results results = matched(0, 119);
   for (int frame = 0; frame < 60; ++frame) results.frames[frame][0].score = 0.3;
   report(results, 70, kElsewhere, 2, 0.3);
@@ -294,7 +294,7 @@ TEST_CASE("one report may match two intruders that are close together") {
   CHECK(score.frame_detection_rate == 0.5);
 }
 
-TEST_CASE("several clips add up, and their tracks are not each other's") {
+TEST_CASE("several clips add up, and their tracks are independent") {
   Results noisy = matched(30, 60);
   report(noisy, 0, kElsewhere, 7);
   Results silent;
@@ -312,7 +312,7 @@ TEST_CASE("several clips add up, and their tracks are not each other's") {
   CHECK(score.frame_detection_rate == doctest::Approx(31.0 / 300).epsilon(1e-12));
 }
 
-TEST_CASE("nothing has no rates") {
+TEST_CASE("without clips there are no rates") {
   for (const std::vector<DetectedClip>& clips :
        {std::vector<DetectedClip>{}, std::vector<DetectedClip>{{"empty", clip_of(0, 10, {}), {}}}}) {
     const DetectionScore score = score_detections("some", clips, {});

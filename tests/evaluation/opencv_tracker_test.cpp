@@ -153,7 +153,7 @@ TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or returns an e
     }
 }
 
-TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
+TEST_CASE("an exception of OpenCV becomes one line, and the other trackers continue") {
   TrackerGroup group = TrackerGroup::make({"medianflow", "mosse"}).value();
   group.start(0, square_image(0), square_box(0));
   group.follow(1, square_image(1));

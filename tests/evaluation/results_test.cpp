@@ -155,7 +155,7 @@ TEST_CASE("a file with a line a frame may begin where the tracker was started") 
         "ends here with 7 lines, one a frame; it must have 10 (frames 10 to 19), or 6 (from frame 14 on)");
 }
 
-TEST_CASE("one coco file tells of several clips by the number of their first image") {
+TEST_CASE("one coco file covers several clips by the number of their first image") {
   const std::string text = R"([{"image_id": 3, "bbox": [1, 1, 1, 1]}, {"image_id": 4, "bbox": [10, 20, 10, 5]},
       {"image_id": 4, "bbox": [40, 20, 10, 5], "score": 0.5}, {"image_id": 6, "bbox": [10, 20, 10, 5]},
       {"image_id": 7, "bbox": [1, 1, 1, 1]}])";
@@ -181,7 +181,7 @@ TEST_CASE("the files of a detector without detections are not errors") {
   CHECK(good("[{\"img_name\": \"frame_000101.png\", \"detections\": []}]", "none.json").frames.empty());
 }
 
-TEST_CASE("a stated format is believed") {
+TEST_CASE("a stated format is used without detection") {
   const ResultsOptions vot{.format = ResultsFormat::vot};
   CHECK(box_at(good("10,20,10,5\n10,20,10,5\n10,20,10,5\n", "a.txt", vot), 100) == kReportedBox);
   const ResultsOptions mot{.format = ResultsFormat::mot};
@@ -213,7 +213,7 @@ TEST_CASE("three hundred thousand lines are all read") {
   CHECK(results.frames.at(kFrames - 1)[2].line == 3 * kFrames);
 }
 
-TEST_CASE("results that are written are read back as they were") {
+TEST_CASE("written results are read back unchanged") {
   Results written{.name = "mine"};
   report(written, 3, {0.1, -7.25, 1.0 / 3, 20}, 0, 0.75);
   report(written, 3, {5.5, 6.5, 7, 8}, 4, -2);

@@ -68,7 +68,7 @@ TEST_CASE("the overlap of two boxes is that of the pixels they cover") {
   CHECK(overlap({-1e9, -1e9, 2e9, 2e9}, {0, 0, 1, 1}) > 0);
 }
 
-TEST_CASE("scores agree with ones worked out otherwise") {
+TEST_CASE("scores agree with an independent calculation") {
   const std::vector<Pair> pairs = random_pairs(500, 7);
   const auto is_silent = [](std::size_t i) { return i % 17 == 5; };
   const ClipTruth clip = clip_of(static_cast<int>(pairs.size()), 25,

@@ -35,7 +35,7 @@ cv::Mat beyond(cv::Size size, const glm::dvec2& center_px, double radius_px) {
 
 }  // namespace
 
-TEST_CASE("a rational lens whose denominator vanishes sees up to there and no ghosts from beyond") {
+TEST_CASE("a rational lens whose denominator vanishes has an image up to there and none from beyond") {
   // r -> r / (1 - 4 r^2): to infinity at r = 1/2, and back from minus infinity behind it.
   const std::vector<double> pole{0, 0, 0, 0, 0, -4, 0, 0};
   for (const double slope : {0.1, 0.25, 0.3, 0.5, 0.6, 1.5, 30.0}) {
@@ -99,7 +99,7 @@ TEST_CASE("a lens that folds shows nothing beyond its fold and covers all within
   CHECK(cv::countNonZero(mask & beyond(mask.size(), kCenter_px, fold_px + 2)) == 0);
 }
 
-TEST_CASE("a fisheye of 170 to 200 degrees throws every direction to its angle times the focal length") {
+TEST_CASE("a fisheye of 170 to 200 degrees projects every direction to its angle times the focal length") {
   for (const double field_deg : {170.0, 180.0, 190.0, 200.0})
     for (const double share : {0.0, 0.5, 0.9, 0.97}) {
       CAPTURE(field_deg);

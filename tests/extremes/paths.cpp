@@ -49,7 +49,7 @@ void check_sound_flight(const Flight& flight, const TrajectorySettings& settings
 
 }  // namespace
 
-TEST_CASE("waypoints that nearly coincide neither stop the numbers nor break the attitude") {
+TEST_CASE("waypoints that nearly coincide give finite positions and attitudes") {
   for (const double apart_m : {0.0, 1e-300, 1e-12, 1e-9, 1e-6, 1e-3, 0.1})
     for (const glm::dvec3& direction : {glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0)})
       for (const TrajectorySettings& settings : all_settings()) {
@@ -60,7 +60,7 @@ TEST_CASE("waypoints that nearly coincide neither stop the numbers nor break the
       }
 }
 
-TEST_CASE("waypoints that nearly coincide and follow each other in a nanosecond give numbers") {
+TEST_CASE("waypoints that nearly coincide and follow each other in a nanosecond give finite numbers") {
   for (const double apart_m : {0.0, 1e-9, 1e-3}) {
     std::vector<TimedWaypoint> waypoints = nearly_coincident(apart_m, {0, 1, 0});
     waypoints[3].time_s = waypoints[2].time_s + 1.5e-9;
@@ -109,7 +109,7 @@ TEST_CASE("through a vertical loop the annotated angles make one turn that never
   CHECK(turned_deg == doctest::Approx(360).epsilon(0.001));
 }
 
-TEST_CASE("what stands still is drawn alike in every frame and level") {
+TEST_CASE("a stationary intruder is level and rendered alike in every frame") {
   Scenario scenario({64, 48});
   add_aircraft(scenario, {60, 3, -152});
   Scene scene = scenario.opened();

@@ -67,7 +67,7 @@ TEST_CASE("light from one side makes that side brighter") {
   CHECK(mean_luma(below, kLower) > 1.5 * mean_luma(below, kUpper));
 }
 
-TEST_CASE("light stands in the world and not with the camera") {
+TEST_CASE("light is fixed in the world and not to the camera") {
   // The camera looks the other way and lies on its side; the ball is lit from world Y, which it sees on its left.
   Scenario scenario;
   write_sphere_obj(scenario.path("ball.obj"), 5);

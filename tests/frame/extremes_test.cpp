@@ -60,7 +60,7 @@ TEST_CASE("an intruder behind the camera is nowhere in the image") {
   }
 }
 
-TEST_CASE("an intruder beside the image has a silhouette out there and is not in it") {
+TEST_CASE("an intruder beside the image has a silhouette outside it and is not in it") {
   Scenario scenario;
   add_aircraft(scenario, {100, 80, -150});
   const ComposedFrame frame = composed(scenario);
@@ -141,7 +141,7 @@ TEST_CASE("an intruder 100 km away is a faint spot in the right place") {
   CHECK(box.area() <= 9);
 }
 
-TEST_CASE("an intruder too small for one code value is still in the image by its truth") {
+TEST_CASE("an intruder too small for one code value is still in the image by the annotation") {
   Scenario scenario;
   write_obj(scenario.path("dot.obj"), {{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}, 1);
   scenario.add("dot.obj", {1e5, 0, -150});

@@ -274,7 +274,7 @@ void check_tally(const Tally& tally, const std::string& name, const std::string&
 
 }  // namespace
 
-TEST_CASE("a made aircraft lies where OpenCV projects it through every real calibration") {
+TEST_CASE("a synthetic aircraft lies where OpenCV projects it through every real calibration") {
   if (!has_real_data()) return;
   for (const Calibration& calibration : real_calibrations()) {
     Scenario scenario(calibration.camera.size_px);

@@ -205,7 +205,7 @@ TEST_CASE("the truth does not depend on how far the light is blurred") {
   }
 }
 
-TEST_CASE("whatever the blur and the distance, a frame takes no more than moments") {
+TEST_CASE("whatever the blur and the distance, a frame takes little time") {
   for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic})
     for (const double blur_px_per_m : {0.5, 10.0})
       for (const double ahead_m : {20.0, 60.0, 550.0, 1e5, 1e7, 1e8}) {
@@ -221,7 +221,7 @@ TEST_CASE("whatever the blur and the distance, a frame takes no more than moment
       }
 }
 
-TEST_CASE("what is blurred until no sample can change is left out, and only that") {
+TEST_CASE("an intruder blurred until no sample can change is left out, and no other") {
   for (const double sigma_px : {100.0, 200.0, 400.0, 800.0, 1e4, 1e6, 1e9}) {
     CAPTURE(sigma_px);
     Scenario scenario;

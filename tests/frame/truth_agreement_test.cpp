@@ -61,7 +61,7 @@ void check_box(const Compared& result, double extent_px) {
 
 }  // namespace
 
-TEST_CASE("blurred aircraft look as rays through the real lens see them") {
+TEST_CASE("blurred aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places())
     for (const char* model : {kAirliner, kLightAircraft}) {  // the latter with windows and a propeller of glass
       if (place.lens != pinhole_lens() && model == kAirliner) continue;
@@ -76,7 +76,7 @@ TEST_CASE("blurred aircraft look as rays through the real lens see them") {
     }
 }
 
-TEST_CASE("sharp aircraft look as rays through the real lens see them") {
+TEST_CASE("sharp aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places()) {
     Sight sight = sight_of(kAirliner, place, 60);
     sight.supersampling = 4;
@@ -96,7 +96,7 @@ TEST_CASE("four times the supersampling comes more than twice as close to the tr
   CHECK(compared(sight).rmse() < 0.5 * coarse);
 }
 
-TEST_CASE("an aircraft 400 px large looks as rays see it, windows and all") {
+TEST_CASE("an aircraft 400 px large agrees with ray tracing, windows included") {
   for (const double sigma_px : {0.0, 2.0}) {
     Sight sight = sight_of(kLightAircraft, places().front(), 400);
     sight.sigma_px = sigma_px;
@@ -107,7 +107,7 @@ TEST_CASE("an aircraft 400 px large looks as rays see it, windows and all") {
   }
 }
 
-TEST_CASE("far aircraft and specks change the image by as much as they should") {
+TEST_CASE("far and tiny aircraft change the image by the correct amount") {
   for (const Place& place : places())
     for (const double extent_px : {8.0, 0.7}) {
       const Sight sight = sight_of(kLightAircraft, place, extent_px);
@@ -120,7 +120,7 @@ TEST_CASE("far aircraft and specks change the image by as much as they should") 
     }
 }
 
-TEST_CASE("half behind the own body and half beyond the image's edge, the rest is true") {
+TEST_CASE("half behind the own body and half beyond the image's edge, the rest is correct") {
   Sight hidden = sight_of(kAirliner, places().front(), 60);
   hidden.sigma_px = 2;
   hidden.half_hidden = true;

@@ -130,7 +130,7 @@ TEST_CASE("where nothing is ever visible vot's list is empty") {
   CHECK(files_below(none / "v") == std::vector<std::string>{"list.txt"});
 }
 
-TEST_CASE("vot calls absent what lies below the thresholds") {
+TEST_CASE("vot marks targets below the thresholds as absent") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
   clip.thresholds.min_pixels = 5;
@@ -141,7 +141,7 @@ TEST_CASE("vot calls absent what lies below the thresholds") {
   CHECK(regions.at(1).has_value());
 }
 
-TEST_CASE("vot names break no lines and no blanks stand around them") {
+TEST_CASE("vot names have no line breaks and no blanks around them") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   clip.name = " two\nlines\xFF ";
@@ -151,7 +151,7 @@ TEST_CASE("vot names break no lines and no blanks stand around them") {
   CHECK(fs::exists(folder / "v" / list[0] / "groundtruth.txt"));
 }
 
-TEST_CASE("vot labels do not depend on the country") {
+TEST_CASE("vot labels do not depend on the locale") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   IntruderTruth truth = visible_intruder(0, {1, 1, 2, 2});

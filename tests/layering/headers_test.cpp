@@ -69,7 +69,7 @@ TEST_CASE("no header includes what includes it") {
   CHECK(first_circle(graph) == "");
 }
 
-TEST_CASE("the check itself sees a circle") {
+TEST_CASE("the check itself finds a cycle") {
   CHECK(first_circle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"a"}}}) == "a -> b -> c -> a");
   CHECK(first_circle({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {}}}) == "");
 }

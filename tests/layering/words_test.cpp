@@ -121,7 +121,7 @@ std::vector<fs::path> searched_files() {
 
 }  // namespace
 
-TEST_CASE("the words that are gone stand nowhere") {
+TEST_CASE("no file contains an obsolete word") {
   const fs::path root = sigs::test::source_dir();
   const std::vector<fs::path> files = searched_files();
   REQUIRE(files.size() > 500);
@@ -138,7 +138,7 @@ TEST_CASE("the words that are gone stand nowhere") {
   }
 }
 
-TEST_CASE("the check itself sees a word that is gone, and lets plain English pass") {
+TEST_CASE("the check itself finds an obsolete word and accepts plain English") {
   CHECK(gone_word_in("cv::Mat picture_of(const Frame& frame);") != nullptr);
   CHECK(gone_word_in("// The sitter is warped by the lens.") != nullptr);
   CHECK(gone_word_in("sigs export x.json --least-pixels 4") != nullptr);

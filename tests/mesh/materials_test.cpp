@@ -93,7 +93,7 @@ TEST_CASE("faces without a material are grey without a warning") {
   CHECK(mesh.warnings.empty());
 }
 
-TEST_CASE("a material that no MTL file has is grey and named") {
+TEST_CASE("a material that no MTL file has is grey and reported") {
   const test::TemporaryFolder folder;
   test::written(folder / "model.mtl", "newmtl other\nKd 1 0 0\n");
   test::written(folder / "model.obj", std::string("mtllib model.mtl\n") + kShape + "usemtl paint\nf 1 2 3\n");

@@ -48,7 +48,7 @@ void check_fails(const Result<OwnBody>& found, const std::filesystem::path& path
 
 }  // namespace
 
-TEST_CASE("the frames that are used are those asked for and the mask is the method's with a soft edge") {
+TEST_CASE("the used frames are the requested ones and the mask is the method's with a soft edge") {
   const TemporaryFolder folder;
   write_flight(folder / "c.mkv");
   OwnBodySettings settings = settings_with(20, 3);
@@ -92,7 +92,7 @@ TEST_CASE("equal frames are an error however many they are and one that differs 
   check_fails(detected(folder / "last.mkv", settings_with(11)), folder / "last.mkv", "nothing moves");
 }
 
-TEST_CASE("what the method cannot tell is an error and no mask") {
+TEST_CASE("an undecided method gives an error and no mask") {
   const TemporaryFolder folder;
   // One sample flickers.
   write_luma_clip(folder / "c.mkv", 30, [](int n) {
@@ -143,7 +143,7 @@ TEST_CASE("an image size that changes is an error that names the frame and what 
   CHECK(detected(folder / "both.h264", settings_with(25)).has_value());
 }
 
-TEST_CASE("a detection that is called off ends soon and says so") {
+TEST_CASE("a cancelled detection ends soon with this error") {
   const TemporaryFolder folder;
   write_flight(folder / "c.mkv", 100);
   std::atomic<bool> cancel = false;
@@ -169,7 +169,7 @@ TEST_CASE("progress counts the frames passed up to those to be passed") {
   CHECK(heard == std::vector<std::pair<int, int>>{{1, 7}, {4, 7}, {7, 7}});
 }
 
-TEST_CASE("stages come where they are asked for and change nothing") {
+TEST_CASE("stages are made where requested and change nothing") {
   const TemporaryFolder folder;
   write_flight(folder / "c.mkv");
   const OwnBody without = detected(folder / "c.mkv", settings_with(1500)).value();

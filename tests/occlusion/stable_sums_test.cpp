@@ -115,7 +115,7 @@ TEST_CASE("the gradient's moments are those of a plain double loop over the imag
     }
 }
 
-TEST_CASE("a clone of the sums goes its own way") {
+TEST_CASE("a clone of the sums is independent") {
   GradientSums sums({9, 7});
   sums.add(random_image(1, 1));
   const cv::Mat before = sums.moments().mean_square;

@@ -29,7 +29,7 @@ std::vector<glm::dvec3> directions_before(const Lens& lens) {
 
 }  // namespace
 
-TEST_CASE("the exact lens throws points where OpenCV does") {
+TEST_CASE("the exact lens projects points where OpenCV does") {
   for (const test::ExampleLens& example : test::example_lenses()) {
     CAPTURE(example.name);
     const ExactLens<double> exact(example.lens.parameters());
@@ -45,7 +45,7 @@ TEST_CASE("the exact lens throws points where OpenCV does") {
   }
 }
 
-TEST_CASE("the exact lens' inverse in long double is thrown back to within 1e-12 px") {
+TEST_CASE("the exact lens' inverse in long double is projected back to within 1e-12 px") {
   for (const test::ExampleLens& example : test::example_lenses()) {
     CAPTURE(example.name);
     const ExactLens<long double> exact(example.lens.parameters());
@@ -65,7 +65,7 @@ TEST_CASE("the exact lens' inverse in long double is thrown back to within 1e-12
   }
 }
 
-TEST_CASE("the exact lens goes as far as the fold that the engine finds by another road") {
+TEST_CASE("the exact lens' field ends at the fold that the engine finds by another method") {
   for (const test::ExampleLens& example : test::example_lenses()) {
     CAPTURE(example.name);
     const ExactLens<double> exact(example.lens.parameters());

@@ -44,7 +44,7 @@ TEST_CASE("without blur a point is all in its own pixel") {
   }
 }
 
-TEST_CASE("two Gaussians with nodes between them make the one that both amount to") {
+TEST_CASE("two Gaussians with nodes between them give the Gaussian of their combined variance") {
   const double part_px = 3 / std::numbers::sqrt2;
   for (const double x_px : {0.0, 0.3, -41.77}) {
     const GaussianWeights direct = to_pixels(x_px, 3);

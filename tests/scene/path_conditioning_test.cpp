@@ -51,7 +51,7 @@ TEST_CASE("a path that overshoots far beyond its waypoints is reported with intr
   CHECK(text.find("approximating") != std::string::npos);
 }
 
-TEST_CASE("each way out of a overshoot that the warning names is one") {
+TEST_CASE("each remedy that the warning names removes the overshoot") {
   Project spread = ill_conditioned_project();
   for (const std::size_t inner : {1U, 2U}) spread.intruders[0].trajectory.waypoints[inner].frame.reset();
   CHECK(opened(spread).issues.empty());
@@ -70,7 +70,7 @@ TEST_CASE("each way out of a overshoot that the warning names is one") {
   CHECK(opened(more).issues.empty());
 }
 
-TEST_CASE("one speed along the same curve does not take the overshoot out of it") {
+TEST_CASE("constant speed along the same curve does not remove the overshoot") {
   Project project = ill_conditioned_project();
   project.intruders[0].trajectory.timing = TimingChoice::constant_speed;
   CHECK(opened(project).issues.size() == 1);

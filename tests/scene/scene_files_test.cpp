@@ -89,7 +89,7 @@ TEST_CASE("an error lasts until the file is repaired") {
   CHECK_FALSE(files.model("", {}).has_value());
 }
 
-TEST_CASE("models that nobody holds are let go of after a while, held ones never") {
+TEST_CASE("unused models are released after a while, used ones never") {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", triangle_obj("4"));
   SceneFiles files;
@@ -145,7 +145,7 @@ TEST_CASE("a scene that is opened again after a waypoint moved shares everything
   CHECK(before.intruders[1].trajectory.position_m(4).z > after.intruders[1].trajectory.position_m(4).z);
 }
 
-TEST_CASE("a mesh's warnings are given each time a scene is opened, once however many fly it") {
+TEST_CASE("a mesh's warnings are given each time a scene is opened, once for all its intruders") {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "mtllib none.mtl\n" + triangle_obj("4"));
   Project project = sample_project("two-intruders");

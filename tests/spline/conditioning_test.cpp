@@ -92,13 +92,13 @@ TEST_CASE("even times are well conditioned however many waypoints there are") {
   }
 }
 
-TEST_CASE("a leg of one frame next to one of a hundred thousand is known to be stiff") {
+TEST_CASE("a leg of one frame next to one of a hundred thousand has a large condition") {
   const double condition = interpolation_condition(one_frame_and_1e5());
   CHECK(condition > 0.3 * 1e5);
   CHECK(condition < 1e6);
 }
 
-TEST_CASE("times at the edge of what is allowed have a condition that is a number") {
+TEST_CASE("times at the allowed limits have a finite condition") {
   CHECK(std::isfinite(interpolation_condition(at_times({-1e12, 0, 1e-9, 1, 1e12}))));
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("the overshoot falls from leg to leg where many waypoints lie at one p
   }
 }
 
-TEST_CASE("what flies as its waypoints say overshoots nowhere") {
+TEST_CASE("a path that follows its waypoints has no overshoot") {
   for (const Flight& flight : all_flights()) {
     INFO(flight.name);
     if (flight.name.find("wild") == std::string::npos) CHECK(overshoots_of(flight.waypoints).empty());

@@ -62,7 +62,7 @@ TEST_CASE("the roll is linear over an interval without weight, and desired rolls
   CHECK(std::abs(roll_rad[500] - 0.5) < 1e-9);  // by symmetry
 }
 
-TEST_CASE("without any desired roll worth following there is no roll") {
+TEST_CASE("without any desired roll of sufficient weight there is no roll") {
   for (const double roll_rad : smoothed_roll_rad(desired_rolls(
            1, 5, [](double s) { return s; }, [](double) { return 0.0; })))
     CHECK(roll_rad == 0);

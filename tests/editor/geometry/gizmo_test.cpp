@@ -171,7 +171,7 @@ TEST_CASE("ten thousand kilometres out a drag is still under the mouse") {
   }
 }
 
-TEST_CASE("a point that is not in sight stays where it is") {
+TEST_CASE("a point that is not in view stays where it is") {
   const OrbitCamera camera{};
   CHECK(dragged({GizmoPart::y, {-2000, 1, 2}, {5, 5}}, {50, 60}, camera, kRect) == glm::dvec3{-2000, 1, 2});
 }
@@ -225,7 +225,7 @@ TEST_CASE("arrows point where their axes go") {
   CHECK_FALSE(shape.planes[2].has_value());
 }
 
-TEST_CASE("no gizmo where its centre is not in sight") {
+TEST_CASE("no gizmo is drawn where its centre is not in view") {
   CHECK_FALSE(gizmo_shape({.center_m = {-5000, 0, 0}}, OrbitCamera{}, kRect).has_value());
   CHECK_FALSE(gizmo_shape({.center_m = {kNan, 0, 0}}, OrbitCamera{}, kRect).has_value());
 }

@@ -147,7 +147,7 @@ TEST_CASE("the editor's figures are those of the annotation that is exported") {
   check_same(*scored->trackers[0].score, by_hand);
 }
 
-TEST_CASE("until frames are drawn the outlines tell it, within a pixel or so") {
+TEST_CASE("until frames are rendered outlines give the truth, within a pixel or so") {
   const TinyProject tiny;
   const Project project = read(tiny);
   const ClipTruth clip = exported_truth(tiny, project);

@@ -65,7 +65,7 @@ TEST_CASE("the survey is what the engine says of each frame") {
   }
 }
 
-TEST_CASE("a long survey comes in slices and grows") {
+TEST_CASE("a long survey is made in slices and grows") {
   constexpr int kFrames = 20000;
   SurveyBuilder maker;
   CHECK(maker.done());

@@ -73,7 +73,7 @@ void check_only_it_moved(const Waypoints& before, const Waypoints& after) {
 
 }  // namespace
 
-TEST_CASE("a key pressed in a drag of a waypoint touches neither it nor its neighbours") {
+TEST_CASE("a key pressed while a waypoint is dragged changes neither it nor its neighbours") {
   if (!can_drive_windows()) return;
   UiTest ui_test("keys-in-drag");
   EditorDriver& editor = ui_test.editor();

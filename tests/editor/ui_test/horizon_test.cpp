@@ -78,7 +78,7 @@ void choose(UiTest& ui_test, const std::string& step, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a new project asks for its horizon, which nobody has set by looking or clicking") {
+TEST_CASE("a new project asks for its horizon, which looking and clicking do not set") {
   if (!can_drive_windows()) return;
   // All files of a flight in the folder that the browser opens.
   const TemporaryFolder flight;

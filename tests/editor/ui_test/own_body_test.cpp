@@ -81,7 +81,7 @@ int value_at(const fs::path& mask, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("strokes that were not saved outlive a crash") {
+TEST_CASE("unsaved strokes are recovered after a crash") {
   if (!can_drive_windows()) return;
   UiTest ui_test("own-body-crash", {{"autosave_s", 1}});
   EditorDriver& editor = ui_test.editor();
@@ -194,7 +194,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   CHECK(editor.exit_status() == 0);
 }
 
-TEST_CASE("an unsaved mask is not given up without a question") {
+TEST_CASE("an unsaved mask is not discarded without a question") {
   if (!can_drive_windows()) return;
   UiTest ui_test("own-body-guard");
   EditorDriver& editor = ui_test.editor();

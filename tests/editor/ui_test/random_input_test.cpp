@@ -83,7 +83,7 @@ void wait_until_idle(EditorDriver& editor) {
 
 }  // namespace
 
-TEST_CASE("no sequence of keys and mouse ends the editor, and it still saves") {
+TEST_CASE("no sequence of keys and mouse input crashes the editor, and it still saves") {
   if (!can_drive_windows()) return;
   UiTest ui_test("random_input");
   EditorDriver& editor = ui_test.editor();

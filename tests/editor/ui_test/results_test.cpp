@@ -56,7 +56,7 @@ void load(UiTest& ui_test, const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a person loads what trackers said and sees them beside the truth") {
+TEST_CASE("a person loads trackers' results and sees them beside the truth") {
   if (!can_drive_windows()) return;
   UiTest ui_test("results");
   EditorDriver& editor = ui_test.editor();

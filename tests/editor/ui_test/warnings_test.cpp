@@ -75,7 +75,7 @@ TEST_CASE("the inspector lists what `sigs check` warns of, and a click leads the
   ui_test.image("gone to");
 }
 
-TEST_CASE("a sound project has no warnings in the inspector") {
+TEST_CASE("a valid project has no warnings in the inspector") {
   if (!can_drive_windows()) return;
   UiTest ui_test("no-warnings");
   EditorDriver& editor = ui_test.editor();

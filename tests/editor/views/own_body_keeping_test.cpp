@@ -50,7 +50,7 @@ TEST_CASE("a file that another program has changed is taken over as a step") {
   CHECK(is_same(b.session.painting().mask(), painted));
 }
 
-TEST_CASE("the painting is called by where it comes from") {
+TEST_CASE("the painting is named after its source") {
   MaskFixture b("mask.png");
   b.use_mask_of_scene(disk(10));
   b.update();
@@ -72,7 +72,7 @@ TEST_CASE("the painting is called by where it comes from") {
   CHECK(without.session.mask_text(without.document.project()) == "Nothing painted");
 }
 
-TEST_CASE("before it is left the mask is saved under a free name and used; only saved where it does not fit") {
+TEST_CASE("before leaving, the mask is saved under a free name and used; only saved where its size differs") {
   MaskFixture b("shared/mask.png");
   b.use_mask_of_scene(disk(10));
   b.update();
@@ -97,7 +97,7 @@ TEST_CASE("before it is left the mask is saved under a free name and used; only 
   CHECK(b.document.project().footage.own_body_mask == "flight_own_body.png");
 }
 
-TEST_CASE("what was found follows the soft edge at once, and comes back with it") {
+TEST_CASE("a detected mask follows the soft edge at once, and is restored with it") {
   MaskFixture b;
   b.update();
   b.detect(20);
@@ -137,7 +137,7 @@ TEST_CASE("a mask with strokes gets another soft edge only when the person asks"
   CHECK(b.session.mask_text(b.document.project()) == "detected, not saved");
 }
 
-TEST_CASE("the share follows what is painted, also within a stroke") {
+TEST_CASE("the share follows the painting, also within a stroke") {
   MaskFixture b;
   b.update();
   b.update();

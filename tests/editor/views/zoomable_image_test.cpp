@@ -25,7 +25,7 @@ double apart(const glm::dvec2& a, const glm::dvec2& b) {
 
 }  // namespace
 
-TEST_CASE("a fitted image fills its room one way, in the middle, and follows the room") {
+TEST_CASE("a fitted image fills its area in one direction, centred, and follows the area's size") {
   ZoomableImage look = laid_out();
   for (const glm::dvec2 room : {kRoom, glm::dvec2(300, 900), glm::dvec2(2000, 1500)}) {
     look.lay_out(kImage, room);
@@ -36,7 +36,7 @@ TEST_CASE("a fitted image fills its room one way, in the middle, and follows the
   }
 }
 
-TEST_CASE("zooming keeps what is under the cursor under it") {
+TEST_CASE("zooming keeps the image point under the cursor") {
   ZoomableImage look = laid_out();
   const glm::dvec2 at(400, 300);
   for (int notch = 0; notch < 12; ++notch) {
@@ -62,7 +62,7 @@ TEST_CASE("at 1:1 and above, image pixels begin at whole screen pixels") {
   }
 }
 
-TEST_CASE("panning goes with the mouse from where it began, not update by update") {
+TEST_CASE("panning follows the mouse from its start, not update by update") {
   ZoomableImage look = laid_out();
   look.zoom_to(3, kRoom / 2.0);
   const glm::dvec2 before = look.view({0, 0}).screen_of({640, 480});
@@ -71,7 +71,7 @@ TEST_CASE("panning goes with the mouse from where it began, not update by update
   CHECK(apart(look.view({0, 0}).screen_of({640, 480}), before + glm::dvec2(50, -100)) < 1e-9);
 }
 
-TEST_CASE("however far it is panned, some of the image stays in sight") {
+TEST_CASE("however far it is panned, some of the image stays in view") {
   ZoomableImage look = laid_out();
   for (const glm::dvec2 by : {glm::dvec2(1e6, 1e6), glm::dvec2(-1e6, -1e6), glm::dvec2(1e6, -1e6)}) {
     look.begin_pan();
@@ -80,7 +80,7 @@ TEST_CASE("however far it is panned, some of the image stays in sight") {
   }
 }
 
-TEST_CASE("a room that grows keeps what is in its middle there") {
+TEST_CASE("a growing area keeps the image point at its centre") {
   ZoomableImage look = laid_out();
   look.zoom_to(4, {200, 500});
   const glm::dvec2 middle = look.view({0, 0}).image_of(kRoom / 2.0);
@@ -97,7 +97,7 @@ TEST_CASE("another image size is fitted again") {
   CHECK(look.is_fitted());
 }
 
-TEST_CASE("a part that is shown lies in the middle with room around it") {
+TEST_CASE("a shown part is centred with a margin around it") {
   ZoomableImage look = laid_out();
   for (const Box part : {Box{600, 400, 40, 10}, Box{500, 300, 400, 300}, Box{640, 480, 0.2, 0.1}}) {
     look.show(part);
@@ -109,7 +109,7 @@ TEST_CASE("a part that is shown lies in the middle with room around it") {
   }
 }
 
-TEST_CASE("the pixels in sight are those whose squares meet the rect") {
+TEST_CASE("the pixels in view are those whose squares meet the rect") {
   const ScreenRect rect{{10, 20}, {110, 90}};
   for (const ImageView view : {ImageView{1, {30, 40}}, ImageView{7, {-200, -333}}, ImageView{0.3, {11, 15.5}}}) {
     cv::Rect expected;
@@ -127,7 +127,7 @@ TEST_CASE("the pixels in sight are those whose squares meet the rect") {
   }
 }
 
-TEST_CASE("from afar an image is averaged, so that a single bright pixel leaves a trace") {
+TEST_CASE("a reduced image is averaged, so that a single bright pixel leaves a trace") {
   cv::Mat image(12, 12, CV_8UC1, cv::Scalar(0));
   image.at<uchar>(4, 7) = 160;
   const auto from = [&image](double zoom) { return reduced_copy(image, divisor_at(zoom)); };
