@@ -26,7 +26,7 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// What has to be added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
+// Offsets added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
 struct IdOffsets {
   std::int64_t video = 0;
   std::int64_t track = 0;
@@ -77,7 +77,7 @@ class CocoMerge {
   }
 
  private:
-  // Information, videos, categories and tracks; counts what the ids of each video are moved by.
+  // Information, videos, categories and tracks; computes the offsets of each video's ids.
   Result<void> put_heads() {
     Json videos = Json::array();
     Json tracks = Json::array();
@@ -172,7 +172,7 @@ class LineReader {
     return std::nullopt;
   }
 
-  // What stands in the next line between a beginning and an end that the program wrote.
+  // The text of the next line between a beginning and an end that the program wrote.
   [[nodiscard]] std::string between(std::string_view before, std::string_view after) {
     const std::optional<std::string> line = next();
     if (line && line->size() >= before.size() + after.size() && line->starts_with(before) && line->ends_with(after))
