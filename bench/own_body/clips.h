@@ -19,7 +19,7 @@ struct Clip {
   bool can_be_told = true;
 };
 
-inline constexpr int kCrf = 20;  // of the H.264 files: what a camera's own files are like
+inline constexpr int kCrf = 20;  // of the H.264 files, as from a camera
 
 // Writes image(0), image(1), ... (CV_8UC3) as H.264, 25 frames a second.
 void write_h264(const std::filesystem::path& path, cv::Size size_px, int frames,

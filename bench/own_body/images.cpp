@@ -42,7 +42,7 @@ void write_jpeg(const std::filesystem::path& path, const cv::Mat& image) {
     accuracy::stop(path.string() + ": cannot be written");
 }
 
-// Of what measure_flights left.
+// From the output of measure_flights.
 void draw_flights(const flights::FlightSettings& making, const accuracy::Call& call) {
   std::vector<cv::Mat> cards;
   for (const std::string& name : flights::names()) {

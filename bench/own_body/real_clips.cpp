@@ -35,7 +35,7 @@ std::vector<RealClip> real_clips() {
           {.name = "tree", .path = kVideos / "opencv_tree.avi", .can_be_told = false}};
 }
 
-// A real flight without any own body, and a made one laid over it.
+// A real flight without any own body, and a synthetic one drawn over it.
 struct LaidOver {
   std::string name;
   std::vector<flights::Part> parts;

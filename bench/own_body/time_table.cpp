@@ -12,7 +12,7 @@ namespace sigs::bench {
 
 namespace {
 
-// A way to look at the clip, and what its rounds took.
+// A way to process the clip, and the times of its rounds.
 struct Way {
   OwnBodySettings settings;
   Finding finding;
@@ -36,8 +36,8 @@ std::vector<Way> ways(int most) {
   return ways;
 }
 
-// One round: detection and decoding take turns, so that what loads the machine loads both. Each number of frames is
-// decoded once; a run that stopped early is held against decoding as far as it went.
+// One round: detection and decoding take turns, so that load on the machine affects both. Each number of frames is
+// decoded once; a run that stopped early is compared with decoding the same frames.
 void run_once(std::vector<Way>& all, const Clip& clip) {
   std::map<int, Taken> decoding;
   for (Way& way : all) {

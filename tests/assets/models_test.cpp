@@ -110,7 +110,7 @@ TEST_CASE("the normals of the models are unit and look to the side from which a 
 
 TEST_CASE("the models are watertight and wound outwards") {
   for (const Sample& s : samples()) {
-    std::map<std::pair<int, int>, int> edges;  // directed: each must be met by one the other way
+    std::map<std::pair<int, int>, int> edges;  // directed: each must have its opposite
     double volume_m3 = 0;
     for (const ObjText::Face& face : s.obj.faces) {
       for (int k = 0; k < 3; ++k) ++edges[{face.position[k], face.position[(k + 1) % 3]}];
@@ -136,7 +136,7 @@ TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
       const glm::dvec3 normal = glm::normalize(winding_normal(s.obj, face));
       const double area = uv_area(s.obj, face);
       if (std::abs(normal.y) < 0.5 || std::abs(area) < 1e-6) continue;  // nearly horizontal, or without area
-      // Counter-clockwise in the image as on the body: turned at most, never mirrored.
+      // Counter-clockwise in the image as on the body: rotated at most, never mirrored.
       REQUIRE(area > 0);
       ++(normal.y > 0 ? left : right);
     }

@@ -38,7 +38,7 @@ Camera camera() {
   return read_calibration(source_dir() / "assets/calibrations/sample.xml").value();
 }
 
-// Where the clip shows what lies far away straight ahead.
+// Where the clip shows the far distance straight ahead.
 glm::dvec2 ahead_px(const Camera& camera, const Attitude& attitude) {
   return camera.lens.pixel(glm::conjugate(rotation_of(attitude)) * glm::dvec3(1, 0, 0)).value();
 }
@@ -50,7 +50,7 @@ cv::Mat far_piece(const Frame& frame) {
   return piece;
 }
 
-// Luma and chroma tell a cloud from the blue sky: it has no colour. Share of the upper 440 rows.
+// Luma and chroma distinguish a cloud from the blue sky: it has no colour. Share of the upper 440 rows.
 double colourless_share(const Frame& frame) {
   const cv::Mat blue = frame.planes[1].rowRange(0, 220), red = frame.planes[2].rowRange(0, 220);
   const cv::Mat colourless = (blue < 138) & (red > 119);

@@ -12,7 +12,7 @@ using namespace sigs;
 
 namespace {
 
-// What becomes of something that a job throws.
+// The error that results from an exception in a job.
 template <class Thrown>
 Error error_of(const Thrown& thrown) {
   const Result<int> result = guarded([&]() -> Result<int> { throw thrown; }, "job");

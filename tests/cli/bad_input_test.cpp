@@ -20,7 +20,7 @@ using namespace sigs::test;
 
 namespace {
 
-// One line on stderr that says it, the right exit status, and not a file left.
+// One line of error on stderr, the right exit status, and no file left.
 void check_refused(const TinyProject& tiny, int status, const std::string& message, const std::string& more = "") {
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + more);
   CHECK_MESSAGE(run.status == status, run.err);

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Six random crossings, of which many are never in the picture or too fast.
+// Six random crossings, of which many are never in the image or too fast.
 constexpr const char* kRandom = R"({
   "sigs_dataset": 1, "name": "random", "seed": 5,
   "settings": {"export.labels": ["xml", "csv"]},

@@ -236,7 +236,8 @@ TEST_CASE("an invalid command line exits with status 64") {
 TEST_CASE("one file of COCO results, numbered as a split's coco labels, is scored against all its clips") {
   const TinyRecipe recipe;
   REQUIRE(recipe.run("out").status == 0);
-  // The labels themselves as results: every box is right, so every frame with a label is matched and nothing is false.
+  // The labels themselves as results: every box is correct, so every frame with a label is matched and there is no
+  // false alarm.
   const auto labels = nlohmann::json::parse(read_text(recipe.file("out/labels/coco/test.json")).value());
   nlohmann::json results = nlohmann::json::array();
   for (const nlohmann::json& box : labels["annotations"])

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Encounters of 0.4 s count, however far; one frame is seen in time.
+// Encounters of 0.4 s count at any distance; one matched frame is a detection in time.
 const std::string kPolicy =
     " --min-encounter 0 --max-closest-range 1000 --detect-range 1 --window 0.2 --window-share 0.5";
 const std::string kNothing = "frame,x,y,width,height\n";

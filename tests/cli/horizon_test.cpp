@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The side of the horizon that labels tell is known where somebody has said how the camera is turned, and not before.
+// The side of the horizon in labels is known where the camera's attitude is given, and unknown otherwise.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -48,7 +48,7 @@ TEST_CASE("an attitude set in the file or on the command line determines the sid
   TinyProject tiny;
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.pitch=0").xml, "horizon=\"on\""));
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.roll=0").xml, "horizon=\"on\""));
-  // The world's level is what counts: the cube lies higher than the camera, however that is pitched.
+  // The world's level plane counts: the cube is higher than the camera, whatever the camera's pitch.
   tiny.change("[20, -3, -150]", "[20, -3, -154]");
   tiny.change("[20, 3, -150]", "[20, 3, -154]");
   tiny.change(R"("intruders")", R"("camera": {"attitude_deg": {"pitch": 12}}, "intruders")");

@@ -31,7 +31,7 @@ struct Folder {
     return static_cast<int>(std::distance(begin(files), end(files)));
   }
 
-  // What is wrong with an option itself: said with a pointer to the help, and nothing is made.
+  // An invalid option: an error with a pointer to the help, and nothing is written.
   void check_option_refused(const std::string& input, const std::string& options, const std::string& line) const {
     const Run run = run_sigs("mask " + input + " " + options);
     CHECK(run.status == 64);
@@ -40,7 +40,7 @@ struct Folder {
     CHECK_FALSE(fs::exists(out()));
   }
 
-  // One line on stderr that says it, the right exit status, and neither file nor folder left.
+  // One line of error on stderr, the right exit status, and neither file nor folder left.
   void check_refused(const std::string& input, int status, const std::string& message,
                      const std::string& more = "") const {
     const Run run = run_sigs("mask " + input + " --method paper --out " + out() + "/m.png --confidence " + out() +

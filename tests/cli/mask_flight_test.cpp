@@ -120,7 +120,7 @@ TEST_CASE("a detection that stops early reports when and gives nearly the same m
   const Run run = flight_clip.run("--force --set own_body.settled_percent=5");
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(run.err.find("\nconverged after ") != std::string::npos, run.err);
-  // The last look alone may have changed 5 %.
+  // The last check alone may have changed 5 %.
   CHECK(intersection_over_union(flight_clip.found(), whole) >= 0.9);
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The method that finds something in as small a clip as this.
+// The method that finds a body in so small a clip.
 const std::string kPaper = " --method paper ";
 
 struct Clip {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No run touches a file that it did not make, but what it is asked to replace.
+// No run touches a file that it did not create, except those that it is asked to replace.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -25,13 +25,13 @@ std::string bytes_of(const fs::path& file) {
   return read_text(file).value();
 }
 
-// An image of the footage's size, for masks and textures; black hides nothing.
+// An image of the footage's size, for masks and textures; black occludes nothing.
 void write_image(const fs::path& file, cv::Size size_px = {64, 48}) {
   fs::create_directories(file.parent_path());
   REQUIRE(cv::imwrite(file.string(), cv::Mat::zeros(size_px, CV_8UC1)));
 }
 
-// An exported folder of images stands in the way, and an input lies in it.
+// An earlier export's folder of images has the output's name and contains an input.
 struct ExistingImages {
   TinyProject tiny;
   std::string options = "--codec png --masks none --labels none --out " + tiny.out();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Under final names there is a whole result at every moment: the older one until the newer one is there.
+// Under final names there is a complete result at every moment: the older one until the newer one is complete.
 #include <doctest/doctest.h>
 
 #include <cerrno>
@@ -30,7 +30,7 @@ bool has_staging_folder(const fs::path& folder) {
   return false;
 }
 
-// Ten frames exported as images, masks and labels; replacing them asks for five, so that old and new can be told.
+// Ten frames exported as images, masks and labels; replacing them asks for five, so that old and new differ.
 struct Exported {
   TinyProject tiny;
   std::string command = "export " + tiny.project() + " --codec png --masks png --labels xml,kitti --out " + tiny.out();
@@ -42,7 +42,7 @@ struct Exported {
   }
   [[nodiscard]] std::string replacing() const { return command + " --force --frames 0-4"; }
 
-  // Old or new, but whole.
+  // Old or new, but complete.
   void check_whole(const std::string& when) const {
     for (const char* const name : {"tiny", "tiny.masks", "tiny.kitti/training/image_02/0000"}) {
       if (!fs::exists(fs::path(tiny.out()) / name) && std::string(name).find('/') != std::string::npos) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Too little memory, too few threads: the same bytes as ever, or one line, an honest status and nothing left.
+// Too little memory, too few threads: the same bytes as always, or one line of error, an error status and no file left.
 #include <doctest/doctest.h>
 
 #include <filesystem>

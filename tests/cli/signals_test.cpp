@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs that do not come to their end, and what they leave: nothing.
+// Runs that are interrupted leave no file.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An export of many frames that is at work; ignored: a signal that whoever started it ignores, as nohup does.
+// A running export of many frames; ignored: a signal that its parent process ignores, as nohup does.
 pid_t started(const TinyProject& tiny, int ignored) {
   const std::string program = (build_dir() / "sigs").string();
   const std::string project = tiny.project();

@@ -24,7 +24,7 @@ struct Special {
   std::string word;  // of the message
 };
 
-// One of each kind, called as the input would be.
+// One of each kind, with the name of the input.
 std::vector<Special> specials(const TinyProject& tiny, const std::string& extension) {
   const std::vector<Special> all{{tiny.file("zero" + extension).string(), "device"},
                                  {tiny.file("pipe" + extension).string(), "pipe"},

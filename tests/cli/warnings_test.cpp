@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be used but is hardly meant: check, export and frame say it alike, and do their work.
+// Settings that are valid but implausible: check, export and frame give the same warnings, and do their work.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string lines_with(const std::string& text, const std::string& part) {
   return found;
 }
 
-// All three say the same warnings, of that field and with those words, and end with 0.
+// All three give the same warnings, for that field and with those words, and exit with status 0.
 void check_warned(const TinyProject& tiny, const std::string& field, const std::vector<std::string>& words) {
   const Run checked = run_sigs("check " + tiny.project());
   CHECK_MESSAGE(checked.status == 0, checked.err);
@@ -143,7 +143,7 @@ TEST_CASE("four coefficients without a model are reported, with the assumption a
   CHECK(has(run_sigs("info " + tiny.file("lens.xml").string()).err, "read as Brown-Conrady"));
   for (const char* const model : {"brown_conrady", "fisheye"})
     CHECK(run_sigs("check " + tiny.project() + " --set footage.lens_model=" + model).err.empty());
-  // No lens leans so much against its sensor.
+  // No real lens is tilted so much against its sensor.
   change_lens(tiny, "-0.1 0.01 0.001 -0.002", "0.2 0.01 0.15 -0.3");
   check_warned(tiny, "footage.calibration", {"read as fisheye", "too large", "footage.lens_model"});
   const Run info = run_sigs("info " + tiny.file("lens.xml").string());

@@ -199,7 +199,7 @@ TEST_CASE("at the edges of an odd image a chroma sample takes the weight of the 
 }
 
 TEST_CASE("code values beyond black and white are kept where nothing is added") {
-  // Limited range footage holds luma below 16 and above 235; half a layer of nothing must not clip it.
+  // Limited range footage holds luma below 16 and above 235; half a layer of black must not clip it.
   for (const Sort& sort : all_sorts())
     for (const int code : {0, 3, 240, 255}) {
       CAPTURE(sort.name);

@@ -265,7 +265,7 @@ TEST_CASE("an intruder before green has its own colour and no green in its edge"
   layer.coverage.at<float>(0, 0) = 0.5F;
   layer.color.at<cv::Vec4f>(0, 1) = cv::Vec4f(0.5F, 0.25F, 0.125F, 1) * 0.499F;  // less than half: green
   layer.coverage.at<float>(0, 1) = 0.499F;
-  layer.color.at<cv::Vec4f>(0, 2) = {0, 1, 0, 1};  // pure green itself: steps aside
+  layer.color.at<cv::Vec4f>(0, 2) = {0, 1, 0, 1};  // pure green itself: changed by one code
   layer.color.at<cv::Vec4f>(0, 3) = {2, 1, 0, 1};  // brighter than white: clipped
   const cv::Mat image = on_green_screen(layer, {}, {10, 5});
   const auto code = [](double linear) {

@@ -30,7 +30,7 @@ TEST_CASE("the own body occludes by its mask's value") {
   CHECK(out.color.at<cv::Vec4f>(0, 1) == cv::Vec4f(0.25F, 0.5F, 0.75F, 1) * 0.75F);
   CHECK(out.coverage.at<float>(0, 1) == 0.75F);
   CHECK(out.color.at<cv::Vec4f>(1, 1) == cv::Vec4f(0.25F, 0.5F, 0.75F, 1));
-  // The layer that was given stays as it was.
+  // The given layer is unchanged.
   CHECK(layer.coverage.at<float>(0, 0) == 1);
 }
 

@@ -30,7 +30,7 @@ cv::Scalar sum_of(const Layer& layer) {
   return cv::sum(layer.color);
 }
 
-// Where OpenCV's own model throws a direction (x right, y down, z forward).
+// The pixel of a direction by OpenCV's own model (x right, y down, z forward).
 cv::Point2d thrown(const Lens& lens, const cv::Point3d& direction) {
   const LensParameters& p = lens.parameters();
   const cv::Matx33d matrix(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1);
@@ -285,7 +285,7 @@ TEST_CASE("rays from a table move the image by no more than their tolerance does
     LensTable fast(named.camera);
     const Layer one = warped(std::vector<RenderedView>{drawn}, exact, kImage);
     const Layer other = warped(std::vector<RenderedView>{drawn}, fast, kImage);
-    // A pixel's mean changes by at most its edges' moves: four times 1e-3 px times the full range of 1.
+    // A pixel's mean changes by at most its edges' displacements: four times 1e-3 px times the full range of 1.
     CHECK(cv::norm(one.coverage, other.coverage, cv::NORM_INF) <= 4e-3);
     CHECK(fast.evaluations() * 10 < exact.evaluations());
   }

@@ -13,7 +13,7 @@ using namespace sigs::test;
 
 namespace {
 
-// What a flown path turns out to be, found by looking at its positions alone.
+// The properties of a flown path, measured from its positions alone.
 struct Found {
   double miss_distance_m = 0;
   double time_s = 0;

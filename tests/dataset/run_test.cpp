@@ -70,7 +70,7 @@ TEST_CASE("a dataset is a folder for each video, lists of its splits, checksums 
 TEST_CASE("index, entries and list of checksums describe every file") {
   const TinyPlan tiny(2);
   const DatasetReport report = made(tiny.plan, into(tiny.out()));
-  std::map<std::string, std::string> truth;  // but for the index, the list and the projects, which say where they lie
+  std::map<std::string, std::string> truth;  // except the index, the list and the projects, which contain paths
   for (const auto& [path, text] : contents_of(tiny.out())) truth[path] = checksum_of_text(text);
   for (const char* const path : {"index.json", "SHA256SUMS", "v0/v0.json", "v1/v1.json"}) CHECK(truth.erase(path) == 1);
   std::map<std::string, std::string> listed;

@@ -43,7 +43,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 // Largest gap between the sample's distribution and the true one (Kolmogorov, Smirnov), times the root of its size:
-// over 1.95 in one of 1000 samples that are as they should be.
+// over 1.95 in one of 1000 correct samples.
 double kolmogorov(std::vector<double> values, const std::function<double(double)>& probability_below) {
   std::sort(values.begin(), values.end());
   const auto count = double(values.size());
@@ -76,7 +76,7 @@ TEST_CASE("random bits are those of the documented generator") {
   CHECK(random_share({0, "1LRB737", "distance_m"}) == 0.7675100209972789);
 }
 
-// Quantiles from SciPy's truncnorm at the share that the place has; samples are rounded to some 1e-8 deviations.
+// Quantiles from SciPy's truncnorm at the key's share; samples are rounded to some 1e-8 deviations.
 TEST_CASE("a normal sample is the quantile of the truncated distribution") {
   struct Case {
     double mean, deviation, low, high, wanted;

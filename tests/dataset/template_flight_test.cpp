@@ -16,7 +16,7 @@ const std::vector<CameraSettings> kCameras{
     {.position_m = {50, 20, -2500}, .speed_mps = 0},
     {.position_m = {0, 0, -3000}, .roll_deg = -8, .pitch_deg = 4, .yaw_deg = 25, .speed_mps = 60}};
 
-// The image's place of the intruder in percent, as a real lens has it; far off where it has no image.
+// The intruder's position in the image in percent, through the lens; far off where it has no image.
 glm::dvec2 place_percent(const FlightContext& context, const glm::dvec3& from_camera_m) {
   const std::optional<glm::dvec2> pixel = context.lens.lens.pixel(in_camera(context, from_camera_m));
   if (!pixel) return glm::dvec2(1e9);
@@ -42,7 +42,7 @@ bool in_image(const glm::dvec2& percent) {
   return percent.x > 0 && percent.x < 100 && percent.y > 0 && percent.y < 100;
 }
 
-// Whatever a test says, for every lens and camera.
+// Runs a check for every lens and camera.
 template <class Test>
 void for_all_stages(const Test& test) {
   const FootageShape footage = footage_of(80, 0.01);

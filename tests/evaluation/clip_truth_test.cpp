@@ -102,7 +102,7 @@ TEST_CASE("the annotation file of the documentation is read as documented") {
   const std::size_t end = page->find("```", begin);
   REQUIRE(end != std::string::npos);
   const TemporaryFolder folder;
-  // Its second frame is cut short there; given here what every frame has.
+  // Its second frame is abridged there; completed here.
   const std::string text = replaced(page->substr(begin, end - begin), "last_frame=\"101\"", "last_frame=\"100\"");
   const std::size_t second = text.find("  <frame index=\"101\"");
   REQUIRE(write_text(folder / "doc.xml", text.substr(0, second) + "</sigs>\n", false));

@@ -17,7 +17,7 @@ constexpr double kRate_hz = 10;  // the published frame counts are of clips at t
 const Box kTarget{599.5, 399.5, 20, 10};
 const Box kElsewhere{99.5, 99.5, 20, 10};
 
-// Comes nearer by 5 m a frame from 600 m on: nearer than 300 m from frame 61 on, 1 m at the end of 120 frames.
+// Approaches by 5 m a frame from 600 m: nearer than 300 m from frame 61 on, 1 m at the end of 120 frames.
 double approaching_m(int frame) {
   return std::max(600.0 - 5 * frame, 1.0);
 }
@@ -89,7 +89,7 @@ TEST_CASE("an encounter tracked early enough is detected") {
 
 TEST_CASE("half the frames of the last window before 300 m are enough, one less is not") {
   CHECK(is_detected(approach(), matched(46, 60)));
-  CHECK_FALSE(is_detected(approach(), matched(47, 119)));  // too late, for ever so long
+  CHECK_FALSE(is_detected(approach(), matched(47, 119)));  // too late, however long
   CHECK_FALSE(is_detected(approach(), matched(46, 59)));
   // Every other frame will do: 15 of 30.
   Results half;
@@ -109,9 +109,9 @@ TEST_CASE("matches of different tracks do not add up to one tracked intruder") {
   Results broken;
   for (int frame = 31; frame <= 60; ++frame) report(broken, frame, kTarget, frame);
   CHECK_FALSE(is_detected(approach(), broken));
-  // A reporter that has no tracks is held to its matches alone.
+  // A detector without tracks is judged by its matches alone.
   CHECK(is_detected(approach(), matched(31, 60, kNoTrack)));
-  // One that half the time calls it something else still has it in half the frames.
+  // One that gives it another track half of the time still matches it in half the frames.
   Results two = matched(31, 45, 1);
   for (int frame = 46; frame <= 60; ++frame) report(two, frame, kTarget, 2);
   CHECK(is_detected(approach(), two));
@@ -127,7 +127,7 @@ TEST_CASE("an encounter that begins near is detected in its first three seconds,
 TEST_CASE("an intruder that flies away must be detected before it is near, which is in the first window") {
   const ClipTruth clip = clip_of(80, kRate_hz, [](int i) { return visible_at(kTarget, 200.0 + 5 * i); });
   CHECK(is_detected(clip, matched(10, 40)));
-  CHECK_FALSE(is_detected(clip, matched(30, 79)));  // beyond 300 m again by then, but it has been near
+  CHECK_FALSE(is_detected(clip, matched(30, 79)));  // beyond 300 m again by then, but it was near before
 }
 
 TEST_CASE("just 300 m is not nearer than 300 m") {
@@ -198,7 +198,7 @@ TEST_CASE("an intruder that stays beyond the range is not required, and is count
   CHECK(score.frame_detection_rate == 1);  // but its frames are
   CHECK(score.false_alarm_boxes == 0);
   CHECK(score_of(clip, {}, {.max_closest_range_m = 331}).all.encounters == 1);
-  // Beyond the longest range nothing is asked for, and nothing is false that is there.
+  // Beyond the maximum range nothing is required, and no report of an intruder there is a false alarm.
   const DetectionScore far =
       score_of(clip_of(60, kRate_hz, [](int) { return visible_at(kTarget, 701); }), matched(0, 59));
   CHECK(far.encounters_too_far == 0);
@@ -222,7 +222,7 @@ TEST_CASE("an encounter's side of the horizon is that of all its frames, or on i
   CHECK(side(HorizonSide::below, HorizonSide::below).below_horizon.detected == 1);
   CHECK(side(HorizonSide::below, HorizonSide::above).on_horizon.detected == 1);
   CHECK(side(HorizonSide::above, HorizonSide::on).on_horizon.detected == 1);
-  // Where one frame does not say, nobody can tell.
+  // Unknown in one frame is unknown for the encounter.
   const DetectionScore unknown = side(HorizonSide::above, HorizonSide::unknown);
   CHECK(unknown.unknown_horizon.detected == 1);
   CHECK(unknown.above_horizon.encounters + unknown.on_horizon.encounters == 0);
@@ -232,7 +232,7 @@ TEST_CASE("false alarms are counted by track for the hour and by box for the fra
   Results results = matched(0, 119, 1);
   for (int frame = 10; frame < 20; ++frame) report(results, frame, kElsewhere, 2);
   report(results, 50, kElsewhere, 3);
-  report(results, 51, kElsewhere, 1);  // a good track that once is elsewhere
+  report(results, 51, kElsewhere, 1);  // a good track that is elsewhere once
   report(results, 60, kElsewhere, kNoTrack);
   report(results, 61, kElsewhere, kNoTrack);
   report(results, 500, kElsewhere, 9);  // no frames of the clip
@@ -308,7 +308,7 @@ TEST_CASE("several clips add up, and their tracks are independent") {
   CHECK(score.all.encounters == 3);
   CHECK(score.all.detected == 1);
   CHECK(score.encounters[1].clip == "two");
-  CHECK(score.mean_first_range_m == 450);  // of the one that was seen at all
+  CHECK(score.mean_first_range_m == 450);  // of the one that was detected at all
   CHECK(score.frame_detection_rate == doctest::Approx(31.0 / 300).epsilon(1e-12));
 }
 

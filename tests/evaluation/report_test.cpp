@@ -153,7 +153,7 @@ TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in C
     };
     CHECK(middle("reported", "_x_px", "_width_px") - middle("true", "_x_px", "_width_px") == doctest::Approx(3));
     CHECK(middle("reported", "_y_px", "_height_px") - middle("true", "_y_px", "_height_px") == doctest::Approx(4));
-    // By hand: the left edge lies at 100.5 px + 2 px a frame, so its first column is the next half pixel.
+    // Calculated manually: the left edge lies at 100.5 px + 2 px a frame, so its first column is the next half pixel.
     CHECK(number(row.at("true_x_px")) == doctest::Approx(101 + 2 * number(row.at("frame"))));
     CHECK(number(row.at("true_width_px")) == 40);
     CHECK(number(row.at("distance_m")) == 800 - 10 * number(row.at("frame")));

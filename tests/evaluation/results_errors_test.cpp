@@ -47,7 +47,7 @@ TEST_CASE("a file whose lines do not match the clip's frames is refused with the
                  "line 4: ", "past the clip's end: the file has 5 lines"});
   check_refused({"a.txt", "1\n0\n", "line 2: ", "2 lines, one a frame; it must have 3"});
   check_refused({"a.txt", "1,1,2,2\n\n1,1,2,2\n", "line 2: ", "is empty amid lines"});
-  // What is wrong with a line comes before that there are too many.
+  // An error in a line is reported before an excess of lines.
   check_refused({"a.txt", "1,1,2,2\n1,x,2,2\n", "line 2: ", "'x' is no number"});
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("invalid boxes are refused with the line") {
   check_refused({"a.json", aot("{\"x\": 1, \"y\": null, \"w\": 1, \"h\": 2}"), "line 4: ", "y is null, not a number"});
   check_refused({"a.json", aot("{\"x\": 1, \"y\": \"1\", \"w\": 1, \"h\": 2}"), "line 4: ", "y is text, not a number"});
   check_refused({"a.json", aot("{\"x\": 1, \"y\": 1, \"h\": 2}"), "line 4: ", "has no w"});
-  // A file of one line says which entry.
+  // A file of one line gives the entry.
   const std::string good = "{\"x\": 1, \"y\": 1, \"w\": 2, \"h\": 2}";
   const std::string start = "[{\"img_name\": \"100\"}, {\"img_name\": \"101\", \"detections\": [" + good + ", ";
   check_refused(

@@ -97,7 +97,7 @@ TEST_CASE("scores, tracks and lines are those of the file") {
   CHECK(mot.best_at(100)->track == 9);
   for (const ReportedBox& box : mot.frames.at(101)) CHECK(box.track == kNoTrack);
   CHECK(mot.frames.at(101).size() == 3);
-  CHECK(mot.frames.at(101)[0].score == 1);  // -1: not said
+  CHECK(mot.frames.at(101)[0].score == 1);  // -1: not given
   CHECK(mot.best_at(102) == nullptr);
 
   const Results csv = good("frame,x,y,width,height,score,track\n100,1,1,1,1,0.125,4\n", "a.csv");
@@ -133,7 +133,7 @@ TEST_CASE("VOT's special lines report no box, and 1 marks an initialization") {
   CHECK(results.frames.size() == 1);
   CHECK(box_at(results, 1) == kReportedBox);
   CHECK(results.initializations == std::set<int>{0, 4});
-  // Absent in the first frame already: still seen to be VOT's.
+  // Absent in the first frame already: still recognized as VOT's.
   CHECK(good("nan,nan,nan,nan\nnan,nan,nan,nan\n10,20,10,5\n").frames.size() == 1);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("a file with a line a frame may begin where the tracker was started") 
   CHECK(late.frames.size() == 6);
   CHECK(box_at(late, 14).x == -0.5);
   CHECK(box_at(late, 19).x == 4.5);
-  // All ten lines are about all ten frames, wherever the start is.
+  // All ten lines belong to all ten frames, wherever the start is.
   const Results whole = good(six + "7,1,9,9\n8,1,9,9\n9,1,9,9\n10,1,9,9\n", "whole.txt", {.start_frame = 14}, clip);
   CHECK(box_at(whole, 10).x == -0.5);
   CHECK(whole.frames.size() == 10);

@@ -11,7 +11,7 @@
 namespace sigs::test {
 namespace {
 
-constexpr double kExact = 1e-9;  // what sums of a hundred doubles leave, by far
+constexpr double kExact = 1e-9;  // well above the rounding of sums of a hundred doubles
 
 const Box kTrueBox{299.5, 199.5, 40, 10};
 
@@ -19,7 +19,7 @@ ClipTruth still_clip(int frames = 100) {
   return clip_of(frames, 25, [](int) { return visible_at(kTrueBox); });
 }
 
-// The tracker says the truth, moved by (dx, dy) in frame i.
+// The tracker reports the truth, shifted by (dx, dy) in frame i.
 template <class Offset>
 TrackScore score_moved(const ClipTruth& clip, Offset&& offset, const TrackPolicy& policy = {}) {
   Results results{.name = "some"};
@@ -135,7 +135,7 @@ TEST_CASE("five frames calculated manually") {
   report(results, 100, {0, 0, 10, 10});    // perfect
   report(results, 101, {6, 8, 10, 10});    // error 10, both 4*2 = 8, overlap 8/192
   report(results, 102, {0, 0, 10, 20});    // error 5 (down), overlap 1/2
-  report(results, 104, {30, 40, 10, 10});  // error 50, apart; and nothing in 103
+  report(results, 104, {30, 40, 10, 10});  // error 50, disjoint; and nothing in 103
   const TrackScore score = score_track(clip, clip.targets[0], results, {});
   CHECK(score.scored == 5);
   CHECK(score.reported == 4);
@@ -191,11 +191,11 @@ TEST_CASE("frames without the intruder are not scored, and what is reported in t
     CHECK_FALSE(score.frames[1].is_scored);
     CHECK(score.frames[1].is_reported);
     CHECK_FALSE(score.frames[1].is_lost);
-    // There is something to draw where there is a box to draw it from.
+    // A frame with a report has a box in the truth.
     CHECK(score.frames[1].center_error_px.has_value() == (box == TruthBox::amodal));
     CHECK(score.mean_center_error_px == 0);
   }
-  // Before the start nobody looks.
+  // Frames before the start are not scored.
   CHECK(score_track(clip, clip.targets[0], results, {.from_frame = 2}).reported_absent == 2);
 }
 

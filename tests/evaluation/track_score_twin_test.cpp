@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scores once more, written otherwise: overlaps by counting cells, curves by sorting.
+// The scores by an independent calculation: overlaps by counting cells, curves by sorting.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST_CASE("scores agree with an independent calculation") {
   for (int k = 0; k < kSuccessSteps - 1; ++k)  // overlap > k/20 is 1 - overlap < 1 - k/20
     CHECK(std::abs(score.success[static_cast<std::size_t>(k)] - share_up_to(misses, 1 - k / 20.0 - 1e-9, all)) < 1e-9);
   CHECK(std::abs(score.success[20] - share_up_to(misses, 0, all)) < 1e-9);
-  CHECK(score.success[20] > 0);  // some were moved by nothing
+  CHECK(score.success[20] > 0);  // some were shifted by zero
   CHECK(score.lost == std::ranges::count_if(misses, [](double miss) { return miss == 1; }));
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("of several failing outputs the first frame's error is reported and of
       const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
       Result<ExportFiles> files = ExportFiles::open(request, footage_info(), empty_scene(), {0, 8});
       REQUIRE(files.has_value());
-      // Images on their way lie in the staging folder, under their final names.
+      // Unfinished images lie in the staging folder, under their final names.
       for (const auto& entry : fs::recursive_directory_iterator(scenario.path("out"))) {
         if (!entry.is_directory() || entry.path().parent_path().filename() != "new") continue;
         const bool is_masks = entry.path().filename().string().find("masks") != std::string::npos;

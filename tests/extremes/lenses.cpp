@@ -60,7 +60,7 @@ TEST_CASE("a rational lens whose denominator vanishes has an image up to there a
 }
 
 TEST_CASE("a pole that a zero of the numerator all but takes away is valid up to the pole and beyond") {
-  // (1 - (4 - 1e-6) r^2) / (1 - 4 r^2): 1 to six digits, save where both are as small.
+  // (1 - (4 - 1e-6) r^2) / (1 - 4 r^2): 1 to six digits, except where both are equally small.
   for (const double slope : {0.3, 0.45, 0.499, 0.49999, 0.4999999, 0.5, 0.500001, 0.52}) {
     CAPTURE(slope);
     Scenario scenario;
@@ -78,7 +78,8 @@ TEST_CASE("a pole that a zero of the numerator all but takes away is valid up to
 }
 
 TEST_CASE("a lens that folds shows nothing beyond its fold and covers all within") {
-  // r (1 - r^2 / 2) turns back at r = sqrt(2/3), 163.3 px; from there OpenCV throws ghosts over the image.
+  // r (1 - r^2 / 2) decreases from r = sqrt(2/3), 163.3 px, on; OpenCV projects points beyond into the image a second
+  // time.
   const double fold_px = kFocal_px * std::sqrt(2.0 / 3) * (2.0 / 3);
   for (const double slope : {0.9, 1.2, 1.4}) {
     Scenario scenario;

@@ -32,7 +32,7 @@ double fastest_turn_rad(const Trajectory& trajectory, double last_s) {
   return max_rad;
 }
 
-// Lays the flight before the camera, so that its middle is 3 km ahead, and takes three frames over it.
+// Moves the flight in front of the camera, so that its middle is 3 km ahead, and takes three frames of it.
 void check_sound_flight(const Flight& flight, const TrajectorySettings& settings, const Scenario& scenario,
                         Scene& scene) {
   std::vector<TimedWaypoint> waypoints = flight.waypoints;
@@ -91,7 +91,7 @@ TEST_CASE("cusps and reversals and loops and climbs and stops give valid frames 
 TEST_CASE("through a vertical loop the annotated angles make one turn that never jumps") {
   const std::vector<TimedWaypoint> waypoints = loop(80, 60);
   const Trajectory trajectory = trajectory_through(waypoints);
-  double turned_deg = 0;  // of the nose as seen from the side, up is positive
+  double turned_deg = 0;  // of the nose in side view, up is positive
   double steepest_rad = 0;
   glm::dquat before = trajectory.world_from_body(0).rotation;
   for (double time_s = 0; time_s < waypoints.back().time_s; time_s += 1e-3) {
@@ -105,7 +105,7 @@ TEST_CASE("through a vertical loop the annotated angles make one turn that never
     steepest_rad = std::max(steepest_rad, std::abs(attitude.pitch_rad));
     before = again;
   }
-  CHECK(deg_of_rad(steepest_rad) > 87);  // the loop moves aside by 18 m, 2.05 degrees
+  CHECK(deg_of_rad(steepest_rad) > 87);  // the loop is displaced sideways by 18 m, 2.05 degrees
   CHECK(turned_deg == doctest::Approx(360).epsilon(0.001));
 }
 

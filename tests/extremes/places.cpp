@@ -19,7 +19,7 @@ struct Place {
   bool can_be_seen;  // through a pinhole
 };
 
-// The aircraft is 12 m long and reaches 7 m to its right.
+// The aircraft is 12 m long and extends 7 m to its right.
 std::vector<Place> places() {
   return {{"behind", {-80, 5, 5}, false},
           {"far behind", {-1e7, 0, 0}, false},

@@ -70,7 +70,7 @@ TEST_CASE("from one waypoint to ten thousand each is passed at its time and the 
     CAPTURE(count);
     std::vector<TimedWaypoint> waypoints = wild(count, 11);
     for (const TrajectorySettings& settings : all_settings()) {
-      // Each a second or two of work at ten thousand; two of the eight will do there.
+      // Each takes a second or two at ten thousand; two of the eight are enough there.
       if (count == 10'000 && (settings.bank == Bank::level || settings.timing == Timing::constant_speed)) continue;
       INFO(name_of(settings));
       const Trajectory trajectory = trajectory_through(waypoints, settings);

@@ -26,8 +26,8 @@ double intersection_over_union(const cv::Mat& a, const cv::Mat& b) {
   return double(cv::countNonZero(a & b)) / cv::countNonZero(a | b);
 }
 
-// How much of a world behind it the body hides, on average over many frames: what is left of a white one, less what
-// stands before a black one. CV_32FC1, 0..1.
+// How much of a world behind it the body hides, on average over many frames: the remaining light of a white one, less
+// that before a black one. CV_32FC1, 0..1.
 cv::Mat mean_cover(const Body& body, int frames, std::uint32_t seed) {
   cv::Mat sum = cv::Mat::zeros(body.size_px, CV_32FC1);
   for (int n = 0; n < frames; ++n) {
@@ -110,7 +110,7 @@ TEST_CASE("a body's mean position is that of the truth") {
   for (const Part& part : {tail_boom(), nose(), wing_tip_left(), wing_tip_right(), windscreen(), belly()}) {
     const Body body = body_of({part}, size_px, 5);
     const cv::Mat cover = mean_cover(body, 150, 5);
-    // Half of a pixel's wobble in a few hundred pixels of outline is what 150 random shifts leave.
+    // After 150 random shifts some half a pixel of the outline's shaking remains.
     CHECK(intersection_over_union(cover > 0.5, body.truth) > 0.97);
     cv::Mat inner, outer;
     cv::erode(body.truth, inner, cv::Mat(), {-1, -1}, 5, cv::BORDER_REPLICATE);

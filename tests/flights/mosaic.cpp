@@ -11,7 +11,7 @@ namespace sigs::flights {
 namespace {
 
 cv::Mat one_octave(int size, int cells, std::uint32_t seed) {
-  constexpr int kBorder = 4;  // what the cubic looks at beyond the edge comes from the other side
+  constexpr int kBorder = 4;  // the cubic's samples beyond the edge come from the other side
   cv::Mat grid(cells, cells, CV_32FC1);
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j) grid.at<float>(i, j) = static_cast<float>(2 * random_share(i, j, seed) - 1);

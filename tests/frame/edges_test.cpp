@@ -14,7 +14,7 @@
 namespace sigs::test {
 namespace {
 
-// The lens throws the straight edges of a body as curves. All points of a block's twelve edges, close together.
+// The lens images the straight edges of a body as curves. All points of a block's twelve edges, close together.
 std::vector<cv::Vec3d> points_on_edges(const Block& block, const cv::Vec3d& position_in_camera) {
   constexpr int kSteps = 4000;
   std::vector<cv::Vec3d> points;

@@ -30,7 +30,7 @@ ComposedFrame composed(const Scenario& scenario) {
   return test::composed(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
 }
 
-// A made 200 degree fisheye.
+// A synthetic 200 degree fisheye.
 void see_nearly_all(Scenario& scenario) {
   write_calibration(scenario.path("wide.xml"), {180, 0, 319.5, 0, 180, 239.5, 0, 0, 1}, {0, 0, 0, 0}, {640, 480}, true);
   scenario.project.footage.calibration = "wide.xml";
@@ -209,7 +209,7 @@ TEST_CASE("an intruder across the plane of a pinhole is drawn where it is ahead"
     CHECK(is_finite(truth));
     CHECK(truth.in_image);
     REQUIRE(truth.visible_box);
-    // Its far end: 2.5 m below the axis and 30 m ahead is 25 px below the middle; from there it reaches down to the
+    // Its far end: 2.5 m below the axis and 30 m ahead is 25 px below the middle; from there it extends down to the
     // edge.
     CHECK(std::abs(truth.visible_box->y - (119.5 + 0.5 + 25)) <= 1.5);
     CHECK(truth.visible_box->br().y == 240);

@@ -18,7 +18,7 @@
 namespace sigs::test {
 namespace {
 
-// How much of each of `in` samples from first_in reaches each of `out` samples from first_out: the Gaussian of whole
+// Weights of `in` samples from first_in in `out` samples from first_out: the Gaussian of whole
 // pixels, cut at three sigmas.
 cv::Mat kernel(int first_out, int out, int first_in, int in, double sigma_px) {
   const int reach = static_cast<int>(std::ceil(3 * sigma_px));
@@ -216,7 +216,7 @@ TEST_CASE("whatever the blur and the distance, a frame takes little time") {
         scenario.project.compositing = {.method = method, .blur_px_per_m = blur_px_per_m};
         add_aircraft(scenario, {ahead_m, 0, -150});
         ComposedFrame frame;
-        CHECK(seconds_for(scenario, frame) < 5);  // milliseconds; but the machine may have much else to do
+        CHECK(seconds_for(scenario, frame) < 5);  // milliseconds; but the machine may be busy
         CHECK(frame.truth.intruders[0].in_image);
       }
 }

@@ -101,7 +101,7 @@ TEST_CASE("for an intruder out of view only its position is computed") {
         ComposeContext context;
         const ComposedFrame frame = made(scene, 0, context);
         CAPTURE(text(frame.op_counts));
-        // The annotation tells where an intruder is outside the image too: at most a question for each of its points.
+        // The annotation covers intruders outside the image too: at most one evaluation for each of its points.
         const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
         CHECK(frame.op_counts.lens_evaluations <= (glass == Glass::distorting ? points : 0));
         OpCounts rest = frame.op_counts;
@@ -179,7 +179,7 @@ TEST_CASE("the lens is evaluated for the intruder's points and at its place, not
     const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
     const auto asked = static_cast<double>(frame.op_counts.lens_evaluations - points);
     CHECK(asked >= 0);
-    // A few hundred to choose the view; of a pixel's four corners each would ask once, tables ask some 1 in 30.
+    // A few hundred to choose the view; exact rays would need one for each pixel corner, tables need some 1 in 30.
     CHECK(asked <= 600 + 0.15 * static_cast<double>(frame.op_counts.pixels_warped));
   }
 }

@@ -7,14 +7,14 @@
 
 #include "frame/truth_scenes.h"
 
-// The direct method against rays through the real lens (tests/truth). Codes are of 255.
+// The direct method against ray tracing through the real lens (tests/reference). Codes are of 255.
 namespace sigs::test {
 namespace {
 
 // An image of whole codes cannot do better than the 0.29 that rounding alone makes.
 constexpr double kSoft_rmse = 0.75;
 // Sharp edges and paint fall across pixels' edges by up to 1 / supersampling of a pixel. One percent of the range, in
-// those pixels alone that the intruder reaches, is not seen.
+// the intruder's own pixels, is not visible.
 constexpr double kSharp_rmse = 2.55;
 
 const char* const kAirliner = "airliner/airliner.obj";
@@ -113,7 +113,7 @@ TEST_CASE("far and tiny aircraft change the image by the correct amount") {
       const Sight sight = sight_of(kLightAircraft, place, extent_px);
       const Compared result = compared(sight);
       tell(place.name, sight, result);
-      // A speck of 0.04 px moves no code by more than rounding does; 8 px are all edges.
+      // An intruder of 0.04 px changes no code by more than rounding does; at 8 px all pixels are edges.
       CHECK(result.rmse() < (extent_px < 1 ? 0.6 : 2.0));
       CHECK(std::abs(result.bias()) < 0.5);
       check_box(result, extent_px);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Lines "key=value" as the toolkit reads them: a backslash says that the next letter is meant as it is.
+// Lines "key=value" as the toolkit reads them: a backslash makes the next letter literal.
 std::map<std::string, std::string> properties_of(const fs::path& path) {
   std::map<std::string, std::string> properties;
   for (const std::string& line : lines_of(path)) {
@@ -36,7 +36,7 @@ std::map<std::string, std::string> properties_of(const fs::path& path) {
   return properties;
 }
 
-// As the toolkit parses a region: four numbers, of which none is none, are a rectangle.
+// As the toolkit parses a region: four numbers, none of them NaN, are a rectangle.
 std::vector<std::optional<cv::Rect2d>> regions_of(const fs::path& path) {
   std::vector<std::optional<cv::Rect2d>> regions;
   for (const std::string& line : lines_of(path)) {

@@ -32,7 +32,7 @@ Graph include_graph() {
   return graph;
 }
 
-// The first circle that is met from `header` on, as text; empty if there is none.
+// The first cycle that is found from `header` on, as text; empty if there is none.
 std::string circle_from(const std::string& header, const Graph& graph, std::vector<std::string>& way,
                         std::set<std::string>& cleared) {
   if (cleared.contains(header)) return {};

@@ -69,7 +69,7 @@ std::string module_of_include(const std::string& include) {
   return slash == std::string::npos ? "" : include.substr(0, slash);
 }
 
-// What stands in the way of an include, empty if nothing does.
+// Why an include is not allowed, empty if it is.
 std::string objection(const Modules& modules, const std::string& from, const std::string& include) {
   const std::string to = module_of_include(include);
   if (to == from) return {};

@@ -143,7 +143,8 @@ TEST_CASE("textures of every kind become eight bit RGBA with their top row first
 }
 
 TEST_CASE("a texture of too many pixels is named with its size and not decoded") {
-  // Headers that state such a size, with next to nothing behind them: whoever decodes first knows no size.
+  // Headers that state such a size, with next to nothing behind them: a decoder that does not read them first would
+  // allocate that size.
   struct Kind {
     const char* name;
     std::size_t place;  // of the width, then the height

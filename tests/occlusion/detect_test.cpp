@@ -16,7 +16,7 @@
 namespace sigs::test {
 namespace {
 
-// The method that decides on any footage in which anything differs: what is tested here is what is around it.
+// The method that decides on any footage in which anything differs: these tests are about the code around it.
 OwnBodySettings settings_with(int frames, int every = 1) {
   return {.method = OwnBodyMethod::paper, .frames = frames, .every = every};
 }

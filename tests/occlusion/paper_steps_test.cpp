@@ -64,7 +64,7 @@ cv::Mat sobel_by_loops(const cv::Mat& mask) {
   });
 }
 
-// The pixels that hang together with this one, by sides and corners.
+// The pixels connected to this one, by sides and corners.
 int size_of_part(const cv::Mat& mask, cv::Point start) {
   cv::Mat seen = cv::Mat::zeros(mask.size(), CV_8UC1);
   std::vector<cv::Point> open = {start};

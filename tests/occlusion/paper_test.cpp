@@ -21,8 +21,8 @@ namespace {
 
 const cv::Size kSize_px(320, 240);
 
-// What the paper assumes, in its purest form: before a calm world, slow hills of a few grey values, a dark body shakes
-// by a pixel, this way and that.
+// The paper's assumptions, exactly: before a calm world of smooth, low contrast a dark body shakes
+// by a pixel to either side.
 std::vector<cv::Mat> shaking(const cv::Mat& body, int frames) {
   const cv::Mat world = hills({kSize_px.width + frames, kSize_px.height}, 20, 1) / 16 + 180;
   const std::array<cv::Point, 4> kShake = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};

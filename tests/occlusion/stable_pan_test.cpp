@@ -70,7 +70,7 @@ TEST_CASE("where everything moves alike, nothing is found, and the confidence is
     const Verdict verdict = verdict_on_pan(pan);
     CHECK_MESSAGE(!verdict.undecided, verdict.undecided.value_or(""));
     CHECK(cv::countNonZero(verdict.own_body) == 0);
-    CHECK(cv::mean(verdict.confidence)[0] < 0.25);  // the confidence of world that does not move
+    CHECK(cv::mean(verdict.confidence)[0] < 0.25);  // the confidence of a world that does not move
   }
 }
 

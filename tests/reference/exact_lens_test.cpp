@@ -19,7 +19,7 @@ double apart(const glm::dvec2& a, const glm::dvec2& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// In front of the camera, where OpenCV's pinhole models mean something, and short of the rim.
+// In front of the camera, where OpenCV's pinhole models are valid, and short of the rim.
 std::vector<glm::dvec3> directions_before(const Lens& lens) {
   std::vector<glm::dvec3> directions;
   for (const glm::dvec3& d : test::directions_over(lens, 8, 12, 0.98))

@@ -30,7 +30,7 @@ TEST_CASE("a point's blur over pixels is the Gaussian's integral over each") {
       CHECK(std::accumulate(spread.weights.begin(), spread.weights.end(), 0.0) == doctest::Approx(1).epsilon(1e-14));
       for (std::size_t i = 0; i < spread.weights.size(); ++i) {
         const double pixel = spread.first_target + double(i);
-        // What lies beyond six sigmas is with the last pixels.
+        // The part beyond six sigmas is added to the last pixels.
         CHECK(std::abs(spread.weights[i] - integrated(x_px, sigma_px, pixel - 0.5, pixel + 0.5)) < 3e-9);
       }
     }

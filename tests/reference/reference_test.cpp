@@ -118,7 +118,7 @@ TEST_CASE("blur adds its variance and keeps the energy") {
     setup.sigma_px = sigma_px;
     const ReferenceImage soft = reference_image(setup);
     for (int c = 0; c < 4; ++c) CHECK(cv::sum(soft.color)[c] == doctest::Approx(cv::sum(sharp.color)[c]).epsilon(1e-6));
-    // Pixels are boxes whatever the blur, so their 1 / 12 is in both. What six sigmas leave out is 1e-7 of sigma^2.
+    // Pixels are boxes whatever the blur, so their 1 / 12 is in both. The part beyond six sigmas is 1e-7 of sigma^2.
     CHECK(moments(soft).x == doctest::Approx(moments(sharp).x).epsilon(1e-5));
     CHECK(moments(soft).y - 15 * 15 / 12.0 - 1 / 12.0 == doctest::Approx(sigma_px * sigma_px).epsilon(2e-3));
     CHECK(soft.area_px == sharp.area_px);

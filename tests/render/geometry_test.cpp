@@ -77,7 +77,7 @@ TEST_CASE("coverage at the edges is the share of the pixel to the accuracy of fo
             share(x, view.center_px.x - 4, view.center_px.x + 4) * share(y, view.center_px.y - 4, view.center_px.y + 4);
         worst = std::max(worst, std::abs(coverage - truth));
       }
-    // The four samples lie on four different rows and columns, each of which stands for a quarter of the pixel: along
+    // The four samples lie on four different rows and columns, each of which represents a quarter of the pixel: along
     // one edge the count is right to half a sample, at a corner, where two edges meet, to twice that.
     CHECK(worst <= 0.26);
   }

@@ -88,7 +88,7 @@ TEST_CASE("glass shows solid parts behind it and is occluded by solid parts befo
 TEST_CASE("glass never occludes glass, even where no order of whole triangles is right") {
   Mesh mesh;
   mesh.materials = {kRedGlass, kGreenGlass};
-  // A large slanting pane whose triangles' middles are nearer than the small pane, before which it nowhere lies.
+  // A large slanting pane whose triangles' middles are nearer than the small pane, although it is behind it everywhere.
   add_quad(mesh, {-10, -6, 2}, {20, 12, 0}, {0, 0, -4}, 0);
   add_quad(mesh, {5, 4.5F, 1}, {0, 1, 0}, {0, 0, -2}, 1);
   const Layer layer = drawn(measured(std::move(mesh)), at({50, 0, 0}), ambient_only(), view_of({81, 9}, 300));

@@ -62,7 +62,7 @@ TEST_CASE("each remedy that the warning names removes the overshoot") {
 
   Project more = ill_conditioned_project();
   std::vector<WaypointSettings>& waypoints = more.intruders[0].trajectory.waypoints;
-  // The speed of the short leg dies away over legs that grow tenfold.
+  // The speed of the short leg decays over legs that grow tenfold.
   for (const double frame : {10'001.0, 1'001.0, 101.0, 11.0})
     waypoints.insert(waypoints.begin() + 2, {.frame = frame, .position_m = {503 + 0.09 * (frame - 1), 0, -150}});
   for (const double frame : {90'001.0, 99'001.0, 99'901.0, 99'991.0})

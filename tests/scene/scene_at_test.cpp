@@ -17,7 +17,7 @@ using namespace sigs::test;
 
 namespace {
 
-// A camera at 1000 m, and intruders that hover where they are put; no models, no footage: only where things are.
+// A camera at 1000 m, and intruders that hover at given places; no models, no footage: only poses.
 Scene scene_with(const std::vector<glm::dvec3>& positions_m, const Attitude& camera_attitude, double speed_mps) {
   Scene scene{.camera = {*Lens::make({}), {640, 480}}};
   scene.motion = {{rotation_of(camera_attitude), {0, 0, -1000}}, speed_mps};

@@ -25,12 +25,12 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-// A triangle that reaches from the origin to `reach` along X.
+// A triangle that extends from the origin to `reach` along X.
 std::string triangle_obj(const std::string& reach) {
   return "v 0 0 0\nv " + reach + " 0 0\nv 0 1 0\nf 1 2 3\n";
 }
 
-// As an editor does that saves within the clock's resolution: the clock is put forward by hand.
+// As an editor does that saves within the clock's resolution: the clock is advanced explicitly.
 void put_clock_forward(const std::filesystem::path& path) {
   std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
 }
@@ -44,7 +44,7 @@ TEST_CASE("the same file and axes give the same model and others give another") 
   const auto model = files.model(folder / "a.obj", {}).value();
   CHECK(files.model(folder / "a.obj", {}).value() == model);
   CHECK(files.model(folder.path() / "." / "a.obj", {}).value() == model);
-  // Scales that agree in six decimals are still two.
+  // Scales that agree in six decimals are still different.
   const auto small = files.model(folder / "a.obj", {.scale = 1e-9}).value();
   const auto smaller = files.model(folder / "a.obj", {.scale = 2e-9}).value();
   CHECK(small != smaller);

@@ -26,7 +26,8 @@ std::vector<TimedWaypoint> even(int count) {
   return at_times(times_s);
 }
 
-// The same by another road: each cardinal function is a spline of its own, through 1 m at one waypoint and 0 elsewhere.
+// The same by another method: each cardinal function is a spline of its own, through 1 m at one waypoint and 0
+// elsewhere.
 double condition_by_cardinal_functions(std::vector<TimedWaypoint> waypoints) {
   constexpr int kMoments = 200;
   for (TimedWaypoint& waypoint : waypoints) waypoint.position_m = {0, 0, 0};
@@ -124,7 +125,7 @@ TEST_CASE("the condition bounds how far moved waypoints move the curve and is re
 }
 
 TEST_CASE("an overshoot beyond the legs around it is found and has its closed form") {
-  // 60 m/s are carried into a leg of 4000 s that asks for 2.25 m/s: with both ends natural the bow is that of three
+  // A leg of 4000 s that needs 2.25 m/s begins at 60 m/s: with both ends natural the bow is that of three
   // waypoints, acceleration 3 (2.25 - 60) / 4000.04 at the middle one, h^2 / 6 * a * 2 / (3 sqrt(3)) off a straight way
   // that the curve overtakes by so much that it lies beyond its end.
   const std::vector<TimedWaypoint> waypoints{

@@ -34,7 +34,7 @@ TEST_CASE("a steady desired roll is followed exactly and a steadily growing one 
   const auto growing = smoothed_roll_rad(desired_rolls(
       0.01, 1000, [](double s) { return wrapped_rad(2 * s); }, one));
   for (int i = 300; i < 700; ++i)
-    CHECK(std::abs(growing[i] - 0.02 * i) < 1e-7);  // exp(-3 s / 0.15 s) of the ends is left
+    CHECK(std::abs(growing[i] - 0.02 * i) < 1e-7);  // exp(-3 s / 0.15 s) of the ends' effect remains
 }
 
 TEST_CASE("a sudden change is smoothed as the closed form of the problem says") {

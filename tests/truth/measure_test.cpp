@@ -128,7 +128,7 @@ TEST_CASE("through a distorted lens the silhouette is what OpenCV projects") {
   }
   const auto silhouette = silhouette_of(points, pose, lens);
   REQUIRE(silhouette.has_value());
-  check_edges(silhouette->box, low, high, 1e-8);  // both are doubles; some 1e-13 of 1e3 px, with room
+  check_edges(silhouette->box, low, high, 1e-8);  // both are doubles; some 1e-13 of 1e3 px, with a margin
 }
 
 TEST_CASE("the silhouette extends beyond the edges of any image") {
@@ -221,7 +221,7 @@ TEST_CASE("a body is above or below the horizon where all of it is higher or low
   CHECK(side(3) == HorizonSide::on);
   CHECK(side(3.001) == HorizonSide::below);
   CHECK(side(-1e7) == HorizonSide::above);
-  // Banked upright, its half span reaches up and down.
+  // Banked upright, its half span extends up and down.
   const glm::dquat banked = rotation_of(Attitude{.roll_rad = std::numbers::pi / 2});
   CHECK(side(-7.99, banked) == HorizonSide::on);
   CHECK(side(-8.01, banked) == HorizonSide::above);
@@ -229,7 +229,7 @@ TEST_CASE("a body is above or below the horizon where all of it is higher or low
 }
 
 TEST_CASE("what lies on the axis of a camera that is pitched up is above the horizon") {
-  // By the camera's pitch, up leans back along its axis.
+  // With the camera's pitch, the up vector is tilted back along its axis.
   const double pitch_rad = rad_of_deg(10);
   const glm::dvec3 up = glm::conjugate(rotation_of(Attitude{.pitch_rad = pitch_rad})) * glm::dvec3(0, 0, -1);
   const CameraFromBody ahead{{1, 0, 0, 0}, {1000, 0, 0}};

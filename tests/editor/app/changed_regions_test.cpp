@@ -13,7 +13,7 @@ using namespace sigs::editor;
 
 namespace {
 
-// ImGui without a window: what it would draw is all that matters.
+// ImGui without a window: only its draw data matter.
 class Screen {
  public:
   Screen() {

@@ -22,7 +22,7 @@ Project with_intruders(std::size_t count, std::size_t waypoints = 2) {
   return project;
 }
 
-// Something else than what is there, within the range of any field of its type.
+// Another value than the present one, within the range of any field of its type.
 PlainValue another(const PlainValue& value) {
   if (const auto* const number = std::get_if<double>(&value)) return *number + 0.5;
   if (const auto* const number = std::get_if<int>(&value)) return *number + 1;

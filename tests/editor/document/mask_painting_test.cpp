@@ -46,7 +46,7 @@ TEST_CASE("undo and redo restore every state byte for byte") {
       const Brush brush{2.0 + i % 5, 1.5, i % 3 == 0};
       stroke(painting, brush, {{place(random), place(random)}, {place(random), place(random)}, {40, 30}});
     }
-    if (is_same(painting.mask(), masks.back())) continue;  // passed where all was so already
+    if (is_same(painting.mask(), masks.back())) continue;  // painted where all was set already
     masks.push_back(painting.mask().clone());
     states.push_back(painting.state());
   }

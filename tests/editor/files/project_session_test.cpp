@@ -95,7 +95,7 @@ TEST_CASE("a cancelled choice of a file name cancels the action that was to foll
   d.edit("a");
   d.session.handle(Quit{});
   d.session.answer(0);
-  (void)d.session.take_requests();  // the person closes the browser
+  (void)d.session.take_requests();  // the user closes the browser
   d.session.handle(SaveProject{});
   d.choose_file(d.folder / "a.json");
   CHECK_FALSE(d.session.is_done());

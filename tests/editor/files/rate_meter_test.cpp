@@ -32,5 +32,5 @@ TEST_CASE("a change of rate shows within some ten seconds") {
   double now_s = 0;
   for (; now_s < 60; now_s += 0.01) meter.note(now_s, ++done);
   for (; now_s < 70; now_s += 0.5) meter.note(now_s, ++done);
-  CHECK(*meter.rate_hz() == doctest::Approx(2).epsilon(0.1));  // a note or two at the window's edge
+  CHECK(*meter.rate_hz() == doctest::Approx(2).epsilon(0.1));  // a measurement or two at the window's edge
 }

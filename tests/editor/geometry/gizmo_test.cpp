@@ -67,7 +67,7 @@ TEST_CASE("a point pulled along its arrow is under the mouse") {
     for (int i = 0; i < 3; ++i) {
       const glm::dvec3 start_m = beside_target(camera);
       if (glm::length(glm::cross(sight(camera, start_m), axis_of(i))) < 0.2) continue;
-      // Where it would be seen elsewhere on its axis: exactly there it goes.
+      // Where it would appear elsewhere on its axis: it moves exactly there.
       const glm::dvec3 goal_m = start_m + axis_of(i) * (0.11 * camera.distance_m);
       const GizmoDrag drag{kAxisParts[i], start_m, camera.screen_of(start_m, kRect).value()};
       const glm::dvec3 end_m = dragged(drag, camera.screen_of(goal_m, kRect).value(), camera, kRect);

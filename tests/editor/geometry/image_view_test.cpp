@@ -18,7 +18,7 @@ bool is_whole(double value) {
   return value == std::round(value);
 }
 
-// What of the image shows, along x and y, screen pixels.
+// The visible part of the image, along x and y, screen pixels.
 glm::dvec2 showing(const ImageView& view) {
   const glm::dvec2 low = glm::max(view.screen_of({-0.5, -0.5}), kPanel.low);
   const glm::dvec2 high = glm::min(view.screen_of(kImageSize - 0.5), kPanel.high);

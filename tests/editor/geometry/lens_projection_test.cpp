@@ -141,7 +141,7 @@ bool in_image(const glm::dvec2& p) {
   return p.x >= 0 && p.y >= 0 && p.x < kSize.x && p.y < kSize.y;
 }
 
-// Turns around the camera and comes close to it.
+// Circles the camera and comes close to it.
 glm::dvec3 spiral(double t) {
   return kPose.translation_m + glm::dvec3{60 * std::cos(2 * t) + 20, 40 * std::sin(2 * t), 10 * std::sin(5 * t)};
 }

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-// The textbook's way to the screen: OpenGL's matrices in homogeneous coordinates.
+// The textbook projection to the screen: OpenGL's matrices in homogeneous coordinates.
 glm::dvec2 matrix_screen(const OrbitCamera& camera, const glm::dvec3& p_m, const ScreenRect& rect) {
   const glm::dvec2 size = rect.size();
   const double aspect = size.x / size.y;

@@ -90,7 +90,7 @@ TEST_CASE("panning stops at the ends of the footage") {
   CHECK(panned(ruler, -1e9, 100).first == 0);
   CHECK(panned(ruler, kInfinity, 100).first == 50);
   CHECK(panned(ruler, kNan, 100).first == 10);
-  CHECK(panned({0, 500, 0, 130}, 1e9, 100).first == 0);     // all of it in sight,
+  CHECK(panned({0, 500, 0, 130}, 1e9, 100).first == 0);     // all of it in view,
   CHECK(panned({0, 500, 0, 130}, -1e9, 100).first == -30);  // wherever it lies
 }
 

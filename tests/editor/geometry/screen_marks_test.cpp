@@ -38,7 +38,7 @@ TEST_CASE("the nearest point on a line has its segment and its share of it, and 
 
 TEST_CASE("a share along a line on the screen gives the share in the world at that point") {
   for (const double share : {0.0, 0.2, 0.7, 1.0}) {
-    const glm::dvec2 a{3, 10};  // aside and depth
+    const glm::dvec2 a{3, 10};  // lateral position and depth
     const glm::dvec2 b{-8, 45};
     const glm::dvec2 p = glm::mix(a, b, share);
     const double on_screen = (p.x / p.y - a.x / a.y) / (b.x / b.y - a.x / a.y);

@@ -123,7 +123,7 @@ TEST_CASE("after any sequence of calls the memory limit holds and the rule's bes
   std::map<FrameKey, std::size_t> truth;
   std::map<ContentId, int> came;  // since when there are frames of a content
   FrameKey playhead = key(1, 50);
-  // By brute force: the minimum of all, looked at one by one.
+  // By brute force: the minimum of all.
   const auto is_less = [&](FrameKey a, FrameKey b) {
     const bool a_other = a.content != playhead.content, b_other = b.content != playhead.content;
     if (a_other != b_other) return a_other;

@@ -27,7 +27,7 @@ std::shared_ptr<const PreviewImage> image(bool staged) {
   return std::make_shared<const PreviewImage>(std::move(made));
 }
 
-// What is alive of all that was put into a preview state, weighed by the test itself.
+// The memory of all images put into a preview state that still exist, summed by the test itself.
 struct MemoryFixture {
   PreviewState preview_state{PreviewLimits{.cache_bytes = kLimit}, [] {}};
   std::vector<std::pair<std::weak_ptr<const void>, std::size_t>> put_down;

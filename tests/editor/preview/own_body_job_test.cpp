@@ -127,7 +127,7 @@ TEST_CASE("an editor that closes during a detection does not wait for its end") 
                    });
     REQUIRE(job.start(of(1500)));
   }
-  CHECK(ended);  // by being stopped: it has no other end
+  CHECK(ended);  // by being cancelled: it has no other end
 }
 
 TEST_CASE("the window is woken some ten times a second, however fast frames pass") {

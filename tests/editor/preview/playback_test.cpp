@@ -93,7 +93,7 @@ TEST_CASE("a loop repeats without end and shows each frame for the same time") {
     const Playback playback = playing(0, 20, speed);
     std::vector<int> observed(100, 0);
     const int samples = 20 * 15 * 100;
-    for (int i = 0; i < samples; ++i) {  // 100 rounds of 15 frames, 20 looks a frame
+    for (int i = 0; i < samples; ++i) {  // 100 rounds of 15 frames, 20 queries a frame
       const double now_s = (i + 0.5) * 0.04 / 20 / std::abs(speed);
       const PlayedFrame played = playback.frame_at(now_s, k25Hz, {15, 29, true});
       REQUIRE_FALSE(played.over);

@@ -222,7 +222,7 @@ TEST_CASE("other footage is opened in the background and the old image stays unt
   CHECK(preview_client.shown().image == before.image);
   CHECK_FALSE(preview_client.shown().image_is_current);
   preview_client.wait(is_current);
-  // There and back faster than anything can be opened.
+  // To other footage and back faster than it can be opened.
   for (std::uint64_t i = 0; i < 40; ++i) {
     preview_client.want(frame_of(i % 2 == 0 ? revision(1, project) : revision(2, other), static_cast<int>(20 + i)));
     std::this_thread::sleep_for(std::chrono::milliseconds(i % 7));

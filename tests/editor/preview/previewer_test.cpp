@@ -30,7 +30,7 @@ Project moved(Project project, double by_m) {
   return project;
 }
 
-// The engine's own road, without editor.
+// By the engine's own functions, without the editor.
 struct Engine {
   explicit Engine(const Project& project)
       : source(FrameSource::open(resolved(project, project.footage.video)).value()),
@@ -235,7 +235,7 @@ TEST_CASE("edits that come faster than images do not stop the preview") {
     images += shown != observed ? 1 : 0;
     observed = shown;
   }
-  CHECK(images >= 5);  // some tens on any machine that is not held up
+  CHECK(images >= 5);  // some tens on any machine that is not overloaded
 }
 
 TEST_CASE("scrubbing faster than decoding still shows images") {

@@ -133,7 +133,7 @@ TEST_CASE("the editor's figures are those of the annotation that is exported") {
   Scoring scoring([] {});
   const Scene scene = opened(project);
   const Surveys surveys = surveys_of(scene);
-  // Outlines would not do.
+  // Outlines would not give this.
   REQUIRE(score_by_hand(file, *outline_truth(*scene, surveys)).mean_center_error_px >
           by_hand.mean_center_error_px + 0.3);
   scoring.want({.scene = scene, .surveys = surveys, .files = {file_at(file)}});

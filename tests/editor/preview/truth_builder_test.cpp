@@ -40,7 +40,7 @@ Project project_at(double height_m) {
   return project;
 }
 
-// Shows frames in which nothing flies; `holds` keeps it in the midst.
+// Shows frames without intruders; `holds` keeps it from finishing.
 struct TruthBuilderFixture {
   std::atomic<bool> holds = false;
   std::atomic<int> begun = 0;

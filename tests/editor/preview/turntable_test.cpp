@@ -31,7 +31,7 @@ cv::Rect visible_box(const cv::Mat& rgba) {
   return {left, top, right - left + 1, bottom - top + 1};
 }
 
-// A long thin spike from the origin out of the nose: which way it points is which way the nose does.
+// A long thin spike from the origin out of the nose: its direction in the image is that of the nose.
 Mesh spike() {
   Mesh mesh;
   const glm::vec3 normal(0, 0, -1);

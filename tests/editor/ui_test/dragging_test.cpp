@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kFrame = 150;  // of the waypoint that is dragged: the second of three
 
-// Where the mouse takes hold of it: over the footage, in the world, on the timeline.
+// Where the mouse drags it: over the footage, in the world, on the timeline.
 struct Handle {
   const char* place;
   double by_x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The horizon's line over the footage: asked for, dragged, taken back.
+// The horizon's line over the footage: asked for, dragged, undone.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr double kMouse_px = 2;  // the mouse stands on whole pixels, places are rounded outwards
+constexpr double kMouse_px = 2;  // the mouse is at whole pixels, places are rounded outwards
 constexpr double kRounding_deg = 0.01;
 constexpr double kDegrees = 180 / std::numbers::pi;
 

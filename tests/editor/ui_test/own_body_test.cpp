@@ -31,7 +31,7 @@ fs::path open_without_mask(UiTest& ui_test) {
   ui_test.editor().wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   ui_test.editor().wait_for_image();
   ui_test.editor().click("tab/own body");
-  // The world's panel makes room an update later.
+  // The world's panel shrinks an update later.
   ui_test.editor().wait_for("room", [](const Json& now) {
     return shows(now, "own body/canvas") && now["places"]["own body/canvas"][2].get<double>() > 800;
   });
@@ -148,7 +148,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   }
   editor.click("own body/look Paint");
 
-  // From here on by hand alone: how good the detection is others test.
+  // From here on by painting alone: other tests cover the quality of the detection.
   editor.click("own body/clear");
   const int revision = revision_of(editor.state());
   stroke(ui_test, {200, 200}, {500, 200});
@@ -171,7 +171,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   CHECK(value_at(mask, 640, 940) == 0);  // cleared
   CHECK(ui_test.saved(project)["footage"]["own_body_mask"] == "flight_own_body.png");
   CHECK(editor.state()["problems"].empty());
-  // The last press was in the panel: the project's edit goes, what was painted stays.
+  // The last press was in the panel: the project's edit is undone, the painting stays.
   ui_test.edit([&] { editor.key("ctrl+z"); });
   editor.wait_for("the other use", [](const Json& now) { return !shows(now, "own body/used"); });
   CHECK_FALSE(shows(editor.state(), "own body/unsaved"));

@@ -60,7 +60,7 @@ class RandomInput {
   std::string one_of(const std::vector<std::string>& words) {
     return words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
   }
-  // Of what the window shows now, the menu bar aside.
+  // Of what the window shows now, except the menu bar.
   std::string one_of_the_places() {
     std::vector<std::string> names;
     const Json state = editor_.state();

@@ -22,7 +22,7 @@ void wait_for_place(UiTest& ui_test, const std::string& place) {
   ui_test.editor().wait_for(place, [&](const Json& now) { return shows(now, place); });
 }
 
-// As a person measures trackers of OpenCV; where their boxes lie then.
+// Evaluates trackers of OpenCV as a user does; where the files of their boxes are.
 fs::path results_of_trackers(const fs::path& project, const fs::path& folder) {
   std::ostringstream command;  // paths come quoted
   command << build_dir() / "sigs"
@@ -85,7 +85,7 @@ TEST_CASE("a person loads trackers' results and sees them beside the truth") {
   editor.settle();
   editor.screenshot(build_dir() / "screenshots/results-hover.png");
 
-  // A broken file is told with its line, and can be sent away.
+  // An invalid file is reported with its line, and can be removed.
   editor.click("results/load");
   choose(ui_test, "broken.csv");
   wait_for_place(ui_test, "results/broken/problem");

@@ -106,7 +106,7 @@ TEST_CASE("a project whose files are missing opens, says what is missing and can
   const fs::path project = put(broken_project(), ui_test.folder() / "broken.json");
   editor.start({project.string()});
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
-  // What is said of it covers neither the timeline nor the line that is read off the image.
+  // Its messages cover neither the timeline nor the status line of the image.
   const ScreenPlace message = editor.place("toast/0");
   const ScreenPlace image = editor.place("viewport");
   CHECK(message.y + message.height <= image.y + image.height);

@@ -17,7 +17,7 @@ bool is_open(const Json& now) {
   return now.value("page", "") == "project";
 }
 
-// Every text of a project that a person sees, so long, in words and in one.
+// Every visible text of a project, of this length, in several words and in one.
 Json wordy_project(std::size_t length) {
   const auto text = [&](const std::string& word) {
     std::string all;

@@ -45,7 +45,7 @@ TEST_CASE("a file that another program has changed is taken over as a step") {
   CHECK(b.session.unsaved() == 0);
   b.session.painting().undo();
   CHECK(is_same(b.session.painting().mask(), painted));
-  b.use_mask_of_scene(cv::Mat());  // and one that is gone takes nothing away
+  b.use_mask_of_scene(cv::Mat());  // and a missing one removes nothing
   b.update();
   CHECK(is_same(b.session.painting().mask(), painted));
 }
