@@ -25,10 +25,10 @@ struct Wave {
   double phase = 0;  // in periods
 };
 
-// Turns about the three axes, sums of waves whose amplitudes vary together between the share `least` and 1.
+// Turns about the three axes, sums of waves whose amplitudes vary together between `min_share` and 1.
 struct Shake {
   std::span<const Wave> roll, pitch, yaw;
-  double least = 1;
+  double min_share = 1;
   double swell_hz = 0;
 };
 

@@ -18,14 +18,14 @@ namespace sigs::accuracy {
 // Wall seconds of one call among `calls`, as the minimum of `rounds` rounds: for work without randomness.
 template <class Function>
 [[nodiscard]] double min_s(int rounds, double calls, const Function& function) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (int round = 0; round < rounds; ++round) {
     const double start = wall_s();
     function();
     const double taken = (wall_s() - start) / calls;
-    least = taken < least ? taken : least;
+    minimum = taken < minimum ? taken : minimum;
   }
-  return least;
+  return minimum;
 }
 
 }  // namespace sigs::accuracy

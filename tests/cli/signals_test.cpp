@@ -99,14 +99,14 @@ TEST_CASE("output to a pipe without a reader is a write error, and the files exi
 TEST_CASE("with any limit of open files, an export is written whole or not at all") {
   int refused = 0;
   int done = 0;
-  for (int most = 5; most <= 60; most += 2) {
+  for (int max_open_files = 5; max_open_files <= 60; max_open_files += 2) {
     const TinyProject tiny;
     const Run run =
-        run_sigs_after("( ulimit -n " + std::to_string(most) + "; exec",
+        run_sigs_after("( ulimit -n " + std::to_string(max_open_files) + "; exec",
                        "export " + tiny.project() + " --codec png --labels xml,kitti --out " + tiny.out() + " )");
     ++(run.status == 0 ? done : refused);
     CHECK_MESSAGE(tiny.files_out() == (run.status == 0 ? 4 : 0),
-                  most << " files, status " << run.status << ": " << run.err);
+                  max_open_files << " files, status " << run.status << ": " << run.err);
     CHECK_FALSE(has_staging(tiny.out()));
   }
   CHECK(refused > 0);

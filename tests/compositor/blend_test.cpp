@@ -123,12 +123,12 @@ TEST_CASE("an opacity near zero leaves the image unchanged") {
         Frame frame = grainy(sort, {37, 23});
         const Frame before = cloned(frame);
         blend_over(frame, opaque({0, 0, 37, 23}, {1, 0.5, 0.25}, opacity), space);
-        int most = 0;
+        int maximum = 0;
         for (int plane = 0; plane < frame.plane_count(); ++plane)
-          most =
-              std::max(most, static_cast<int>(cv::norm(frame.planes[static_cast<std::size_t>(plane)],
+          maximum = std::max(maximum,
+                             static_cast<int>(cv::norm(frame.planes[static_cast<std::size_t>(plane)],
                                                        before.planes[static_cast<std::size_t>(plane)], cv::NORM_INF)));
-        CHECK(most <= (opacity > 1e-6 ? 1 : 0));
+        CHECK(maximum <= (opacity > 1e-6 ? 1 : 0));
       }
 }
 

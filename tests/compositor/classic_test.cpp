@@ -117,7 +117,7 @@ cv::Mat green_screen(cv::Size size) {
 }
 
 struct Difference {
-  double most = 0;
+  double maximum = 0;
   int samples = 0;  // that differ at all
 };
 
@@ -132,8 +132,8 @@ Difference between(const cv::Mat& a, const cv::Mat& b) {
 void check_stage(const char* name, const cv::Mat& ours, const cv::Mat& papers, Difference& worst) {
   CAPTURE(name);
   const Difference d = between(ours, papers);
-  CHECK(d.most <= 1);
-  worst = {std::max(worst.most, d.most), worst.samples + d.samples};
+  CHECK(d.maximum <= 1);
+  worst = {std::max(worst.maximum, d.maximum), worst.samples + d.samples};
 }
 
 Difference check_stages(const NamedCamera& named, const cv::Mat& input1, const cv::Mat& input2, double sigma_px) {
@@ -162,7 +162,7 @@ TEST_CASE("the classic stages are those of the paper's section 3.2 done with Ope
       CAPTURE(sigma_px);
       const Difference worst = check_stages(named, textured(size), green_screen(size), sigma_px);
       MESSAGE(named.name << ", sigma " << sigma_px << ": " << worst.samples << " of " << 6 * size.area() * 3
-                         << " samples differ at all, by at most " << worst.most);
+                         << " samples differ at all, by at most " << worst.maximum);
     }
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("the classic stages are those of the paper on a real image too") {
     CAPTURE(named.name);
     const Difference worst = check_stages(named, whole, green_screen(whole.size()), 1.2);
     MESSAGE(named.name << ": " << worst.samples << " of " << 6 * whole.total() * 3
-                       << " samples differ at all, by at most " << worst.most);
+                       << " samples differ at all, by at most " << worst.maximum);
   }
 }
 

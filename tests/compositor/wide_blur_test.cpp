@@ -76,12 +76,12 @@ TEST_CASE("any sigma is possible, and the result tends to zero") {
   const Layer layer = cloudy_layer({5, 5, 40, 30}, 2);
   double before = 1;
   for (const double sigma_px : {20.0, 500.0, 1e6, 1e9, 1e30}) {
-    const double most = max_after_blur(layer, sigma_px);
-    CHECK(most < before);
-    before = most;
+    const double maximum = max_after_blur(layer, sigma_px);
+    CHECK(maximum < before);
+    before = maximum;
     const Layer out = widely_blurred(layer, sigma_px, {0, 0, 320, 240});
     CHECK(is_valid(out));
-    CHECK(cv::norm(out.color, cv::NORM_INF) <= most * 1.000001);
+    CHECK(cv::norm(out.color, cv::NORM_INF) <= maximum * 1.000001);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 // Boxes of whole pixels, so that cells can be counted.
 Box random_box(std::mt19937& random) {
-  const auto number = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
+  const auto number = [&](int minimum, int maximum) { return std::uniform_int_distribution(minimum, maximum)(random); };
   return {number(0, 40) - 0.5, number(0, 40) - 0.5, double(number(1, 25)), double(number(1, 25))};
 }
 

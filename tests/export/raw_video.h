@@ -24,6 +24,6 @@ struct RawVideo {
 };
 
 // The first `most` images. Only planar 8-bit formats. A failure fails the test.
-[[nodiscard]] RawVideo raw_video(const std::filesystem::path& path, int most);
+[[nodiscard]] RawVideo raw_video(const std::filesystem::path& path, int max_images);
 
 }  // namespace sigs::test

@@ -68,7 +68,7 @@ Flight flight(const Case& scene, const FlightSettings& settings, std::shared_ptr
           .own_body = truth,
           .bgr = [=, size_px = settings.size_px](
                      int n) { return drawn(scene, *terrain, *body, *grain, reflection, size_px, n); },
-          .can_be_told = !scene.path.still};
+          .is_decidable = !scene.path.still};
 }
 
 // About the resolution at which the nearest ground appears.

@@ -15,7 +15,7 @@ struct Flight {
   cv::Size size_px;
   cv::Mat own_body;                 // truth, CV_8UC1: 255 where the body hides the world, 0 elsewhere
   std::function<cv::Mat(int)> bgr;  // frame n (any n >= 0, by n alone), CV_8UC3; may be called by several threads
-  bool can_be_told = true;          // false: nothing moves, so that the body cannot be determined
+  bool is_decidable = true;         // false: nothing moves, so that the body cannot be determined
 };
 
 struct FlightSettings {

@@ -115,10 +115,10 @@ TEST_CASE("a body's mean position is that of the truth") {
     cv::Mat inner, outer;
     cv::erode(body.truth, inner, cv::Mat(), {-1, -1}, 5, cv::BORDER_REPLICATE);
     cv::dilate(body.truth, outer, cv::Mat(), {-1, -1}, 6);
-    double least = 0;
+    double minimum = 0;
     if (cv::countNonZero(inner) > 0) {
-      cv::minMaxLoc(cover, &least, nullptr, nullptr, nullptr, inner);
-      CHECK(least > 0.98);  // 255 premultiplied is rounded down now and then
+      cv::minMaxLoc(cover, &minimum, nullptr, nullptr, nullptr, inner);
+      CHECK(minimum > 0.98);  // 255 premultiplied is rounded down now and then
     }
     cv::Mat beyond = cover.clone();
     beyond.setTo(0, outer);
@@ -212,7 +212,7 @@ TEST_CASE("noise has the stated strength, and differs between frames") {
 TEST_CASE("the frames of a still flight differ by noise and the moving object alone") {
   for (const char* name : {"still", "still, one mover"}) {
     const Flight flight = by_name(name, kSmall);
-    CHECK_FALSE(flight.can_be_told);
+    CHECK_FALSE(flight.is_decidable);
     cv::Mat apart;
     cv::absdiff(flight.bgr(5), flight.bgr(45), apart);
     const int loud = cv::countNonZero(apart.reshape(1) > 16);  // 5.6 sigma of the difference
@@ -231,13 +231,13 @@ TEST_CASE("letterbox bars are black in every frame and masked in the truth") {
 }
 
 TEST_CASE("the exposure drifts over its whole range") {
-  double least = 9, most = 0;
+  double minimum = 9, maximum = 0;
   for (int n = 0; n < 600; ++n) {
-    least = std::min(least, drifting_gain(n));
-    most = std::max(most, drifting_gain(n));
+    minimum = std::min(minimum, drifting_gain(n));
+    maximum = std::max(maximum, drifting_gain(n));
   }
-  CHECK(least == doctest::Approx(0.72).epsilon(0.03));
-  CHECK(most == doctest::Approx(1.296).epsilon(0.03));
+  CHECK(minimum == doctest::Approx(0.72).epsilon(0.03));
+  CHECK(maximum == doctest::Approx(1.296).epsilon(0.03));
 }
 
 TEST_CASE("plain sky first shows sky for the first half and ground in the second") {

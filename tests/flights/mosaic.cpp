@@ -37,13 +37,13 @@ Mosaic::Mosaic(const cv::Mat& finest, double cell_m) : cell_m_(cell_m) {
 
 cv::Mat tiled_noise(int size, int coarsest, int octaves, double fade, std::uint32_t seed) {
   cv::Mat sum = cv::Mat::zeros(size, size, CV_32FC1);
-  double strength = 1, most = 0;
+  double strength = 1, sum_of_squares = 0;
   for (int k = 0; k < octaves && (coarsest << k) <= size; ++k) {
     sum += strength * one_octave(size, coarsest << k, seed + static_cast<std::uint32_t>(k));
-    most += strength * strength;
+    sum_of_squares += strength * strength;
     strength *= fade;
   }
-  return cv::Mat(sum / std::sqrt(most));
+  return cv::Mat(sum / std::sqrt(sum_of_squares));
 }
 
 }  // namespace sigs::flights

@@ -108,13 +108,13 @@ void check_against_full(const Layer& soft, const Layer& full, double sigma_px, c
   Frame got = cloned(background);
   if (!soft.empty()) blend_over(got, soft, BlendSpace::linear);
   const double off = rmse(got.planes[0], wanted.planes[0]);
-  const double most = cv::norm(got.planes[0], wanted.planes[0], cv::NORM_INF);
-  MESSAGE("sigma " << sigma_px << ": off by " << off << " code values (root of mean square), at most " << most
+  const double maximum = cv::norm(got.planes[0], wanted.planes[0], cv::NORM_INF);
+  MESSAGE("sigma " << sigma_px << ": off by " << off << " code values (root of mean square), at most " << maximum
                    << "; the blurred intruder moves them by "
                    << cv::norm(background.planes[0], wanted.planes[0], cv::NORM_INF));
   CHECK(off <= 0.5);
-  CHECK(most <= 2);
-  if (soft.empty()) CHECK(most <= 1);
+  CHECK(maximum <= 2);
+  if (soft.empty()) CHECK(maximum <= 1);
 }
 
 // Over even images of these lumas.
@@ -250,9 +250,9 @@ TEST_CASE("around the camera a sphere stays opaque before a wide blur") {
   Scene scene = scenario.opened();
   scene.compositing.blur_px_per_m = 100.0 / 4;
   const ComposedFrame frame = composed(scene, 1, even_frame(scenario.size_px(), 100));
-  double least = 0;
-  cv::minMaxIdx(frame.mask, &least);
-  CHECK(least >= 254);
+  double minimum = 0;
+  cv::minMaxIdx(frame.mask, &minimum);
+  CHECK(minimum >= 254);
   CHECK(frame.truth.intruders[0].in_image);
 }
 

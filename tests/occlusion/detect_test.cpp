@@ -28,7 +28,8 @@ Result<OwnBody> detected(const std::filesystem::path& path, const OwnBodySetting
 }
 
 // Frame by frame, without anything read ahead.
-Verdict by_hand(const std::filesystem::path& path, const OwnBodySettings& settings, const std::vector<int>& frames) {
+Verdict frame_by_frame(const std::filesystem::path& path, const OwnBodySettings& settings,
+                       const std::vector<int>& frames) {
   FrameSource footage = opened(path);
   const std::unique_ptr<DetectionMethod> method = detection_method(settings, footage.info().size_px);
   for (const int n : frames) method->add(footage.read(n).value().planes[0]);
@@ -57,7 +58,7 @@ TEST_CASE("the used frames are the requested ones and the mask is the method's w
   CHECK(found.frames_used == 7);
   CHECK(found.frames_passed == 19);
   CHECK_FALSE(found.converged);
-  const Verdict expected = by_hand(folder / "c.mkv", settings, {5, 8, 11, 14, 17, 20, 23});
+  const Verdict expected = frame_by_frame(folder / "c.mkv", settings, {5, 8, 11, 14, 17, 20, 23});
   CHECK(equal(found.mask, soft_edged(expected.own_body, 4)));
   CHECK(found.share == doctest::Approx(cv::countNonZero(expected.own_body) / (96.0 * 72)));
   REQUIRE(found.confidence.type() == CV_16UC1);
@@ -115,16 +116,16 @@ TEST_CASE("damaged frames are left out with a warning that counts them") {
   for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 200; ++i) bytes[i] = static_cast<uint8_t>(bytes[i] + 1);
   write_bytes(folder / "c.mkv", bytes);
   FrameSource footage = opened(folder / "c.mkv");
-  std::vector<int> sound;
+  std::vector<int> intact;
   for (int n = 0; n < footage.info().frame_count(); ++n)
-    if (!footage.read(n).value().damaged) sound.push_back(n);
-  const int damaged = footage.info().frame_count() - static_cast<int>(sound.size());
+    if (!footage.read(n).value().damaged) intact.push_back(n);
+  const int damaged = footage.info().frame_count() - static_cast<int>(intact.size());
   REQUIRE(damaged > 0);
   const OwnBody found = detected(folder / "c.mkv", settings_with(1500)).value();
-  CHECK(found.frames_used == static_cast<int>(sound.size()));
+  CHECK(found.frames_used == static_cast<int>(intact.size()));
   REQUIRE(found.warnings.size() == 1);
   CHECK(found.warnings[0].what.starts_with(std::to_string(damaged) + " of "));
-  CHECK(equal(found.mask, by_hand(folder / "c.mkv", settings_with(1500), sound).own_body));
+  CHECK(equal(found.mask, frame_by_frame(folder / "c.mkv", settings_with(1500), intact).own_body));
 }
 
 TEST_CASE("an image size that changes is an error that names the frame and what to do") {

@@ -154,10 +154,10 @@ TEST_CASE("the sum is of the differences of successive frames, each scaled to a 
     const double largest = *std::max_element(differences.begin(), differences.end());
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += differences[i] / largest;
   }
-  const auto [least, most] = std::minmax_element(sum.begin(), sum.end());
+  const auto [minimum, maximum] = std::minmax_element(sum.begin(), sum.end());
   const cv::Mat stage = verdict_on(frames, KeepStages::yes).stages.front().image;
   for (std::size_t i = 0; i < sum.size(); ++i)  // rounding to 8 bits
-    REQUIRE(std::abs(stage.data[i] - (sum[i] - *least) / (*most - *least) * 255) <= 0.5 + 1e-3);
+    REQUIRE(std::abs(stage.data[i] - (sum[i] - *minimum) / (*maximum - *minimum) * 255) <= 0.5 + 1e-3);
 }
 
 TEST_CASE("a footage of half the contrast gives the same mask") {
@@ -218,11 +218,11 @@ TEST_CASE("a pair of equal frames leaves the sum unchanged") {
 TEST_CASE("confidence is one half at the mask's border, 0 or 1 far from it, and consistent with the mask") {
   const Verdict verdict = verdict_on(shaking(nose(), 12));
   REQUIRE(verdict.confidence.type() == CV_32FC1);
-  double least = 0;
-  double most = 0;
-  cv::minMaxLoc(verdict.confidence, &least, &most);
-  CHECK(least == 0);
-  CHECK(most == 1);
+  double minimum = 0;
+  double maximum = 0;
+  cv::minMaxLoc(verdict.confidence, &minimum, &maximum);
+  CHECK(minimum == 0);
+  CHECK(maximum == 1);
   CHECK(same_bytes(verdict.confidence > 0.5, verdict.own_body));
   CHECK(verdict.confidence.at<float>(10, 10) == 0);
   CHECK(verdict.confidence.at<float>(239, 160) == 1);

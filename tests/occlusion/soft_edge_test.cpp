@@ -104,11 +104,11 @@ TEST_CASE("a mask without an edge is unchanged, however soft") {
 
 TEST_CASE("a softness far wider than the image leaves it half grey") {
   const cv::Mat soft = soft_edged(body_on_the_right(), 1e7);
-  double least = 0;
-  double most = 0;
-  cv::minMaxLoc(soft, &least, &most);
-  CHECK(least >= 127);
-  CHECK(most <= 128);
+  double minimum = 0;
+  double maximum = 0;
+  cv::minMaxLoc(soft, &minimum, &maximum);
+  CHECK(minimum >= 127);
+  CHECK(maximum <= 128);
 }
 
 }  // namespace sigs::test

@@ -14,9 +14,9 @@ namespace {
 
 using namespace sigs;
 
-cv::Mat random_costs(cv::Size size, double most, cv::RNG& random) {
+cv::Mat random_costs(cv::Size size, double maximum, cv::RNG& random) {
   cv::Mat costs(size, CV_32FC1);
-  random.fill(costs, cv::RNG::UNIFORM, 0, most);
+  random.fill(costs, cv::RNG::UNIFORM, 0, maximum);
   return costs;
 }
 

@@ -151,13 +151,13 @@ TEST_CASE("a request for nothing ends the work, and so does the end of the progr
 
 TEST_CASE("footage that is missing and problems of the project are why there is no measured truth") {
   TruthBuilderFixture fixture;
-  const Scene sound = scene_of(project_at(100));
-  OpenedScene greyed = *sound;
+  const Scene valid = scene_of(project_at(100));
+  OpenedScene greyed = *valid;
   greyed.footage =
-      std::make_shared<Footage>(Footage{.shape = sound->footage->shape, .problem = "gone.mp4: is not there"});
+      std::make_shared<Footage>(Footage{.shape = valid->footage->shape, .problem = "gone.mp4: is not there"});
   fixture.maker.want(std::make_shared<const OpenedScene>(greyed));
   REQUIRE(comes_true([&] { return fixture.maker.state().problem == "gone.mp4: is not there"; }));
-  OpenedScene faulty = *sound;
+  OpenedScene faulty = *valid;
   faulty.draft.problems.push_back({"camera.speed_mps", "must be finite", ErrorKind::bad_project});
   fixture.maker.want(std::make_shared<const OpenedScene>(faulty));
   REQUIRE(comes_true([&] { return fixture.maker.state().problem == "the project has problems"; }));

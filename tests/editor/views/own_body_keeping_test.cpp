@@ -162,11 +162,11 @@ TEST_CASE("the share follows the painting, also within a stroke") {
 
 TEST_CASE(
     "a mask that is recovered after a crash is unsaved as it was, and neither project nor detection replaces it") {
-  for (const bool by_hand : {false, true}) {
+  for (const bool has_strokes_of_user : {false, true}) {
     MaskFixture b;
     b.update();
     b.session.forget();
-    b.session.recover({disk(25), by_hand});
+    b.session.recover({disk(25), has_strokes_of_user});
     b.use_mask_of_scene(disk(10));
     b.update();
     CHECK(is_same(b.session.painting().mask(), disk(25)));
@@ -175,14 +175,14 @@ TEST_CASE(
     const MaskToKeep kept = b.session.to_keep();
     CHECK(kept.state == b.session.unsaved());
     CHECK(is_same(kept.pixels, disk(25)));
-    CHECK(kept.has_strokes == by_hand);
+    CHECK(kept.has_strokes == has_strokes_of_user);
     CHECK_FALSE(kept.is_changing);
     b.detect(12);
-    CHECK(is_same(b.session.painting().mask(), by_hand ? disk(25) : disk(12)));
-    CHECK(b.session.found_waits() == by_hand);
+    CHECK(is_same(b.session.painting().mask(), has_strokes_of_user ? disk(25) : disk(12)));
+    CHECK(b.session.found_waits() == has_strokes_of_user);
     b.session.painting().begin_stroke({3, 1}, {5, 5});
     CHECK(b.session.to_keep().is_changing);
     b.session.painting().take_back_stroke();
-    REQUIRE(b.session.painting().can_undo() == !by_hand);
+    REQUIRE(b.session.painting().can_undo() == !has_strokes_of_user);
   }
 }
