@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the images of README.md and docs/ anew: scripts/images.sh [BUILD FOLDER] (after
+# Makes the images of README.md and docs/: scripts/images.sh [BUILD FOLDER] (after
 # scripts/test.sh; Xvfb and xdotool are needed).
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -36,12 +36,12 @@ std::vector<RealClip> real_clips() {
 }
 
 // A real flight without any own body, and a synthetic one drawn over it.
-struct LaidOver {
+struct Overlay {
   std::string name;
   std::vector<flights::Part> parts;
 };
 
-std::vector<LaidOver> laid_over() {
+std::vector<Overlay> overlays() {
   return {{"coast + tail boom", {flights::tail_boom()}},
           {"coast + nose", {flights::nose()}},
           {"coast + wing tips", {flights::wing_tip_left(), flights::wing_tip_right()}},
@@ -56,10 +56,10 @@ Clip clip_of(const RealClip& real, cv::Size size_px) {
   return clip;
 }
 
-Clip with_body(const LaidOver& made, FrameSource& flight, int frames, const accuracy::Call& call) {
+Clip with_body(const Overlay& drawn, FrameSource& flight, int frames, const accuracy::Call& call) {
   const cv::Size size_px = flight.info().size_px;
-  const flights::Body body = flights::body_of(made.parts, size_px, 23);
-  const fs::path path = call.folder / "laid_over.mp4";
+  const flights::Body body = flights::body_of(drawn.parts, size_px, 23);
+  const fs::path path = call.folder / "overlay.mp4";
   write_h264(path, size_px, frames, [&](int n) {
     const Result<Frame> frame = flight.read(n);
     if (!frame) accuracy::stop(frame.error().text());
@@ -67,7 +67,7 @@ Clip with_body(const LaidOver& made, FrameSource& flight, int frames, const accu
     flights::draw_over(image, body, flights::shake_at(n, size_px, 23));
     return image;
   });
-  return {.name = made.name, .path = path, .own_body = body.truth};
+  return {.name = drawn.name, .path = path, .own_body = body.truth};
 }
 
 const char* truth_of(const Clip& clip) {
@@ -111,8 +111,8 @@ void measure_real_clips(const accuracy::Call& call) {
   const fs::path coast = kVideos / "air_karma_gopro_coast.mp4";
   if (!fs::exists(coast)) return;
   FrameSource flight = opened(coast);
-  for (const LaidOver& made : laid_over()) {
-    const Clip clip = with_body(made, flight, std::min(frames, flight.info().frame_count()), call);
+  for (const Overlay& drawn : overlays()) {
+    const Clip clip = with_body(drawn, flight, std::min(frames, flight.info().frame_count()), call);
     measure(clip, frames, call, table);
     fs::remove(clip.path);
   }

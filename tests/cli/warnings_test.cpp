@@ -158,12 +158,12 @@ TEST_CASE("a model of implausible size is reported, with the unit that it may be
   TinyProject tiny;
   put_text(tiny.file("cube.obj"), "v -1450 -100 -100\nv 1450 100 -100\nv 0 0 100\nf 1 2 3\nf 3 2 1\n");
   check_warned(tiny, "intruders[0].model.scale", {"2.9 km long", "millimetres (scale 0.001: 2.9 m"});
-  TinyProject speck;
-  speck.change(R"("file": "cube.obj")", R"("file": "cube.obj", "scale": 0.01)");
-  check_warned(speck, "intruders[0].model.scale", {"0.02 m long", "length_m"});
-  TinyProject wished;
-  wished.change(R"("file": "cube.obj")", R"("file": "cube.obj", "length_m": 3000)");
-  check_warned(wished, "intruders[0].model.length_m", {"3 km long"});
+  TinyProject small_model;
+  small_model.change(R"("file": "cube.obj")", R"("file": "cube.obj", "scale": 0.01)");
+  check_warned(small_model, "intruders[0].model.scale", {"0.02 m long", "length_m"});
+  TinyProject long_model;
+  long_model.change(R"("file": "cube.obj")", R"("file": "cube.obj", "length_m": 3000)");
+  check_warned(long_model, "intruders[0].model.length_m", {"3 km long"});
 }
 
 TEST_CASE("a mask that occludes everything or nothing is reported") {

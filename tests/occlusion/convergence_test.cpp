@@ -56,9 +56,7 @@ TEST_CASE("the mask of an image without an own body converges too") {
   CHECK(settles({none, none, none, none}, 0.01));
 }
 
-TEST_CASE(
-    "nothing settles that was quiet for less than ten seconds, nor while nobody can tell, nor where too little is "
-    "known to move") {
+TEST_CASE("a mask does not converge within ten seconds, while undecided, or with too little known motion") {
   const Verdict same = verdict_with(50);
   CHECK_FALSE(settles({same, same, same, same, same}, 0.01, 2.49));
   CHECK(settles({same, same, same, same, same}, 0.01, 2.5));
@@ -71,9 +69,7 @@ TEST_CASE(
   CHECK(settles({half, half, half, half}, 0.01));
 }
 
-TEST_CASE(
-    "nothing converges while a patch of the image is undecided, in the mask or beside it; an undecided border is no "
-    "patch") {
+TEST_CASE("a mask does not converge while a patch of the image is undecided; a mask's border is no such patch") {
   const auto with_doubt = [](const cv::Rect& where, double confidence) {
     Verdict verdict = verdict_with(50);
     verdict.confidence(where).setTo(confidence);

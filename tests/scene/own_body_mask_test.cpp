@@ -20,7 +20,7 @@ TEST_CASE("white occludes, black does not, and grey is in between") {
   CHECK(mask->at<float>(0, 2) == doctest::Approx(1.0F));
 }
 
-TEST_CASE("a 16-bit mask says the same as its 8-bit twin") {
+TEST_CASE("a 16-bit mask has the values of the same mask in 8 bits") {
   const test::TemporaryFolder folder;
   cv::imwrite((folder / "8.png").string(), cv::Mat((cv::Mat_<uchar>(1, 3) << 0, 51, 255)));
   cv::imwrite((folder / "16.png").string(), cv::Mat((cv::Mat_<ushort>(1, 3) << 0, 51 * 257, 65535)));

@@ -97,7 +97,8 @@ TEST_CASE("of waypoints at one place the selected intruder's is picked") {
 }
 
 TEST_CASE(
-    "a waypoint put at a place of the screen lies under the mouse, level with the camera where nothing flies yet") {
+    "a waypoint added at a screen position is under the mouse, at the height of the camera where there is no path "
+    "yet") {
   Bystander it(crossing());
   for (const double elevation_rad : {std::numbers::pi / 2, 0.5, 0.0, -0.4})
     for (const Projection projection : {Projection::parallel, Projection::perspective}) {
