@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Error against run time: measures everything, draws the plots and makes the tables of docs/accuracy.md anew.
+# Error against run time: measures everything, draws the plots and makes the tables of docs/accuracy.md.
 #   bench/accuracy.sh [BUILD] [quick|draw]    default: build/release
-#   quick   one repetition, coarse truth; page and plots go into the build folder, docs/ stays as it is
+#   quick   one repetition, coarse truth; page and plots go into the build folder, docs/ is unchanged
 #   draw    measures nothing: plots and tables of the last whole run
 # The tables lie in BUILD/accuracy as CSV files.
 set -euo pipefail

@@ -21,7 +21,7 @@ dataset() { # OUT OPTIONS...
     { cat "$lot/said" >&2; exit 1; }
 }
 
-# Its projects are what is exported one by one; their paths hold from beside it.
+# Its projects are exported one by one; their paths are relative to that folder.
 dataset "$lot/first"
 frames=$(grep -ho '"frames": [0-9]*' "$lot"/first/*/entry.json | awk '{ sum += $2 } END { print sum }')
 single() {

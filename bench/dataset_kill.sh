@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A dataset that is killed again and again (SIGKILL) and resumed, against one made in a single run.
 #   bench/dataset_kill.sh [BUILD] [KILLS] [RECIPE]     default: build/release, 10, projects/table1/table1.json
-# The moments are drawn with a fixed seed over the time that the single run took. Ends with 1 where anything differs.
+# The times are random, with a fixed seed, over the duration of the single run. Ends with 1 where anything differs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sigs=$PWD/${1:-build/release}/sigs

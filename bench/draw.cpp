@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What drawing an intruder takes, by its size in the image: the renderer alone, no lens and no background.
+// Time of rendering an intruder, by its size in the image: the renderer alone, no lens and no background.
 //   bench_draw [--csv] [--supersampling N] [--samples N] [--size PX] [OBJ FORWARD UP]...
 // The two sample models where none is named.
 

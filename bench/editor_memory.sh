@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The editor's memory with 4K footage: what it says that it keeps, beside what is resident of its process, while it
+# The editor's memory with 4K footage: the amount that it reports, and the resident memory of its process, while it
 # plays, is scrubbed, a waypoint is dragged, and stages are shown. Fails where the sum is above the limit by more
-# than what is on the screen. Needs Xvfb, xdotool and ffmpeg, no display; about two minutes.
+# than the shown images. Needs Xvfb, xdotool and ffmpeg, no display; about two minutes.
 #   bench/editor_memory.sh [BUILD]     default: build/release
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -41,7 +41,7 @@ screen=$!
 until [ -s "$work/display" ]; do sleep 0.1; done
 export DISPLAY=":$(cat "$work/display")" XDG_CONFIG_HOME="$work/config" XDG_STATE_HOME="$work/state"
 
-# told KEY: of a number of bytes that the editor tells, in MiB; 0 where it tells none.
+# told KEY: a number of bytes in the editor's probe, in MiB; 0 where it is missing.
 told() { { grep -oE "\"$1\":[0-9]+" "$probe" || echo :0; } | cut -d: -f2 | awk '{ printf "%d", $1 / 1048576 }'; }
 resident() { awk '/VmRSS/ { printf "%d", $2 / 1024 }' "/proc/$editor/status"; }
 # box NAME: x y width height of a place on the screen.
@@ -51,7 +51,7 @@ wait_for() { for _ in $(seq 600); do grep -qE "$1" "$probe" 2>/dev/null && retur
 click() { xdotool mousemove "$1" "$2"; sleep 0.3; xdotool mousedown 1; sleep 0.15; xdotool mouseup 1; sleep 0.3; }
 key() { xdotool keydown "$1"; sleep 0.1; xdotool keyup "$1"; sleep 0.1; }
 
-# Between watch_memory and end_watch NAME a reading is noted five times a second; then the largest ones are printed.
+# Between watch_memory and end_watch NAME a reading is recorded five times a second; then the largest ones are printed.
 watch_memory() {
   touch "$work/going"
   (while [ -e "$work/going" ]; do

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person at the editor waits for: the real document, previewer and caches, without a window.
+// Waiting times of a user of the editor: the real document, previewer and caches, without a window.
 //   bench_editor_preview [PROJECT]
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void print(const char* what, const std::vector<double>& ms, const char* wanted) 
   std::printf("%-58s %7.2f ms median %7.2f ms 95 %%   %s\n", what, spread.median, spread.maximum, wanted);
 }
 
-// A window's part in it: asks, and looks when it is woken.
+// The window's part: requests, and reads the state when it is woken.
 class Window {
  public:
   Window(const Document& document, PreviewLimits limits)

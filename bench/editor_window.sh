@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How often the editor's window turns in a second, while the mouse moves over it: at rest, playing, and while an export
+# Updates a second of the editor's window while the mouse moves over it: at rest, playing, and while an export
 # runs in the background. Medians of one reading a second, and the lowest. Needs Xvfb and xdotool, no display.
 #   bench/editor_window.sh [PROJECT] [BUILD]     default: projects/head-on/head-on.json build/release
 set -euo pipefail
@@ -20,7 +20,7 @@ screen=$!
 until [ -s "$work/display" ]; do sleep 0.1; done
 export DISPLAY=":$(cat "$work/display")" XDG_CONFIG_HOME="$work/config" XDG_STATE_HOME="$work/state"
 
-# value KEY: of a number in what the editor tells; place NAME: the middle of a place on the screen.
+# value KEY: a number in the editor's probe; place NAME: the middle of a place on the screen.
 value() { grep -oE "\"$1\":[0-9.]+" "$probe" | cut -d: -f2; }
 place() { grep -oE "\"$1\":\[[^]]*\]" "$probe" | tr -c '0-9.\n' ' ' | awk '{n = NF; print int($(n-3) + $(n-1) / 2), int($(n-2) + $n / 2)}'; }
 wait_for() { for _ in $(seq 300); do grep -qE "$1" "$probe" 2>/dev/null && return; sleep 0.1; done; echo "waited in vain for $1" >&2; exit 1; }

@@ -20,7 +20,7 @@ trap 'rm -rf "$lot"' EXIT
 h264=(-c:v libx264 -crf 18 -g 60 -x264-params threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1)
 ffv1=(-c:v ffv1 -level 3 -g 1 -slicecrc 1 -threads "$(nproc)")
 
-# Formation flight: the intruder keeps its place before the camera, so its size stays. 25 frames a second, 22 m/s.
+# Formation flight: the intruder keeps its position in front of the camera, so its size is constant. 25 frames a second, 22 m/s.
 project() { # NAME CLIP FRAMES RATE
   local last=$(($3 - 1))
   local far

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How an export's time and memory grow with frames and with intruders, on a looped clip of 320x240.
 #   bench/growth.sh [--write] [BUILD] [FRAMES...]     default: build/release, 500 5000 50000 frames
-# --write puts the tables into docs/speed.md. Memory is the most that was resident at once (VmHWM).
+# --write puts the tables into docs/speed.md. Memory is the maximum resident size (VmHWM).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 write=
@@ -36,7 +36,7 @@ looped() { # FRAMES
   [ -e "$lot/$1.mp4" ] || ffmpeg -v error -stream_loop -1 -i "$lot/small.mp4" -c copy -frames:v "$1" "$lot/$1.mp4"
 }
 
-# Intruders side by side that fly as the camera does, so each keeps its size.
+# Intruders side by side with the camera's velocity, so each keeps its size.
 project() { # NAME FRAMES INTRUDERS
   local last=$(($2 - 1)) i list=
   for i in $(seq "$3"); do
@@ -53,7 +53,7 @@ EOF
 }
 
 TIMEFORMAT='%R %U %S'
-# Prints wall-clock, user and system seconds and the most resident kilobytes.
+# Prints wall-clock, user and system seconds and the maximum resident kilobytes.
 measured() { # NAME
   local times
   times=$({ time {

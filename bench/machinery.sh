@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Whole exports of two builds side by side, on cases that a user meets: what a piece of machinery gains over its plain
+# Compares whole exports of two builds, on realistic cases: the gain of an optimization over its plain
 # form, where one build has the one and the other build the other.
 #   bench/machinery.sh BUILD PLAIN_BUILD [RUNS] [FRAMES] [CASE...]     default: 5 interleaved runs, frames 0-39, all cases
 # FFV1 with masks and XML labels, as `sigs export` makes them. Medians; "user" is processor time of all threads, which a
 # busy machine disturbs less than the clock. "compose" is drawing and compositing, ms a frame. The last column names the
-# files that differ between the two. docs/decisions/0001-machinery.md has what was found with it.
+# files that differ between the two. docs/decisions/0001-machinery.md has the results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if [ $# -lt 2 ]; then
@@ -24,7 +24,7 @@ sample=assets/footage/sample.mp4
 lens=$here/assets/calibrations/sample.xml
 light_aircraft="$here/assets/models/light-aircraft/light-aircraft.obj +x +z"
 
-# One intruder on a straight way from A to B (camera at 0 0 -150, 22 m/s ahead), or through a place between them.
+# One intruder on a straight path from A to B (camera at 0 0 -150, 22 m/s ahead), or through a place between them.
 project() { # NAME CLIP CALIBRATION "MODEL FORWARD UP" LAST_FRAME A B [FRAME PLACE]
   local model forward up between=
   read -r model forward up <<<"$4"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# How well and how fast the own body is found: both methods on every made flight, agreement by run time, real clips.
+# Accuracy and speed of the detection of the own body: both methods on every synthetic flight, agreement by run time, real clips.
 #   bench/own_body.sh [--write] [quick|draw] [BUILD]     default: build/release; some fifteen minutes on two processors
 #   --write   puts tables, plot and images into docs/
-#   quick     few small frames: shows that it runs, proves nothing; writes nothing into docs/
+#   quick     few small frames: only shows that it runs; writes nothing into docs/
 #   draw      measures nothing: tables and plot of the last run
-# Tables (CSV), images and the masks laid over the clips are left in BUILD/own-body.
+# Tables (CSV), images and the masks drawn over the clips are left in BUILD/own-body.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 write=
@@ -40,7 +40,7 @@ if [ -n "$write" ] && [ "$mode" != quick ]; then
   for image in flights stages-paper stages-stable; do
     cp "$folder/$image.jpg" "docs/images/own-body-$image.jpg"
   done
-  # Without the real clips the page keeps the image of their masks that it has.
+  # Without the real clips the page keeps its image of their masks.
   if [ -e "$folder/real-masks.png" ]; then cp "$folder/real-masks.png" docs/images/own-body-real-masks.png; fi
 fi
 if [ -n "$broken" ] && [ "$mode" != quick ]; then

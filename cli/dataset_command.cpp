@@ -35,7 +35,7 @@ constexpr const char* kDatasetFooter =
 
 struct DatasetOptions {
   std::filesystem::path recipe;
-  std::filesystem::path folder;  // empty: called as the dataset is
+  std::filesystem::path folder;  // empty: the dataset's name
   ProjectOptions project;        // --set
   int jobs = 0;
   bool resume = false;
@@ -63,7 +63,7 @@ std::string count_text(std::size_t count, const char* thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-// What several videos share is said once.
+// What several videos have in common is printed once.
 class ConsoleReporter {
  public:
   explicit ConsoleReporter(ProgressStyle style) : progress_(style) {}
@@ -125,7 +125,7 @@ Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
   return plan;
 }
 
-// Videos that cannot be are the recipe's fault, whatever else has been done.
+// Impossible videos are an error of the recipe, whatever else has been done.
 Result<void> check_impossible(const Plan& plan, const std::filesystem::path& recipe) {
   for (const ImpossibleVideo& video : plan.impossible)
     print_error({video.name, video.why + "; nothing is generated for it", ErrorKind::bad_data});
@@ -150,7 +150,7 @@ void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
                            (count > kNamed ? ", ..." : "")});
 }
 
-// The table, and what is wrong with what is asked for.
+// The table, and the errors of the request.
 Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& videos,
                   const std::vector<std::optional<Visibility>>& visibilities, const std::filesystem::path& recipe) {
   const Result<std::string> table = table_of(videos, visibilities);
@@ -210,7 +210,7 @@ Result<void> run(const DatasetOptions& options) {
   reporter.end();
   if (!report) return fail(report.error());
   const Result<void> made = print_report(*report);
-  // The run that makes the index answers for what the recipe asks; a share of it for its videos.
+  // The run that makes the index reports errors of the whole recipe; a shard those of its videos.
   const Result<void> possible = request.shard ? Result<void>() : check_impossible(*plan, options.recipe);
   return made ? possible : made;
 }

@@ -73,7 +73,7 @@ std::string aligned(const std::vector<Column>& columns) {
   return text;
 }
 
-// Columns that tell videos apart, and a line of what they share.
+// Columns whose values differ between videos, and a line of what all have in common.
 std::string table_text(const std::vector<Column>& columns) {
   std::vector<Column> varying;
   std::string shared;
@@ -86,7 +86,7 @@ std::string table_text(const std::vector<Column>& columns) {
   return aligned(varying) + (shared.empty() ? "" : shared + "\n") + "\n";
 }
 
-// Four digits that count, none of them lost before the point.
+// Four significant digits, and all digits before the decimal point.
 std::string rounded_text(double value) {
   if (value == 0 || !std::isfinite(value)) return short_text(value);
   const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
 
-// A video of an index, where it says what is needed.
+// A video of an index, where it has all that is needed.
 Result<void> add_video(const fs::path& index, const nlohmann::json& video, const std::string& split,
                        std::vector<ClipFiles>& clips) {
   if (!video.is_object() || !video.contains("name") || !video["name"].is_string())
@@ -82,7 +82,7 @@ Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& 
   return clips;
 }
 
-// What a missing file would end with: as those that are there.
+// The extension of a missing file: that of the existing ones.
 std::string endings_in(const Paths& there) {
   std::set<std::string> endings;
   for (const fs::path& path : there)
@@ -91,7 +91,7 @@ std::string endings_in(const Paths& there) {
   return endings.size() == 1 ? *endings.begin() : ".csv, .json or .txt";
 }
 
-// The one file in a detector's folder that is called like the clip.
+// The one file in a detector's folder that has the clip's name.
 Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
   const Result<Paths> there = folder_contents(folder);
   if (!there) return fail(there.error());
@@ -107,7 +107,7 @@ Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
   return found.front();
 }
 
-// "runs/yolo/" is called yolo.
+// "runs/yolo/" has the name yolo.
 std::string name_of_folder(const fs::path& folder) {
   const fs::path plain = folder.lexically_normal();
   const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
@@ -130,7 +130,7 @@ Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folde
   return inputs;
 }
 
-// Each detector's file tells of all clips: its image_id are those of the labels of all videos of the split together.
+// Each detector's file covers all clips: its image_id are those of the labels of all videos of the split together.
 Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& files) {
   DetectInputs inputs{.clips = std::move(clips)};
   int images = 0;

@@ -68,7 +68,7 @@ Result<DetectionReport> report_of(const DetectOptions& options, const DetectInpu
   return report;
 }
 
-// Below the table, where the user wonders at few encounters.
+// Below the table, where few encounters need an explanation.
 void print(const DetectionReport& report) {
   std::printf("%s", table_text(report).c_str());
   std::fflush(stdout);

@@ -52,7 +52,7 @@ Result<TrackRequest> request_of(const TrackOptions& options) {
     if (!range) return fail(range.error());
     request.frames = *range;
   }
-  // The trackers take a core of their own.
+  // The trackers occupy one core.
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
   for (const fs::path& file : request.results)
@@ -95,7 +95,7 @@ std::string heading_of(const TrackReport& report) {
          std::to_string(report.policy.from_frame) + " to " + std::to_string(report.footage.last_frame) + "\n";
 }
 
-// What the trackers that ran said, as results that can be read again.
+// The results of the trackers that ran, in a format that can be read again.
 Result<std::vector<fs::path>> write_results(const fs::path& folder, const std::vector<Results>& results) {
   std::error_code code;
   if (!results.empty()) fs::create_directory(folder, code);
@@ -122,7 +122,7 @@ Result<void> write(EvaluationFolder& folder, const TrackReport& report, const Tr
   return {};
 }
 
-// What a project is made of; labels name nothing. What is wrong with it is said when it is opened.
+// The files that a project names; labels name none. Errors in it are reported when it is opened.
 std::vector<fs::path> files_named_by(const ProjectOptions& options) {
   Result<ReadProject> read = read_project(options.file);
   if (!read || !set_all(read->project, options.settings)) return {};

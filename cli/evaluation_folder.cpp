@@ -23,7 +23,7 @@ Error not_free(const fs::path& folder, const std::string& what) {
   return {folder.string(), what, ErrorKind::cannot_create};
 }
 
-// Called after a tracker that ran, as evaluate track writes it.
+// Named after a tracker that ran, as evaluate track writes it.
 bool is_result_file(const fs::path& path) {
   std::error_code code;
   const std::span<const std::string_view> trackers = tracker_names();
@@ -31,7 +31,7 @@ bool is_result_file(const fs::path& path) {
          std::find(trackers.begin(), trackers.end(), path.stem().string()) != trackers.end();
 }
 
-// The first thing in the folder that no evaluation writes; empty: there is none.
+// The first entry of the folder that no evaluation writes; empty: there is none.
 Result<std::string> foreign_content_of(const fs::path& folder) {
   const Result<std::vector<fs::path>> paths = folder_contents(folder);
   if (!paths) return fail(paths.error());

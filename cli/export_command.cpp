@@ -33,7 +33,7 @@ struct ExportOptions {
   std::string progress = "auto";
 };
 
-// Options that stand for one setting each; what it may be is checked where the project is.
+// Options that set one setting each; the value is checked with the project.
 struct SettingText {
   const char* option;
   const char* key;
@@ -69,7 +69,7 @@ std::string given(const ExportOptions& options, const std::string& key) {
   return setting == options.settings.end() ? std::string() : setting->second;
 }
 
-// What is wrong with a setting that an option gave is said of the option: the project may be without fault.
+// An error in a setting that an option gave is reported with the option: the project may be valid.
 Result<void> set_options(Project& project, const ExportOptions& options) {
   std::map<std::string, std::string> option_of_key;
   for (const SettingText& setting : kSettings) {
@@ -97,13 +97,13 @@ Result<void> set_options(Project& project, const ExportOptions& options) {
 Result<ExportRequest> request_of(const ExportOptions& options) {
   Result<Project> project = project_of(options.project);
   if (!project) return fail(project.error());
-  // Another codec asks for a container of its own, not for the one that the project has for its codec.
+  // Another codec gets its own default container, not the one that the project has for its codec.
   const bool codec_alone =
       !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
   if (codec_alone) project->output.container = ContainerChoice::automatic;
   if (const Result<void> set = set_options(*project, options); !set) return fail(set.error());
   ExportRequest request{.project = std::move(*project), .folder = options.folder, .overwrite = options.force};
-  // Decoding and writing take a core of their own.
+  // Decoding and writing occupy one core.
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
   if (!options.frames.empty()) {

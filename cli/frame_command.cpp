@@ -54,7 +54,7 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
 
 using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;
 
-// By the names that they will have.
+// By their final names.
 NamedImages stage_images(const ComposedFrame& frame, const FrameOptions& options) {
   const std::string base = "frame_" + std::to_string(options.frame);
   NamedImages images{{options.folder / (base + ".png"), bgr_of(frame.image)}};

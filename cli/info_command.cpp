@@ -61,7 +61,7 @@ const char* name_of(ChromaSite site) {
   return "";
 }
 
-// What the footage's curve is taken for, where its own name does not say it.
+// The transfer function used for the footage, where it differs from the stated one.
 const char* curve_of(int transfer) {
   switch (transfer_function_of(transfer).value_or(TransferFunction::srgb)) {
     case TransferFunction::srgb:
@@ -74,7 +74,7 @@ const char* curve_of(int transfer) {
   }
 }
 
-// To the end of the last frame, which lasts as long as the nominal rate says.
+// To the end of the last frame, whose duration follows from the nominal rate.
 double length_s(const VideoInfo& video) {
   const double last_s = video.times_s.empty() ? 0.0 : video.times_s.back();
   return last_s + double(video.frame_rate_den) / video.frame_rate_num;

@@ -60,7 +60,7 @@ Result<Project> read(const ProjectOptions& options) {
   return project;
 }
 
-// The detection needs neither calibration nor intruders; what is wrong with them is no matter here.
+// The detection needs neither calibration nor intruders; errors in them are ignored here.
 bool concerns_detection(const Problem& problem) {
   return problem.field.starts_with("own_body.") || problem.field == "footage.video" ||
          problem.field == "footage.first_frame" || problem.field == "footage.last_frame";
@@ -137,7 +137,7 @@ void print_summary(const OwnBody& found, const Project& project) {
                  found.frames_passed, project.own_body.frames, 100 * found.last_change);
 }
 
-// Where what was found may well be wrong, and only a look can tell.
+// Where the result may well be wrong and has to be inspected.
 void warn_of_doubtful_mask(const OwnBody& found, const VideoInfo& footage, int first_frame) {
   constexpr double kRounding_s = 0.05;  // 9.95 is printed as 10.0
   const auto first = static_cast<std::size_t>(first_frame);

@@ -18,7 +18,7 @@ namespace {
 const cv::Vec3b kTint(255, 0, 255);  // magenta: neither sky nor ground nor paint
 constexpr double kStrength = 0.5;
 
-// The image with the mask tinted over it, to be looked at. bgr: CV_8UC3; mask: CV_8UC1 of the same size.
+// The image with the mask tinted over it, for inspection. bgr: CV_8UC3; mask: CV_8UC1 of the same size.
 cv::Mat tinted(const cv::Mat& bgr, const cv::Mat& mask) {
   cv::Mat image = bgr.clone();
   for (int y = 0; y < image.rows; ++y)
@@ -30,7 +30,7 @@ cv::Mat tinted(const cv::Mat& bgr, const cv::Mat& mask) {
   return image;
 }
 
-// The steps of every method, and what stands around them.
+// The file names of every method's steps, and of the frame and the result around them.
 constexpr std::string_view kStages[] = {
     "frame", "overlay",
     // paper
@@ -44,7 +44,7 @@ bool is_taken_by_a_stage(const fs::path& file, const fs::path& stages) {
   return is_stage_name(first.string());
 }
 
-// Two outputs that want the same place.
+// Two outputs with the same path.
 Result<void> check_distinct(const MaskPaths& paths) {
   const fs::path mask = canonical_name(paths.mask);
   const fs::path confidence = paths.confidence.empty() ? fs::path() : canonical_name(paths.confidence);
@@ -97,7 +97,7 @@ fs::path MaskOutputs::stage(std::size_t number, std::string_view name) const {
   return paths_.stages / file.append("_").append(name).append(".png");
 }
 
-// Takes the name of an image, in a folder that is made where it is not there.
+// Reserves the name of an image, in a folder that is created if it is missing.
 Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
   Result<void> step = check_name(option, path, inputs);
   if (step) step = folders_.make(path.parent_path());
@@ -105,7 +105,7 @@ Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, cons
   return step;
 }
 
-// Which steps there will be is known at the end alone; any that is there already stands in the way.
+// Which steps there will be is known only at the end; any existing one is an error.
 Result<void> MaskOutputs::reserve_stages(const std::vector<fs::path>& inputs) {
   if (const Result<void> made = folders_.make(paths_.stages); !made) return made;
   const std::vector<fs::path> there = stages_in(paths_.stages);
@@ -126,7 +126,7 @@ Result<MaskOutputs> MaskOutputs::reserved(MaskPaths paths, const std::vector<fs:
   return out;
 }
 
-// The steps of the method, between a frame of the footage and what was found tinted over it.
+// The steps of the method, between a frame of the footage and that frame with the result tinted over it.
 Result<void> MaskOutputs::write_stages(const OwnBody& found, const cv::Mat& bgr) {
   Result<void> step = files_.write(stage(0, "frame"), bgr);
   std::size_t number = 1;

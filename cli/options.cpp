@@ -67,7 +67,7 @@ std::string number_error(const Field& field, const std::string& text) {
   return "";
 }
 
-// What the engine's texts call something, and how it is asked for here.
+// A term in the engine's messages, and the option that sets it here.
 constexpr std::pair<std::string_view, std::string_view> kOptionTexts[] = {
     {"exists already; overwriting was not asked for", "exists already; --force overwrites it"},
     {"choose another folder for the dataset", "choose another --out"},
@@ -84,7 +84,7 @@ std::string with_options(std::string text) {
   return text;
 }
 
-// Empty: the setting can be this.
+// Empty: the value is valid for the setting.
 std::string value_error(const std::string& key, const std::string& text) {
   if (text.empty()) return "is empty";
   Project project;

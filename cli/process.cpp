@@ -14,14 +14,14 @@ namespace sigs::cli {
 
 void tune_allocator() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the maximum that glibc accepts
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
 
 namespace {
 
-// A signal handler can reach nothing else.
+// A signal handler can use only global data.
 std::atomic<bool> interrupted{false};
 std::atomic<bool> deferred{false};
 std::atomic<int> first_signal{SIGINT};
@@ -32,7 +32,7 @@ std::atomic<int> first_signal{SIGINT};
   _exit(128 + signal);
 }
 
-// A closing terminal may send more than one SIGHUP; that is nobody's impatience.
+// A closing terminal may send more than one SIGHUP; a second one is no request to stop at once.
 void on_signal(int signal) {
   if (!deferred) end_at_once(signal);
   if (!interrupted.exchange(true)) first_signal = signal;

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The images that a label file is about: an exported video, or a folder of numbered images.
+// The images that a label file belongs to: an exported video, or a folder of numbered images.
 class LabelledImages {
  public:
   // Beside NAME.xml: NAME.mkv, .mp4, .avi or the folder NAME. Error cannot_read: there is none, or more than one.
@@ -142,7 +142,7 @@ std::string extension_of(const fs::path& file) {
   return extension;
 }
 
-// Which intruder is followed. Names are those of the clip's, in their order.
+// Which intruder is tracked. Names are those of the clip's, in their order.
 Result<int> target_of(const TrackRequest& request, const std::vector<std::string>& names) {
   const std::string file = request.input.file.string();
   const int count = static_cast<int>(names.size());
@@ -161,7 +161,7 @@ const Box& start_box(const TargetFrame& frame, TruthBox truth) {
   return truth == TruthBox::visible ? *frame.visible : *frame.amodal_box;
 }
 
-// Hands the next image to the trackers. They start in the first frame in which the target can be followed.
+// Passes the next image to the trackers. They start in the first frame in which the target can be tracked.
 void track_frame(TrackerGroup& group, TrackedClip& clip, int frame, const cv::Mat& image, const TrackRequest& request) {
   if (group.is_started()) return group.follow(frame, image);
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
@@ -199,8 +199,8 @@ Result<TrackedClip> finished(const TrackRequest& request, TrackedClip clip, cons
   return clip;
 }
 
-// Whatever can be wrong with results is said before a long pass, but for where the tracker was started: a layout with a
-// line a frame is taken at its word.
+// Errors in results are reported before a long pass, except the frame in which the tracker was started: a layout with a
+// line for each frame is not checked for that.
 Result<void> check_results(const TrackRequest& request, const FootageTruth& footage) {
   for (const fs::path& file : request.results) {
     const Result<std::string> text = read_text(file);
@@ -248,7 +248,7 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   return finished(request, std::move(tracked), group);
 }
 
-// The images from the first on that the trackers are shown.
+// The images that the trackers get, from the first on.
 Result<void> track_images(const TrackRequest& request, TrackedClip& clip, TrackerGroup& group, int first) {
   Result<fs::path> path = request.video;
   if (path->empty()) path = LabelledImages::beside(request.input.file);

@@ -1,22 +1,22 @@
-# What every target of ours compiles with: strict warnings, and the engine's folder as include root.
+# Compile options of all targets: strict warnings, and the engine's folder as include root.
 add_library(sigs_flags INTERFACE)
 target_include_directories(sigs_flags INTERFACE "${CMAKE_SOURCE_DIR}/engine")
 target_include_directories(sigs_flags SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_compile_options(sigs_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
   -Wnon-virtual-dtor
-  # Leaving a field at its default is what designated initialisers are for.
+  # Designated initialisers may leave fields at their defaults.
   -Wno-missing-field-initializers)
 # The same sum in the same order everywhere: a fused multiply-add on one machine alone would change the bytes.
 target_compile_options(sigs_flags INTERFACE -ffp-contract=off)
 target_link_libraries(sigs_flags INTERFACE glm::glm tl::expected)
 
-# How much a target is optimised in a release build. Nine tenths of the sources are not met in any profile; for them
+# How much a target is optimised in a release build. Nine tenths of the sources do not appear in any profile; for them
 # and for the tests the time to compile counts.
 set(sigs_option_fast "")
 set(sigs_option_light $<$<CONFIG:Release>:-O1>)
 set(sigs_option_test $<$<CONFIG:Release>:-O0>)
 
-# Headers of others that nearly every source reads are compiled once for each of the three. GCC takes them only where
+# Headers of others that nearly every source reads are compiled once for each of the three. GCC uses them only where
 # the options are the same.
 if(SIGS_PRECOMPILE)
   foreach(kind fast light test)
@@ -60,8 +60,8 @@ endfunction()
 
 # sigs_test(NAME [SOURCES a_test.cpp ...] [ALSO files of other folders] LINKS libraries [LONG a_test ...]
 # [TIMEOUT seconds]): one doctest program of the sources given, or of all .cpp of this folder. ctest runs it once for each
-# source with test cases, as "NAME: a": with a process for each case the start would take longer than the test. What
-# fails is named by its test case. Sources named LONG begin first, so that none runs on alone at the end. A source whose
+# source with test cases, as "NAME: a": with a process for each case the start would take longer than the test. A failure
+# is named by its test case. Sources named LONG begin first, so that none runs alone at the end. A source whose
 # cases have to be left out counts as skipped (tests/support/test_data.h).
 function(sigs_test name)
   cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;ALSO;LINKS;LONG" ${ARGN})
@@ -78,7 +78,7 @@ function(sigs_test name)
     cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE file)
     cmake_path(GET file STEM stem)
     if(NOT stem MATCHES "_test$")
-      # Some files of test cases are called otherwise.
+      # Some files of test cases have other names.
       set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
       file(STRINGS "${file}" cases REGEX "^(TEST_CASE|SCENARIO)" LIMIT_COUNT 1)
       if(NOT cases)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 or Ubuntu 24.04 machine to an exported encounter: installs what the programs need, builds the
-# two of them and nothing else, exports a sample project and says where the results are. Needs no display.
+# two of them and nothing else, exports a sample project and prints the paths of the results. Needs no display.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 

@@ -5,7 +5,7 @@
 #   scripts/export_checksums.sh old/sigs >old.txt
 #   scripts/export_checksums.sh build/release/sigs >new.txt
 #   diff old.txt new.txt
-# FRAMES (130-159 if not given) is what is exported of each project. Some minutes on two cores.
+# FRAMES (130-159 if not given) are the frames exported of each project. Some minutes on two cores.
 set -euo pipefail
 if [ $# -ne 1 ] || [ ! -x "$1" ]; then
   echo "usage: scripts/export_checksums.sh SIGS" >&2
@@ -39,7 +39,7 @@ for project in crossing head-on two-intruders; do
   checksums "$project/wide-blur"
 done
 "$sigs" dataset projects/table1/table1.json --out "$work/out" --only 1LRB737,3FNC172 --progress none >/dev/null
-# What names the folder that this ran in is left out.
+# Files that contain the path of this folder are left out.
 rm -rf "$work"/out/*/*.json
 checksums dataset
 mkdir "$work/out"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the images of README.md and docs/ anew: scripts/images.sh [BUILD FOLDER] (after
+# Makes the images of README.md and docs/: scripts/images.sh [BUILD FOLDER] (after
 # scripts/test.sh; Xvfb and xdotool are needed).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -32,7 +32,7 @@ ffmpeg -v error -y "${stages[@]}" -filter_complex "
   -q:v 4 docs/images/classic-stages.jpg
 
 # The editor, as a test drives it.
-"$build"/test_editor_ui_test --test-case='a person authors*,a person finds the own body*,a person loads what trackers*' >"$work/ui_test.log" || {
+"$build"/test_editor_ui_test --test-case='a person authors*,a person finds the own body*,a person loads trackers*' >"$work/ui_test.log" || {
   cat "$work/ui_test.log"
   exit 1
 }

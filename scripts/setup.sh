@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the packages that SIGS needs, on Debian 12 or Ubuntu 24.04, and builds it. Sourced by demo.sh and test.sh.
-#   sigs_install programs         what the two programs are built with and need to run
-#   sigs_install programs tests   and what tests and measurements need besides
+#   sigs_install programs         the packages to build and run the two programs
+#   sigs_install programs tests   and those for tests and measurements
 #   sigs_build PRESET [cmake options] [-- targets]
 # On its own, scripts/setup.sh installs both lists and builds nothing.
 set -euo pipefail
@@ -13,7 +13,7 @@ sigs_packages_programs=(
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
 )
-# doctest; Embree for the reference renderer; FFmpeg's and libxml2's programs as second opinions; Xvfb and xdotool for the
+# doctest; Embree for the reference renderer; FFmpeg's and libxml2's programs as independent checks; Xvfb and xdotool for the
 # window; gnuplot for plots of reports; Slurm for a dataset made by an array job.
 sigs_packages_tests=(
   doctest-dev libembree-dev ffmpeg libxml2-utils xvfb xdotool gnuplot-nox

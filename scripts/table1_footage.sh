@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Draws the footage of the paper's Table 1 as long as it is there, which projects/table1/full.json reads from
+# Renders the footage of the paper's Table 1 in its full length, which projects/table1/full.json reads from
 # build/table1-footage: scripts/table1_footage.sh [--short] FOLDER [BUILD FOLDER [FRAMES]]
 #   --short  190 frames each: the clips that are kept in assets/footage
 #   FRAMES   only the first so many of each, to try it out
-# A clip that is there already is left as it is. Takes about a second a frame on two cores, and some minutes before
+# An existing clip is unchanged. Takes about a second a frame on two cores, and some minutes before
 # the first.
 set -euo pipefail
 short=no

@@ -10,6 +10,6 @@ source "$(dirname "$0")/setup.sh"
 
 sigs_install programs tests
 sigs_build "$preset" -DSIGS_TESTS=ON -DSIGS_BENCH=ON
-# Mesa's compiler keeps memory until the process ends; leaks of our own show in the tests of single modules.
+# Mesa's compiler keeps memory until the process ends; leaks of the engine are found in the tests of single modules.
 export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan.supp:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
 ctest --preset "$preset" --parallel "$(nproc)"

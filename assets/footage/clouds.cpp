@@ -15,7 +15,7 @@ namespace {
 constexpr int kCube = 96;              // cells along one side of the noise cube
 constexpr float kExtinction = 0.026F;  // 1/m in the thick of a cloud
 constexpr double kExtent_m = 42000;
-constexpr float kMaxNoise = 1.5F;  // the noise that clouds follow never gets there
+constexpr float kMaxNoise = 1.5F;  // beyond the range of the noise that clouds follow
 
 // Distance to the nearest of one jittered point in each of count^3 boxes of a cube of side 1 that repeats.
 float nearest_point(const glm::vec3& p, int count, std::uint32_t seed) {
@@ -35,7 +35,7 @@ float nearest_point(const glm::vec3& p, int count, std::uint32_t seed) {
   return std::sqrt(best);
 }
 
-// Round billows upon billows: cumulus is made of bubbles of many sizes.
+// Cellular noise in octaves: cumulus consists of round lumps of many sizes.
 float cumulus_density(const glm::vec3& p) {
   float sum = 0, strength = 0.58F;
   int count = 4;
@@ -47,7 +47,7 @@ float cumulus_density(const glm::vec3& p) {
   return sum;
 }
 
-// Light that a thickness of cloud passes on: the straight part, and the part that wanders through by many bounces.
+// Light that a thickness of cloud transmits: the direct part, and the part scattered many times.
 float transmittance(float thickness) {
   return 0.62F * std::exp(-thickness) + 0.38F * std::exp(-0.16F * thickness);
 }
@@ -127,7 +127,8 @@ glm::vec4 Clouds::along(const glm::dvec2& eye_m, double height_m, const glm::dve
   const double enter_m = (kBase_m - height_m) / climb, leave_m = std::min((kTop_m - height_m) / climb, kExtent_m);
   if (enter_m >= kExtent_m) return glm::vec4(0);
   const double step_m = std::max((leave_m - enter_m) / 90, 20.0);
-  const float detail = std::min(1.0F, 60.0F / static_cast<float>(step_m));  // finer than the steps would be speckle
+  const float detail =
+      std::min(1.0F, 60.0F / static_cast<float>(step_m));  // finer detail than the steps would be aliased
   glm::vec3 light{0};
   float clear = 1;
   float depth_weight = 0, depth_sum = 0;

@@ -19,7 +19,7 @@ class Clouds {
   [[nodiscard]] glm::vec4 along(const glm::dvec2& eye_m, double height_m, const glm::dvec3& ray_in_world,
                                 double dither) const;
 
-  // Share of the sun that reaches a place on the ground.
+  // Share of the sun's light at a place on the ground.
   [[nodiscard]] float sun_share(const glm::dvec2& p_m) const;
 
  private:

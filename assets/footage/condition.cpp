@@ -51,7 +51,7 @@ double turn_rad(const Condition& condition, std::span<const Wave> waves, int fra
   const Shake& shake = condition.shake;
   const double swelling =
       0.5 - 0.5 * std::cos(2 * std::numbers::pi * periods(shake.swell_hz) * frame / condition.frames);
-  return sum_rad * (shake.least + (1 - shake.least) * swelling);
+  return sum_rad * (shake.min_share + (1 - shake.min_share) * swelling);
 }
 
 }  // namespace

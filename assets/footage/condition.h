@@ -25,18 +25,18 @@ struct Wave {
   double phase = 0;  // in periods
 };
 
-// Turns about the three axes, sums of waves that swell together between `least` of their amplitudes and all of it.
+// Turns about the three axes, sums of waves whose amplitudes vary together between `min_share` and 1.
 struct Shake {
   std::span<const Wave> roll, pitch, yaw;
-  double least = 1;
+  double min_share = 1;
   double swell_hz = 0;
 };
 
-// What tells one clip from another.
+// The settings in which clips differ.
 struct Condition {
   std::string_view name;
   int frames = 200;
-  glm::dvec2 country_m{0};  // where in the country the flight begins
+  glm::dvec2 country_m{0};  // where in the landscape the flight begins
   CloudCover clouds;
   float cirrus = 0.34F;  // opacity of the thickest ice cloud
   float exposure = 1;    // 1: right in full sun

@@ -14,7 +14,7 @@ namespace sigs::footage {
 
 inline constexpr double kSpeed_mps = 22, kHeight_m = 150;
 
-// Draws the frames of a clip, quickest in their order: what is near is painted once. Linear light, red green blue.
+// Renders the frames of a clip, fastest in their order: the near ground is painted once. Linear light, red green blue.
 class Flight {
  public:
   Flight(const Camera& camera, const Condition& condition);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMaxStep_m = 180;
 constexpr double kFade_m = 20;
 
-// The same cells, named by where they lie in the country.
+// The same cells, by their position in the landscape.
 GroundMap::Layer in_country(GroundMap::Layer layer, const glm::dvec2& begin_m) {
   layer.origin_m += begin_m;
   return layer;

@@ -14,10 +14,10 @@ namespace sigs::footage {
 // flight has a map for each stretch; over its last metres a stretch fades into the next.
 class Ground {
  public:
-  // country_m: where in the country the flight begins. clouds must outlive this.
+  // country_m: where in the landscape the flight begins. clouds must outlive this.
   Ground(const Clouds& clouds, const glm::dvec2& country_m, double flight_m);
 
-  // Paints what is seen from x_m and lets go of what lies behind. To be called before mean() for each x_m.
+  // Paints the ground visible from x_m and discards that behind it. To be called before mean() for each x_m.
   void prepare(double x_m);
 
   // As GroundMap::mean, for an eye above x_m.

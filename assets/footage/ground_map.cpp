@@ -66,7 +66,7 @@ glm::vec3 GroundMap::mean(const glm::dvec2& p_m, const glm::dvec2& step_right_m,
   const double area_m2 = std::abs(step_right_m.x * step_down_m.y - step_right_m.y * step_down_m.x);
   const double width_m = std::max(area_m2 / length_m, length_m / 16);
   const int taps = std::clamp(static_cast<int>(std::ceil(length_m / width_m)), 1, 16);
-  // The finer of the two layers that are mixed must reach as far as p.
+  // The finer of the two layers that are mixed must extend as far as p.
   const double reach = std::max({std::abs(p_m.y), p_m.x, 1.0}) / kMinExtent_m;
   const double level = std::max(std::log2(width_m / kFinestCell_m), std::log2(reach) + 1);
   glm::vec3 sum{0};

@@ -8,7 +8,7 @@
 
 namespace sigs::footage {
 
-// The level ground, painted once in nested squares: each layer has cells twice as wide as the one before and reaches
+// The level ground, painted once in nested squares: each layer has cells twice as wide as the one before and extends
 // twice as far. A pixel is then the mean over its own footprint, so nothing flickers however flat the view.
 class GroundMap {
  public:

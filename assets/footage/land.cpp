@@ -48,7 +48,7 @@ Crop crop_of(std::uint32_t id) {
   return crop;
 }
 
-// Only noise that the cells can hold; finer octaves would turn into sparkle.
+// Only noise that the cells can hold; finer octaves would be aliased.
 float texture(const glm::dvec2& p_m, double size_m, int octaves, double cell_m, std::uint32_t seed) {
   const int affordable = static_cast<int>(std::floor(std::log2(std::max(size_m / (1.5 * cell_m), 0.5)))) + 1;
   return affordable <= 0 ? 0.0F : fractal_noise(p_m / size_m, std::min(octaves, affordable), seed);

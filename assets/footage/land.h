@@ -8,12 +8,13 @@
 
 namespace sigs::footage {
 
-// The country below: fields in blocks with lanes between them, woods, a river, a road, villages. World X, Y in metres.
+// The landscape below: fields in blocks with lanes between them, woods, a river, a road, villages. World X, Y in
+// metres.
 
 struct Field {
   std::uint32_t id = 0;
   float to_edge_m = 0;  // of the field
-  bool hedged = false;  // whether that edge carries a hedge
+  bool hedged = false;  // whether there is a hedge along that edge
   float across_m = 0;   // across the direction of ploughing
   float to_lane_m = 0;  // border between two blocks of fields
 };
@@ -28,7 +29,7 @@ struct Field {
 // What the bare ground reflects, 0..1 linear, without sun or shadow. Details finer than cell_m are left out.
 [[nodiscard]] glm::vec3 ground_albedo(const glm::dvec2& p_m, double cell_m);
 
-// Shadow that woods throw on the fields beside them: 1 none.
+// Shadow that woods cast on the fields beside them: 1 none.
 [[nodiscard]] float wood_shadow(const glm::dvec2& p_m);
 
 // Draws single trees and houses with their shadows on top of a painted layer, as they are seen from 150 m above eye_m.

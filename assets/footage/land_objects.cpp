@@ -9,7 +9,7 @@ namespace sigs::footage {
 
 namespace {
 
-// How one thing changes the cells around it: share() of the cell at the offset from its middle, and what it does there.
+// How one object changes the cells around it: share() of the cell at the offset from its middle, and its effect there.
 class Brush {
  public:
   Brush(const GroundMap::Layer& layer, cv::Mat& color) : layer_(layer), color_(color) {}
@@ -70,7 +70,7 @@ void draw_tree(Brush& brush, const glm::dvec2& foot_m, const glm::dvec2& eye_m, 
         const glm::vec2 from_foot = at + 0.5F * crown;
         const float up = glm::clamp(glm::dot(from_foot, crown) / std::max(glm::dot(crown, crown), 1e-4F), 0.0F, 1.0F);
         const glm::vec2 aside = from_foot - up * crown;
-        // Along the line of sight everything is drawn out by the lean, the leaves' pattern too.
+        // Along the line of sight everything is stretched by the oblique view, the leaves' pattern too.
         const glm::dvec2 pattern = glm::dvec2(aside) + glm::dvec2(foot_m) + glm::dvec2(2.5 * up, 3.5 * up);
         const float ragged = radius_m * (1 + 0.5F * gradient_noise(pattern / 2.1, 91));
         const float inside = 1 - smooth(ragged - brush.soft_m(), ragged + 0.3F * brush.soft_m(), glm::length(aside));

@@ -12,9 +12,9 @@ namespace sigs::footage {
 inline const glm::dvec3 kToSun = glm::normalize(glm::dvec3(-2000, 1000, -3000));
 inline constexpr glm::vec3 kSunlight{1.00F, 0.955F, 0.87F};
 inline constexpr glm::vec3 kSkylight{0.20F, 0.25F, 0.33F};  // from above, on a level surface
-inline constexpr glm::vec3 kHaze{0.66F, 0.76F, 0.87F};      // what distance fades into
+inline constexpr glm::vec3 kHaze{0.66F, 0.76F, 0.87F};      // the colour of distant haze
 
-// Share of light that comes through distance_m of the lower air. Blue is scattered first.
+// Share of light transmitted through distance_m of the lower air. Blue is scattered most.
 [[nodiscard]] inline glm::vec3 clear_share(double distance_m) {
   const float d = static_cast<float>(distance_m);
   return {std::exp(-d / 14500.0F), std::exp(-d / 11500.0F), std::exp(-d / 8500.0F)};

@@ -38,7 +38,8 @@ float fractal_noise(const glm::dvec2& p, int octaves, std::uint32_t seed) {
   for (int i = 0; i < octaves; ++i) {
     sum += strength * gradient_noise(q, seed + static_cast<std::uint32_t>(i));
     strength *= 0.5F;
-    q = {1.6 * q.x + 1.2 * q.y + 17.3, -1.2 * q.x + 1.6 * q.y - 9.1};  // turned, so that no lattice shows
+    q = {1.6 * q.x + 1.2 * q.y + 17.3,
+         -1.2 * q.x + 1.6 * q.y - 9.1};  // rotated, so that the grid of the noise is not visible
   }
   return sum;
 }

@@ -6,9 +6,9 @@
 
 namespace sigs::footage {
 
-// Repeatable chance: everything in the image grows out of these, without state and without a clock.
+// Repeatable random functions: everything in the image follows from these, without state and without a clock.
 
-// Mixes bits, so that neighbouring inputs have nothing in common any more.
+// A hash: neighbouring inputs give unrelated numbers.
 [[nodiscard]] inline std::uint32_t hash(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0xb5297a4dU;

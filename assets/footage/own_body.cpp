@@ -13,7 +13,7 @@ namespace sigs::footage {
 
 namespace {
 
-// Camera axes (X forward, Y right, Z down), metres from the lens. The nose is an egg, the boom a thin tapered rod.
+// Camera axes (X forward, Y right, Z down), metres from the lens. The nose is an ovoid, the boom a thin tapered rod.
 const glm::dvec3 kNoseMiddle{-0.02, 0.004, 0.300}, kNoseHalf{0.43, 0.118, 0.088};
 const glm::dvec3 kBoomRoot{0.36, 0.020, 0.268}, kBoomTip{0.70, 0.024, 0.262};
 constexpr double kBoomRadius_m = 0.0048, kTipRadius_m = 0.0024;

@@ -7,7 +7,7 @@
 
 namespace sigs::footage {
 
-// What of the aircraft itself the camera on its back sees: the nose with its pitot boom. It stands still in the
+// The part of the aircraft in view of the camera on its back: the nose with its pitot boom. It is fixed in the
 // image.
 struct OwnBody {
   cv::Mat_<cv::Vec3f> color;  // linear light, premultiplied

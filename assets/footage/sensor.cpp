@@ -112,7 +112,7 @@ std::vector<std::uint8_t> developed(const cv::Mat_<cv::Vec3f>& light, float expo
   parallel_rows(light.rows, [&](int y) {
     for (int x = 0; x < light.cols; ++x) {
       const float value = std::clamp(luma(y, x), 0.0F, 1.0F);
-      const float deviation = 1.7F - 1.0F * value;  // the curve lifts the shadows, and their noise with them
+      const float deviation = 1.7F - 1.0F * value;  // the curve brightens the shadows, and their noise with them
       const float code = 16 + 219 * value + deviation * grain(x, y, seed);
       bytes[static_cast<std::size_t>(y) * light.cols + x] =
           cv::saturate_cast<std::uint8_t>(std::clamp(code, 16.0F, 235.0F));

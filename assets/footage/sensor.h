@@ -7,9 +7,9 @@
 
 namespace sigs::footage {
 
-// What a cheap camera makes of the light: darker corners, a contrasty curve, sharpened edges, grain.
+// The effects of a cheap camera: darker corners, a curve of high contrast, sharpened edges, noise.
 // light: linear, red green blue; exposure: 1 is right in full sun. Returns 8-bit Y'CbCr 4:2:0 after BT.709, limited
-// range, chroma sited left: the planes Y, Cb, Cr one behind the other. frame seeds the grain.
+// range, chroma sited left: the planes Y, Cb, Cr one behind the other. frame seeds the noise.
 [[nodiscard]] std::vector<std::uint8_t> developed(const cv::Mat_<cv::Vec3f>& light, float exposure, int frame);
 
 }  // namespace sigs::footage

@@ -16,9 +16,9 @@ namespace {
 constexpr double kPixelsPerRadian = 640;
 constexpr double kHalfWidth_rad = 1.42, kHeight_rad = 1.05;
 constexpr double kMiddleOfClouds_m = 1550;
-constexpr double kFarthestApart_m = 40;  // of two places; farther apart one would be seen to fade into the next
+constexpr double kFarthestApart_m = 40;  // of two places; farther apart the blending would be visible
 
-// Thin ice clouds high up, drawn out by the wind there.
+// Thin ice clouds at high altitude, stretched by the wind there.
 float cirrus(float thickest, const glm::dvec3& ray, const glm::dvec2& eye_m) {
   const double distance_m = 8500 / std::max(-ray.z, 0.02);
   const glm::dvec2 p{eye_m.x + distance_m * ray.x, eye_m.y + distance_m * ray.y};
@@ -53,7 +53,7 @@ cv::Mat_<cv::Vec4f> SkyMap::seen_from(const Clouds& clouds, double x_m) const {
       image(row, i) = {c.r, c.g, c.b, c.a};
     }
   });
-  cv::GaussianBlur(image, image, {}, 0.9);  // takes the dither's grain out
+  cv::GaussianBlur(image, image, {}, 0.9);  // removes the dither's noise
   return image;
 }
 

@@ -9,8 +9,8 @@
 
 namespace sigs::footage {
 
-// The sky ahead, marched through once every few metres of flight and looked up from then on. Between two such places
-// the clouds are shifted as things at their middle height are, and faded from one to the other.
+// The sky ahead, ray-marched once every few metres of flight and then looked up. Between two such places
+// the clouds are shifted like objects at their mean height, and blended from one to the other.
 class SkyMap {
  public:
   struct Setting {

@@ -103,7 +103,7 @@ Patch belly_fairing() {
     if (i % 14 == 0) ring.assign(ring.size(), at(10.6 + 10.8 * t, 0, -1.25));
     rings.push_back(std::move(ring));
   }
-  // The open upper side lies within the fuselage; a lid keeps the body closed.
+  // The open upper side lies within the fuselage; a cap closes the body.
   for (Ring& ring : rings) ring.push_back(ring.front());
   return turned_outwards(skin(
       rings, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, "belly"));

@@ -8,7 +8,7 @@
 
 namespace sigs::models {
 
-// Measures that shape and paint share. The nose lies 17.0 m ahead of the origin, a quarter of the mean chord.
+// Dimensions used by shape and paint alike. The nose lies 17.0 m ahead of the origin, a quarter of the mean chord.
 inline constexpr double kAirlinerNose_m = 17.0;
 inline constexpr double kAirlinerLength_m = 37.57;
 inline constexpr double kEngineY_m = 5.75;

@@ -8,8 +8,8 @@
 
 namespace sigs::models {
 
-// Measures that shape and paint share. The spinner's tip lies 2.5 m ahead of the origin, under the front third of the
-// wing.
+// Dimensions used by shape and paint alike. The spinner's tip lies 2.5 m ahead of the origin, under the front third of
+// the wing.
 inline constexpr double kLightNose_m = 2.5;
 inline constexpr SideMap kLightSides{kLightNose_m, 8.3, 0.95, -0.70};
 inline constexpr SideMap kLightFin{kLightNose_m - 5.1, 3.25, 1.42, 0.22};

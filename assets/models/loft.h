@@ -46,7 +46,7 @@ struct WingStation {
 [[nodiscard]] Patch strut(const glm::dvec3& from_m, const glm::dvec3& to_m, double chord_m, double thickness_m,
                           const std::string& material);
 
-// An egg: half axes in metres, blunt in front, drawn out behind (tail_stretch times as long behind as before).
+// An ovoid: half axes in metres, blunt in front, elongated behind (tail_stretch times as long behind as in front).
 [[nodiscard]] Patch teardrop(const glm::dvec3& half_axes_m, double tail_stretch, int sides,
                              const std::string& material);
 

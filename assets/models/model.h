@@ -35,7 +35,7 @@ struct Model {
 [[nodiscard]] Model airliner();
 [[nodiscard]] Model light_aircraft();
 
-// Writes NAME.obj, NAME.mtl and the textures. Says on stderr what went wrong and returns false where something did.
+// Writes NAME.obj, NAME.mtl and the textures. On an error prints it on stderr and returns false.
 [[nodiscard]] bool write_model(const Model& model, const std::filesystem::path& folder);
 
 }  // namespace sigs::models

@@ -11,7 +11,7 @@ namespace sigs::models {
 
 namespace {
 
-// Numbers every distinct line once, in order of appearance: how OBJ wants its vertices.
+// Numbers every distinct line once, in order of appearance, as OBJ requires for vertices.
 class NumberedLines {
  public:
   int number_of(const std::string& line) {
@@ -95,7 +95,7 @@ bool write_picture(const std::filesystem::path& path, const cv::Mat& bgr) {
   try {
     if (cv::imwrite(path.string(), bgr, {cv::IMWRITE_PNG_COMPRESSION, 9})) return true;
   } catch (const cv::Exception&) {
-    // OpenCV throws for some failures and returns false for others; both are the same to us.
+    // OpenCV throws for some failures and returns false for others; both are treated alike.
   }
   std::fprintf(stderr, "%s: cannot be written\n", path.c_str());
   return false;

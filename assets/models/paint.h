@@ -10,7 +10,7 @@ namespace sigs::models {
 
 using Colour = glm::dvec3;  // red, green, blue; display code values 0..1
 
-// An image painted by asking for the colour at 5 x 5 places in each pixel. place: x right, y down, 0..1 over the
+// An image whose pixels are the mean of the colours at 5 x 5 places in each. place: x right, y down, 0..1 over the
 // image.
 [[nodiscard]] cv::Mat painted(cv::Size size_px, const std::function<Colour(const glm::dvec2& place)>& colour_at);
 

@@ -32,7 +32,7 @@ using MaterialOf = std::function<std::string(int row, int column)>;
 [[nodiscard]] Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const MaterialOf& material_of);
 [[nodiscard]] Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const std::string& material);
 
-// Adds the middle of the first and of the last ring as a ring of its own, so that both ends get a lid.
+// Adds the middle of the first and of the last ring as a ring of its own, so that both ends are closed.
 [[nodiscard]] std::vector<Ring> closed(std::vector<Ring> rings);
 
 [[nodiscard]] Patch joined(const Patch& a, const Patch& b);

@@ -41,7 +41,7 @@ struct SideMap {
   return paper;
 }
 
-// A place on the side of a body, as somebody sees it who looks at that side.
+// A position on the side of a body, as seen by a viewer of that side.
 struct SidePoint {
   bool left = true;
   double back_m = 0;  // behind the image's nose edge

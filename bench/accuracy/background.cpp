@@ -22,7 +22,7 @@ int grain(int x, int y, int plane) {
   return static_cast<int>(hash % (2 * kGrain + 1)) - kGrain;
 }
 
-// From blue overhead through haze to green, the horizon half-way down and soft.
+// From blue above through haze to green, with a soft horizon half-way down.
 double smooth_code(double down, std::size_t plane) {
   constexpr std::array<double, 3> kOverhead{92, 132, 188};
   constexpr std::array<double, 3> kHaze{188, 200, 212};

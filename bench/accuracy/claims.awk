@@ -1,4 +1,4 @@
-# What docs/accuracy.md says in words, held against the tables: prints each sentence that the figures no longer carry.
+# Checks the statements of docs/accuracy.md against the tables: prints each one that the figures no longer support.
 #   awk -F, -f claims.awk machine.csv frames.csv chroma.csv sizes.csv tolerance.csv lens.csv lens_table.csv spline.csv condition.csv
 function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
 FNR == 1 { next }
@@ -30,7 +30,7 @@ END {
     claim(p999[s, "direct", ss, m] < p999[s, "classic", ss, m] && max[s, "direct", ss, m] < max[s, "classic", ss, m],
       s ": direct is better than classic in 99.9 % and largest error")
     claim(rmse[s, "direct", ss, m] < rmse[s, "plain", ss, m], s ": direct is better than plain")
-    small = s ~ /^(mid|far|speck)/  # drawn finer than asked for
+    small = s ~ /^(mid|far|speck)/  # rendered finer than requested
     claim(small || rmse[s, "direct", 3, m] < 0.7 * rmse[s, "direct", 1, m], s ": from 1 to 3 the error falls by a third or more")
     claim(rmse[s, "direct", 3, 1] < (small ? 1.9 : 1.15) * rmse[s, "direct", 2, 4] &&
       cpu[s, "direct", 3, 1] < 0.8 * cpu[s, "direct", 2, 4],

@@ -17,17 +17,17 @@ class Csv {
   void row(const First& first, const Others&... others) {
     out_ << first;
     ((out_ << ',' << others), ...);
-    out_ << std::endl;  // a run that is stopped leaves whole rows
+    out_ << std::endl;  // an interrupted run leaves complete rows
   }
 
  private:
   std::ofstream out_;
 };
 
-// What every bench here is called with: FOLDER [quick].
+// The arguments of every bench here: FOLDER [quick].
 struct Call {
   std::filesystem::path folder;  // where the tables go; made where it is not there
-  bool quick = false;            // few repetitions and a coarse truth: shows that it runs, proves nothing
+  bool quick = false;            // few repetitions and a coarse truth: only shows that the bench runs
 };
 [[nodiscard]] Call call_of(int argc, char** argv);
 

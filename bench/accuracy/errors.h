@@ -9,7 +9,7 @@
 
 namespace sigs::accuracy {
 
-// What stands in a scene's frame, for the truth.
+// The intruder in a scene's frame, for the truth.
 [[nodiscard]] truth::Setup setup_of(const Scene& scene, int frame);
 
 // A truth made ready for comparing.
@@ -44,7 +44,7 @@ struct ShapeErrors {
 };
 
 // How much of each pixel the method gives to the intruder: its layer's coverage where it has one (direct), else its
-// mask (classic and plain: the key is all they know).
+// mask (classic and plain: they have nothing but the key).
 [[nodiscard]] ShapeErrors shape_errors(const Standard& standard, const Scene& scene, int frame,
                                        const ComposedFrame& composed, ComposeContext& context);
 

@@ -77,7 +77,8 @@ struct GaussianWeights {
   double largest_px = 0;
 };
 
-// How far from its pixel each ray is seen: angle times the lens' magnification there. Infinite where there is no ray.
+// Distance of each ray's image from its pixel: angle times the lens' magnification there. Infinite where there is no
+// ray.
 GaussianWeights errors_of(const Rays& rays, const std::vector<Known>& known) {
   std::vector<double> errors_px;
   for (std::size_t i = 0; i < rays.size(); ++i) {

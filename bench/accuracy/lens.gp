@@ -10,7 +10,7 @@ set xrange [25:6000]
 set xtics ("30" 30, "100" 100, "300" 300, "1000" 1000, "3000" 3000)
 set yrange [1e-15:1e5]
 set ytics 1e-15, 1e3, 1e6
-# An inverse that finds no ray has no error: it is drawn at the upper rim.
+# An inverse that finds no ray has no error: it is drawn at the upper edge.
 capped(e) = e > 3e4 ? 3e4 : e
 unset key
 eval legend(1, 0.06, "Lens::ray", 7, direct4)

@@ -5,7 +5,7 @@
 
 namespace sigs::accuracy {
 
-// What a tabulated lens loses, saves and takes, by tolerance: lens_table.csv.
+// Error, saved evaluations and memory of a tabulated lens, by tolerance: lens_table.csv.
 void measure_lens_tables(const Call& call);
 
 }  // namespace sigs::accuracy

@@ -16,7 +16,7 @@ struct NamedLens {
   cv::Size size_px;
 };
 
-// From harmless to wild, each over its whole image.
+// From weak to extreme distortion, each over its whole image.
 [[nodiscard]] std::vector<NamedLens> lenses();
 
 // A pixel whose ray is known to more than double's digits.

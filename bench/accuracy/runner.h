@@ -17,7 +17,7 @@ struct Effort {
 };
 [[nodiscard]] Effort effort_of(const Call& call);
 
-// A way to make a frame. What is not said is as a project and a context have it by default.
+// A way to make a frame. Other settings have the defaults of a project and a context.
 struct Method {
   std::string name = "direct";
   MethodChoice choice = MethodChoice::direct;
@@ -38,7 +38,7 @@ class Benches {
   std::map<std::pair<int, double>, ComposeContext> benches_;  // by samples and tolerance
 };
 
-// A method in a scene, and what its runs took.
+// A method in a scene, and the times of its runs.
 struct Runner {
   Method method;
   Scene scene;
@@ -53,7 +53,7 @@ struct Runner {
 
 [[nodiscard]] ComposedFrame composed(const Runner& runner, const Frame& background, Benches& benches);
 
-// One warm run of everything, then turn by turn: what loads the machine loads all alike.
+// One warm-up run of everything, then interleaved: load on the machine affects all alike.
 void time(std::vector<Runner>& runners, const Frame& background, Benches& benches, int rounds);
 
 // What bench_accuracy_frames is made of; each makes the tables that its source file names.

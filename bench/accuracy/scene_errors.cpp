@@ -23,7 +23,7 @@ std::vector<Method> all_methods() {
   return methods;
 }
 
-// What no method can be better than: the truth rounded to 8 bits, and the truth of half as many samples each way (what
+// Lower bounds for every method: the truth rounded to 8 bits, and the truth of half as many samples each way (what
 // the truth itself is good for).
 void write_floors(Csv& csv, const Recipe& recipe, const Standard& standard, const Standard& coarse) {
   const auto row = [&](const char* name, const cv::Mat& codes) {

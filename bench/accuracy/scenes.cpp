@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kAssets = SIGS_ASSETS_DIR;
-constexpr int kSteps = 12;  // to the wanted size; each leaves the square of the last one's relative error, far away
+constexpr int kSteps = 12;  // iterations to the wanted size; at a distance each squares the relative error
 
 Recipe sample_view(const std::string& name, const std::string& title, double size_px) {
   return {.name = name, .title = title, .size_px = size_px, .lens = sample_lens()};

@@ -14,20 +14,20 @@ namespace sigs::accuracy {
 inline const cv::Size kImageSize_px{1280, 960};
 inline constexpr int kFrame = 1;  // of the scenes below: the intruder is on its way through `pixel`
 
-// What is to be seen.
+// The intruder and its view.
 struct Recipe {
   std::string name;     // in tables: "near"
   std::string title;    // in plots: "near: 400 px"
   double size_px = 60;  // longer side of the silhouette's box
   std::string aircraft = "light-aircraft";
   LensParameters lens;
-  glm::dvec2 pixel{520, 390};               // where the reference point is seen
+  glm::dvec2 pixel{520, 390};               // pixel of the reference point
   glm::dvec3 flies_along{-0.8, 0.55, 0.1};  // in the world: towards the camera, to the right, a little down
-  std::optional<double> sigma_px;           // of the blur; none: what a project has that does not say
+  std::optional<double> sigma_px;           // of the blur; none: the project's default
   bool has_own_body = false;
 };
 
-// The lens of the sample clip, and three that bend otherwise.
+// The lens of the sample clip, and three with other distortion.
 [[nodiscard]] LensParameters sample_lens();
 [[nodiscard]] LensParameters fisheye_170_lens();  // 170 degrees across the image's width
 [[nodiscard]] LensParameters tangential_lens();

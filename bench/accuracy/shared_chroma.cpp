@@ -67,8 +67,8 @@ Planes planes_of_rgb(const cv::Mat& rgb, const ColorInfo& color) {
   return planes;
 }
 
-// The slow twin: chroma read from the block's own sample, which moves by the mean of what its pixels' chroma moves by,
-// wherever it lies.
+// The plain reference: chroma read from the block's own sample, which moves by the mean of what its pixels' chroma
+// moves by, wherever it lies.
 void blend_by_blocks(Frame& frame, const Layer& layer) {
   const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
   const TransferCurve curve(TransferFunction::srgb);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What direct and classic take, by the size of the intruder: sizes.csv.
+// Time of direct and classic, by the size of the intruder: sizes.csv.
 
 #include "accuracy/background.h"
 #include "accuracy/errors.h"
@@ -17,7 +17,7 @@ void measure_size(double size_px, const Call& call, Benches& benches, Csv& csv) 
   time(runners, background(kImageSize_px), benches, effort_of(call).rounds);
   const Runner& direct = runners[0];
   const Runner& classic = runners[1];
-  std::vector<double> ratios;  // run by run, so that a slow moment of the machine is in both
+  std::vector<double> ratios;  // interleaved, so that load on the machine affects both
   for (std::size_t i = 0; i < direct.total_ms.size(); ++i) ratios.push_back(classic.total_ms[i] / direct.total_ms[i]);
   csv.row(size_px, setup_of(scene, kFrame).sigma_px, median(direct.draw_ms), median(direct.composite_ms),
           median(direct.total_ms), median(classic.total_ms), median(ratios), median(direct.cpu_ms),

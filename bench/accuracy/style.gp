@@ -14,7 +14,7 @@ classic = "#cf5b00"
 plain = "#8250df"
 green = "#1a7f37"
 grey = "#8c959f"
-# Six that tell lenses apart.
+# Six distinguishable colours for lenses.
 array hues[6] = ["#0969da", "#cf5b00", "#1a7f37", "#8250df", "#bf3989", "#9a6700"]
 
 # A legend above several panels: its entry number n stands at x (of the image's width).

@@ -1,7 +1,7 @@
 # The tables of docs/accuracy.md from the benches' own. Sourced by accuracy.sh; each function prints one, as Markdown.
 # folder: where the CSV files are.
 
-# For awk: the defaults, as machine.csv has them; two digits that say something, without exponents where there is room; "none" where the method shows nothing.
+# For awk: the defaults, as machine.csv has them; two significant digits, without exponents where possible; "none" where the method shows nothing.
 number_awk='
   function n(x) {
     if (x == "" || x ~ /nan/) return "none"
@@ -146,7 +146,7 @@ table_chroma() {
   ' "$folder/chroma.csv"
 }
 
-# with_tables PAGE: the page with what stands between <!-- table: NAME --> and <!-- end --> made anew.
+# with_tables PAGE: the page with the text between <!-- table: NAME --> and <!-- end --> replaced.
 with_tables() {
   local line name=
   while IFS= read -r line; do

@@ -8,24 +8,24 @@ namespace sigs::accuracy {
 // Middle of the values; the mean of both middle ones where their number is even. At least one value.
 [[nodiscard]] double median(std::vector<double> values);
 
-// Share (0..1) of the values lies at or below what is given back. At least one value.
+// The value at or below which this share (0..1) of the values lies. At least one value.
 [[nodiscard]] double percentile(std::vector<double> values, double share);
 
 // Seconds since some moment: of the clock on the wall, and of all this process' threads.
 [[nodiscard]] double wall_s();
 [[nodiscard]] double cpu_s();
 
-// Wall seconds of one call among `calls`, as the least of `rounds` rounds: for what has no randomness of its own.
+// Wall seconds of one call among `calls`, as the minimum of `rounds` rounds: for work without randomness.
 template <class Function>
 [[nodiscard]] double min_s(int rounds, double calls, const Function& function) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (int round = 0; round < rounds; ++round) {
     const double start = wall_s();
     function();
     const double taken = (wall_s() - start) / calls;
-    least = taken < least ? taken : least;
+    minimum = taken < minimum ? taken : minimum;
   }
-  return least;
+  return minimum;
 }
 
 }  // namespace sigs::accuracy

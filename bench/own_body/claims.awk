@@ -1,4 +1,4 @@
-# What docs/own-body.md says in words, held against the tables: prints each sentence that the figures no longer carry.
+# Checks the statements of docs/own-body.md against the tables: prints each one that the figures no longer support.
 #   awk -F, -f claims.awk flights.csv limits.csv real.csv time.csv early.csv
 function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
 FNR == 1 { next }

@@ -29,13 +29,13 @@ void write_h264(const std::filesystem::path& path, cv::Size size_px, int frames,
   if (const Result<void> finished = writer->finish(); !finished) stop(finished.error().text());
 }
 
-Clip filmed(const flights::Flight& flight, int frames, const std::filesystem::path& folder) {
+Clip encoded_clip(const flights::Flight& flight, int frames, const std::filesystem::path& folder) {
   std::string file = flight.name + ", " + std::to_string(flight.size_px.width);
   std::ranges::replace_if(
       file, [](char c) { return c == ' ' || c == ','; }, '_');
   const std::filesystem::path path = folder / (file + ".mp4");
   write_h264(path, flight.size_px, frames, flight.bgr);
-  return {.name = flight.name, .path = path, .own_body = flight.own_body, .can_be_told = flight.can_be_told};
+  return {.name = flight.name, .path = path, .own_body = flight.own_body, .is_decidable = flight.is_decidable};
 }
 
 FrameSource opened(const std::filesystem::path& path) {

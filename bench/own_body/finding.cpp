@@ -52,7 +52,7 @@ Taken decoding_alone(const Clip& clip, int count) {
 }
 
 double agreement(const Finding& finding, const Clip& clip) {
-  if (!clip.can_be_told) return finding.cannot.empty() ? 0 : 1;
+  if (!clip.is_decidable) return finding.cannot.empty() ? 0 : 1;
   if (!finding.cannot.empty()) return 0;
   return intersection_over_union(finding.body.mask, clip.own_body);
 }

@@ -16,14 +16,14 @@ double share_of(const cv::Mat& mask) {
 
 void measure(const Flight& flight, int frames, const accuracy::Call& call, accuracy::Csv& table,
              const StableOwnBodySettings& stable = {}) {
-  const Clip clip = filmed(flight, frames, call.folder);
+  const Clip clip = encoded_clip(flight, frames, call.folder);
   for (const OwnBodyMethod method : {OwnBodyMethod::paper, OwnBodyMethod::stable}) {
     OwnBodySettings settings = with_method(method, frames);
     settings.stable = stable;
     const Finding finding = found_in(clip, settings);
     const double value = agreement(finding, clip);
     table.row(flight.name, flight.size_px.width, flight.size_px.height, name_of(method), value,
-              100 * share_of(clip.own_body), 100 * share_of(finding.body.mask), clip.can_be_told ? "yes" : "no",
+              100 * share_of(clip.own_body), 100 * share_of(finding.body.mask), clip.is_decidable ? "yes" : "no",
               finding.cannot.empty() ? "mask" : "cannot tell");
     std::printf("%-26s %4d  %-6s %.4f  %s\n", flight.name.c_str(), flight.size_px.width, name_of(method), value,
                 finding.cannot.c_str());

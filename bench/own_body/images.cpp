@@ -42,7 +42,7 @@ void write_jpeg(const std::filesystem::path& path, const cv::Mat& image) {
     accuracy::stop(path.string() + ": cannot be written");
 }
 
-// Of what measure_flights left.
+// From the output of measure_flights.
 void draw_flights(const flights::FlightSettings& making, const accuracy::Call& call) {
   std::vector<cv::Mat> cards;
   for (const std::string& name : flights::names()) {
@@ -55,7 +55,7 @@ void draw_flights(const flights::FlightSettings& making, const accuracy::Call& c
 }
 
 void draw_stages(OwnBodyMethod method, const flights::Flight& flight, int frames, const accuracy::Call& call) {
-  const Clip clip = filmed(flight, frames, call.folder);
+  const Clip clip = encoded_clip(flight, frames, call.folder);
   const Finding finding = found_in(clip, with_method(method, frames), KeepStages::yes);
   std::filesystem::remove(clip.path);
   const cv::Mat frame = flight.bgr(frames - 1);

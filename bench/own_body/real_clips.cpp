@@ -24,7 +24,7 @@ struct RealClip {
   fs::path path;
   fs::path truth;  // an image; empty: not known
   bool has_body = true;
-  bool can_be_told = true;
+  bool is_decidable = true;
 };
 
 std::vector<RealClip> real_clips() {
@@ -32,16 +32,16 @@ std::vector<RealClip> real_clips() {
           {.name = "coast", .path = kVideos / "air_karma_gopro_coast.mp4", .has_body = false},
           {.name = "road", .path = kVideos / "ground_udacity_road_540p.mp4", .has_body = false},
           {.name = "bonnet", .path = kVideos / "ownbody_dashcam_bonnet_360p.mp4"},
-          {.name = "tree", .path = kVideos / "opencv_tree.avi", .can_be_told = false}};
+          {.name = "tree", .path = kVideos / "opencv_tree.avi", .is_decidable = false}};
 }
 
-// A real flight without any own body, and a made one laid over it.
-struct LaidOver {
+// A real flight without any own body, and a synthetic one drawn over it.
+struct Overlay {
   std::string name;
   std::vector<flights::Part> parts;
 };
 
-std::vector<LaidOver> laid_over() {
+std::vector<Overlay> overlays() {
   return {{"coast + tail boom", {flights::tail_boom()}},
           {"coast + nose", {flights::nose()}},
           {"coast + wing tips", {flights::wing_tip_left(), flights::wing_tip_right()}},
@@ -50,16 +50,16 @@ std::vector<LaidOver> laid_over() {
 }
 
 Clip clip_of(const RealClip& real, cv::Size size_px) {
-  Clip clip{.name = real.name, .path = real.path, .can_be_told = real.can_be_told};
+  Clip clip{.name = real.name, .path = real.path, .is_decidable = real.is_decidable};
   if (!real.truth.empty()) clip.own_body = cv::imread(real.truth.string(), cv::IMREAD_GRAYSCALE);
   if (!real.has_body) clip.own_body = cv::Mat::zeros(size_px, CV_8UC1);
   return clip;
 }
 
-Clip with_body(const LaidOver& made, FrameSource& flight, int frames, const accuracy::Call& call) {
+Clip with_body(const Overlay& drawn, FrameSource& flight, int frames, const accuracy::Call& call) {
   const cv::Size size_px = flight.info().size_px;
-  const flights::Body body = flights::body_of(made.parts, size_px, 23);
-  const fs::path path = call.folder / "laid_over.mp4";
+  const flights::Body body = flights::body_of(drawn.parts, size_px, 23);
+  const fs::path path = call.folder / "overlay.mp4";
   write_h264(path, size_px, frames, [&](int n) {
     const Result<Frame> frame = flight.read(n);
     if (!frame) accuracy::stop(frame.error().text());
@@ -67,11 +67,11 @@ Clip with_body(const LaidOver& made, FrameSource& flight, int frames, const accu
     flights::draw_over(image, body, flights::shake_at(n, size_px, 23));
     return image;
   });
-  return {.name = made.name, .path = path, .own_body = body.truth};
+  return {.name = drawn.name, .path = path, .own_body = body.truth};
 }
 
 const char* truth_of(const Clip& clip) {
-  if (!clip.can_be_told) return "still";
+  if (!clip.is_decidable) return "still";
   if (clip.own_body.empty()) return "unknown";
   return cv::countNonZero(clip.own_body) == 0 ? "none" : "known";
 }
@@ -82,7 +82,7 @@ void measure(const Clip& clip, int frames, const accuracy::Call& call, accuracy:
   if (!frame) accuracy::stop(frame.error().text());
   for (const OwnBodyMethod method : {OwnBodyMethod::paper, OwnBodyMethod::stable}) {
     const Finding finding = found_in(clip, with_method(method, frames));
-    const bool truth_known = !clip.own_body.empty() || !clip.can_be_told;
+    const bool truth_known = !clip.own_body.empty() || !clip.is_decidable;
     const std::string value = truth_known ? std::to_string(agreement(finding, clip)) : "";
     table.row(clip.name, name_of(method), value, 100 * finding.body.share, truth_of(clip),
               finding.cannot.empty() ? "mask" : "cannot tell");
@@ -111,8 +111,8 @@ void measure_real_clips(const accuracy::Call& call) {
   const fs::path coast = kVideos / "air_karma_gopro_coast.mp4";
   if (!fs::exists(coast)) return;
   FrameSource flight = opened(coast);
-  for (const LaidOver& made : laid_over()) {
-    const Clip clip = with_body(made, flight, std::min(frames, flight.info().frame_count()), call);
+  for (const Overlay& drawn : overlays()) {
+    const Clip clip = with_body(drawn, flight, std::min(frames, flight.info().frame_count()), call);
     measure(clip, frames, call, table);
     fs::remove(clip.path);
   }

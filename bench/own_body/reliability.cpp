@@ -49,8 +49,8 @@ void measure(const std::string& set, const std::vector<Flight>& flights, int fra
              accuracy::Csv& table, accuracy::Csv& agreements) {
   Bins bins;
   for (const Flight& flight : flights) {
-    if (!flight.can_be_told) continue;
-    const Clip clip = filmed(flight, frames, call.folder);
+    if (!flight.is_decidable) continue;
+    const Clip clip = encoded_clip(flight, frames, call.folder);
     const Finding finding = found_in(clip, with_method(OwnBodyMethod::stable, frames));
     if (finding.cannot.empty()) count(finding, clip, bins);
     std::string name = flight.name;

@@ -5,15 +5,15 @@ table_machine() {
   echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed -n 1p), $(nproc) processors."
 }
 
-# What a method did, in a cell: agreement, or what it said.
+# The result of a method, in a cell: agreement, or its statement.
 cell_awk='
   function cell(iou, told, said) {
     if (told == "no") return said == "cannot tell" ? "says so" : "a mask"
     return said == "cannot tell" ? "cannot tell" : sprintf("%.3f", iou)
   }'
 
-# TABLE: of made flights
-made_flights() {
+# TABLE: of synthetic flights
+table_of_flights() {
   awk -F, "$cell_awk"'
     FNR == 1 { print "| flight | size | own body, % | `paper` | **`stable`** | `stable` masks, % |"; print "|---|---|---|---|---|---|"; next }
     # A flight may have a comma in its name; the fields behind it are counted from the end.
@@ -30,8 +30,8 @@ made_flights() {
     }' "$folder/$1.csv"
 }
 
-table_flights() { made_flights flights; }
-table_limits() { made_flights limits; }
+table_flights() { table_of_flights flights; }
+table_limits() { table_of_flights limits; }
 
 table_time() {
   awk -F, '
@@ -42,7 +42,7 @@ table_time() {
   ' "$folder/time.csv"
 }
 
-# What stopping early saves and costs.
+# Savings and cost of stopping early.
 table_early() {
   awk -F, '
     FNR == 1 { print "| flight | frames used | IoU | IoU with all frames | s | s with all frames |"; print "|---|---|---|---|---|---|"; next }
@@ -66,7 +66,7 @@ table_real() {
   ' "$folder/real.csv"
 }
 
-# By the number of frames: what docs/accuracy.md shows.
+# By the number of frames, for docs/accuracy.md.
 table_by_frames() {
   awk -F, '
     FNR == 1 { print "| frames | `stable`: 1 - IoU | s | `paper`: 1 - IoU | s |"; print "|---|---|---|---|---|"; next }

@@ -12,7 +12,7 @@ namespace sigs::bench {
 
 namespace {
 
-// A way to look at the clip, and what its rounds took.
+// A way to process the clip, and the times of its rounds.
 struct Way {
   OwnBodySettings settings;
   Finding finding;
@@ -26,18 +26,19 @@ Way way(OwnBodyMethod method, int frames, int every = 1, double settled_percent 
   return way;
 }
 
-std::vector<Way> ways(int most) {
+std::vector<Way> ways(int max_frames) {
   std::vector<Way> ways;
   for (const int frames : {50, 100, 200, 400, 800, 1500})
     for (const OwnBodyMethod method : {OwnBodyMethod::stable, OwnBodyMethod::paper})
-      if (frames <= most) ways.push_back(way(method, frames));
-  for (const int every : {2, 4, 8, 16}) ways.push_back(way(OwnBodyMethod::stable, most, every));
-  for (const double settled_percent : {1.0, 2.0}) ways.push_back(way(OwnBodyMethod::stable, most, 1, settled_percent));
+      if (frames <= max_frames) ways.push_back(way(method, frames));
+  for (const int every : {2, 4, 8, 16}) ways.push_back(way(OwnBodyMethod::stable, max_frames, every));
+  for (const double settled_percent : {1.0, 2.0})
+    ways.push_back(way(OwnBodyMethod::stable, max_frames, 1, settled_percent));
   return ways;
 }
 
-// One round: detection and decoding take turns, so that what loads the machine loads both. Each number of frames is
-// decoded once; a run that stopped early is held against decoding as far as it went.
+// One round: detection and decoding take turns, so that load on the machine affects both. Each number of frames is
+// decoded once; a run that stopped early is compared with decoding the same frames.
 void run_once(std::vector<Way>& all, const Clip& clip) {
   std::map<int, Taken> decoding;
   for (Way& way : all) {
@@ -76,16 +77,16 @@ void report(const Way& way, const Clip& clip, const cv::Mat& whole, accuracy::Cs
 
 void measure_time(const accuracy::Call& call) {
   const cv::Size size_px = call.quick ? cv::Size(320, 240) : cv::Size(1280, 960);
-  const int most = call.quick ? 200 : 1500, rounds = call.quick ? 1 : 3;
-  const Clip clip = filmed(flights::by_name("two parts", {size_px, most}), most, call.folder);
-  std::vector<Way> all = ways(most);
-  static_cast<void>(decoding_alone(clip, std::min(most, 100)));  // the file is in memory from here on
+  const int max_frames = call.quick ? 200 : 1500, rounds = call.quick ? 1 : 3;
+  const Clip clip = encoded_clip(flights::by_name("two parts", {size_px, max_frames}), max_frames, call.folder);
+  std::vector<Way> all = ways(max_frames);
+  static_cast<void>(decoding_alone(clip, std::min(max_frames, 100)));  // the file is in memory from here on
   for (int round = 0; round < rounds; ++round) {
     run_once(all, clip);
     std::printf("round %d of %d\n", round + 1, rounds);
     std::fflush(stdout);
   }
-  const auto whole = std::ranges::find(all, with_method(OwnBodyMethod::stable, most), &Way::settings);
+  const auto whole = std::ranges::find(all, with_method(OwnBodyMethod::stable, max_frames), &Way::settings);
   accuracy::Csv table(call.folder / "time.csv",
                       "method,frames,every,settled_percent,passed,used,iou,iou_with_whole,wall_s,cpu_s,wall_ratio,"
                       "cpu_ratio");

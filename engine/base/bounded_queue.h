@@ -38,7 +38,7 @@ class BoundedQueue {
     return item;
   }
 
-  // Ends the exchange: wakes all threads that wait, and lets put() fail from here on.
+  // Closes the queue: wakes all threads that wait, and lets put() fail from here on.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -14,7 +14,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
 
-  // The number that stands for the whole set; any join() may change it.
+  // The representative of the set; any join() may change it.
   std::uint32_t root(std::uint32_t of) {
     while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
     return of;

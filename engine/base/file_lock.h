@@ -39,15 +39,15 @@ class Descriptor {
 };
 
 // Locks on whole files by flock(2). A lock belongs to the open file and ends with its process, however that ends. Some
-// file systems have no locks (NFS without lockd, Lustre without -o flock). There nobody can be kept out; that is not
-// treated as an error.
+// file systems have no locks (NFS without lockd, Lustre without -o flock). There no process can be excluded; that is
+// not treated as an error.
 enum class LockAnswer {
   held,         // this open file has the lock
   taken,        // another open file has it, most likely that of another process
-  unavailable,  // there are no locks here, so nobody can tell
+  unavailable,  // the file system has no locks, so it cannot be known
 };
 
-// The meaning of errno after flock() with LOCK_NB; 0 stands for success. EWOULDBLOCK alone means `taken`.
+// The meaning of errno after flock() with LOCK_NB; 0 means success. EWOULDBLOCK alone means `taken`.
 [[nodiscard]] LockAnswer lock_answer(int error);
 
 // Tries to take the exclusive lock, without waiting. The file must be open for writing: NFS requires it.

@@ -10,7 +10,8 @@ namespace sigs {
 inline constexpr int kMaxNesting = 100;
 
 // The functions below return the greatest depth to which a text is nested. They need one pass and no recursion. Text
-// behind a syntax error is not examined further; up to there the result is at least the depth that a parser reaches.
+// behind a syntax error is not examined further; up to there the result is at least the depth to which a parser
+// descends.
 
 // JSON: brackets [ and {, except in quoted strings.
 [[nodiscard]] int json_depth(std::string_view text);

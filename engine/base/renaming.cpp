@@ -23,7 +23,7 @@ std::error_code code_of(int result) {
   return result == 0 ? std::error_code() : std::error_code(errno, std::generic_category());
 }
 
-// What file systems say that do not have the flag, and kernels that do not have the call.
+// The errors of file systems without the flag, and of kernels without the call.
 bool is_unknown_here(const std::error_code& code) {
   return code == std::errc::invalid_argument || code == std::errc::function_not_supported ||
          code == std::errc::operation_not_supported;

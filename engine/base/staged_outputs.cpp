@@ -43,7 +43,7 @@ void note_signal(int signal) {
     if (kBlockedSignals[i] == signal) blocked_signals.pending[i] = true;
 }
 
-// Holds SIGHUP, SIGINT and SIGTERM back during its life, whichever thread they are delivered to; afterwards they act as
+// Defers SIGHUP, SIGINT and SIGTERM during its life, whichever thread they are delivered to; afterwards they act as
 // they would have. Several may live at once, also in several threads.
 class SignalBlocker {
  public:

@@ -47,7 +47,7 @@ class StagedOutputs {
   // Final paths, in the order in which the outputs were added.
   [[nodiscard]] std::vector<std::filesystem::path> final_paths() const;
 
-  // The error with final paths in place of temporary ones, which the user has never heard of.
+  // The error with final paths in place of temporary ones, which the user does not know.
   [[nodiscard]] Error with_final_names(Error error) const;
 
  private:

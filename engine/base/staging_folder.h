@@ -37,8 +37,8 @@ class StagingFolder {
     return path_ / "old" / name;
   }
 
-  // Whether another run that is alive has an output of this name in FOLDER. Call it after new_place(name) was created:
-  // of two runs that do so at the same time, at least one finds the other.
+  // Whether another active run has an output of this name in FOLDER. Call it after new_place(name) was
+  // created: of two runs that do so at the same time, at least one finds the other.
   [[nodiscard]] bool is_staged_elsewhere(const std::filesystem::path& name) const;
 
   // Leaves the folder on the disk for good, for the user: what it contains could not be put back.

@@ -13,7 +13,7 @@
 namespace sigs::calibration {
 
 // Whether a calibration fits the footage and is plausible: what the file leaves open is assumed, another
-// image size is scaled to, and warnings name what is doubtful.
+// image size is scaled to, and warnings name what is implausible.
 
 // A lens model, and the reason for it where the file does not state one.
 struct AssumedModel {

@@ -151,7 +151,7 @@ Fields fields_of(const cv::FileNode& root) {
   return fields;
 }
 
-// What OpenCV says is wrong, on one line.
+// OpenCV's error message, on one line.
 std::string reason(const cv::Exception& error) {
   std::string text = error.err.empty() ? std::string("syntax error") : error.err;
   std::ranges::replace(text, '\n', ' ');
@@ -325,7 +325,7 @@ Result<Fields> json_fields(const std::string& text, const std::string& file_name
 
 std::string text_of(double number) {
   if (std::isnan(number)) return "nan";  // whose sign has no meaning
-  std::array<char, 32> digits{};         // the longest shortest text of a double has 24 characters
+  std::array<char, 32> digits{};         // the shortest text that reads back as a double has at most 24 characters
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
   return {digits.data(), end};
 }

@@ -111,7 +111,7 @@ Result<void> Reader::read_matrix(LensParameters& lens) const {
   if (!(lens.fx > 0 && lens.fy > 0))
     return fail(where(*field),
                 fmt::format("focal lengths must be positive, are {} and {}", text_of(lens.fx), text_of(lens.fy)));
-  constexpr double kRounding = 1e-6;  // of the focal length: what a solver leaves where it was meant to keep zero
+  constexpr double kRounding = 1e-6;  // of the focal length: a solver's residual where the value was fixed at zero
   if (std::abs(m[1]) > kRounding * lens.fx || std::abs(m[3]) > kRounding * lens.fx)
     return fail(where(*field), fmt::format("skew is not supported; the 2nd and 4th numbers must be 0, are {} and {}",
                                            text_of(m[1]), text_of(m[3])));

@@ -19,7 +19,7 @@ namespace sigs {
 // asked for. A tile of 64 by 64 pixels has exact rays on a grid with a step of 16 pixels; cubic polynomials interpolate
 // between them, each way. The interpolated rays in the middle of the grid's squares and of their sides are projected
 // through the lens: where one misses its pixel by more than the tolerance the step is halved, down to exact rays
-// everywhere. Tiles that reach to the rim of the lens' field, or beyond, are exact. The contents of a tile depend on
+// everywhere. Tiles that extend to the rim of the lens' field, or beyond, are exact. The contents of a tile depend on
 // camera and tolerance alone. A pinhole lens has no tiles: its rays have a closed form.
 //
 // Not for use by several threads at a time.

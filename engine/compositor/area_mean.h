@@ -41,7 +41,7 @@ struct AreaMean {
 };
 
 // Means of a layer over quadrilaterals: each texel counts with the area that it has in common with the quadrilateral,
-// exactly. So quadrilaterals that tile a part of the layer share out all of its energy, whatever their sizes are.
+// exactly. So quadrilaterals that tile a part of the layer divide all of its energy, whatever their sizes are.
 //
 // Where the shorter side spans more than 16 texels, or the longer one more than 64, the texels are those of a coarser
 // level of the layer's pyramid. One that spans less than a texel is widened to one about its middle, which reads the

@@ -21,7 +21,7 @@ UniformGrid pixels_of(int first, int count) {
   return {.first = static_cast<double>(first), .step = 1, .count = count};
 }
 
-// What lies within target keeps its place, beyond the layer there is nothing.
+// Samples within target keep their positions; beyond the layer everything is empty.
 cv::Mat coverage_over(const cv::Rect& target, const Layer& layer) {
   cv::Mat coverage = cv::Mat::zeros(target.size(), CV_32FC1);
   const cv::Rect both = target & layer.rect;
@@ -29,7 +29,7 @@ cv::Mat coverage_over(const cv::Rect& target, const Layer& layer) {
   return coverage;
 }
 
-// Variance of weights exp(-n^2 log_ratio) on all whole numbers n; up to 1, a dozen of them say it all.
+// Variance of weights exp(-n^2 log_ratio) on all whole numbers n; up to a variance of 1, a dozen of them suffice.
 double variance_of_samples(double log_ratio) {
   double sum = 0.5;
   double moment = 0;
@@ -48,7 +48,7 @@ double log_ratio_for(double sigma_px) {
   if (sigma_px >= 1) return 0.5 / (sigma_px * sigma_px);
   constexpr int kHalvings = 60;
   double low = 0.5;
-  double high = 100;  // next to no blur
+  double high = 100;  // a negligible blur
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (variance_of_samples(middle) > sigma_px * sigma_px ? low : high) = middle;
@@ -56,8 +56,8 @@ double log_ratio_for(double sigma_px) {
   return low;
 }
 
-// One axis of the kernel, 2 reach + 1 samples that sum to one. What could not change any 8-bit sample is 0: a blur of
-// next to nothing touches no neighbour.
+// One axis of the kernel, 2 reach + 1 samples that sum to one. Weights too small to change an 8-bit sample are 0: a
+// blur of negligible width changes no neighbour.
 cv::Mat sampled_gaussian(double sigma_px, int margin) {
   constexpr double kMinWeight = 1e-6;
   const double log_ratio = log_ratio_for(sigma_px);
@@ -101,8 +101,9 @@ Layer widely_blurred(const Layer& layer, double sigma_px, const cv::Rect& target
   ENSURE(sigma_px >= kWideSigma_px);
   if (layer.empty() || target.empty()) return {};
   const double sample_step_px = sigma_px / kSamplesPerSigma;
-  const double kernel_px = std::sqrt(sigma_px * sigma_px - splined_variance(sample_step_px));  // the spline spreads too
-  const double radius_px = std::ceil(3 * sigma_px) + 0.5;  // as far as blurred() reaches, in whole pixels
+  const double kernel_px =
+      std::sqrt(sigma_px * sigma_px - splined_variance(sample_step_px));  // the spline adds its own variance
+  const double radius_px = std::ceil(3 * sigma_px) + 0.5;                 // the extent of blurred(), in whole pixels
   const UniformGrid down = uniform_grid_for(target.y, target.height, sample_step_px);
   const UniformGrid across = uniform_grid_for(target.x, target.width, sample_step_px);
   const cv::Mat samples =

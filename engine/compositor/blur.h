@@ -17,7 +17,7 @@ namespace sigs {
 // Pixels over which the blur carries a pixel: ceil(3 sigma_px).
 [[nodiscard]] int blur_margin_px(double sigma_px);
 
-// Above this sigma a blur is computed at places a quarter of sigma apart, and the cost no longer grows with sigma.
+// Above this sigma a blur is computed at positions a quarter of sigma apart, and the cost no longer grows with sigma.
 inline constexpr double kWideSigma_px = 16;
 
 // The same blur for any sigma above kWideSigma_px, 1e30 px too, over target's pixels alone. It differs from blurred()

@@ -21,7 +21,8 @@ namespace {
 
 const cv::Scalar kGreenBorder(0, 255, 0);
 
-// An intruder that is pure green itself gives way by one code value, so that the key stays the backdrop's alone.
+// An intruder that is pure green itself is changed by one code value, so that the key colour occurs in the backdrop
+// alone.
 cv::Vec3b keyed_color(const cv::Vec4f& premultiplied, const TransferCurve& curve) {
   const float opacity = std::max(premultiplied[3], 1e-6F);
   cv::Vec3b bgr;
@@ -58,7 +59,7 @@ void find_origins(const Camera& camera, int v, DistortMaps& maps) {
   const LensParameters& lens = camera.lens.parameters();
   for (int u = 0; u < camera.size_px.width; ++u) {
     const std::optional<glm::dvec3> ray = camera.lens.ray({u, v});
-    if (!ray || ray->x <= 1e-6) continue;  // at 90 degrees and beyond a pinhole image has no place for it
+    if (!ray || ray->x <= 1e-6) continue;  // a pinhole has no image at 90 degrees and beyond
     const glm::dvec3 optical = optical_of(*ray);
     maps.x.at<float>(v, u) = static_cast<float>(lens.fx * optical.x / optical.z + lens.cx);
     maps.y.at<float>(v, u) = static_cast<float>(lens.fy * optical.y / optical.z + lens.cy);
@@ -84,10 +85,10 @@ ClassicStages apart(ClassicStages buffers) {
   return buffers;
 }
 
-// Blurs along one axis, at places a quarter of sigma apart, and back to pixels.
+// Blurs along one axis, at positions a quarter of sigma apart, and back to pixels.
 struct AxisBlur {
   AxisBlur(int size_px, double wanted_sigma_px) {
-    // A mirrored image repeats after twice its size: by then a wider kernel sees nothing but its mean.
+    // A mirrored image repeats after twice its size: a wider kernel gives its mean.
     const double sigma_px = std::min(wanted_sigma_px, 2.0 * size_px);
     const double step_px = std::max(1.0, sigma_px / 4);
     const UniformGrid places = uniform_grid_for(0, size_px, step_px);

@@ -17,7 +17,7 @@ inline const cv::Vec3b kKeyGreen{0, 255, 0};
 
 // Paper figure 2: the intruder before pure green. A pixel is the intruder's where its coverage is at least one half; it
 // then has the intruder's own colour, so that no green mixes into the edge. Written over buffer, where one is given.
-// color: the footage's, whose transfer function and primaries the image has as well
+// color: the footage's, whose transfer function and primaries apply to the image as well
 [[nodiscard]] cv::Mat on_green_screen(const Layer& layer, const ColorInfo& color, cv::Size image_size_px,
                                       cv::Mat buffer = {});
 
@@ -70,7 +70,7 @@ struct DistortMaps {
 [[nodiscard]] ClassicStages classic_stages(const cv::Mat& input1, const cv::Mat& input2, const DistortMaps& maps,
                                            double sigma_px, ClassicStages buffers = {});
 
-// The former method of the paper's figure 5: input 2 pasted where it is not green, no lens, no blur.
+// The earlier method of the paper's figure 5: input 2 pasted where it is not green, no lens, no blur.
 // Only input1, input2, output, changed and key are filled.
 [[nodiscard]] ClassicStages plain_stages(const cv::Mat& input1, const cv::Mat& input2, ClassicStages buffers = {});
 

@@ -15,7 +15,7 @@ double gaussian(double x, double sigma) {
   return std::exp(-0.5 * (x / sigma) * (x / sigma)) / (sigma * std::sqrt(2 * std::numbers::pi));
 }
 
-// What the cut Gaussian leaves to a cell, relative to the place where it is sampled.
+// The weight of a cell under the truncated Gaussian, relative to the position where it is sampled.
 double sample_weight(double low, double high, double sigma, double radius) {
   low = std::max(low, -radius);
   high = std::min(high, radius);
@@ -124,7 +124,7 @@ std::vector<Taps> spline_taps(int first_px, int size_px, const UniformGrid& in) 
     const double place = (x - in.first) / in.step;
     ENSURE(place > 0.5 && place < in.count - 1.5);
     const int before = std::clamp(static_cast<int>(place), 1, in.count - 3);
-    const double t = std::clamp(place - before, 0.0, 1.0);  // rounding may put the first a breath before its place
+    const double t = std::clamp(place - before, 0.0, 1.0);  // rounding may put the first slightly before its position
     const double r = 1 - t;
     all.push_back(
         {.first = before - 1,
@@ -135,7 +135,7 @@ std::vector<Taps> spline_taps(int first_px, int size_px, const UniformGrid& in) 
 }
 
 double splined_variance(double step) {
-  return step * step / 3;  // four boxes folded, a twelfth each
+  return step * step / 3;  // four boxes convolved, a twelfth each
 }
 
 cv::Mat resampled(const cv::Mat& image, std::span<const Taps> rows, std::span<const Taps> columns) {

@@ -10,10 +10,10 @@ namespace sigs {
 // One sample of the output along an axis: a weighted sum of neighbouring samples of the input.
 struct Taps {
   int first = 0;
-  std::vector<float> weights;  // empty: nothing of the input reaches it
+  std::vector<float> weights;  // empty: no input sample has weight in it
 };
 
-// Evenly spaced places along an axis, px.
+// Evenly spaced positions along an axis, px.
 struct UniformGrid {
   double first = 0;
   double step = 1;
@@ -22,8 +22,9 @@ struct UniformGrid {
   [[nodiscard]] double at(int i) const { return first + i * step; }
 };
 
-// Gaussian cut at radius_px, sampled at the places of `out`. The input's samples are squares that touch each other; one
-// that the cut halves counts by half. Weights sum to one over an input without borders; beyond its borders is nothing.
+// Gaussian truncated at radius_px, sampled at the positions of `out`. The input's samples are squares that touch each
+// other; one that the cut halves counts by half. Weights sum to one over an input without borders; beyond its borders
+// is nothing.
 [[nodiscard]] std::vector<Taps> gaussian_taps(const UniformGrid& out, const UniformGrid& in, double sigma_px,
                                               double radius_px);
 

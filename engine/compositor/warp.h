@@ -17,7 +17,7 @@ struct RenderedView {
   Layer layer;
 };
 
-// The intruder as the camera sees it, over the pixels of target (which may reach beyond the image): each pixel asks
+// The intruder as the camera sees it, over the pixels of target (which may extend beyond the image): each pixel asks
 // the lens for the rays of its four corners and takes the mean of what the view shows between them, by area
 // (compositor/area_mean.h). Pixels that have no ray stay empty. Several views (the faces of a cube around the camera)
 // must not overlap in direction; each pixel asks the one whose axis its upper left ray is nearest to. Energy is kept:

@@ -62,7 +62,7 @@ bool is_real_folder(const fs::path& path) {
 }
 
 // Why a folder cannot be the staging folder of a dataset: it is a link, holds a file that no run makes, or has filled
-// folders without a lock file, which every run has beside them, a killed one too. Empty: nothing speaks against it.
+// folders without a lock file, which every run has beside them, a killed one too. Empty: it can be.
 std::string foreign_content_of(const fs::path& staging) {
   if (!is_real_folder(staging)) return "is no folder";
   const Result<std::vector<fs::path>> paths = folder_contents(staging);
@@ -109,7 +109,7 @@ Result<Descriptor> locked(const fs::path& file) {
       if (const Result<void> ours = check_staging_folder(staging); !ours) return fail(ours.error());
     }
     Descriptor descriptor = open_for_lock(file, LockFile::made_where_missing);
-    if (!descriptor.is_open() && errno == ENOENT) continue;  // the staging folder went with another run's lock
+    if (!descriptor.is_open() && errno == ENOENT) continue;  // another run removed the staging folder with its lock
     if (!descriptor.is_open()) return fail(not_made(file));
     if (try_lock(descriptor) == LockAnswer::taken) return Descriptor();
     if (is_named(descriptor, file)) return descriptor;
@@ -142,7 +142,7 @@ fs::path staging_folder_of(const fs::path& dataset) {
 
 Result<void> make_empty(const fs::path& folder) {
   std::error_code code;
-  for (int tries = 0; tries < 10; ++tries) {  // another run may tidy the staging folder between two steps
+  for (int tries = 0; tries < 10; ++tries) {  // another run may clean up the staging folder between two steps
     fs::remove_all(folder, code);
     if (!code) fs::create_directories(folder, code);
     if (code != std::errc::no_such_file_or_directory) break;

@@ -30,11 +30,11 @@ struct Shard {
 
 // The right to make a shard of a dataset, held until the object's life or the process ends, in whatever way. It is a
 // locked file (base/file_lock.h) in the staging folder, so it holds between machines that share the folder where their
-// file system has locks; where it has none, nobody is kept out.
+// file system has locks; where it has none, no process is excluded.
 class DatasetLock {
  public:
   // The dataset's folder must be there. Error cannot_create: another process makes some of the same videos, or the
-  // staging folder's name belongs to something that no dataset made, which is left unchanged.
+  // staging folder's name belongs to something that no dataset has created, which is left unchanged.
   [[nodiscard]] static Result<DatasetLock> acquire(const std::filesystem::path& dataset, const Shard& shard);
 
   DatasetLock(DatasetLock&& other) noexcept = default;

@@ -99,7 +99,7 @@ Possible<RelativeMotion> template_motion(FlightKind kind, const Values& values, 
   return motion_at_speed(path, length_s, *speed_mps, context.camera.speed_mps, fixed_share(kind));
 }
 
-// Where neither time nor range says when, the closest approach is in the last frame.
+// Where neither time nor range is given, the closest approach is in the last frame.
 EncounterTiming timing_of(const Values& values, const Ends& ends) {
   EncounterTiming timing{.closing_speed_mps = value_of(values, "closing_speed_mps"),
                          .time_of_closest_approach_s = value_of(values, "time_of_closest_approach_s"),
@@ -123,7 +123,7 @@ void add_derived(const Encounter& encounter, std::map<std::string, double>& deri
   derived["range_m"] = first_range_m(encounter);
 }
 
-// What decides how fast the intruder flies.
+// What determines the intruder's speed.
 std::string ways_out(FlightKind kind, const Values& values) {
   if (kind == FlightKind::encounter)
     return values.contains("closing_speed_mps") ? "closing_speed_mps or bearing_deg"

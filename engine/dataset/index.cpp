@@ -29,7 +29,7 @@ Result<void> foreign(const fs::path& file) {
               ErrorKind::cannot_create);
 }
 
-// Paths that an index names; none: it is no dataset's.
+// Paths that an index names; none: no dataset has written it.
 std::optional<Paths> paths_of_index(const std::string& text) {
   const Result<Json> json = parsed_json(text, kIndexName, ErrorKind::bad_data);
   if (!json || !json->contains("sigs_dataset_index")) return std::nullopt;
@@ -55,7 +55,7 @@ std::string unescaped(std::string_view name) {
   return path;
 }
 
-// Paths that a list of checksums names, checksum_line() backwards; none: it is no dataset's.
+// Paths that a list of checksums names, the inverse of checksum_line(); none: no dataset has written it.
 std::optional<Paths> paths_of_checksums(std::string_view text) {
   constexpr std::size_t kDigits = 64;
   const std::string entry = std::string("/") + kEntryName;
@@ -73,7 +73,7 @@ std::optional<Paths> paths_of_checksums(std::string_view text) {
   return has_entry ? std::optional(paths) : std::nullopt;
 }
 
-// What a dataset is known to have written; error: a file that tells it is somebody else's.
+// What a dataset is known to have written; error: an index or list of checksums that no dataset has written.
 Result<Paths> known_paths(const fs::path& dataset) {
   Paths known;
   std::error_code code;
@@ -115,7 +115,7 @@ Result<fs::path> emptied_staging_folder(const fs::path& dataset, const std::stri
   return folder;
 }
 
-// Gives what was made in the staging folder its place, which is free; a folder in which there is nothing is not there.
+// Moves an output from the staging folder to its final place, which is free; an empty folder is not moved.
 Result<void> commit(const fs::path& dataset, const std::string& name) {
   const fs::path made = staging_folder_of(dataset) / name;
   if (const Result<void> step = flush_all(made); !step) return step;
@@ -128,7 +128,7 @@ Result<void> commit(const fs::path& dataset, const std::string& name) {
   return {};
 }
 
-// A file of the dataset's own, whose place is free: it appears there when it is on the disk.
+// A file of the dataset's own, whose final name is free: it gets that name when it is on the disk.
 Result<void> write_dataset_file(const fs::path& dataset, const std::string& name, const std::string& text) {
   const Result<fs::path> staging = emptied_staging_folder(dataset, "new");
   if (!staging) return fail(staging.error());
@@ -231,7 +231,7 @@ Result<void> remove_index(const fs::path& dataset) {
   for (const char* const name : {kIndexName, kSharedFolders[0], kSharedFolders[1], kChecksumsName}) {
     std::error_code code;
     fs::remove_all(dataset / name, code);
-    if (code && code != std::errc::no_such_file_or_directory)  // another shard of it may be doing the same
+    if (code && code != std::errc::no_such_file_or_directory)  // another shard may be doing the same
       return fail((dataset / name).string(), "cannot be removed: " + code.message(), ErrorKind::cannot_create);
   }
   return {};
@@ -260,7 +260,7 @@ Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, c
   Json index = index_of(plan, source, videos);
   index["shared_files"] = described(*shared, "");
   index["checksum"] = checksum_of_text(checksums);
-  Result<void> step = check_shared_files(dataset);  // making them took its time
+  Result<void> step = check_shared_files(dataset);  // making them may have taken long
   if (step) step = write_dataset_file(dataset, kChecksumsName, checksums);
   if (step) step = flush(dataset);
   for (const char* const name : kSharedFolders)

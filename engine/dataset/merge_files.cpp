@@ -23,7 +23,7 @@ std::string text_of(const Json& json) {
 
 constexpr const char* kUnreadableLabels = "cannot be put together: labels of a video are not as sigs writes them";
 
-// What has to be added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
+// Offsets added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
 struct IdOffsets {
   std::int64_t video = 0;
   std::int64_t track = 0;
@@ -74,7 +74,7 @@ class CocoMerge {
   }
 
  private:
-  // Information, videos, categories and tracks; counts what the ids of each video are moved by.
+  // Information, videos, categories and tracks; computes the offsets of each video's ids.
   Result<void> put_heads() {
     Json videos = Json::array();
     Json tracks = Json::array();

@@ -26,7 +26,7 @@ Result<void> link_tree(const fs::path& from, const fs::path& to) {
   return {};
 }
 
-// Every folder right under `from`, but for the one called so.
+// Every folder directly in `from`, except the one of this name.
 Result<void> link_folders(const fs::path& from, const fs::path& to, const std::string& but) {
   if (const Result<void> step = make_inner_folder(to); !step) return step;
   const Result<std::vector<fs::path>> paths = folder_contents(from);
@@ -43,7 +43,7 @@ std::string without_first_line(const std::string& text) {
   return end == std::string::npos ? std::string() : text.substr(end + 1);
 }
 
-// From the line that begins so to the end.
+// From the line that begins with this text to the end.
 std::string from_line(const std::string& text, const std::string& begin) {
   const std::size_t place = text.find("\n" + begin);
   return place == std::string::npos ? std::string() : text.substr(place + 1);
@@ -53,7 +53,7 @@ std::string from_line(const std::string& text, const std::string& begin) {
 Result<std::string> yolo_list(const SplitLabels& labels, const std::string& from) {
   std::string list;
   for (const VideoLabels& video : labels.videos) {
-    // As labels/yolo's writer lays them: one folder in labels/, and in images/ where there are images.
+    // As labels/yolo's writer arranges them: one folder in labels/, and in images/ where there are images.
     const Result<std::vector<fs::path>> folders = folder_contents(video.path / "labels");
     if (!folders) return fail(folders.error());
     for (const fs::path& folder : *folders) {
@@ -65,7 +65,7 @@ Result<std::string> yolo_list(const SplitLabels& labels, const std::string& from
   return list;
 }
 
-// Readers ask for train and val: where there is no such split, another stands for it.
+// Readers ask for train and val: where there is no such split, another takes its place.
 const SplitLabels& substitute_split(const std::vector<SplitLabels>& splits, const char* name) {
   for (const char* const wanted : {name, "test", "train"})
     for (const SplitLabels& labels : splits)

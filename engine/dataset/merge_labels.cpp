@@ -42,7 +42,7 @@ Result<void> check_categories(const Plan& plan) {
   return {};
 }
 
-// A name as folders and columns of a format have it.
+// A name in the form that a format uses for folders and columns.
 std::string name_in(std::string_view format, const std::string& name) {
   return format == "kitti" ? word_name(name) : line_name(name);
 }

@@ -75,7 +75,7 @@ Result<void> split_up(const Recipe& recipe, Plan& plan) {
   return {};
 }
 
-// What stood against a sample: the quantity that its reason begins with.
+// Why a sample was rejected: the quantity that its reason begins with.
 std::string condition_of(const std::string& why) {
   return why.substr(0, std::min(why.find(':'), why.find(" in frame")));
 }
@@ -92,7 +92,7 @@ class Planner {
   void add(const VideoSpec& spec, Plan& plan);
 
  private:
-  // A sample, or why it is none; where a video may be sampled anew it must be seen, too.
+  // A sample, or why it is impossible; where a video may be sampled again it must be visible, too.
   [[nodiscard]] tl::expected<PlannedVideo, std::string> one_sample(const VideoSpec& spec,
                                                                    const OpenedBackground& background, int again);
 

@@ -19,7 +19,7 @@ struct PlannedVideo {
   std::string split;
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
   std::map<std::string, double> sampled;    // what was sampled or fixed for it: "miss_distance_m", ...
-  std::map<std::string, int> resamples;     // how often it was sampled anew, by the reason
+  std::map<std::string, int> resamples;     // how often it was sampled again, by the reason
 };
 
 // A video for which there is no flight: the intruder is underground, the closing speed does not fit the miss distance,
@@ -45,7 +45,7 @@ struct Plan {
 // Makes the plan of a recipe. Samples depend on seed, video and quantity alone, not on the order or number of videos.
 // Opens the footage that the recipe names, to know its length: where a clip cannot be opened its videos are `unopened`,
 // where no clip can it is an error. A video that cannot be flown, or whose intruder is never in the image, is sampled
-// anew as often as its group allows; after that it is impossible, with all reasons and their numbers. Errors: what is
+// again as often as its group allows; after that it is impossible, with all reasons and their numbers. Errors: what is
 // wrong with the recipe as a whole; interrupted.
 [[nodiscard]] Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel = nullptr);
 

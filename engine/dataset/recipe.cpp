@@ -19,7 +19,7 @@ namespace sigs {
 
 namespace {
 
-// What the recipe itself says for each video; where to say it.
+// Settings that the recipe has elsewhere for each video; where they belong.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPerVideoSettings{
     {{"name", "videos[].name"},
      {"footage.", "backgrounds[].footage"},
@@ -41,7 +41,7 @@ Json::json_pointer pointer_of(const std::string& key) {
   return Json::json_pointer(pointer);
 }
 
-// Of what is left once all fields are taken out.
+// Of the keys that remain once all fields are removed.
 void warn_of_unknown_keys(const Json& rest, const std::string& key, RecipeLog& log) {
   for (const auto& [name, item] : rest.items())
     if (item.is_object())
@@ -120,7 +120,7 @@ std::vector<std::string> read_settings(RecipeNode& recipe, Project& base) {
   return settings;
 }
 
-// Adds KEY=VALUE given beside the recipe to the list and to the project. What is wrong is logged as kind usage.
+// Adds KEY=VALUE given beside the recipe to the list and to the project. Errors are logged as kind usage.
 void add_settings(const std::vector<std::string>& more, std::vector<std::string>& settings, Project& base,
                   RecipeLog& log) {
   for (const std::string& setting : more) {
@@ -130,14 +130,14 @@ void add_settings(const std::vector<std::string>& more, std::vector<std::string>
   }
 }
 
-// Sets KEY=VALUE that add_settings() has checked, over what a background says of itself.
+// Sets KEY=VALUE that add_settings() has checked, over the background's own values.
 void apply_settings(const std::vector<std::string>& settings, Project& project) {
   for (const std::string& setting : settings)
-    if (!set_field(project, setting)) return;  // add_settings() has told of it
+    if (!set_field(project, setting)) return;  // add_settings() has reported it
   make_paths_absolute(project);
 }
 
-// Warns of settings of camera and light that have no effect, since every background says them itself.
+// Warns of settings of camera and light that have no effect, since every background has its own.
 void warn_of_overridden(RecipeNode& recipe) {
   const Json* const settings = recipe.value("settings");
   const Json* const backgrounds = recipe.value("backgrounds");

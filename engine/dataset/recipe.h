@@ -59,7 +59,7 @@ struct VideoGroup {
   std::vector<FlightPlan> flights;
   bool is_sampled = false;
   int count = 1;
-  // How often at most a video that cannot be flown, or whose intruder is never in the image, is sampled anew; none: it
+  // How often at most a video that cannot be flown, or whose intruder is never in the image, is sampled again; none: it
   // is sampled once, visible or not.
   std::optional<int> resamples;
   std::vector<LightPlan> lights;  // one of them is sampled; empty: the background's light
@@ -78,8 +78,9 @@ struct Recipe {
   std::filesystem::path file;
   std::string name;
   std::uint64_t seed = 0;
-  std::vector<std::string> settings;  // KEY=VALUE for every project, as set_field() takes them; later ones win
-  Project base;                       // a project with these settings and one intruder; every video starts from it
+  std::vector<std::string>
+      settings;  // KEY=VALUE for every project, as set_field() takes them; later ones override earlier ones
+  Project base;  // a project with these settings and one intruder; every video starts from it
   std::vector<Background> backgrounds;
   std::vector<Aircraft> aircraft;
   std::vector<VideoGroup> groups;
@@ -93,7 +94,7 @@ struct ReadRecipe {
   std::vector<Warning> warnings;  // unknown keys, settings without effect
 };
 
-// settings: KEY=VALUE, as set_field() takes them, that win over all that the recipe says. An error in one of them names
+// settings: KEY=VALUE, as set_field() takes them, that override the recipe. An error in one of them names
 // it and is of kind usage.
 // Errors name the file and the key: cannot_read where a file is missing, else bad_data.
 [[nodiscard]] Result<ReadRecipe> read_recipe(const std::filesystem::path& path,

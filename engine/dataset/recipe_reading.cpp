@@ -120,8 +120,9 @@ void RecipeNode::done() {
 
 namespace {
 
-constexpr double kMaxNumber = 1e12;        // of any number that a recipe gives
-constexpr double kMaxBoundDeviations = 8;  // deviations from the mean at which hardly anything is left to sample from
+constexpr double kMaxNumber = 1e12;  // of any number that a recipe gives
+constexpr double kMaxBoundDeviations =
+    8;  // standard deviations from the mean beyond which the remaining probability is too small to sample
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Read = tl::expected<Quantity, std::string>;

@@ -16,7 +16,7 @@
 
 namespace sigs {
 
-// What the sources that read a recipe share; recipe.h is what others use.
+// Declarations shared by the sources that read a recipe; recipe.h is the public interface.
 
 // What is wrong with a recipe, collected while it is read: the first error, and every warning. Keys are written as
 // "videos[0].name".
@@ -66,7 +66,7 @@ class RecipeNode {
 [[nodiscard]] tl::expected<Quantity, std::string> quantity_of(const Json& json);
 
 // The recipe's "videos" and "splits"; backgrounds and aircraft must have been read. Mistakes are written to the node's
-// log. settings: KEY=VALUE given beside the recipe, which win over what a group says.
+// log. settings: KEY=VALUE given beside the recipe, which override a group's values.
 [[nodiscard]] std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
                                                   const std::vector<std::string>& settings);
 void read_splits(RecipeNode& recipe_node, Recipe& recipe);

@@ -30,7 +30,7 @@ const std::array<LightField, 3>& light_fields() {
   return fields;
 }
 
-// What a project may have in that field.
+// The range that a project allows in that field.
 Span limits_of(const char* key) {
   Project project;
   for (const Field& field : fields_of(project))
@@ -78,8 +78,8 @@ LightPlan read_light(RecipeNode node, const std::vector<std::string>& settings) 
 }
 
 // A group's "light": { ... } or a list of them, each with "position_m", "color" (three quantities each) and "ambient"
-// (one), all of them optional. What `settings` (KEY=VALUE given beside the recipe) set is left out, since it wins.
-// Values outside the limits of a project are mistakes.
+// (one), all of them optional. What `settings` (KEY=VALUE given beside the recipe) set is left out, since it takes
+// precedence. Values outside the limits of a project are mistakes.
 std::vector<LightPlan> read_lights(RecipeNode& group, const std::vector<std::string>& settings) {
   const Json* const json = group.value("light");
   if (json == nullptr) return {};
@@ -93,10 +93,10 @@ std::vector<LightPlan> read_lights(RecipeNode& group, const std::vector<std::str
 
 constexpr int kMaxVideos = 100'000;
 constexpr int kMaxFrames = 1'000'000'000;
-constexpr int kResamples = 100;  // of sampled groups that do not say
+constexpr int kResamples = 100;  // of sampled groups without one
 constexpr int kMaxResamples = 10'000;
 
-// What a sampled group flies that does not say. docs/dataset.md shows it.
+// The flights of a sampled group without any. docs/dataset.md shows them.
 constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
   "miss_distance_m": {"uniform": [0, 150]}, "miss_angle_deg": {"uniform": [-180, 180]},
   "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},
@@ -113,7 +113,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The names that a group picks of those that there are; all where it picks none.
+// The names that a group selects from all; all where it selects none.
 std::vector<std::string> picked(RecipeNode& group, const char* key, const std::vector<std::string>& there) {
   std::vector<std::string> names = group.texts(key);
   if (names.empty()) return there;
@@ -174,7 +174,7 @@ FlightPlan read_flight(RecipeNode node) {
   return flight;
 }
 
-// A flight that is a text is its kind, all else as it comes.
+// A flight given as a text is its kind; anything else is taken as it is.
 std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_sampled) {
   static const Json random_encounter = Json::parse(kRandomEncounter);
   std::vector<FlightPlan> flights;
@@ -261,7 +261,7 @@ void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node
 std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
                                     const std::vector<std::string>& settings) {
   const Json* const number = recipe_node.value("videos");
-  if (number != nullptr && number->is_number()) {  // one group that says nothing else
+  if (number != nullptr && number->is_number()) {  // one group without other keys
     const Json group{{"videos", *number}};
     return {read_group(RecipeNode(group, "", recipe_node.log()), recipe, settings)};
   }

@@ -48,7 +48,7 @@ struct Task {
   int frames = 0;  // to be exported
   int done = 0;    // of these
 
-  std::string why_not;  // what is there is not kept
+  std::string why_not;  // the existing folder is not kept
 
   [[nodiscard]] bool is_pending() const { return !entry && !error; }
   [[nodiscard]] std::string unusable() const {
@@ -105,7 +105,7 @@ void DatasetRun::warn(const Warning& warning) {
   if (control_.warn) control_.warn(warning);
 }
 
-// Why a video that is there is not kept; empty: it is.
+// Why an existing video is not kept; empty: it is kept.
 std::string DatasetRun::outdated(const Task& task, const VideoEntry& entry) {
   if (entry.planned != task.planned) return "was made from other settings, inputs or with another program";
   const Result<std::string> damage = damage_of(task.folder.path(), entry, control_.cancel);
@@ -114,7 +114,7 @@ std::string DatasetRun::outdated(const Task& task, const VideoEntry& entry) {
 
 void DatasetRun::inspect(Task& task) {
   if (is_cancelled()) return;
-  remove_abandoned_staging(task.folder.path());  // of notes that a killed run was writing
+  remove_abandoned_staging(task.folder.path());  // of temporary files that a killed run was writing
   const PlannedVideo& video = *task.folder.video;
   Result<std::string> planned = fingerprint_of(video.project, request_.source.program, inputs_);
   if (!planned) {
@@ -204,7 +204,7 @@ Result<void> DatasetRun::export_missing(DatasetReport& report) {
   return {};
 }
 
-// What killed runs have left goes, but where other shares of the dataset may be in the making only what is empty.
+// Removes what killed runs have left; where other shards may be running, only empty folders.
 Result<void> DatasetRun::clear_staging_folder() const {
   for (const char* const name : {"new", "old", "labels", "splits"}) {
     std::error_code code;
@@ -297,7 +297,7 @@ bool has_index(const fs::path& dataset) {
   return fs::exists(dataset / kIndexName, code);
 }
 
-// The first of the videos asked for whose folder is there already.
+// The first of the requested videos whose folder exists already.
 std::optional<std::string> video_there(const Plan& plan, const DatasetRequest& request, const fs::path& dataset) {
   for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i) {
     std::error_code code;
@@ -307,7 +307,7 @@ std::optional<std::string> video_there(const Plan& plan, const DatasetRequest& r
   return std::nullopt;
 }
 
-// What is in the folder is either a dataset that may be gone on with, or nothing that stands in the way.
+// The folder contains either a dataset that may be continued, or nothing that prevents a new one.
 Result<void> check_free(const Plan& plan, const DatasetRequest& request, const fs::path& dataset) {
   const std::optional<std::string> video = video_there(plan, request, dataset);
   const bool goes_on = request.resume || request.merge_only;

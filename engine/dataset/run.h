@@ -45,7 +45,7 @@ struct DatasetControl {
   std::function<void(int done, int total)> progress;  // frames, of all videos to be exported
   std::function<void(const Warning&)> warn;
   std::function<void(const std::string& video)> finished;
-  const std::atomic<bool>* cancel = nullptr;  // when set: stops soon with error interrupted; finished videos stay
+  const std::atomic<bool>* cancel = nullptr;  // when set: stops soon with error interrupted; finished videos are kept
 };
 
 // Exports a plan: FOLDER/NAME/ for each video, complete or not there at all, and at the end the index (index.h).

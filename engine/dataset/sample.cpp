@@ -31,7 +31,7 @@ double probability_below(double z) {
   return 0.5 * std::erfc(-z / std::numbers::sqrt2);
 }
 
-// By halving. The last digits of erfc, in which machines may differ, are rounded away.
+// By bisection. The last digits of erfc, in which machines may differ, are rounded away.
 double inverse_probability(double probability, double from, double to) {
   double low = from, high = to;
   for (int i = 0; i < 64; ++i) {
@@ -42,7 +42,7 @@ double inverse_probability(double probability, double from, double to) {
   return step > 0 ? from + std::round((high - from) / step) * step : from;
 }
 
-// Standard normal, cut to [low, high]: the value that a share of it lies below.
+// Standard normal, truncated to [low, high]: the value that a share of it lies below.
 double truncated_normal(double low, double high, double share) {
   if (low > 0) return -truncated_normal(-high, -low, 1 - share);  // into the tail where probabilities are precise
   const double from = std::clamp(low, -kMaxDeviations, kMaxDeviations);

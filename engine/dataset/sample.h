@@ -15,7 +15,7 @@ struct Quantity {
   double value = 0;                // fixed
   double low = 0, high = 0;        // uniform: [low, high); normal: bounds of truncation, may be infinite
   double mean = 0, deviation = 0;  // normal, before it is truncated to its bounds
-  std::vector<double> choices;     // choice: each as likely
+  std::vector<double> choices;     // choice: with equal probability
 
   [[nodiscard]] bool operator==(const Quantity&) const = default;
 };

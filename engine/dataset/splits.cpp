@@ -17,7 +17,7 @@ struct Unit {
   std::uint64_t rank = 0;
 };
 
-// Two kinds of names, which must not meet.
+// Two kinds of names, which must differ.
 std::string unit_name(const SplitCandidate& candidate) {
   return candidate.unit.empty() ? "video " + candidate.video : "unit " + candidate.unit;
 }

@@ -11,7 +11,7 @@
 
 namespace sigs {
 
-// What of a video decides its split.
+// The properties of a video that determine its split.
 struct SplitCandidate {
   std::string video;
   std::string fixed;  // the split that its group names; empty: it is assigned

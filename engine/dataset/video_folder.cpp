@@ -42,7 +42,7 @@ Project with_relative_paths(const VideoFolder& folder) {
   return project;
 }
 
-// What is wrong names the project's place; files are written elsewhere.
+// Errors name the project's final place; files are written elsewhere.
 Project with_absolute_paths(const VideoFolder& folder) {
   Project project = folder.video->project;
   for (const Field& field : fields_of(project))
@@ -78,7 +78,7 @@ Result<void> finish(const fs::path& staged, const VideoFolder& folder, const Vid
   return step ? flush(staged) : step;
 }
 
-// Why what lies at a place may not be replaced by the video; empty: it may.
+// Why an existing folder may not be replaced by the video; empty: it may.
 std::string not_ours(const fs::path& place, const PlannedVideo& video) {
   const Result<VideoEntry> entry = read_entry(place / kEntryName);
   if (!entry)
@@ -93,7 +93,8 @@ Error not_committed(const VideoFolder& folder, const std::error_code& code) {
   return {folder.path().string(), "cannot be given its final name: " + code.message(), ErrorKind::write_failed};
 }
 
-// The older folder lies aside until it was looked at once more: somebody may have put something into it meanwhile.
+// The older folder is moved to the staging folder and checked again: another program may have written into it
+// meanwhile.
 Result<void> replace(const fs::path& staged, const VideoFolder& folder) {
   const fs::path backup = staging_folder_of(folder.dataset) / "old" / folder.video->name;
   if (const Result<void> step = make_empty(backup); !step) return step;

@@ -11,7 +11,7 @@ namespace sigs {
 
 namespace {
 
-// The samples of one video. Each time it is sampled anew, every number comes from another place.
+// The samples of one video. Each time it is sampled again, every random number has another key.
 class Sampler {
  public:
   Sampler(std::uint64_t seed, std::string video, int again)
@@ -21,7 +21,7 @@ class Sampler {
     return sampled(quantity, {seed_, video_, name + ending_});
   }
 
-  // One of so many, each as likely.
+  // One of so many, with equal probability.
   [[nodiscard]] std::size_t pick(std::size_t count, const std::string& name) const {
     return static_cast<std::size_t>(random_share({seed_, video_, name + ending_}) * static_cast<double>(count));
   }
@@ -55,7 +55,7 @@ std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler&
   return values;
 }
 
-// The frames of a video, or why the background has not got them.
+// The frames of a video, or why the background does not have them.
 tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const Sampler& sampler,
                                                 const FrameRange& there) {
   const double skipped = std::floor(sampler.number(group.first_frame, "first_frame"));

@@ -30,7 +30,7 @@ struct VideoSpec {
 };
 
 // The spec with background, aircraft and flight sampled for it; unchanged where its group combines all of them. again:
-// 0 for the first sample, increased by one each time the video is sampled anew. Every sample depends on the seed, the
+// 0 for the first sample, increased by one each time the video is sampled again. Every sample depends on the seed, the
 // video's name, the quantity and `again` alone.
 [[nodiscard]] VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again);
 

@@ -92,7 +92,7 @@ Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {
 const ReportedBox* Results::best_at(int frame) const {
   const auto found = frames.find(frame);
   if (found == frames.end() || found->second.empty()) return nullptr;
-  return &*std::ranges::max_element(found->second, {}, &ReportedBox::score);  // the first of equals
+  return &*std::ranges::max_element(found->second, {}, &ReportedBox::score);  // the first of equal ones
 }
 
 std::span<const std::string_view> results_format_names() {

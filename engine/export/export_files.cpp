@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
-#include "scene/opened_project.h"
 #include "export/frame_stream.h"
+#include "scene/opened_project.h"
 
 namespace sigs {
 
@@ -155,7 +155,7 @@ Result<void> make_folder(const fs::path& folder) {
   return {};
 }
 
-// A folder of images is replaced whole; one that holds anything else is somebody's own.
+// A folder of images is replaced as a whole; one that contains a foreign file is not.
 Result<void> check_image_folder(const fs::path& folder) {
   std::error_code code;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {

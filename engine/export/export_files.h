@@ -24,7 +24,7 @@ class ExportFiles {
   // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
   [[nodiscard]] Result<void> write(ComposedFrame frame);
 
-  // Waits until everything handed over is written. Error: that of the first frame that could not be.
+  // Waits until all frames passed to it are written. Error: that of the first frame that could not be.
   [[nodiscard]] Result<void> join();
 
   // Completes all of them, then gives them their final names. Returns those.
@@ -62,8 +62,8 @@ class ExportFiles {
 // Whether a relative path is one of a pattern of LabelFormat::files.
 [[nodiscard]] bool fits(std::string_view path, std::string_view pattern);
 
-// A folder of labels is replaced whole. Error cannot_create where it holds a file that the format does not write, which
-// is somebody's own. A folder that is not there is none such.
+// A folder of labels is replaced as a whole. Error cannot_create where it contains a file that the format does not
+// write; a missing folder is no error.
 [[nodiscard]] Result<void> check_label_folder(const std::filesystem::path& folder, const LabelFormat& format);
 
 }  // namespace sigs

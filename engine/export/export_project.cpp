@@ -41,7 +41,7 @@ std::string damaged_text(const ExportReport& report, int total) {
   return std::to_string(report.damaged_frames) + " of " + std::to_string(total) + " frames of the footage are damaged";
 }
 
-// As soon as there are too many: the rest cannot make it better.
+// As soon as there are too many: the remaining frames cannot change that.
 Result<void> check_substituted(const ExportReport& report, int total, const OpenedProject& opened, double max_percent) {
   if (report.damaged_frames * 100.0 <= max_percent * total) return {};
   std::ostringstream limit;

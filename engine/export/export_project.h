@@ -17,7 +17,7 @@ namespace sigs {
 
 struct ExportRequest {
   Project project;
-  std::filesystem::path folder;      // made where it is not there
+  std::filesystem::path folder;      // created if it is missing
   std::optional<FrameRange> frames;  // none: the project's own range; numbers are the footage's
   int jobs = 1;                      // frames composed in parallel; the bytes do not depend on it
   bool overwrite = false;
@@ -45,14 +45,14 @@ struct ExportReport {
 struct ExportControl {
   std::function<void(int done, int total)> progress;  // called from the calling thread after each frame
   std::function<void(const Warning&)> warn;           // as soon as something is known
-  const std::atomic<bool>* cancel = nullptr;          // set: stop soon, error interrupted, nothing is left behind
+  const std::atomic<bool>* cancel = nullptr;          // set: stops soon with error interrupted, and leaves no file
 };
 
 // All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of images), NAME.masks.mkv (or
 // a folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
-// What only the footage shows to be wrong with what a project wants written: h264 of an odd size. Names the field.
+// Errors in a project's outputs that only the footage can show: h264 of an odd size. Names the field.
 [[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
 
 }  // namespace sigs

@@ -29,7 +29,7 @@ FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const Fram
     for (int i = 0; i < jobs; ++i) start(&FramePipeline::compose);
 }
 
-// Fewer composing threads than wished do the same, later; without any it ends in an error.
+// Fewer composing threads than requested do the same work, more slowly; without any it ends in an error.
 void FramePipeline::start(void (FramePipeline::*work)()) {
   Result<std::thread> thread = started_thread([this, work] {
     const Result<void> done = guarded([&]() -> Result<void> {
@@ -56,7 +56,7 @@ void FramePipeline::give_up(const Error& error) {
 Result<ComposedFrame> FramePipeline::next() {
   if (std::optional<Result<ComposedFrame>> frame = finished_.take()) return std::move(*frame);
   const std::lock_guard lock(mutex_);
-  return fail(*failure_);  // nothing else closes it before the end
+  return fail(*failure_);  // only a failure closes it before the end
 }
 
 FramePipeline::~FramePipeline() {
@@ -86,7 +86,8 @@ void FramePipeline::decode() {
 
 void FramePipeline::compose() {
   ComposeContext context;
-  // Where the first frame needs OpenGL it is made while that is decoded. If it fails, the frame tells why.
+  // Where the first frame needs OpenGL it is made while that is decoded. If it fails, the frame's error gives the
+  // reason.
   if (any_in_view(scene_, range_.first)) static_cast<void>(context.renderer());
   while (std::optional<DecodedFrame> decoded = decoded_.take()) {
     Result<ComposedFrame> composed =

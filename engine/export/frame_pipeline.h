@@ -19,7 +19,7 @@
 
 namespace sigs {
 
-// Takes numbered items in any order and gives them out by number. put() waits while its number is `ahead` or more
+// Takes numbered items in any order and returns them by number. put() waits while its number is `ahead` or more
 // beyond the next one due, so memory stays bounded; the next one due never waits.
 template <class T>
 class ReorderBuffer {
@@ -61,11 +61,11 @@ class ReorderBuffer {
   bool closed_ = false;
 };
 
-// Decoding and composing side by side, and beside whoever takes the frames. They come out in order; the first error in
-// order of frames wins.
+// Decoding and composing in parallel, and in parallel to the caller that takes the frames. They come out in order; the
+// first error in order of frames is returned.
 class FramePipeline {
  public:
-  // Scene and source must outlive it; nobody else may read the source. jobs, 1 or more: frames composed side by side,
+  // Scene and source must outlive it; no other code may read the source. jobs, 1 or more: frames composed in parallel,
   // fewer where the system gives no more threads.
   FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs);
   ~FramePipeline();

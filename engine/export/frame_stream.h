@@ -15,7 +15,7 @@
 
 namespace sigs {
 
-// One composed frame for those who look at it rather than write it.
+// One composed frame for callers that process it rather than write it.
 struct StreamFrame {
   cv::Mat image;  // CV_8UC3, BGR
   FrameTruth truth;
@@ -25,7 +25,7 @@ struct StreamFrame {
 class FrameStream {
  public:
   // Checks the project and opens what it names. frames: none: the project's own range; numbers are the footage's.
-  //   cancel  set: opening and showing end soon with the error interrupted; null or longer alive than the film
+  //   cancel  set: opening and composing end soon with the error interrupted; null, or outlives the stream
   // Errors as export_project's.
   [[nodiscard]] static Result<FrameStream> open(const Project& project, const std::optional<FrameRange>& frames = {},
                                                 const std::atomic<bool>* cancel = nullptr);
@@ -33,12 +33,12 @@ class FrameStream {
   FrameStream& operator=(FrameStream&&) noexcept;
   ~FrameStream();
 
-  // As a label file of that export has it.
+  // As in a label file of that export.
   [[nodiscard]] const FootageTruth& footage() const;
   [[nodiscard]] const std::vector<Warning>& warnings() const;
 
-  // Composes `jobs` frames side by side and hands each to `see`, on the calling thread. Ends early where that gives an
-  // error, and gives it back. Returns how many frames of the footage were damaged.
+  // Composes `jobs` frames in parallel and passes each to `see`, on the calling thread. Ends early where that returns
+  // an error, and returns it. Returns how many frames of the footage were damaged.
   [[nodiscard]] Result<int> show(int jobs, const std::function<Result<void>(const StreamFrame&)>& see);
 
  private:
@@ -47,7 +47,7 @@ class FrameStream {
   std::unique_ptr<Inside> inside_;
 };
 
-// What the labels of these frames say of the footage.
+// The footage's properties in the labels of these frames.
 [[nodiscard]] FootageTruth footage_truth(const VideoInfo& footage, const FrameRange& range);
 
 }  // namespace sigs

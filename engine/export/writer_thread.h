@@ -11,30 +11,30 @@
 
 namespace sigs {
 
-// What went wrong with one frame of an output.
+// The error of one frame of an output.
 struct FrameFailure {
   int frame = 0;
   Error error;
 };
 
-// A video that is encoded and written on a thread of its own, beside the caller and the other outputs of an export. A
-// thread that cannot be started is the failure of the first frame.
+// A video that is encoded and written on a thread of its own, in parallel to the caller and the other outputs of an
+// export. A thread that cannot be started is the failure of the first frame.
 class WriterThread {
  public:
   explicit WriterThread(VideoWriter writer);
-  ~WriterThread();  // drops what is queued and not finished
+  ~WriterThread();  // discards queued and unfinished frames
 
   WriterThread(const WriterThread&) = delete;
   WriterThread& operator=(const WriterThread&) = delete;
 
-  // Hands a frame over; waits while some are queued already. The caller does not change its samples any more.
-  // False: an earlier frame could not be written, join() says which.
+  // Passes a frame to the thread; waits while some are queued already. The caller must not change its samples
+  // afterwards. False: an earlier frame could not be written, join() says which.
   [[nodiscard]] bool put(Frame frame, int number);
 
   // A frame whose samples are all 0.
   [[nodiscard]] bool put_blank(double time_s, int number);
 
-  // Waits until all that was handed over is written; nothing can be handed over after it. The frame that failed, if
+  // Waits until all frames passed to it are written; none can be passed after it. The frame that failed, if
   // any.
   [[nodiscard]] std::optional<FrameFailure> join();
 

@@ -21,7 +21,7 @@ namespace sigs {
 namespace {
 
 // The classic method blurs whole images of its own. Of a single intruder's layer it needs the coverage alone, which
-// blur does not change; with several, the blurred opacity tells what a nearer one hides of a farther one.
+// blur does not change; with several, the blurred opacity determines what a nearer one occludes of a farther one.
 bool needs_blurred_layers(const Scene& scene) {
   return scene.compositing.method != MethodChoice::classic || scene.intruders.size() > 1;
 }

@@ -82,7 +82,7 @@ cv::Mat weight_of(const cv::Mat& changed, const cv::Mat& own_body, const cv::Rec
   return own_body.empty() ? weight : cv::Mat(weight.mul(1.0 - own_body(part)));
 }
 
-// The part of a pinhole's image in which the views can show anything: all of it where one reaches beyond 90 degrees.
+// The part of a pinhole's image in which the views have content: all of it where one extends beyond 90 degrees.
 cv::Rect visible_rect_of(std::span<const RenderedView> views, const Camera& pinhole) {
   constexpr int kMargin_px = 3;  // views are read by area
   const cv::Rect whole({0, 0}, pinhole.size_px);
@@ -112,13 +112,13 @@ Layer pinhole_layer(const Scene& scene, const IntruderLayers& layers) {
   return visible_rect.empty() ? Layer{} : warped(layers.views, pinhole, visible_rect);
 }
 
-// The key's own edge, warped and blurred as the image is: how much of each changed pixel of part is the intruder's.
+// The key's own edge, warped and blurred like the image: the intruder's share of each changed pixel of part.
 cv::Mat classic_opacity(const ClassicStages& stages, const DistortMaps& maps, double sigma_px, const cv::Rect& part) {
   const cv::Rect from = gaussian_blur_source(part, sigma_px, stages.key.size());
   const cv::Mat edge = gaussian_blurred(distorted(stages.key, maps, cv::Scalar::all(0), from), sigma_px);
   cv::Mat opacity;
   edge(part - from.tl()).convertTo(opacity, CV_32F, 1.0 / 255.0);
-  // A pixel that F counts as changed is touched, however little of the key is left in it after rounding.
+  // A pixel that F counts as changed is rewritten, however little of the key remains in it after rounding.
   cv::max(opacity, 1.0 / 512.0, opacity);
   return opacity;
 }

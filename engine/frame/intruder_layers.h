@@ -17,7 +17,7 @@ struct IntruderLayers {
   PlacedIntruder placed;
   std::optional<Silhouette> silhouette;  // of the model's points through the lens
   double sigma_px = 0;                   // of the blur at this distance
-  std::vector<RenderedView> views;       // empty where no part of it can reach the image
+  std::vector<RenderedView> views;       // empty where no part of it can be in the image
   Layer warped;                          // through the lens, with the margin beyond the image that the blur needs
   Layer blurred;                         // clipped to the image; empty where too faint to change any sample
   Layer occluded;                        // without what the own body hides; shares its samples where it hides nothing

@@ -39,21 +39,21 @@ std::optional<Box> bounds_of(const IntruderLayers& layers, double radius_m) {
   return layers.silhouette->box;
 }
 
-// Whether the box around a body may look so wide that it takes more than one view: what no pixel looks at is then worth
-// being cut off. The box lies within sqrt(3) radii of its middle, and a view holds 50 degrees either way.
+// Whether the box around a body may look so wide that it takes more than one view: clipping away what no pixel samples
+// then saves time. The box lies within sqrt(3) radii of its middle, and a view holds 50 degrees either way.
 bool may_span_several_views(double distance_m, double radius_m) {
   constexpr double kRadii = 2.3;  // sqrt(3) / sin(50 degrees)
   return distance_m < kRadii * radius_m;
 }
 
 // How far beyond the image's edge light is rendered that the blur carries into it: all that a sigma of 100 px carries.
-// From farther off only a near intruder has any, before a blur in which nothing of it can be recognised.
+// From farther away only a near intruder contributes, with a blur in which it cannot be recognised.
 int margin_px(double sigma_px) {
   constexpr int kMaxMargin_px = 300;
   return sigma_px > kMaxMargin_px ? kMaxMargin_px : std::min(blur_margin_px(sigma_px), kMaxMargin_px);
 }
 
-// Pixels from which the intruder can reach the image.
+// Pixels from which light of the intruder can get into the image.
 cv::Rect warp_rect_of(const std::optional<Box>& bounds, int blur_px, cv::Size image_size_px) {
   const cv::Rect grown(-blur_px, -blur_px, image_size_px.width + 2 * blur_px, image_size_px.height + 2 * blur_px);
   return bounds ? pixels_touched(*bounds, 1, grown) : grown;
@@ -102,7 +102,7 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
   plan.warp_rect = warp_rect_of(bounds, margin_px(layers.sigma_px), scene.footage.size_px);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;
-  // Of a body that lies within there is nothing to cut off.
+  // A body that lies within needs no clipping.
   const std::optional<cv::Rect> target =
       is_within && !may_span_several_views(distance_m, mesh.radius_m) ? std::nullopt : std::optional(plan.warp_rect);
   if (!plan.warp_rect.empty())

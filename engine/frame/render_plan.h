@@ -22,8 +22,8 @@ namespace sigs {
 
 // What is to be rendered of an intruder.
 struct RenderPlan {
-  cv::Rect warp_rect;                 // pixels of the warped layer; may reach beyond the image by the blur's margin
-  std::vector<VirtualCamera> views;   // virtual cameras; none where no part of the intruder can reach the image
+  cv::Rect warp_rect;                 // pixels of the warped layer; may extend beyond the image by the blur's margin
+  std::vector<VirtualCamera> views;   // virtual cameras; none where no part of the intruder can be in the image
   std::array<glm::dvec3, 8> corners;  // of the box around the mesh, metres, camera frame
   Light light;                        // camera frame
 };
@@ -37,7 +37,7 @@ struct RenderPlan {
                                                                const RenderPlan& plan, const Scene& scene,
                                                                IntruderLayers& layers, Renderer& renderer);
 
-// Area of the whole silhouette in pixels. Where it reaches beyond the warped layer, a coarse image of all of it is
+// Area of the whole silhouette in pixels. Where it extends beyond the warped layer, a coarse image of all of it is
 // rendered through the same lens and summed.
 [[nodiscard]] Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens,
                                            const Scene& scene, Renderer& renderer);

@@ -54,7 +54,7 @@ struct LabelSequence {
 // The category of the intruder with this id, which must exist, and its position in LabelSequence::categories, from 0.
 [[nodiscard]] int category_index(const LabelSequence& sequence, int id);
 
-// Whether a frame's labels contain an intruder: it has a visible box and reaches both thresholds.
+// Whether a frame's labels contain an intruder: it has a visible box and meets both thresholds.
 [[nodiscard]] bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds);
 
 // "frame_000123.png": the name of a frame's image in LabelSequence::images. The number is the footage's.

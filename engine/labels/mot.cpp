@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // MOT16's class "distractor" (Milan et al. 2016, table 2): a report that matches one counts neither for nor against a
-// tracker. Where the categories reach the number 8, the own body has the number after the last of them.
+// tracker. Where there are 8 categories or more, the own body has the number after the last of them.
 constexpr int kDistractor = 8;
 
 int own_body_class(const LabelSequence& sequence) {

@@ -65,7 +65,7 @@ struct ModelAxes {
 // grey, with a warning. Faces without area are left out; so are faces of a wholly transparent material, with a warning
 // (materials.h says how opacity is read).
 // Errors: cannot_read; bad_data (no faces, indices out of range, coordinates that are not finite, no extent for
-// length_m); bad_project where the axes make no sense, with the setting as its place ("forward", "up", "scale",
+// length_m); bad_project where the axes are invalid, with the setting as its place ("forward", "up", "scale",
 // "length_m").
 [[nodiscard]] Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes = {});
 

@@ -40,8 +40,8 @@ int material_named(Reading& reading, const std::string& name) {
   return entry->second;
 }
 
-// OBJ counts from 1, negative numbers from the end; 0 stands for "none" in tinyobj's callbacks.
-// Out of range stays out of range and is counted later: an OBJ file may name what comes further down.
+// OBJ counts from 1, negative numbers from the end; 0 means "none" in tinyobj's callbacks.
+// Indices out of range are counted later: an OBJ file may refer to elements further down.
 int index_of(int written, std::size_t count_so_far) {
   constexpr int kNowhere = -2;
   if (written > 0) return written - 1;
@@ -122,7 +122,7 @@ int count_numbers(std::string_view line, int most) {
   return count;
 }
 
-// tinyobj takes what it cannot read, "nan" among it, as 0. So positions are looked at before. Returns how many vertices
+// tinyobj reads invalid text, "nan" included, as 0. So positions are checked before. Returns how many vertices
 // carry a colour: v x y z red green blue.
 Result<int> check_positions(const std::string& text, const std::string& name) {
   int colored = 0;

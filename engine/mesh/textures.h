@@ -11,7 +11,7 @@
 
 namespace sigs {
 
-// The other files that a model reads: textures and, for all who need the list, every file of a model.
+// The other files that a model reads: textures, and the list of all files of a model.
 
 // The file that a model names, as its author may have meant it: written on Windows (back slashes, other case) or with a
 // path of the author's own machine, in which case the file of that name beside the model counts.

@@ -63,7 +63,7 @@ std::size_t next_ear(const std::vector<glm::dvec2>& flat, const std::vector<int>
   return 0;
 }
 
-// Each corner against each other: for what models usually hold.
+// Each corner against each other: for the usual polygons of models.
 std::vector<std::array<int, 3>> clipped_one_by_one(const std::vector<glm::dvec2>& flat) {
   std::vector<int> left(flat.size());
   std::iota(left.begin(), left.end(), 0);
@@ -98,8 +98,8 @@ class PointGrid {
   void put(int point) { square(cell(points_[point])).push_back(point); }
   void take(int point) { std::erase(square(cell(points_[point])), point); }
 
-  // Whether meets(point) for one of those in squares that the box from low to high touches. Looks at max_looks points
-  // and squares at most, and takes them off.
+  // Whether meets(point) for one of those in squares that the box from low to high touches. Tests max_looks points
+  // and squares at most, and subtracts their number from it.
   template <class Meets>
   bool any_in(const glm::dvec2& low, const glm::dvec2& high, std::int64_t& max_looks, const Meets& meets) {
     const glm::ivec2 first = cell(low);
@@ -131,8 +131,8 @@ class PointGrid {
   std::vector<std::vector<int>> squares_;
 };
 
-// The same for many corners: only those that point inwards can lie in an ear (Meisters 1975), and a grid tells those
-// near it. Corners are a ring, gone round and round.
+// The same for many corners: only those that point inwards can lie in an ear (Meisters 1975), and a grid finds those
+// near it. Corners are a ring, traversed repeatedly.
 class Clipper {
  public:
   explicit Clipper(const std::vector<glm::dvec2>& flat)
@@ -161,7 +161,7 @@ class Clipper {
       }
       triangles.push_back({before_[at], at, next_[at]});
       cut(at);
-      at = next_[next_[at]];  // not the neighbour again: fans make slivers
+      at = next_[next_[at]];  // not the neighbour again: a fan would give slivers
       --left;
       passed = 0;
     }
@@ -208,7 +208,7 @@ class Clipper {
 
 std::optional<std::vector<std::array<int, 3>>> triangulated(std::span<const glm::vec3> corners) {
   constexpr std::size_t kFewCorners = 256;
-  constexpr std::int64_t kLooksPerCorner = 2000;  // a hundred times what outlines of real things take
+  constexpr std::int64_t kLooksPerCorner = 2000;  // a hundred times the number for outlines of real objects
   if (corners.size() < 3) return std::vector<std::array<int, 3>>();
   if (corners.size() == 3) return std::vector<std::array<int, 3>>{{0, 1, 2}};
   const std::vector<glm::dvec2> flat = flattened(corners);

@@ -32,7 +32,7 @@ struct LumaFrame {
   bool damaged = false;  // as Frame::damaged
 };
 
-// Decodes frames on a thread of its own, up to 8 ahead of the caller, and gives their luma in order. Nobody else may
+// Decodes frames on a thread of its own, up to 8 ahead of the caller, and gives their luma in order. No other code may
 // use the footage while the stream exists.
 class LumaStream {
  public:

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxWidth = 640;        // pixels; finer means cost time and do not make edges more exact
 constexpr int kMaxBox = 4;            // 4 * 4 pixels * 8 frames * 255 still fit 16 bits
 constexpr int kMaxFramesPerMean = 8;  // frames
-constexpr int kMeansAtFirst = 8;      // number of means of one frame each, before they grow
+constexpr int kMeansAtFirst = 8;      // number of means of one frame each, before groups become longer
 
 void add_row(const std::uint8_t* luma, std::uint16_t* sums, int count) {
   for (int x = 0; x < count; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + luma[x]);

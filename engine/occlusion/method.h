@@ -12,7 +12,7 @@
 
 namespace sigs {
 
-// An intermediate result of the detection as an image to look at: 8 bit, one channel, of the footage's size.
+// An intermediate result of the detection as an image for inspection: 8 bit, one channel, of the footage's size.
 struct DetectionStage {
   std::string name;   // part of a file name: "difference_sum"
   std::string title;  // "Sum of normalised differences"

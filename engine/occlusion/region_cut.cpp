@@ -28,7 +28,7 @@ int whole(double cost) {
 
 struct Neighbour {
   int dx, dy;
-  double length;  // of border that a cut link stands for
+  double length;  // of border that a cut link represents
 };
 
 // Eight neighbours, so that a slanting border costs about its length (Boykov and Kolmogorov, 2003).

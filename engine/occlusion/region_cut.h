@@ -13,12 +13,12 @@ struct CutCosts {
   cv::Mat boundary;  // 0: a border here costs its length .. 1: a border here costs next to nothing
 };
 
-// The labelling of least cost, found as the minimum cut of a graph (Greig, Porteous and Seheult, 1989): the exact one
+// The labelling of minimum cost, found as the minimum cut of a graph (Greig, Porteous and Seheult, 1989): the exact one
 // in images less than 240 pixels high or wide; in larger ones the best of those whose border is within 4 pixels of that
 // found at half the size. CV_8UC1, 255: body. Of equal costs, world.
 [[nodiscard]] cv::Mat cheapest_cut(const CutCosts& costs);
 
-// The labelling of least cost among those that differ from the given one (CV_8UC1) only within `radius` pixels of its
+// The labelling of minimum cost among those that differ from the given one (CV_8UC1) only within `radius` pixels of its
 // border.
 [[nodiscard]] cv::Mat cheapest_cut_near(const cv::Mat& labels, int radius, const CutCosts& costs);
 

@@ -37,7 +37,7 @@ constexpr double kDriftingCost = 0.05;  // that drifts: less, as drift is known 
 constexpr double kStillCost = 1;        // of labelling a still column of the image world
 constexpr double kStayingCost = 0.05;   // of labelling an edge world that stays
 
-// Plain sky is still too: stillness alone says little, but much where everything around moves.
+// Plain sky is still too: stillness alone is weak evidence, but strong where everything around moves.
 constexpr int kNear = 33;           // pixels: side of the surroundings
 constexpr double kFarShare = 0.25;  // of the surroundings that moves: drift there may be the moving world at a border
 

@@ -17,14 +17,15 @@ constexpr double kQuietShare = 0.05;     // of the image that at least shows not
 constexpr double kQuietestShare = 0.01;  // of the image, shown by any body that is worth masking
 constexpr double kNoSignal = 5e-4;       // less variation than any camera's: letterbox bars, clipped black
 constexpr double kMinNoise = 0.005;      // rounding to whole gray levels alone gives as much
-constexpr double kMaxGrain = 8;          // gray levels, of a frame: what varies more than such grain does moves
-constexpr double kGrainEnergy = 0.117;   // of white noise of variance 1: its blurred gradient's variance, both ways
-constexpr double kNoiseMargin = 4;       // codecs make noise uneven: twice the amplitude is still noise
-constexpr double kShakeSquare = 0.22;    // mean square along an axis, of what shakes by up to 1 in any direction
-constexpr double kSpotSquare = 1.3;      // pixels: variance of a point as the blurred gradient sees it
-constexpr double kShakenMargin = 0.8;    // most of a body are lines and areas, which vary less than spots
-constexpr double kMinShaken = 0.15;      // light and codec alone vary an edge's energy by less
-constexpr double kMinSpan = 4;           // ratio from which it surely moves, at least
+constexpr double kMaxGrain =
+    8;  // gray levels, of a frame: noise has at most this amplitude, larger variation is motion
+constexpr double kGrainEnergy = 0.117;  // of white noise of variance 1: its blurred gradient's variance, both ways
+constexpr double kNoiseMargin = 4;      // codecs make noise uneven: twice the amplitude is still noise
+constexpr double kShakeSquare = 0.22;   // mean square along an axis, of what shakes by up to 1 in any direction
+constexpr double kSpotSquare = 1.3;     // pixels: variance of a point as the blurred gradient sees it
+constexpr double kShakenMargin = 0.8;   // most of a body are lines and areas, which vary less than spots
+constexpr double kMinShaken = 0.15;     // light and codec alone vary an edge's energy by less
+constexpr double kMinSpan = 4;          // ratio from which it surely moves, at least
 
 float quantile(const cv::Mat& values, double share, double above) {
   std::vector<float> sorted;
@@ -45,7 +46,8 @@ cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
 }
 
 // Variation in the stillest part of the image. Where everything moves alike no part is still, and the stillest one
-// belongs to the world: the result is therefore limited to what the strongest grain gives, less in a mean of frames.
+// belongs to the world: the result is therefore limited to that of the strongest sensor noise, less in a mean of
+// frames.
 double stillest(const cv::Mat& variation, double share, double frames_per_mean) {
   const double most = kMaxGrain * kMaxGrain * kGrainEnergy / frames_per_mean;
   return std::clamp<double>(quantile(variation, share, kNoSignal), kMinNoise, std::max(most, kMinNoise));

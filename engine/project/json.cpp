@@ -26,7 +26,7 @@ Json::json_pointer pointer_of(const std::string& key) {
   return Json::json_pointer(pointer);
 }
 
-// The list under a key, empty where the key is absent. What else stands there is an error.
+// The list under a key, empty where the key is absent. Any other value is an error.
 Result<std::size_t> list_size(const Json& json, const char* pointer, const std::string& where) {
   const Json::json_pointer place(pointer);
   if (!json.contains(place)) return std::size_t{0};
@@ -34,7 +34,7 @@ Result<std::size_t> list_size(const Json& json, const char* pointer, const std::
   return json.at(place).size();
 }
 
-// Nobody means the world's origin by saying nothing.
+// A missing position is not meant as the world's origin.
 Result<void> check_positions(const Json& intruder, std::size_t waypoints, const std::string& where) {
   for (std::size_t i = 0; i < waypoints; ++i) {
     const Json& waypoint = intruder.at("trajectory").at("waypoints").at(i);
@@ -89,20 +89,20 @@ std::vector<std::string> known_keys(std::string_view prefix) {
   return keys;
 }
 
-// A part of a project file in which keys are looked for: where it stands, and which keys it may have.
+// A part of a project file in which keys are searched: its key, and the keys that it may have.
 struct KeyPlace {
   std::string where;  // "p.json: intruders[0]."
   const std::vector<std::string>& known;
 };
 
-// What may have been meant is said of the first unknown keys: looking for it takes a comparison with each known key.
+// A similar key is suggested for the first unknown keys only: the search compares with each known key.
 std::string meant(const KeyPlace& place, const std::string& key, std::size_t warnings_so_far) {
   constexpr std::size_t kMaxKey = 100;
   constexpr std::size_t kMaxSuggestions = 20;
   return warnings_so_far < kMaxSuggestions && key.size() <= kMaxKey ? suggestion(place.known, key) : "";
 }
 
-// The greatest number of warnings; more would not be read.
+// The maximum number of warnings.
 constexpr std::size_t kMaxWarnings = 100;
 
 void warn_of(const Json& unknown, const KeyPlace& place, const std::string& path, std::vector<Warning>& warnings) {
@@ -124,7 +124,7 @@ std::string kept(Json unknown, const KeyPlace& place, std::vector<Warning>& warn
   return unknown.empty() ? std::string() : unknown.dump();
 }
 
-// Takes the lists out of rest, and keeps what is left of each of their items beside the item.
+// Removes the lists from rest, and keeps the unknown keys of each item with the item.
 void keep_unknown(Json rest, const std::string& file, Project& project, std::vector<Warning>& warnings) {
   Json intruders = rest.value("intruders", Json::array());
   rest.erase("sigs");
@@ -166,7 +166,7 @@ Result<void> check_version(const Json& json, const std::string& file) {
   return {};
 }
 
-// Puts every field that the file has, and takes it out of rest.
+// Sets every field that the file has, and removes it from rest.
 Result<void> put_fields(const Json& json, const std::string& file, Project& project, Json& rest) {
   for (const Field& field : fields_of(project)) {
     const Json::json_pointer place = pointer_of(field.key);

@@ -13,8 +13,8 @@
 
 namespace sigs {
 
-// The lens model that the numbers of the calibration file belong to; automatic: as the file says or, where it does not,
-// as its numbers look (docs/calibration-files.md).
+// The lens model that the numbers of the calibration file belong to; automatic: as the file states or, where it does
+// not, judged by its numbers (docs/calibration-files.md).
 enum class LensModelChoice { automatic, brown_conrady, fisheye };
 
 // The contents of a project file: numbers, names and paths; nothing is opened. The members are described, with unit and

@@ -131,7 +131,7 @@ Result<void> check_memory() {
   return {};
 }
 
-// Mesa's software renderer takes a thread for each core, 32 at most, and waits for ever for those that it could not
+// Mesa's software renderer starts a thread for each core, 32 at most, and waits endlessly for those that it could not
 // start. So that many, and two for its caches, are tried before it does.
 Result<void> check_threads() {
   const unsigned count = std::min(std::thread::hardware_concurrency(), 32U) + 2;
@@ -155,7 +155,7 @@ Result<void> check_threads() {
 
 // OpenGL 4.5, else 3.3.
 Result<EGLContext> new_context(EGLDisplay display) {
-  static std::mutex one_at_a_time;  // what was tried is still there for the driver
+  static std::mutex one_at_a_time;  // so that the memory and threads just tried are still available to the driver
   const std::lock_guard lock(one_at_a_time);
   if (const Result<void> threads = check_threads(); !threads) return fail(threads.error());
   const EGLContext context = context_of(display, 4, 5);

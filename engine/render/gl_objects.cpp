@@ -17,7 +17,7 @@ namespace sigs {
 namespace {
 
 Result<GLuint> compiled(GLenum stage, const std::string& defines, std::string_view source) {
-  const std::size_t after_version = source.find('\n') + 1;  // which GLSL wants first
+  const std::size_t after_version = source.find('\n') + 1;  // which GLSL requires first
   const std::string text =
       std::string(source.substr(0, after_version)) + defines + std::string(source.substr(after_version));
   const char* start = text.c_str();

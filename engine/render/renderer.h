@@ -15,14 +15,14 @@
 
 namespace sigs {
 
-// An omnidirectional point light (paper section 3.1.2) and the light that comes from everywhere.
+// An omnidirectional point light (paper section 3.1.2) and the ambient light.
 struct Light {
   glm::dvec3 p_in_camera{0, 0, 0};  // metres, camera frame
   glm::dvec3 color{1, 1, 1};        // linear; 1: a white surface facing the light becomes white
-  double ambient = 0.35;            // 0..1: share of the light that comes from everywhere
+  double ambient = 0.35;            // 0..1: ambient light
 };
 
-// What a renderer has done since its creation.
+// Counts of a renderer's operations since its creation.
 struct RenderCounts {
   std::int64_t pixels_drawn = 0;     // of all views
   std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view
@@ -48,7 +48,7 @@ class Renderer {
   // Largest width or height of a view that draw() accepts, px.
   [[nodiscard]] int max_size_px() const;
 
-  // What this renderer has done since its creation, over all calls of draw().
+  // The counts since its creation, over all calls of draw().
   [[nodiscard]] const RenderCounts& counts() const;
 
   // Renders the mesh as a layer that covers the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,

@@ -143,7 +143,7 @@ std::vector<LimitedQuantity> limited_quantities(const FlightLimits& limits) {
           {FlightFault::underground, 1, 0, depth}};
 }
 
-// What lies below the limit by no more than rounding is not beyond it.
+// A value above the limit by no more than rounding does not exceed it.
 bool is_beyond(const LimitedQuantity& quantity, double value) {
   return value - quantity.limit > kRounding * std::max(1.0, std::abs(quantity.limit));
 }
@@ -187,7 +187,7 @@ std::vector<FlightFlag> flags_of(const LimitedQuantity& quantity, const std::vec
   return flags;
 }
 
-// Hundredths, rounded away from zero so that what is beyond a limit also reads so.
+// Hundredths, rounded away from zero so that the text of a value beyond a limit is beyond it too.
 std::string rounded_up_text(double value) {
   const double hundredths = std::copysign(std::ceil(std::abs(value) * 100 * (1 - kRounding)), value);
   std::string shown =

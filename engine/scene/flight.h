@@ -35,7 +35,7 @@ struct ClosestApproach {
 //   intruder  index in scene.intruders
 [[nodiscard]] ClosestApproach closest_approach(const Scene& scene, int intruder);
 
-// What an aircraft of some size can fly. It says nothing of a particular type.
+// The flight limits of aircraft of some size, not of a particular type.
 struct FlightLimits {
   double highest_speed_mps = 0;
   double highest_climb_mps = 0;  // also of descent

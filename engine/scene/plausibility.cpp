@@ -123,7 +123,7 @@ std::vector<TimedWaypoint> shaping_waypoints(const TrajectoryPlan& plan, const S
   return timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame);
 }
 
-// The first of equals.
+// The first of equal ones.
 const Overshoot& farthest(const std::vector<Overshoot>& overshoots) {
   return *std::max_element(overshoots.begin(), overshoots.end(),
                            [](const Overshoot& a, const Overshoot& b) { return a.overshoot_m < b.overshoot_m; });

@@ -10,7 +10,7 @@
 
 namespace sigs {
 
-// Bounds of what counts as an aircraft. The fastest aircraft with a crew and jet engines, the SR-71, reached some
+// Bounds of the size and speed of aircraft. The fastest aircraft with a crew and jet engines, the SR-71, flew at some
 // 980 m/s; airships were up to 245 m long, aeroplanes up to 120 m wide.
 inline constexpr double kFastestAircraft_mps = 1000;
 inline constexpr double kMaxAircraft_m = 300;

@@ -43,7 +43,7 @@ class SceneFiles {
   SceneFiles& operator=(SceneFiles&&) noexcept;
   ~SceneFiles();
 
-  // The same file and axes give the same object for as long as anybody holds it.
+  // The same file and axes give the same object for as long as it is in use.
   [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes);
 
   // read_calibration (camera/camera.h). model: none: taken from the file.

@@ -18,7 +18,7 @@
 // placeholder for the part that has it and goes on.
 namespace sigs {
 
-// The part, or what is wrong with it, by the project's field.
+// The part, or its problem, by the project's field.
 template <class T>
 using OrProblem = tl::expected<T, Problem>;
 

@@ -120,10 +120,11 @@ std::vector<UpTarget> up_targets(std::span<const FlightSample> samples, Bank ban
   return targets;
 }
 
-constexpr double kFollow_s = 0.15;   // tau
-constexpr double kWorthless = 0.01;  // a desired roll of less weight is rounding, and its whole turns would be chance
+constexpr double kFollow_s = 0.15;  // tau
+constexpr double kWorthless =
+    0.01;  // a desired roll of less weight is rounding error, and its number of whole turns arbitrary
 
-// Drops the worthless desired rolls' weight and adds whole turns to the others.
+// Sets the weight of unreliable desired rolls to zero and adds whole turns to the others.
 std::vector<DesiredRoll> unwrapped(std::span<const DesiredRoll> desired_rolls) {
   std::vector<DesiredRoll> result(desired_rolls.begin(), desired_rolls.end());
   const DesiredRoll* before = nullptr;
@@ -139,7 +140,7 @@ std::vector<DesiredRoll> unwrapped(std::span<const DesiredRoll> desired_rolls) {
   return result;
 }
 
-// The gradient of the sum, set to zero. A desired roll stands for half the time to either neighbour.
+// The gradient of the sum, set to zero. A desired roll represents half the time to either neighbour.
 std::vector<TridiagonalRow<double>> rows_of(std::span<const DesiredRoll> desired_rolls) {
   std::vector<TridiagonalRow<double>> rows(desired_rolls.size(), {.self = 0});
   for (std::size_t i = 0; i + 1 < desired_rolls.size(); ++i) {
@@ -166,7 +167,7 @@ std::vector<double> smoothed_roll_rad(std::span<const DesiredRoll> desired_rolls
 
 namespace {
 
-// In a turn of its own the aircraft goes by no path, so no force tells its bank: it is taken as level.
+// In such a turn the nose does not follow the path, so no force determines the bank: it is level.
 std::vector<FlightSample> samples_of(const TimedCurve& timed_curve, const Nose& nose,
                                      const std::vector<double>& times_s) {
   std::vector<FlightSample> samples;
@@ -238,7 +239,7 @@ double AttitudeTable::roll_rad_at(std::size_t before, double time_s) const {
          share * (1 - share) * ((1 - share) * early_rad + share * late_rad);
 }
 
-// Slope of the parabola through an entry and its neighbours (Bessel); at both ends the flight lies still.
+// Slope of the parabola through an entry and its neighbours (Bessel); at both ends the attitude is constant.
 double AttitudeTable::roll_rate_at_entry(std::size_t i) const {
   if (i == 0 || i + 1 == entries_.size()) return 0;
   const double before_s = entries_[i].time_s - entries_[i - 1].time_s;

@@ -20,7 +20,7 @@ namespace {
 constexpr double kStanding_mps = 0.02;
 constexpr double kStandingShare = 1e-6;  // of the greatest speed
 
-// Outside the waypoints the flight is straight; this is long enough for the roll to come to rest there.
+// Outside the waypoints the flight is straight; this is long enough for the roll to settle there.
 constexpr double kRunOut_s = 2.0;
 constexpr int kRunOutSteps = 40;
 
@@ -34,7 +34,7 @@ constexpr double kTolerance_rad = rad_of_deg(2.0);
 constexpr double kMaxPartsPerPiece = 32;
 constexpr double kMinPartsPerPiece = 4;
 constexpr double kMaxParts = 2e5;               // of the whole curve, as far as the fewest per piece allow
-constexpr std::size_t kMaxSamplesPerPart = 16;  // wild flights need 4; more would only resolve rounding
+constexpr std::size_t kMaxSamplesPerPart = 16;  // strongly curved flights need 4; more would only resolve rounding
 
 std::vector<double> spread(std::vector<double> times_s) {
   std::vector<double> kept_s;

@@ -14,7 +14,7 @@
 namespace sigs {
 
 // Where a body lies against the horizon: the plane through the camera, level in the world (flat ground without end).
-// unknown: nobody has said how the camera is turned, so where the footage's horizon lies cannot be told.
+// unknown: the camera's attitude is not given, so the position of the footage's horizon is not known.
 enum class HorizonSide { below, on, above, unknown };
 
 [[nodiscard]] constexpr std::string_view name_of(HorizonSide side) {
@@ -60,7 +60,7 @@ struct FootageTruth {
 struct FrameTruth {
   int index = 0;  // counts the footage's frames from 0
   double time_s = 0;
-  bool substituted = false;               // the footage's own frame is damaged, another one of it stands in
+  bool substituted = false;               // the footage's own frame is damaged and substituted by another one
   glm::dvec3 camera_position_m{0, 0, 0};  // in the world
   Attitude camera_attitude;
   std::vector<IntruderTruth> intruders;  // by id

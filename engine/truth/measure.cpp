@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // of sums of floats: a visible share below it is none
 
-// Pixels that the silhouette reaches. Drawn pixels lie across their edges and spill a little into the next ones.
+// Pixels that the silhouette touches. Rendered pixels lie across their edges and spill a little into the next ones.
 cv::Rect outline_of(const std::optional<Silhouette>& silhouette) {
   if (!silhouette || !silhouette->all_have_image) return kUnboundedRect;
   return pixels_touched(silhouette->box, 0, kUnboundedRect);
@@ -53,7 +53,7 @@ IntruderTruth measured_one(const MeasuredLayers& layers, std::span<const Measure
   if (layers.silhouette) truth.amodal_box = layers.silhouette->box;
   if (up_in_camera) truth.horizon = horizon_side_of(layers.outermost_m, layers.camera_from_body, *up_in_camera);
   const double inside_px = area_px(layers.inside.coverage);
-  // By its own measure: a distant one may cover no pixel by more than a hundredth.
+  // Relative to its own maximum: a distant one may cover no pixel by more than a hundredth.
   const float min_coverage = kMinCoverageShare * layers.max_coverage;
   truth.in_image =
       common(covered_box(layers.inside.coverage, layers.inside.rect, min_coverage), outline_of(layers.silhouette))

@@ -28,10 +28,11 @@ struct Silhouette {
                                                       const Lens& lens);
 
 // A pixel is the intruder's where its coverage is at least this share of what its most covered pixel has: small enough
-// for the tips of thin wings. What drawing spills beyond the silhouette's own pixels is larger and cut off apart.
+// for the tips of thin wings. What rendering spills beyond the silhouette's own pixels is larger and removed
+// separately.
 inline constexpr float kMinCoverageShare = 1.0F / 64.0F;
 
-// Nobody sees less than half a code value.
+// Less than half a code value is invisible.
 inline constexpr float kMinVisibleCoverage = 0.5F / 255.0F;
 
 // Largest coverage of any pixel, 0 for none. coverage is CV_32FC1.
@@ -46,7 +47,7 @@ inline constexpr float kMinVisibleCoverage = 0.5F / 255.0F;
 [[nodiscard]] cv::Mat covered_pixels(const cv::Mat& coverage, const cv::Rect& rect, float min_coverage,
                                      const cv::Rect& box);
 
-// Where points lie against the level plane through the camera. Nothing given lies on it.
+// The side of the level plane through the camera on which points lie. No points count as on it.
 //   up_in_camera  unit vector, away from the ground
 [[nodiscard]] HorizonSide horizon_side_of(std::span<const glm::vec3> points_in_body,
                                           const Pose<frame::Camera, frame::Body>& camera_from_body,
@@ -79,12 +80,12 @@ struct MeasuredLayers {
 [[nodiscard]] std::vector<IntruderTruth> measured(std::span<const MeasuredLayers> far_to_near, const cv::Mat& mask,
                                                   const std::optional<glm::dvec3>& up_in_camera);
 
-// Of what lies in the image of an intruder, the share that the own body or nearer intruders hide: 0 to 1. 0 where
+// The share of an intruder's part in the image that the own body or nearer intruders hide: 0 to 1. 0 where
 // nothing of it lies there.
 [[nodiscard]] double occluded_fraction(const IntruderTruth& truth);
 
-// Hidden by more than a twentieth, as Pascal VOC's guidelines (2008 and later) draw the line: softer than that are the
-// edges of masks.
+// Hidden by more than a twentieth, as Pascal VOC's guidelines (2008 and later) draw the line: smaller shares occur at
+// the soft edges of masks.
 [[nodiscard]] bool is_occluded(const IntruderTruth& truth);
 
 }  // namespace sigs

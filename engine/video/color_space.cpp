@@ -216,7 +216,7 @@ double display_of_linear(TransferFunction function, double linear) {
 
 double min_light(TransferFunction function) {
   // Every curve of display over light is steepest at black and mirrored there, so a step of half a code value, placed
-  // evenly about black, takes the least light.
+  // evenly about black, takes the minimum light.
   return 2 * linear_of_display(function, 0.25 / 255);
 }
 

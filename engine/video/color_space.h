@@ -7,10 +7,10 @@
 
 namespace sigs {
 
-// What the code points of ISO/IEC 23091-2 (Rec. ITU-T H.273) for colour mean: how display values stand for linear light
-// (transfer characteristics), and which red, green and blue they are values of (colour primaries).
+// What the code points of ISO/IEC 23091-2 (Rec. ITU-T H.273) for colour mean: the relation of display values to linear
+// light (transfer characteristics), and which red, green and blue they are values of (colour primaries).
 
-// How R'G'B' of footage stands for linear light. 1 is diffuse white: the light of a white surface in the sun.
+// The relation of the footage's R'G'B' to linear light. 1 is diffuse white: the light of a white surface in the sun.
 enum class TransferFunction {
   srgb,     // IEC 61966-2-1, and all of standard dynamic range: see transfer_function_of
   gamma22,  // a power of 2.2 (BT.470 System M)
@@ -23,7 +23,7 @@ enum class TransferFunction {
 // The function of a code point of TransferCharacteristics (H.273, table 3). Nothing for those that are not supported
 // (logarithmic, BT.1361, ST 428-1, unknown numbers); sRGB's is then the one to assume.
 //
-// sRGB's also stands for unspecified, BT.709, BT.601, BT.2020, SMPTE 240M and xvYCC. The curves in those standards are
+// sRGB's is also used for unspecified, BT.709, BT.601, BT.2020, SMPTE 240M and xvYCC. The curves in those standards are
 // of reference cameras that real cameras do not follow, meant for displays with a gamma of 2.4 (BT.1886). sRGB's lies
 // between their inverse (a gamma of about 1.9) and the display, and textures keep their code values under it. Half way
 // through an edge it differs by at most 4 code values of 255 from the display's curve, 8 from the cameras'.

@@ -213,7 +213,7 @@ Result<int> FrameSeeker::substitute_of(int n) {
   return -1;
 }
 
-// Keeps a substitute apart from the other images, so that a long damaged part does not decode it again and again.
+// Keeps a substitute separately from the other images, so that a long damaged part does not decode it again and again.
 void FrameSeeker::hold_as_substitute(int n) {
   const Placed* placed = kept(n);
   if (placed == nullptr || (substitute_ && substitute_->n == n)) return;

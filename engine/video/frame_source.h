@@ -40,7 +40,7 @@ struct VideoInfo {
 class FrameSource {
  public:
   // Reads the container's packets once to build the index. Frames are decoded only as far as the format requires.
-  //   cancel  while it is true, opening and reading soon end with the error interrupted; null, or alive as long as the
+  //   cancel  while it is true, opening and reading soon end with the error interrupted; null, or outlives the
   //           source
   // Errors: cannot_read (missing, not a regular file, not a video, a playlist), bad_data (no frame can be decoded
   // without damage), interrupted.

@@ -58,7 +58,7 @@ TEST_CASE("the sample lens is one to one over the whole image and wider than 110
     REQUIRE(radius(lens.k, angle + kStep) > radius(lens.k, angle));
     if (radius(lens.k, angle) < side) side_angle = angle;
   }
-  CHECK(angle < std::numbers::pi / 2);  // every pixel looks ahead
+  CHECK(angle < std::numbers::pi / 2);  // every pixel's ray points forward
   CHECK(2 * side_angle * 180 / std::numbers::pi > 110);
 }
 

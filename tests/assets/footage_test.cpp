@@ -27,7 +27,7 @@ TEST_CASE("the own body mask has one byte for each pixel of the footage") {
   CHECK(own_body().size() == cv::Size(1280, 960));
 }
 
-TEST_CASE("the own body stands at the lower edge and leaves the sky free") {
+TEST_CASE("the own body lies at the lower edge of the image and covers no sky") {
   const cv::Mat mask = own_body();
   REQUIRE_FALSE(mask.empty());
   CHECK(cv::countNonZero(mask.rowRange(0, 480)) == 0);

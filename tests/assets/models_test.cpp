@@ -63,7 +63,7 @@ TEST_CASE("the light aircraft is as large as a four seater on its gear") {
   check_extent(sample("light-aircraft").obj, {8.28, 11.0, 2.72});
 }
 
-TEST_CASE("the models are alike on both sides and the origin lies between nose and tail") {
+TEST_CASE("the models are symmetric and the origin lies between nose and tail") {
   for (const Sample& s : samples()) {
     const auto [low, high] = bounds(s.obj);
     CHECK(low.y == doctest::Approx(-high.y).epsilon(1e-4));  // the file has four decimals
@@ -83,7 +83,7 @@ TEST_CASE("the models stay small") {
   }
 }
 
-TEST_CASE("every index of the models names something") {
+TEST_CASE("every index in the models refers to an existing element") {
   for (const Sample& s : samples()) {
     const auto within = [](const std::array<int, 3>& indices, std::size_t count) {
       return std::ranges::all_of(indices, [&](int i) { return i >= 1 && i <= static_cast<int>(count); });
@@ -108,9 +108,9 @@ TEST_CASE("the normals of the models are unit and look to the side from which a 
   }
 }
 
-TEST_CASE("the models enclose what they show") {
+TEST_CASE("the models are watertight and wound outwards") {
   for (const Sample& s : samples()) {
-    std::map<std::pair<int, int>, int> edges;  // directed: each must be met by one the other way
+    std::map<std::pair<int, int>, int> edges;  // directed: each must have its opposite
     double volume_m3 = 0;
     for (const ObjText::Face& face : s.obj.faces) {
       for (int k = 0; k < 3; ++k) ++edges[{face.position[k], face.position[(k + 1) % 3]}];
@@ -136,7 +136,7 @@ TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
       const glm::dvec3 normal = glm::normalize(winding_normal(s.obj, face));
       const double area = uv_area(s.obj, face);
       if (std::abs(normal.y) < 0.5 || std::abs(area) < 1e-6) continue;  // nearly horizontal, or without area
-      // Counter-clockwise in the image as on the body: turned at most, never mirrored.
+      // Counter-clockwise in the image as on the body: rotated at most, never mirrored.
       REQUIRE(area > 0);
       ++(normal.y > 0 ? left : right);
     }
@@ -145,7 +145,7 @@ TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
   }
 }
 
-TEST_CASE("every texture of the models is there and of moderate size") {
+TEST_CASE("every texture of the models exists and is of moderate size") {
   for (const Sample& s : samples()) {
     int textured = 0;
     for (const auto& [name, material] : s.mtl.materials) {

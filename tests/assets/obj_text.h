@@ -10,7 +10,7 @@
 
 namespace sigs::test {
 
-// An OBJ file as its lines say it, read by nothing but a scan of the text. Indices count from 1, as in the file.
+// The contents of an OBJ file, read by a plain scan of its text. Indices count from 1, as in the file.
 struct ObjText {
   struct Face {
     std::array<int, 3> position, uv, normal;

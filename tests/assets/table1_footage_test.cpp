@@ -38,7 +38,7 @@ Camera camera() {
   return read_calibration(source_dir() / "assets/calibrations/sample.xml").value();
 }
 
-// Where the clip shows what lies far away straight ahead.
+// Where the clip shows the far distance straight ahead.
 glm::dvec2 ahead_px(const Camera& camera, const Attitude& attitude) {
   return camera.lens.pixel(glm::conjugate(rotation_of(attitude)) * glm::dvec3(1, 0, 0)).value();
 }
@@ -50,7 +50,7 @@ cv::Mat far_piece(const Frame& frame) {
   return piece;
 }
 
-// Luma and chroma tell a cloud from the blue sky: it has no colour. Share of the upper 440 rows.
+// Luma and chroma distinguish a cloud from the blue sky: it has no colour. Share of the upper 440 rows.
 double colourless_share(const Frame& frame) {
   const cv::Mat blue = frame.planes[1].rowRange(0, 220), red = frame.planes[2].rowRange(0, 220);
   const cv::Mat colourless = (blue < 138) & (red > 119);
@@ -103,7 +103,7 @@ TEST_CASE("the vibration is known for every frame, has no mean, and is strongest
   CHECK(yaw.rms > 1.5 * pitch.rms);
 }
 
-TEST_CASE("the vibrating image moves as its attitude file says") {
+TEST_CASE("the vibrating image moves as its attitude file states") {
   const Camera lens = camera();
   const std::vector<AttitudeAtFrame> all = attitudes();
   FrameSource source = opened("table1_vibration");
@@ -126,7 +126,7 @@ TEST_CASE("the vibrating image moves as its attitude file says") {
   CHECK(farthest_px > 4);
 }
 
-TEST_CASE("the calm clips tremble by a pixel or two at most") {
+TEST_CASE("the clips without vibration shake by a pixel or two at most") {
   for (const char* const clip : {"table1_clouds", "table1_clear"}) {
     CAPTURE(clip);
     FrameSource source = opened(clip);

@@ -18,7 +18,7 @@ TEST_CASE("only EWOULDBLOCK means that a lock is held") {
     CHECK(lock_answer(error) == LockAnswer::unavailable);
 }
 
-TEST_CASE("a lock keeps others out until it is released") {
+TEST_CASE("a lock excludes others until it is released") {
   const test::TemporaryFolder folder;
   Descriptor first = open_for_lock(folder / "lock", LockFile::made_where_missing);
   const Descriptor second = open_for_lock(folder / "lock", LockFile::must_be_there);

@@ -14,7 +14,7 @@ TEST_CASE("a box of one pixel touches that pixel alone") {
   CHECK(pixels_touched({9.6, 19.6, 0.8, 0.8}, 0, kImage) == cv::Rect(10, 20, 1, 1));
 }
 
-TEST_CASE("an edge a hair over a pixel's border touches the next pixel") {
+TEST_CASE("an edge slightly beyond a pixel's border touches the next pixel") {
   CHECK(pixels_touched({9.6, 19.6, 0.95, 0.8}, 0, kImage) == cv::Rect(10, 20, 2, 1));
   CHECK(pixels_touched({9.4, 19.6, 0.8, 0.8}, 0, kImage) == cv::Rect(9, 20, 2, 1));
 }

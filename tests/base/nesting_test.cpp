@@ -18,8 +18,8 @@ int depth_of(const cv::FileNode& node) {
   return deepest + 1;
 }
 
-// How deep OpenCV went into a text: the nodes that it made, -1 where it took none of it. It may never come back from
-// one that begins with anything but a key.
+// How deep OpenCV went into a text: the nodes that it made, -1 where it accepted none of it. It may never return for
+// a text that begins with anything but a key.
 int opencv_depth(const std::string& text) {
   try {
     const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
@@ -35,7 +35,7 @@ std::string pick(Random& random, std::initializer_list<const char*> choices) {
   return *(choices.begin() + random() % choices.size());
 }
 
-// Words that mislead a reader who counts brackets.
+// Tokens that mislead a parser that counts brackets.
 std::string word(Random& random) {
   return pick(random,
               {"1", "-2.5", "x", "a]b", "\"[[\"", "'{'", "\"]\"", "'it''s ]'", "\"\\\"]\"", "a[b", "x # ]", "}"});
@@ -96,7 +96,7 @@ TEST_CASE("no YAML that OpenCV reads is nested deeper than computed") {
   CHECK(deepest >= 6);
 }
 
-TEST_CASE("what OpenCV writes is nested as deep as computed or a level less") {
+TEST_CASE("a file that OpenCV writes is nested as deep as computed or a level less") {
   for (int depth = 1; depth < 30; ++depth)
     for (const int style : {0, int(cv::FileNode::FLOW)}) {
       cv::FileStorage out(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);

@@ -10,7 +10,7 @@ using namespace sigs;
 
 namespace fs = std::filesystem;
 
-TEST_CASE("the contents of a folder are listed in order of names, whatever they are") {
+TEST_CASE("the contents of a folder are listed in order of names, whatever their type") {
   const test::TemporaryFolder folder;
   fs::create_directories(folder / "b" / "below");
   for (const char* const name : {"c", "a <&>", "Z"}) std::ofstream(folder / name) << "text";

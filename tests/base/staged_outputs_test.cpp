@@ -172,7 +172,7 @@ TEST_CASE("the next run in a folder removes what a killed run left") {
   CHECK(files_in(folder.path()) == 1);
 }
 
-TEST_CASE("folders that may be somebody else's stay, whatever their name") {
+TEST_CASE("folders that may belong to another program are kept, whatever their name") {
   const auto stays = [](const char* what, auto&& change) {
     const test::TemporaryFolder folder;
     killed_run(folder.path());
@@ -192,7 +192,7 @@ TEST_CASE("folders that may be somebody else's stay, whatever their name") {
   });
 }
 
-TEST_CASE("a folder that happens to be named like a staging folder stays as it is") {
+TEST_CASE("a folder that happens to be named like a staging folder is left unchanged") {
   const test::TemporaryFolder folder;
   for (const char* const name : {".sigs-abcdef", ".sigs-XXXXXX"}) {
     fs::create_directory(folder / name);
@@ -224,7 +224,7 @@ TEST_CASE("nothing that existed before is opened, followed or removed") {
   CHECK(fs::is_symlink(folder / "z.part.txt"));
 }
 
-TEST_CASE("a final name that is taken during the work stays with its owner") {
+TEST_CASE("a file created by others under the final name during the work is kept") {
   const test::TemporaryFolder folder;
   Result<TemporaryFile> file = TemporaryFile::create(folder / "x.txt", false);
   Result<TemporaryFile> images = TemporaryFile::create_folder(folder / "y", false);
@@ -268,7 +268,7 @@ TEST_CASE("a folder that was written into during the work is not replaced") {
   CHECK(fs::is_empty(folder / "y"));
 }
 
-TEST_CASE("outputs that belong together all get their names, or none does") {
+TEST_CASE("outputs that belong together all get their final names, or none does") {
   const test::TemporaryFolder folder;
   test::write_file(folder / "a.txt", "old");
   StagedOutputs outputs(StagedOutputs::Existing::replace);

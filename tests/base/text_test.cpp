@@ -40,7 +40,7 @@ TEST_CASE("a number is rounded to the given decimals") {
   CHECK(number_text(9.7, 0) == "10");
 }
 
-TEST_CASE("what rounds to zero has no sign") {
+TEST_CASE("a number that rounds to zero has no sign") {
   CHECK(number_text(-0.0, 6) == "0");
   CHECK(number_text(-0.0, 0) == "0");
   CHECK(number_text(-4e-7, 6) == "0");
@@ -58,7 +58,7 @@ TEST_CASE("the largest numbers are written out without an exponent and read back
   }
 }
 
-TEST_CASE("what is written reads back within half a unit of the last digit") {
+TEST_CASE("a written number reads back within half a unit of the last digit") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> mantissa(-1, 1);
   for (int decimals = 0; decimals <= 9; ++decimals)
@@ -72,7 +72,7 @@ TEST_CASE("what is written reads back within half a unit of the last digit") {
       }
 }
 
-TEST_CASE("numbers have a point whatever the locale") {
+TEST_CASE("numbers have a decimal point in every locale") {
   const CommaLocale comma;
   const char* const c_locale = std::setlocale(LC_ALL, nullptr);
   const std::string before = c_locale == nullptr ? "C" : c_locale;
@@ -88,7 +88,7 @@ TEST_CASE("NaN and infinity are never written") {
   CHECK_FALSE(aborts([] { static_cast<void>(number_text(1, 6)); }));
 }
 
-TEST_CASE("the exact text is the shortest that reads back, and empty for what is not a number") {
+TEST_CASE("the exact text is the shortest that reads back, and empty for NaN and infinity") {
   CHECK(exact_text(0.1) == "0.1");
   CHECK(exact_text(-0.0) == "0");
   CHECK(exact_text(1.0 / 3) == "0.3333333333333333");
@@ -96,7 +96,7 @@ TEST_CASE("the exact text is the shortest that reads back, and empty for what is
   CHECK(exact_text(std::optional<double>()).empty());
 }
 
-TEST_CASE("fixed and short texts have the digits that tables and messages want") {
+TEST_CASE("fixed and short texts have the digits that tables and messages need") {
   CHECK(fixed_text(3.5, 2) == "3.50");
   CHECK(fixed_text(-0.001, 2) == "0.00");
   CHECK(fixed_text(std::numeric_limits<double>::quiet_NaN(), 2) == "-");

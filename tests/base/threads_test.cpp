@@ -12,7 +12,7 @@ using namespace sigs;
 
 namespace {
 
-// What becomes of something that a job throws.
+// The error that results from an exception in a job.
 template <class Thrown>
 Error error_of(const Thrown& thrown) {
   const Result<int> result = guarded([&]() -> Result<int> { throw thrown; }, "job");
@@ -30,7 +30,7 @@ TEST_CASE("guarded() returns the value or the error of the job") {
   CHECK(failed.error().kind == ErrorKind::usage);
 }
 
-TEST_CASE("lack of memory gives the error unavailable, whoever asked for the memory") {
+TEST_CASE("lack of memory gives the error unavailable, whichever code requested it") {
   for (const Error& error :
        {error_of(std::bad_alloc()), error_of(std::bad_array_new_length()),
         error_of(cv::Exception(cv::Error::StsNoMem, "Failed to allocate 12 bytes", "f", "alloc.cpp", 1))}) {
@@ -49,7 +49,7 @@ TEST_CASE("other exceptions keep their message") {
   CHECK(error_of(std::system_error(no_more)).kind == ErrorKind::unavailable);
 }
 
-TEST_CASE("a started thread does its work") {
+TEST_CASE("a started thread runs its function") {
   int done = 0;
   Result<std::thread> thread = started_thread([&] { done = 5; });
   REQUIRE(thread);

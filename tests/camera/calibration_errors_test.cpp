@@ -60,7 +60,7 @@ TEST_CASE("a calibration that cannot be opened gives another kind of error than 
   CHECK(a_folder.error().kind == ErrorKind::cannot_read);
 }
 
-TEST_CASE("a file that is no calibration is refused") {
+TEST_CASE("a file that is not a calibration is refused") {
   CHECK(message("") == "gopro.any: is empty");
   CHECK(message(" \n\t\n") == "gopro.any: is empty");
   CHECK(message(std::string("\x89PNG\0\0\x01", 7)) == "gopro.any: is not a text file");
@@ -169,7 +169,7 @@ TEST_CASE("an invalid size is refused") {
           "gopro.any: image_size: expected 2 numbers, width and height");
 }
 
-TEST_CASE("a calibration of another shape names both sizes") {
+TEST_CASE("a calibration of another aspect ratio is refused with both sizes") {
   CHECK(message(with("image_size: [640, 480]"), cv::Size(1280, 720)) ==
         "gopro.any: made for 640x480, which is not the shape of the footage, 1280x720");
   CHECK(contains(message(with("image_size: [640, 480]"), cv::Size(480, 640)), "480x640"));

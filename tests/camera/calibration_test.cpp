@@ -234,7 +234,7 @@ TEST_CASE("a calibration without a size is made for the footage") {
   CHECK(camera->lens.parameters().cy == 240);
 }
 
-TEST_CASE("a calibration is scaled to footage of the same shape") {
+TEST_CASE("a calibration is scaled to footage of the same aspect ratio") {
   const std::string text = "K: " + kMatrixYaml + "\nD: [-0.2, 0.1, 0, 0]\nimage_size: [640, 480]\n";
   const auto own = read(text);
   const auto same = read(text, cv::Size(640, 480));

@@ -74,7 +74,7 @@ TEST_CASE("points beyond the horizon of a tilted sensor have no inverse") {
   CHECK_FALSE(model.untilted({0, near_horizon + step}).has_value());
 }
 
-TEST_CASE("the first fall of a polynomial is its smallest root") {
+TEST_CASE("first_fall gives a polynomial's smallest positive root") {
   // (u - 0.5) (u - 2) (u - 3), made positive at 0
   CHECK(distortion::first_fall(Polynomial{3, -8.5, 5.5, -1}, 1e16) == doctest::Approx(0.5).epsilon(1e-14));
   CHECK(distortion::first_fall(Polynomial{1, 0, 1}, 1e16) == std::numeric_limits<double>::infinity());
@@ -83,7 +83,7 @@ TEST_CASE("the first fall of a polynomial is its smallest root") {
   CHECK(distortion::first_fall(Polynomial{1, -1e-12}, 1e11) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("a dip with a width of a millionth is found") {
+TEST_CASE("two roots a few millionths apart are found") {
   // (u - 1)^2 = 1e-12, so the roots are 1 - 1e-6 and 1 + 1e-6; a double root doubles the digits that rounding takes
   const Polynomial dip{1 - 1e-12, -2, 1};
   CHECK(distortion::first_fall(dip, 1e16) == doctest::Approx(1 - 1e-6).epsilon(1e-9));

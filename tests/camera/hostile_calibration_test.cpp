@@ -57,7 +57,7 @@ TEST_CASE("a list that contains itself is refused") {
   check_refused("&a {*a : *a}\n", "alias");
 }
 
-TEST_CASE("an alias is refused with its line, whatever it multiplies") {
+TEST_CASE("an alias is refused with its line, whatever it expands to") {
   std::string bomb = "a: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
     const std::string number = std::to_string(i);

@@ -146,7 +146,7 @@ TEST_CASE("tiles are discarded before they take more memory than the table may")
   CHECK(table.corner_rays(5, 5, 1)[0] == first);
 }
 
-TEST_CASE("corners as far away as integers reach agree with the lens") {
+TEST_CASE("corners at the limits of integers agree with the lens") {
   for (const ExampleLens& example : example_lenses()) {
     if (example.lens.is_pinhole()) continue;
     CAPTURE(example.name);

@@ -87,7 +87,7 @@ TEST_CASE("there is no pixel without a direction, and no ray without a pixel") {
   }
 }
 
-TEST_CASE("a lens on the image plane has no image of what is behind it") {
+TEST_CASE("a Brown-Conrady lens has no image of points on or behind the camera's plane") {
   for (const ExampleLens& example : example_lenses()) {
     if (example.lens.parameters().model != LensModel::brown_conrady) continue;
     INFO(example.name);

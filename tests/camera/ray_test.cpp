@@ -50,7 +50,7 @@ TEST_CASE("a pixel undistorted and distorted again comes back") {
   }
 }
 
-TEST_CASE("every direction in the field is found again from its pixel") {
+TEST_CASE("every direction in the field is recovered from its pixel") {
   for (const ExampleLens& example : all_lenses()) {
     INFO(example.name);
     for (const glm::dvec3& at : directions_over(example.lens, 40, 24, 0.9999)) {
@@ -64,7 +64,7 @@ TEST_CASE("every direction in the field is found again from its pixel") {
   }
 }
 
-TEST_CASE("lenses of random coefficients find every direction in their field again") {
+TEST_CASE("lenses of random coefficients recover every direction in their field from its pixel") {
   std::mt19937 random(20240817);
   constexpr std::array<std::size_t, 5> kCounts{4, 5, 8, 12, 14};
   for (int trial = 0; trial < 200; ++trial) {

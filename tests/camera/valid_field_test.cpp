@@ -174,7 +174,7 @@ TEST_CASE("the corners of the stereo calibration in OpenCV's samples are unreach
   CHECK(camera.lens.ray({200, 200}).has_value());
 }
 
-TEST_CASE("a real lens that folds just outside the corner still reaches it") {
+TEST_CASE("a real lens that folds just outside the image's corner still has a ray for the corner") {
   if (!has_real_data()) return;
   const Camera camera = real_camera("ntu_mecatron_out_camera_data.xml");
   for (const glm::dvec2& corner : {glm::dvec2{0, 0}, glm::dvec2{639, 0}, glm::dvec2{0, 479}, glm::dvec2{639, 479}}) {

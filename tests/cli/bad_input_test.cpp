@@ -20,7 +20,7 @@ using namespace sigs::test;
 
 namespace {
 
-// One line on stderr that says it, the right exit status, and not a file left.
+// One line of error on stderr, the right exit status, and no file left.
 void check_refused(const TinyProject& tiny, int status, const std::string& message, const std::string& more = "") {
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + more);
   CHECK_MESSAGE(run.status == status, run.err);
@@ -38,13 +38,13 @@ void cut(const std::filesystem::path& path, double share) {
 
 }  // namespace
 
-TEST_CASE("a missing project ends with 66") {
+TEST_CASE("a missing project exits with status 66") {
   const Run run = run_sigs("export nowhere.json");
   CHECK(run.status == 66);
   CHECK(run.err == "error: nowhere.json: no such file\n");
 }
 
-TEST_CASE("a project that is no JSON ends with 78 and its line") {
+TEST_CASE("a project that is not JSON exits with status 78 and names the line") {
   const TinyProject tiny;
   put_text(tiny.project(), "{\n \"sigs\": 1,\n");
   check_refused(tiny, 78, "p.json: is not JSON");
@@ -56,7 +56,7 @@ TEST_CASE("a missing video is named by its field") {
   check_refused(tiny, 66, "p.json: footage.video: no such file");
 }
 
-TEST_CASE("a video that is none is named by its field") {
+TEST_CASE("a file that is not a video is reported by its field") {
   const TinyProject tiny;
   put_text(tiny.file("clip.mkv"), "this is no video");
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
@@ -109,7 +109,7 @@ TEST_CASE("a missing MTL or texture is drawn grey with a warning") {
   CHECK_MESSAGE(has(textured.err, "gone.png"), textured.err);
 }
 
-TEST_CASE("unknown keys are warned of and the export goes on") {
+TEST_CASE("unknown keys give warnings and the export continues") {
   TinyProject tiny;
   tiny.change(R"("name": "tiny",)", R"("name": "tiny", "colour": "red",)");
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
@@ -117,7 +117,7 @@ TEST_CASE("unknown keys are warned of and the export goes on") {
   CHECK_MESSAGE(has(run.err, "p.json: colour: unknown key"), run.err);
 }
 
-TEST_CASE("waypoints that are not finite or have equal frames end with 78") {
+TEST_CASE("waypoints that are not finite or have equal frames exit with status 78") {
   TinyProject tiny;
   tiny.change(R"({"frame": 9,)", R"({"frame": 0,)");
   check_refused(tiny, 78, "p.json: intruders[0].trajectory.waypoints[1].frame: is 0, not after waypoints[0]");
@@ -125,7 +125,7 @@ TEST_CASE("waypoints that are not finite or have equal frames end with 78") {
   check_refused(tiny, 78, "p.json: is not JSON");
 }
 
-TEST_CASE("waypoints without frames that crowd into one frame end with 78") {
+TEST_CASE("waypoints without frames that fall into one frame exit with status 78") {
   TinyProject tiny;
   tiny.change(R"({"frame": 9, )", "{");
   check_refused(tiny, 78, "p.json: intruders[0].trajectory.waypoints", "--set footage.last_frame=0");
@@ -138,14 +138,14 @@ TEST_CASE("a mask of another size says both sizes") {
   check_refused(tiny, 65, "p.json: footage.own_body_mask: ");
 }
 
-TEST_CASE("frames that the footage has not end with 64 and a project range beyond it with 78") {
+TEST_CASE("frames beyond the footage exit with status 64, a project's range beyond it with status 78") {
   const TinyProject tiny;
   check_refused(tiny, 64, "the project has frames 0 to 9", "--frames 5-12");
   check_refused(tiny, 64, "expected A-B", "--frames 5-x");
   check_refused(tiny, 78, "the footage has 10 frames", "--set footage.last_frame=12");
 }
 
-TEST_CASE("a folder that cannot be made ends with 73") {
+TEST_CASE("a folder that cannot be created exits with status 73") {
   const TinyProject tiny;
   put_text(tiny.file("blocked"), "a file where a folder is wanted");
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.file("blocked/out").string());
@@ -153,7 +153,7 @@ TEST_CASE("a folder that cannot be made ends with 73") {
   CHECK_MESSAGE(has(run.err, "blocked/out"), run.err);
 }
 
-TEST_CASE("a disk that is full ends with 74 and leaves no file") {
+TEST_CASE("a full disk exits with status 74 and leaves no file") {
   const TinyProject tiny;
   const Run run = run_sigs_after("ulimit -f 1;", "export " + tiny.project() + " --out " + tiny.out());
   CHECK_MESSAGE(run.status == 74, run.err);
@@ -161,7 +161,7 @@ TEST_CASE("a disk that is full ends with 74 and leaves no file") {
   CHECK(tiny.files_out() == 0);
 }
 
-TEST_CASE("codec and container that do not go together end with 78 before anything is written") {
+TEST_CASE("an unsupported pair of codec and container exits with status 78 before anything is written") {
   const TinyProject tiny;
   check_refused(tiny, 78, "export.video.container: mp4 cannot hold ffv1", "--codec ffv1 --container mp4");
 }
@@ -174,7 +174,7 @@ TEST_CASE("h264 of an odd size is named by its field before anything is written"
   CHECK(run.status == 78);
 }
 
-TEST_CASE("an answer that cannot be given is no success") {
+TEST_CASE("output that cannot be written is not a success") {
   if (!std::filesystem::exists("/dev/full")) {
     say_skipped("no /dev/full");
     return;
@@ -184,7 +184,7 @@ TEST_CASE("an answer that cannot be given is no success") {
   CHECK(WEXITSTATUS(std::system(command.c_str())) == 74);
 }
 
-TEST_CASE("waypoints spread over too few frames are told in frames") {
+TEST_CASE("waypoints spread over too few frames are reported in frames") {
   TinyProject tiny;
   tiny.change(R"({"frame": 9, )", R"({"position_m": [20, 0, -150]}, {"frame": 30, )");
   tiny.change(R"({"frame": 0, )", R"({"frame": 40, )");
@@ -223,7 +223,7 @@ TEST_CASE("more damaged frames than are allowed are an error that says how to al
   CHECK_MESSAGE(has(allowed.err, "2 of 10 frames of the footage are damaged"), allowed.err);
 }
 
-TEST_CASE("a frame that another one stands in for is named in the labels") {
+TEST_CASE("a substituted frame is marked in the labels") {
   const TinyProject tiny;
   damage_frames(tiny.file("clip.mkv"), 4, 2);
   const Run run = run_sigs("export " + tiny.project() + " --set footage.max_substituted_percent=20 --labels xml,csv" +

@@ -7,7 +7,7 @@
 #include "cli/tiny_project.h"
 
 namespace sigs::test {
-TEST_CASE("check says how well conditioned each path is") {
+TEST_CASE("check prints how well conditioned each path is") {
   TinyProject tiny;
   const Run two = run_sigs("check " + tiny.project());
   CHECK(two.status == 0);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// `sigs` on its own, so that a signal reaches it and nothing else.
+// `sigs` on its own, so that a signal is delivered to it alone.
 pid_t started(const TinyRecipe& recipe, const std::string& out, const char* option) {
   const std::string program = (build_dir() / "sigs").string();
   const std::string file = recipe.file("recipe.json").string();
@@ -31,7 +31,7 @@ pid_t started(const TinyRecipe& recipe, const std::string& out, const char* opti
   _exit(127);
 }
 
-// What a folder shows from outside: how many files, of how many bytes.
+// The number of files in a folder and their total size.
 std::pair<int, std::uintmax_t> state_of(const fs::path& folder) {
   std::pair<int, std::uintmax_t> state;
   std::error_code code;
@@ -44,7 +44,7 @@ std::pair<int, std::uintmax_t> state_of(const fs::path& folder) {
   return state;
 }
 
-// The same of what lies right in the folder: looked through fast enough to meet a video as it gets its name.
+// The same for the folder's direct entries: fast enough to observe a video as it gets its final name.
 std::pair<int, std::uintmax_t> names_of(const fs::path& folder) {
   std::error_code code;
   const fs::directory_iterator names(folder, code);
@@ -107,7 +107,7 @@ TEST_CASE("killed at ten moments and resumed, a dataset is what an uninterrupted
   CHECK_FALSE(fs::exists(recipe.out("killed") + "/.part"));
 }
 
-TEST_CASE("stopped by the user, a dataset ends with 130 and keeps what is finished") {
+TEST_CASE("stopped by the user, a dataset exits with status 130 and keeps the finished videos") {
   const TinyRecipe recipe(300);
   const pid_t child = started(recipe, "out", "--resume");
   while (!fs::exists(recipe.out("out") + "/red LR")) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Six random crossings, of which many are never in the picture or too fast.
+// Six random crossings, of which many are never in the image or too fast.
 constexpr const char* kRandom = R"({
   "sigs_dataset": 1, "name": "random", "seed": 5,
   "settings": {"export.labels": ["xml", "csv"]},
@@ -37,7 +37,7 @@ int sum_of(const Json& redraws) {
 
 }  // namespace
 
-TEST_CASE("random videos are as many as asked for, and what was sampled anew is told everywhere") {
+TEST_CASE("the requested number of random videos is made, and repeated samples are reported everywhere") {
   const TinyRecipe recipe;
   put_text(recipe.file("recipe.json"), kRandom);
   const Run dry = recipe.run("out", "--dry-run");
@@ -84,7 +84,7 @@ TEST_CASE("random videos are the same to the byte with any jobs, shards, resumpt
   CHECK(contents_of(recipe.out("names")) == whole);
 }
 
-TEST_CASE("random videos of which no sample can be used end with 65 and what failed") {
+TEST_CASE("random videos without a usable sample exit with status 65 and name the reasons") {
   const TinyRecipe recipe;
   put_text(recipe.file("recipe.json"), kRandom);
   recipe.change("\"videos\": 6,", "\"videos\": 6, \"redraws\": 9,");

@@ -56,7 +56,7 @@ TEST_CASE("a dataset's checksums are what sha256sum finds") {
     CHECK(run_sigs("check '" + recipe.out("out") + "/" + video + "/" + video + ".json'").status == 0);
 }
 
-TEST_CASE("jobs side by side and shards put together are the dataset of one run") {
+TEST_CASE("parallel jobs and merged shards give the dataset of a single run") {
   const TinyRecipe recipe;
   CHECK(recipe.run("one", "--jobs 1").status == 0);
   CHECK(recipe.run("two", "--jobs 2").status == 0);
@@ -96,7 +96,7 @@ TEST_CASE("a merge names what is missing") {
   CHECK_FALSE(fs::exists(recipe.out("out") + "/index.json"));
 }
 
-TEST_CASE("--set wins over what a background says, whose own value wins over the recipe's settings") {
+TEST_CASE("--set overrides a background's values, which override the recipe's settings") {
   const TinyRecipe recipe;
   recipe.change("\"settings\": {", "\"settings\": {\"camera.speed_mps\": 5, ");
   recipe.change("\"footage\":", "\"camera\": {\"speed_mps\": 7}, \"footage\":");
@@ -107,7 +107,7 @@ TEST_CASE("--set wins over what a background says, whose own value wins over the
   CHECK(has(read_text(recipe.out("set") + "/red LR/red LR.json").value(), "\"speed_mps\": 9"));
 }
 
-TEST_CASE("an intruder that is never in the image is told of, before a run and in the dry one") {
+TEST_CASE("an intruder that is never in the image is reported, before a run and in a dry run") {
   const TinyRecipe recipe;
   CHECK_FALSE(has(recipe.run("out", "--dry-run").err, "never"));
   recipe.change("\"distance_m\": 20", "\"distance_m\": 20, \"from_x_percent\": 150, \"to_x_percent\": 140");
@@ -118,7 +118,7 @@ TEST_CASE("an intruder that is never in the image is told of, before a run and i
   CHECK(has(recipe.run("out", "--only 'red RL,large RL'").err, told));
 }
 
-TEST_CASE("a clip that cannot be opened fails its videos alone") {
+TEST_CASE("a clip that cannot be opened makes only its own videos fail") {
   const TinyRecipe recipe;
   put_text(recipe.file("cut.mkv"), "no clip");
   recipe.change("\"backgrounds\": [",
@@ -147,7 +147,7 @@ TEST_CASE("a mask of another size than the clip is one error of the recipe, befo
   CHECK_FALSE(fs::exists(recipe.out("out")));
 }
 
-TEST_CASE("a dry run that cannot be printed says so, also of impossible videos") {
+TEST_CASE("a dry run that cannot be printed is an error, also with impossible videos") {
   const TinyRecipe recipe;
   recipe.change("\"name\": \"red\",", "\"name\": \"red\", \"speed_limits_mps\": [900, 901],");
   const std::string command =
@@ -155,7 +155,7 @@ TEST_CASE("a dry run that cannot be printed says so, also of impossible videos")
   CHECK(WEXITSTATUS(std::system(command.c_str())) == 74);
 }
 
-TEST_CASE("a recipe of which nothing can be makes nothing") {
+TEST_CASE("a recipe of impossible videos alone creates nothing") {
   const TinyRecipe recipe;
   recipe.change("\"name\": \"red\",", "\"name\": \"red\", \"speed_limits_mps\": [900, 901],");
   recipe.change("\"name\": \"large\",", "\"name\": \"large\", \"speed_limits_mps\": [900, 901],");
@@ -166,14 +166,14 @@ TEST_CASE("a recipe of which nothing can be makes nothing") {
   CHECK_FALSE(fs::exists(recipe.out("out")));
 }
 
-TEST_CASE("a misspelt key is told of with what was meant") {
+TEST_CASE("a misspelt key is reported with the most similar key") {
   const TinyRecipe recipe;
   recipe.change("\"seed\"", "\"sede\"");
   const Run run = recipe.run("out", "--dry-run");
   CHECK_MESSAGE(has(run.err, "sede: unknown key, not used; did you mean seed?"), run.err);
 }
 
-TEST_CASE("a recipe that changes makes only those videos anew that it changes") {
+TEST_CASE("after a change of the recipe only the changed videos are made again") {
   const TinyRecipe recipe;
   CHECK(recipe.run("out").status == 0);
   CHECK(recipe.run("out").status == 73);
@@ -184,7 +184,7 @@ TEST_CASE("a recipe that changes makes only those videos anew that it changes") 
   CHECK_MESSAGE(count_of(run.err, "is made anew: was made from other settings") == 1, run.err);  // said once
 }
 
-TEST_CASE("videos that cannot be are named, the others made, and the status says so") {
+TEST_CASE("impossible videos are named, the others are made, and the exit status shows it") {
   const TinyRecipe recipe;
   recipe.change("\"from_distance_m\": 60, \"to_distance_m\": 15",
                 "\"from_distance_m\": 60, \"to_distance_m\": 15, \"to_y_percent\": 90, \"from_y_percent\": 90");
@@ -209,7 +209,7 @@ TEST_CASE("a video that fails is listed with its reason, the others are made") {
   CHECK_FALSE(fs::exists(recipe.out("out") + "/.part"));
 }
 
-TEST_CASE("a full disk and a folder that cannot be made are told as such") {
+TEST_CASE("a full disk and a folder that cannot be created are reported as such") {
   const TinyRecipe recipe(40);
   const std::string command = "ulimit -f 4; " + (build_dir() / "sigs").string() + " " + recipe.arguments("out") +
                               " >/dev/null 2>" + recipe.out("err");
@@ -223,7 +223,7 @@ TEST_CASE("a full disk and a folder that cannot be made are told as such") {
   CHECK(run_sigs("dataset " + recipe.out("recipe.json") + " --out /proc/none").status == 73);
 }
 
-TEST_CASE("a command line that makes no sense ends with 64") {
+TEST_CASE("an invalid command line exits with status 64") {
   const TinyRecipe recipe;
   for (const char* const more : {"--shard 0/3", "--shard 4/3", "--shard 1", "--shard 1/3x", "--shard /", "--jobs -1",
                                  "--merge --resume", "--merge --shard 1/2", "--out ''"})
@@ -236,7 +236,8 @@ TEST_CASE("a command line that makes no sense ends with 64") {
 TEST_CASE("one file of COCO results, numbered as a split's coco labels, is scored against all its clips") {
   const TinyRecipe recipe;
   REQUIRE(recipe.run("out").status == 0);
-  // The labels themselves as results: every box is right, so every frame with a label is matched and nothing is false.
+  // The labels themselves as results: every box is correct, so every frame with a label is matched and there is no
+  // false alarm.
   const auto labels = nlohmann::json::parse(read_text(recipe.file("out/labels/coco/test.json")).value());
   nlohmann::json results = nlohmann::json::array();
   for (const nlohmann::json& box : labels["annotations"])

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Encounters of 0.4 s count, however far; one frame is seen in time.
+// Encounters of 0.4 s count at any distance; one matched frame is a detection in time.
 const std::string kPolicy =
     " --min-encounter 0 --max-closest-range 1000 --detect-range 1 --window 0.2 --window-share 0.5";
 const std::string kNothing = "frame,x,y,width,height\n";
@@ -70,7 +70,7 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE("a detector that is right detects every encounter, one that says nothing none") {
+TEST_CASE("a perfect detector detects every encounter, one without detections none") {
   const Fixture fixture;
   const std::string good = fixture.put("good.csv", fixture.right("one"));
   const std::string blind = fixture.put("blind.csv", kNothing);
@@ -87,7 +87,7 @@ TEST_CASE("a detector that is right detects every encounter, one that says nothi
   CHECK(report["detectors"][1]["encounter_detection_rate"]["all"]["detected"] == 0);
 }
 
-TEST_CASE("files go with labels in order, folders by name, and a dataset's index tells the clips") {
+TEST_CASE("files are matched to labels in order, folders by name, and a dataset's index lists the clips") {
   const Fixture fixture;
   const std::string one = fixture.put("runs/mine/one.csv", fixture.right("one", true));
   const std::string two = fixture.put("runs/mine/two.csv", fixture.right("two"));
@@ -120,7 +120,7 @@ TEST_CASE("files go with labels in order, folders by name, and a dataset's index
   CHECK_MESSAGE(empty.err.find("runs/mine/one.csv, .json or .txt: no results") != std::string::npos, empty.err);
 }
 
-TEST_CASE("inputs that do not go together are refused in one line") {
+TEST_CASE("inputs that do not match are refused in one line") {
   const Fixture fixture;
   const std::string file = fixture.put("a.csv", kNothing);
   const std::string folder = fixture.tiny.file("folder").string();
@@ -174,7 +174,7 @@ TEST_CASE("an encounter that is too short is not counted, and a warning says why
   CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted: shorter than 3 s (--min-encounter)") == 0, run.err);
 }
 
-TEST_CASE("an encounter that never comes near is not counted, and a warning says why") {
+TEST_CASE("an encounter that stays beyond the maximum range is not counted, and a warning says why") {
   const Fixture fixture;
   const std::string file = fixture.put("a.csv", kNothing);
   const Run run = run_sigs("evaluate detect " + fixture.labels("one") +

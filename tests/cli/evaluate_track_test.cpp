@@ -60,7 +60,7 @@ nlohmann::json scores_in(const TrackFixture& fixture, const std::string& folder)
 
 }  // namespace
 
-TEST_CASE("trackers say the same of a project and of what was exported of it, and of results read again") {
+TEST_CASE("trackers score the same on a project and on its export, and from results read again") {
   const TrackFixture fixture;
   const std::string other = fixture.tiny.file("other").string();
   const std::string again = fixture.tiny.file("again").string();
@@ -81,7 +81,7 @@ TEST_CASE("trackers say the same of a project and of what was exported of it, an
   CHECK(scores_in(fixture, "report").size() == 3);
 }
 
-TEST_CASE("a clip shows what an export writes, and its truth") {
+TEST_CASE("a clip has the images that an export writes, and its ground truth") {
   const TrackFixture fixture;
   const Project project = read_project(fixture.tiny.project()).value().project;
   FrameStream clip = FrameStream::open(project, FrameRange{2, 8}).value();
@@ -139,7 +139,7 @@ TEST_CASE("results off by (3, 4) px have a centre error of 5 on the terminal") {
   CHECK_MESSAGE(listed.out.find("\noff (3) ") != std::string::npos, listed.err);
 }
 
-TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but its like") {
+TEST_CASE("an evaluation is written whole or not at all, and replaces only an earlier evaluation") {
   const TrackFixture fixture;
   const std::string options = "--tracker mosse --out " + fixture.report;
   REQUIRE(fixture.track(fixture.labels, options).status == 0);
@@ -165,7 +165,7 @@ TEST_CASE("an evaluation is there whole or not at all, and replaces nothing but 
   CHECK(fixture.track(fixture.labels, "--tracker mosse --out " + fixture.labels).status == 73);
 }
 
-TEST_CASE("what makes no sense is refused in one line, and nothing is left behind") {
+TEST_CASE("invalid options are refused in one line, and no file is left behind") {
   const TrackFixture fixture;
   const std::string project = fixture.tiny.project();
   fixture.check_refused(project, "", 64, "name what is to be measured: --tracker or --results");
@@ -185,7 +185,7 @@ TEST_CASE("what makes no sense is refused in one line, and nothing is left behin
   fixture.check_refused(project, "--tracker kcf --min-side nan", 64, "min-side");
 }
 
-TEST_CASE("results that are wrong are refused before a project's clip is made") {
+TEST_CASE("invalid results are refused before a project's clip is composited") {
   const TrackFixture fixture;
   const std::string nan = fixture.put("nan.csv", "frame,x,y,width,height\n0,1,2,3,4\n1,nan,2,3,4\n");
   const std::string late = fixture.put("late.csv", "frame,x,y,width,height\n0,1,2,3,4\n10,1,2,3,4\n");
@@ -217,7 +217,7 @@ TEST_CASE("images that are not those of the labels are refused with both numbers
   fixture.check_refused(fixture.labels, "--tracker kcf", 66, "name its images with --video");
 }
 
-TEST_CASE("numbered images beside the labels are followed too") {
+TEST_CASE("trackers also run on numbered images beside the labels") {
   const TrackFixture fixture;
   const std::string composed = fixture.tiny.file("composed").string();
   REQUIRE(fixture.track(fixture.tiny.project(), "--tracker medianflow --frames 3-9 --out " + composed).status == 0);

@@ -48,7 +48,7 @@ TEST_CASE("an export writes every format that is asked for and names what it wro
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1")));
 }
 
-TEST_CASE("labels that name images which a video's export does not write are warned of") {
+TEST_CASE("labels that name images which a video's export does not write give a warning") {
   const TinyProject tiny;
   const auto warning = [&](const std::string& options) {
     const Run run = run_sigs("export " + tiny.project() + " --out '" + tiny.out() +
@@ -63,7 +63,7 @@ TEST_CASE("labels that name images which a video's export does not write are war
   CHECK(warning("--codec png --labels coco,voc").empty());
 }
 
-TEST_CASE("numbered images lie in the folders of labels as second names of the same files") {
+TEST_CASE("numbered images are in the folders of labels as hard links to the same files") {
   const TinyProject tiny;
   sigs_export(tiny, "--codec png --masks none --frames 4-6 --labels mot,kitti,vot,voc,yolo");
   const fs::path image = tiny.file("out/tiny/frame_000004.png");
@@ -75,7 +75,7 @@ TEST_CASE("numbered images lie in the folders of labels as second names of the s
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000004.png")));
 }
 
-TEST_CASE("folders of labels are replaced with --force, though not where somebody put a file of his own") {
+TEST_CASE("folders of labels are replaced with --force, unless they contain a foreign file") {
   const TinyProject tiny;
   const std::string labels = "--codec png --masks none --labels yolo,voc,mot,kitti,vot";
   sigs_export(tiny, labels);
@@ -91,7 +91,7 @@ TEST_CASE("folders of labels are replaced with --force, though not where somebod
   }
 }
 
-TEST_CASE("thresholds thin out labels but neither xml nor csv") {
+TEST_CASE("thresholds remove boxes from labels but not from xml or csv") {
   const TinyProject tiny;
   const fs::path mot = tiny.file("out/tiny.mot/tiny/gt/gt.txt");
   sigs_export(tiny, "--masks none --labels xml,csv,mot");
@@ -107,7 +107,7 @@ TEST_CASE("thresholds thin out labels but neither xml nor csv") {
   CHECK(lines_of(mot) == all);
 }
 
-TEST_CASE("labels and thresholds that there are not are answered with 64 and the option, and nothing is written") {
+TEST_CASE("unknown labels and invalid thresholds exit with status 64, name the option, and write nothing") {
   const TinyProject tiny;
   for (const auto& [options, status, part] :
        {std::tuple{"--labels pascal", 64, "error: --labels pascal: knows no format \"pascal\""},
@@ -128,7 +128,7 @@ TEST_CASE("labels and thresholds that there are not are answered with 64 and the
   }
 }
 
-TEST_CASE("an odd name of a project is that of its labels too") {
+TEST_CASE("an unusual name of a project is kept in its labels") {
   const std::string name = "it's \\\"a\\\" & <b> \xC3\xBC, 100%";
   TinyProject odd(3);
   odd.change("\"name\": \"tiny\"", "\"name\": \"" + name + "\"");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The side of the horizon that labels tell is known where somebody has said how the camera is turned, and not before.
+// The side of the horizon in labels is known where the camera's attitude is given, and unknown otherwise.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -44,11 +44,11 @@ TEST_CASE("without an attitude the side of the horizon is unknown in every forma
   check_unknown(labels_of(tiny));
 }
 
-TEST_CASE("an attitude that is set, in the file or for once, tells the side of the horizon") {
+TEST_CASE("an attitude set in the file or on the command line determines the side of the horizon") {
   TinyProject tiny;
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.pitch=0").xml, "horizon=\"on\""));
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.roll=0").xml, "horizon=\"on\""));
-  // The world's level is what counts: the cube lies higher than the camera, however that is pitched.
+  // The world's level plane counts: the cube is higher than the camera, whatever the camera's pitch.
   tiny.change("[20, -3, -150]", "[20, -3, -154]");
   tiny.change("[20, 3, -150]", "[20, 3, -154]");
   tiny.change(R"("intruders")", R"("camera": {"attitude_deg": {"pitch": 12}}, "intruders")");
@@ -60,7 +60,7 @@ TEST_CASE("an attitude that is set, in the file or for once, tells the side of t
   CHECK(has(labels_of(tiny, "--set camera.attitude_deg.pitch=null").xml, "horizon=\"unknown\""));
 }
 
-TEST_CASE("an attitude file tells the side of the horizon") {
+TEST_CASE("an attitude file determines the side of the horizon") {
   TinyProject tiny;
   put_text(tiny.file("turns.csv"), "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n9,1,1,0\n");
   tiny.change(R"("intruders")", R"("camera": {"attitude_file": "turns.csv"}, "intruders")");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A video whose opening takes hours: a sound beginning, then nothing for 256 GiB.
+// A video whose opening takes hours: a valid beginning, then 256 GiB of zeros.
 #include <doctest/doctest.h>
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Starts the program with its output thrown away.
+// Starts the program with its output discarded.
 pid_t started(const std::vector<std::string>& arguments) {
   const std::string program = (build_dir() / "sigs").string();
   std::vector<char*> words{const_cast<char*>(program.c_str())};
@@ -61,7 +61,7 @@ int ended(pid_t child) {
   return 128 + SIGKILL;
 }
 
-// What the program ends with when it gets one signal while it opens the endless video.
+// The program's exit status when it gets one signal while it opens the endless video.
 int status_after(int signal, const std::vector<std::string>& arguments, const fs::path& video) {
   const pid_t child = started(arguments);
   REQUIRE(child > 0);

@@ -31,7 +31,7 @@ struct Folder {
     return static_cast<int>(std::distance(begin(files), end(files)));
   }
 
-  // What is wrong with an option itself: said with a pointer to the help, and nothing is made.
+  // An invalid option: an error with a pointer to the help, and nothing is written.
   void check_option_refused(const std::string& input, const std::string& options, const std::string& line) const {
     const Run run = run_sigs("mask " + input + " " + options);
     CHECK(run.status == 64);
@@ -40,7 +40,7 @@ struct Folder {
     CHECK_FALSE(fs::exists(out()));
   }
 
-  // One line on stderr that says it, the right exit status, and neither file nor folder left.
+  // One line of error on stderr, the right exit status, and neither file nor folder left.
   void check_refused(const std::string& input, int status, const std::string& message,
                      const std::string& more = "") const {
     const Run run = run_sigs("mask " + input + " --method paper --out " + out() + "/m.png --confidence " + out() +
@@ -56,7 +56,7 @@ struct Folder {
 
 }  // namespace
 
-TEST_CASE("a video for a mask that is not there, is a folder or no video is named") {
+TEST_CASE("a mask's video that is missing, a folder or not a video is named") {
   const Folder in;
   in.check_refused("gone.mkv", 66, "gone.mkv: no such file");
   in.check_refused(in.folder.path().string(), 66, in.folder.path().string());
@@ -102,7 +102,7 @@ TEST_CASE("a clip whose size changes gives no mask") {
   CHECK(in.files_out() == 0);
 }
 
-TEST_CASE("a command line for a mask that makes no sense ends with 64") {
+TEST_CASE("an invalid command line for a mask exits with status 64") {
   const Folder in;
   write_flight(in.video, 10);
   in.check_refused(in.video, 64, "own_body.every: is 0; ", "--set own_body.every=0");
@@ -113,7 +113,7 @@ TEST_CASE("a command line for a mask that makes no sense ends with 64") {
   CHECK(run_sigs("mask " + in.video + " --nonsense").status == 64);
 }
 
-TEST_CASE("a number or method for a mask that cannot be is the command line's fault, for a video and for a project") {
+TEST_CASE("an invalid number or method for a mask is a command-line error, for a video and for a project") {
   const Folder in;
   write_flight(in.video, 10);
   const std::string project = (in.folder / "p.json").string();
@@ -139,7 +139,7 @@ TEST_CASE("a number or method for a mask that cannot be is the command line's fa
   }
 }
 
-TEST_CASE("a path for a mask that is given and empty is named") {
+TEST_CASE("an empty path given for a mask is reported") {
   const Folder in;
   write_flight(in.video, 10);
   in.check_option_refused("''", "--out " + in.out() + "/m.png", "FILE: is empty");
@@ -149,7 +149,7 @@ TEST_CASE("a path for a mask that is given and empty is named") {
   in.check_option_refused(in.video, out + "--stages ''", "--stages: is empty");
 }
 
-TEST_CASE("a mask goes into a PNG of its own") {
+TEST_CASE("a mask is written to a PNG of its own") {
   const Folder in;
   write_flight(in.video, 10);
   const std::string before = read_text(in.video).value();
@@ -165,7 +165,7 @@ TEST_CASE("a mask goes into a PNG of its own") {
   CHECK(in.files_out() == 0);
 }
 
-TEST_CASE("what is wrong in a project ends with 78 and names its field") {
+TEST_CASE("an invalid project exits with status 78 and names the field") {
   const Folder in;
   write_flight(in.video, 10);
   const std::string project = (in.folder / "p.json").string();
@@ -179,7 +179,7 @@ TEST_CASE("what is wrong in a project ends with 78 and names its field") {
   in.check_refused(project, 78, "p.json: footage.video: is missing");
 }
 
-TEST_CASE("a stage that is there already is found before the work begins") {
+TEST_CASE("an existing stage is found before the work begins") {
   const Folder in;
   write_flight(in.video, 10);
   fs::create_directories(in.out());
@@ -191,7 +191,7 @@ TEST_CASE("a stage that is there already is found before the work begins") {
   CHECK(read_text(in.out() + "/00_frame.png").value() == "mine");
 }
 
-TEST_CASE("a folder for a mask that cannot be made ends with 73") {
+TEST_CASE("a mask's folder that cannot be created exits with status 73") {
   const Folder in;
   write_flight(in.video, 10);
   put_text(in.folder / "blocked", "a file where a folder is wanted");
@@ -200,7 +200,7 @@ TEST_CASE("a folder for a mask that cannot be made ends with 73") {
   CHECK_MESSAGE(run.err.find("blocked") != std::string::npos, run.err);
 }
 
-TEST_CASE("a disk that is full leaves no mask and ends with 74") {
+TEST_CASE("a full disk leaves no mask and exits with status 74") {
   const Folder in;
   write_flight(in.video, 10);
   const Run run = run_sigs_after("ulimit -f 1;", "mask " + in.video + " --method paper --out " + in.out() +

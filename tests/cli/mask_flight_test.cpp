@@ -78,7 +78,7 @@ void check_alone_in(const std::string& folder, const std::string& out) {
 
 }  // namespace
 
-TEST_CASE("the nose of a flight is found in its footage") {
+TEST_CASE("the aircraft's nose is detected in a flight's footage") {
   const RenderedFlight flight_clip("nose");
   const Run run = flight_clip.run();
   CHECK_MESSAGE(run.status == 0, run.err);
@@ -86,7 +86,7 @@ TEST_CASE("the nose of a flight is found in its footage") {
   CHECK(intersection_over_union(flight_clip.found(), flight_clip.flight.own_body) >= 0.9);
 }
 
-TEST_CASE("a flight without an own body in view gets a black mask and a word about it") {
+TEST_CASE("a flight without an own body in view gives a black mask and a note") {
   const RenderedFlight flight_clip("none");
   const Run run = flight_clip.run();
   CHECK_MESSAGE(run.status == 0, run.err);
@@ -96,7 +96,7 @@ TEST_CASE("a flight without an own body in view gets a black mask and a word abo
   CHECK(cv::countNonZero(flight_clip.found()) == 0);
 }
 
-TEST_CASE("a camera that stands still gets no mask and is told why") {
+TEST_CASE("a stationary camera gives no mask and a reason") {
   const RenderedFlight flight_clip("still");
   const Run run = flight_clip.run();
   CHECK(run.status == 65);
@@ -105,7 +105,7 @@ TEST_CASE("a camera that stands still gets no mask and is told why") {
   CHECK_FALSE(fs::exists(flight_clip.mask));
 }
 
-TEST_CASE("two frames of a flight that tell nothing are said to be too few") {
+TEST_CASE("two undecidable frames of a flight are reported as too few") {
   const RenderedFlight flight_clip("none");
   const Run run = flight_clip.run("--frames 2");
   CHECK(run.status == 65);
@@ -113,14 +113,14 @@ TEST_CASE("two frames of a flight that tell nothing are said to be too few") {
   CHECK_MESSAGE(run.err.ends_with("; take a longer part of the flight, with turns\n"), run.err);
 }
 
-TEST_CASE("a detection that settles early says when and gives nearly the same mask") {
+TEST_CASE("a detection that stops early reports when and gives nearly the same mask") {
   const RenderedFlight flight_clip("nose", 400, 10);
   REQUIRE(flight_clip.run().status == 0);
   const cv::Mat whole = flight_clip.found();
   const Run run = flight_clip.run("--force --set own_body.settled_percent=5");
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(run.err.find("\nconverged after ") != std::string::npos, run.err);
-  // The last look alone may have changed 5 %.
+  // The last check alone may have changed 5 %.
   CHECK(intersection_over_union(flight_clip.found(), whole) >= 0.9);
 }
 

@@ -55,7 +55,7 @@ TEST_CASE("a detection that fails takes away the folders that it made and no oth
   CHECK(fixture.names() == before);
 }
 
-TEST_CASE("what is found to stand in the way leaves no folder either") {
+TEST_CASE("an existing output that is refused leaves no new folder either") {
   const Fixture fixture;
   put_text(fixture.at("there.png"), "mine");
   const std::set<std::string> before = fixture.names();
@@ -64,7 +64,7 @@ TEST_CASE("what is found to stand in the way leaves no folder either") {
   CHECK(fixture.names() == before);
 }
 
-TEST_CASE("a relative path into folders that are not there makes them") {
+TEST_CASE("missing folders of a relative path are created") {
   const Fixture fixture;
   const std::string command = "cd " + fixture.folder.path().string() + " && " + (build_dir() / "sigs").string() +
                               " mask clip.mkv --method paper --out a/b/m.png --stages a/../c/steps >/dev/null 2>&1";
@@ -73,7 +73,7 @@ TEST_CASE("a relative path into folders that are not there makes them") {
   CHECK(fs::exists(fixture.at("c/steps/00_frame.png")));
 }
 
-TEST_CASE("outputs that want the same place are refused before anything is made") {
+TEST_CASE("outputs with the same path are refused before anything is written") {
   const Fixture fixture;
   const std::string out = "--out " + fixture.at("out/m.png");
   fixture.check_refused(out + " --confidence " + fixture.at("out/../out/m.png"),
@@ -95,7 +95,7 @@ TEST_CASE("outputs that want the same place are refused before anything is made"
   }
 }
 
-TEST_CASE("outputs beside each other in one folder go well") {
+TEST_CASE("several outputs can lie in one folder") {
   const Fixture fixture;
   for (const char* const name : {"m.png", "02_mine.png", "2_canny.png", "02_canny.2.png", "deeper/02_canny.png"}) {
     const Run run =
@@ -105,7 +105,7 @@ TEST_CASE("outputs beside each other in one folder go well") {
   CHECK(fixture.names().contains("out/deeper/02_canny.png"));
 }
 
-TEST_CASE("stages of another run stand in the way and with force go, of either method and nothing else") {
+TEST_CASE("stages of an earlier run, of either method, are refused, and removed with force, and nothing else is") {
   const Fixture fixture;
   const std::string command = "--out " + fixture.at("m.png") + " --stages " + fixture.at("out");
   fs::create_directories(fixture.at("out"));

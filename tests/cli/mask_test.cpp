@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The method that finds something in as small a clip as this.
+// The method that finds a body in so small a clip.
 const std::string kPaper = " --method paper ";
 
 struct Clip {
@@ -69,7 +69,7 @@ std::vector<std::string> lines(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a mask is what the detection found, its path on stdout and its share on stderr") {
+TEST_CASE("a mask is the detection's result, its path on stdout and its share on stderr") {
   const Clip clip;
   const Run run = run_sigs(clip.command() + "--confidence " + clip.out + "/sure.png");
   CHECK_MESSAGE(run.status == 0, run.err);
@@ -140,7 +140,7 @@ TEST_CASE("stages are numbered from the frame to the tinted mask") {
     }
 }
 
-TEST_CASE("of a project its footage, range and settings are used and nothing else is missed") {
+TEST_CASE("of a project the footage, range and settings are used, and other missing files do not matter") {
   const Clip clip;
   const std::string project = (clip.folder / "p.json").string();
   put_text(project, R"({"sigs": 1, "footage": {"video": "flight.mkv", "calibration": "gone.xml", "first_frame": 4,
@@ -208,7 +208,7 @@ TEST_CASE("progress of a detection ends at the last frame") {
         std::string::npos);
 }
 
-TEST_CASE("an interrupted detection ends with 130 and leaves no file") {
+TEST_CASE("an interrupted detection exits with status 130 and leaves no file") {
   const TinyProject tiny(3000);
   const std::string program = (build_dir() / "sigs").string();
   const std::string video = tiny.file("clip.mkv").string();

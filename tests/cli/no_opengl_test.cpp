@@ -31,16 +31,16 @@ void check_unavailable(const std::string& libraries) {
 
 }  // namespace
 
-TEST_CASE("a libEGL that is broken ends with 69 and says what to install") {
+TEST_CASE("a broken libEGL exits with status 69 and names what to install") {
   const TemporaryFolder folder;
   put_text(folder / "libEGL.so.1", "");
   check_unavailable(folder.path().string());
 }
 
-TEST_CASE("a libEGL without its functions ends with 69 and says what to install") {
+TEST_CASE("a libEGL without its functions exits with status 69 and names what to install") {
   check_unavailable(SIGS_EMPTY_EGL);
 }
 
-TEST_CASE("a libEGL that offers no display ends with 69 and says what to install") {
+TEST_CASE("a libEGL that offers no display exits with status 69 and names what to install") {
   check_unavailable(SIGS_FAILING_EGL);
 }

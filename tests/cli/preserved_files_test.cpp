@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No run touches a file that it did not make, but what it is asked to replace.
+// No run touches a file that it did not create, except those that it is asked to replace.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -25,13 +25,13 @@ std::string bytes_of(const fs::path& file) {
   return read_text(file).value();
 }
 
-// An image of the footage's size, for masks and textures; black hides nothing.
+// An image of the footage's size, for masks and textures; black occludes nothing.
 void write_image(const fs::path& file, cv::Size size_px = {64, 48}) {
   fs::create_directories(file.parent_path());
   REQUIRE(cv::imwrite(file.string(), cv::Mat::zeros(size_px, CV_8UC1)));
 }
 
-// An exported folder of images stands in the way, and an input lies in it.
+// An earlier export's folder of images has the output's name and contains an input.
 struct ExistingImages {
   TinyProject tiny;
   std::string options = "--codec png --masks none --labels none --out " + tiny.out();
@@ -52,7 +52,7 @@ struct ExistingImages {
 
 }  // namespace
 
-TEST_CASE("footage that is called as a temporary file might be is footage still") {
+TEST_CASE("footage named like a temporary file is preserved") {
   const TinyProject tiny;
   fs::rename(tiny.file("clip.mkv"), tiny.file("clip.part.mkv"));
   const std::string footage = bytes_of(tiny.file("clip.part.mkv"));
@@ -64,7 +64,7 @@ TEST_CASE("footage that is called as a temporary file might be is footage still"
   CHECK(fs::exists(tiny.file("clip.masks.mkv")));
 }
 
-TEST_CASE("files, folders, links and FIFOs of any names beside the outputs stay what they are") {
+TEST_CASE("files, folders, links and FIFOs of any names beside the outputs are preserved") {
   const TinyProject tiny;
   const fs::path out = tiny.out();
   fs::create_directories(out / "tiny.part");
@@ -94,7 +94,7 @@ TEST_CASE("files, folders, links and FIFOs of any names beside the outputs stay 
     CHECK_MESSAGE(fs::exists(out / made), made);
 }
 
-TEST_CASE("a mask's footage may be called as the mask's temporary file might be") {
+TEST_CASE("a mask's footage may be named like the mask's temporary file") {
   const TemporaryFolder folder;
   write_flight(folder / "vv.mkv", 10);
   fs::rename(folder / "vv.mkv", folder / "vv.part.png");
@@ -106,7 +106,7 @@ TEST_CASE("a mask's footage may be called as the mask's temporary file might be"
   CHECK(bytes_of(folder / "vv.part.png") == footage);
 }
 
-TEST_CASE("a dataset leaves alone a .part of somebody else") {
+TEST_CASE("a dataset preserves a .part file of another program") {
   const TinyRecipe recipe;
   const fs::path out = recipe.out("out");
   fs::create_directories(out / ".part/labels");
@@ -204,7 +204,7 @@ TEST_CASE("a file is not replaced by a folder of its name, nor a folder or a FIF
   CHECK(tiny.files_out() == 2);
 }
 
-TEST_CASE("names that are no file's are refused before anything is written") {
+TEST_CASE("names that cannot be file names are refused before anything is written") {
   TinyProject tiny;
   const auto refused = [&](const std::string& more) {
     const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + more);

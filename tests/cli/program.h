@@ -14,7 +14,7 @@ struct Run {
 // Runs `sigs` with arguments as a shell would take them.
 [[nodiscard]] Run run_sigs(const std::string& arguments);
 
-// The same with what a shell is to do before: "ulimit -n 30;", "cd FOLDER &&", variables.
+// The same with shell commands before it: "ulimit -n 30;", "cd FOLDER &&", variables.
 [[nodiscard]] Run run_sigs_after(const std::string& before, const std::string& arguments);
 
 // The same on a file system, or in a moment, of another kind: variables of tests/support/fault_injection.cpp.

@@ -20,7 +20,7 @@ namespace {
 
 struct RealModel {
   const char* file;
-  const char* axes;  // how the catalogue says that the file lies
+  const char* axes;  // the file's path by the catalogue
 };
 
 constexpr std::array<RealModel, 5> kModels{{

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Under final names there is a whole result at every moment: the older one until the newer one is there.
+// Under final names there is a complete result at every moment: the older one until the newer one is complete.
 #include <doctest/doctest.h>
 
 #include <cerrno>
@@ -30,7 +30,7 @@ bool has_staging_folder(const fs::path& folder) {
   return false;
 }
 
-// Ten frames exported as images, masks and labels; replacing them asks for five, so that old and new can be told.
+// Ten frames exported as images, masks and labels; replacing them asks for five, so that old and new differ.
 struct Exported {
   TinyProject tiny;
   std::string command = "export " + tiny.project() + " --codec png --masks png --labels xml,kitti --out " + tiny.out();
@@ -42,7 +42,7 @@ struct Exported {
   }
   [[nodiscard]] std::string replacing() const { return command + " --force --frames 0-4"; }
 
-  // Old or new, but whole.
+  // Old or new, but complete.
   void check_whole(const std::string& when) const {
     for (const char* const name : {"tiny", "tiny.masks", "tiny.kitti/training/image_02/0000"}) {
       if (!fs::exists(fs::path(tiny.out()) / name) && std::string(name).find('/') != std::string::npos) continue;
@@ -112,7 +112,7 @@ TEST_CASE("one renaming that fails leaves no new result either") {
   }
 }
 
-TEST_CASE("signals wait while outputs get their names") {
+TEST_CASE("signals are deferred while outputs get their final names") {
   const Exported exported;
   for (int number = 1; number <= 12; ++number) {
     const Run run = run_sigs_with_fault("SIGS_TEST_TERM_AT=" + std::to_string(number), exported.replacing());
@@ -125,7 +125,7 @@ TEST_CASE("signals wait while outputs get their names") {
   }
 }
 
-TEST_CASE("file systems without flags of rename or without locks are written to all the same") {
+TEST_CASE("outputs are written to file systems without rename flags or without locks too") {
   for (const std::string& fault :
        {std::string(kNoFlags), "SIGS_TEST_FLOCK=" + std::to_string(ENOLCK), "SIGS_TEST_FLOCK=" + std::to_string(ENOSYS),
         "SIGS_TEST_FLOCK=" + std::to_string(EOPNOTSUPP), "SIGS_TEST_FLOCK=" + std::to_string(EINVAL)}) {
@@ -152,7 +152,7 @@ TEST_CASE("file systems without flags of rename or without locks are written to 
   }
 }
 
-TEST_CASE("a video of a dataset that cannot get its name leaves the older one in its place") {
+TEST_CASE("a dataset's video that cannot be renamed leaves the older one in place") {
   const TinyRecipe recipe;
   REQUIRE(recipe.run("out").status == 0);
   const auto video = [&] { return contents_of(fs::path(recipe.out("out")) / "red LR"); };

@@ -21,7 +21,7 @@ bool is_recipe(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("every sample project is whole and exports, every sample recipe makes a plan") {
+TEST_CASE("every sample project is complete and exports, every sample recipe makes a plan") {
   const TemporaryFolder folder;
   int projects = 0;
   int recipes = 0;
@@ -41,7 +41,7 @@ TEST_CASE("every sample project is whole and exports, every sample recipe makes 
     CHECK_MESSAGE(checked.status == 0, checked.err);
     const Run exported = run_sigs("export " + file.string() + " --frames 100-103 --out " + folder.path().string());
     CHECK_MESSAGE(exported.status == 0, exported.err);
-    // Nothing but in how many frames each intruder is visible.
+    // Only the number of frames in which each intruder is visible.
     std::istringstream lines(exported.err);
     for (std::string line; std::getline(lines, line);)
       CHECK_MESSAGE(line.find(": visible in ") != std::string::npos, exported.err);

@@ -7,10 +7,11 @@
 
 namespace sigs::test {
 
-// Runs a line of shell, in which $SIGS is the program. What runs for five minutes hangs and is killed: status 137.
+// Runs a line of shell, in which $SIGS is the program. A command that runs for five minutes is taken to hang and is
+// killed: status 137.
 [[nodiscard]] Run run_shell(const std::string& line);
 
-// Whether stderr is one line that tells an error, and the program ended by itself with a status that says so.
+// Whether stderr is one line with an error, and the program ended by itself with an error status.
 [[nodiscard]] bool is_one_error(const Run& run);
 
 }  // namespace sigs::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Too little memory, too few threads: the same bytes as ever, or one line, an honest status and nothing left.
+// Too little memory, too few threads: the same bytes as always, or one line of error, an error status and no file left.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -62,7 +62,7 @@ TEST_CASE("an export with too little memory ends in one line and leaves nothing"
   CHECK(check_all_or_nothing(tiny, "ulimit -v 8000000; ", expected));
 }
 
-TEST_CASE("an export goes on with the threads that it gets, and without any it ends in one line") {
+TEST_CASE("an export continues with the threads that it can start, and without any it ends in one line") {
   const TinyProject tiny;
   const Files expected = whole_export(tiny);
   const std::string few = "export LD_PRELOAD=" + std::string(SIGS_FEW_THREADS) + " THREADS_AT_MOST=";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs that do not come to their end, and what they leave: nothing.
+// Runs that are interrupted leave no file.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An export of many frames that is at work; ignored: a signal that whoever started it ignores, as nohup does.
+// A running export of many frames; ignored: a signal that its parent process ignores, as nohup does.
 pid_t started(const TinyProject& tiny, int ignored) {
   const std::string program = (build_dir() / "sigs").string();
   const std::string project = tiny.project();
@@ -53,7 +53,7 @@ bool has_staging(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("SIGHUP, SIGINT and SIGTERM end with 128 and their number and leave no file") {
+TEST_CASE("SIGHUP, SIGINT and SIGTERM exit with status 128 plus their number and leave no file") {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
     const TinyProject tiny(3000);
     const pid_t child = started(tiny, 0);
@@ -82,7 +82,7 @@ TEST_CASE("what nohup starts goes on after SIGHUP") {
   CHECK(status_of(child) == 128 + SIGINT);
 }
 
-TEST_CASE("nobody who reads what is said is an error of writing, and the files are there") {
+TEST_CASE("output to a pipe without a reader is a write error, and the files exist") {
   const TinyProject tiny;
   const std::string status = tiny.file("status").string();
   const std::string command = "( sleep 0.2; " + (build_dir() / "sigs").string() + " export " + tiny.project() +
@@ -96,17 +96,17 @@ TEST_CASE("nobody who reads what is said is an error of writing, and the files a
   CHECK_FALSE(has_staging(tiny.out()));
 }
 
-TEST_CASE("with any number of files that may be open, an export is there whole or not at all") {
+TEST_CASE("with any limit of open files, an export is written whole or not at all") {
   int refused = 0;
   int done = 0;
-  for (int most = 5; most <= 60; most += 2) {
+  for (int max_open_files = 5; max_open_files <= 60; max_open_files += 2) {
     const TinyProject tiny;
     const Run run =
-        run_sigs_after("( ulimit -n " + std::to_string(most) + "; exec",
+        run_sigs_after("( ulimit -n " + std::to_string(max_open_files) + "; exec",
                        "export " + tiny.project() + " --codec png --labels xml,kitti --out " + tiny.out() + " )");
     ++(run.status == 0 ? done : refused);
     CHECK_MESSAGE(tiny.files_out() == (run.status == 0 ? 4 : 0),
-                  most << " files, status " << run.status << ": " << run.err);
+                  max_open_files << " files, status " << run.status << ": " << run.err);
     CHECK_FALSE(has_staging(tiny.out()));
   }
   CHECK(refused > 0);

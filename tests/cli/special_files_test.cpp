@@ -24,7 +24,7 @@ struct Special {
   std::string word;  // of the message
 };
 
-// One of each kind, called as the input would be.
+// One of each kind, with the name of the input.
 std::vector<Special> specials(const TinyProject& tiny, const std::string& extension) {
   const std::vector<Special> all{{tiny.file("zero" + extension).string(), "device"},
                                  {tiny.file("pipe" + extension).string(), "pipe"},
@@ -109,7 +109,7 @@ TEST_CASE("links to regular files are inputs like any other") {
   CHECK_MESSAGE(run.err.empty(), run.err);
 }
 
-TEST_CASE("a calibration larger than any is refused before it is read") {
+TEST_CASE("a calibration above the size limit is refused before it is read") {
   const TinyProject tiny;
   fs::resize_file(tiny.file("lens.xml"), std::uintmax_t{1} << 33);  // sparse
   const Run run = run_limited("check " + tiny.project());

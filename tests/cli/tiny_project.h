@@ -9,7 +9,7 @@
 
 namespace sigs::test {
 
-// A whole small project in a folder of its own: a few frames of 64x48, a lens, a cube that crosses before it.
+// A complete small project in a folder of its own: a few frames of 64x48, a lens, a cube that crosses the view.
 class TinyProject {
  public:
   explicit TinyProject(int frames = 10, cv::Size size_px = {64, 48});

@@ -10,7 +10,7 @@
 
 namespace sigs::test {
 
-// A recipe of six videos of the tiny project's clip: one of two cubes on one of three ways.
+// A recipe of six videos of the tiny project's clip: one of two cubes on one of three paths.
 class TinyRecipe {
  public:
   explicit TinyRecipe(int frames = 8);

@@ -17,7 +17,7 @@
 using namespace sigs;
 using namespace sigs::test;
 
-TEST_CASE("a command that is none is answered with those that are") {
+TEST_CASE("an unknown command is answered with a list of the known ones") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);
   CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, dataset, evaluate, check and info\n");
@@ -28,7 +28,7 @@ TEST_CASE("a command that is none is answered with those that are") {
   CHECK(run_sigs("evaluate").status == 64);
 }
 
-TEST_CASE("standard output is no place to write to, and no folder called - is made") {
+TEST_CASE("standard output is refused as an output, and no folder named - is created") {
   const TinyProject tiny;
   const std::string here = "cd '" + tiny.file("").string() + "' && ";
   const std::string sigs = (build_dir() / "sigs").string();
@@ -40,7 +40,7 @@ TEST_CASE("standard output is no place to write to, and no folder called - is ma
   }
 }
 
-TEST_CASE("one image of a sequence is a clip of one frame, and that is said") {
+TEST_CASE("one image of a sequence is a clip of one frame, and this is reported") {
   const TinyProject tiny;
   const std::string make =
       "ffmpeg -v error -i '" + tiny.file("clip.mkv").string() + "' '" + tiny.file("shot_%04d.png").string() + "'";
@@ -72,14 +72,14 @@ TEST_CASE("a second export of the same name is refused while the first one write
   CHECK(has(read_text(tiny.out() + "/tiny.xml").value(), "last_frame=\"2999\""));
 }
 
-TEST_CASE("help and version go to stdout and end with 0") {
+TEST_CASE("help and version go to stdout and exit with status 0") {
   CHECK(run_sigs("--help").status == 0);
   CHECK(has(run_sigs("--help").out, "Examples:"));
   CHECK(run_sigs("export --help").status == 0);
   CHECK(has(run_sigs("--version").out, "sigs 0."));
 }
 
-TEST_CASE("a command line that makes no sense ends with 64") {
+TEST_CASE("an invalid command line exits with status 64") {
   for (const char* const arguments :
        {"", "fly", "export", "export p.json --jobs many", "frame p.json", "export p.json --nonsense"})
     CHECK_MESSAGE(run_sigs(arguments).status == 64, arguments);
@@ -95,7 +95,7 @@ TEST_CASE("an export writes its three files and prints their names alone on stdo
   CHECK(tiny.files_out() == 3);
 }
 
-TEST_CASE("options of the command line win over the project") {
+TEST_CASE("options of the command line override the project") {
   const TinyProject tiny;
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() +
                            " --codec h264 --crf 30 --container mp4 --masks none --labels none --frames 2-4 "
@@ -113,7 +113,7 @@ TEST_CASE("images are numbered as the footage's frames are") {
     CHECK_MESSAGE(std::filesystem::exists(std::filesystem::path(tiny.out()) / name), name);
 }
 
-TEST_CASE("a folder of images is replaced with force but not where somebody else's file lies in it") {
+TEST_CASE("a folder of images is replaced with force unless it contains a foreign file") {
   const TinyProject tiny;
   const std::string command = "export " + tiny.project() + " --out " + tiny.out() + " --codec png --masks none --force";
   REQUIRE(run_sigs(command).status == 0);
@@ -175,7 +175,7 @@ TEST_CASE("the direct method shows each step from the layer to the output, in or
   }
 }
 
-TEST_CASE("check finds nothing wrong with a whole project and lists what is wrong with a broken one") {
+TEST_CASE("check reports no problem in a complete project and lists the problems of a broken one") {
   TinyProject tiny;
   CHECK(run_sigs("check " + tiny.project()).status == 0);
   tiny.change("cube.obj", "gone.obj");
@@ -186,7 +186,7 @@ TEST_CASE("check finds nothing wrong with a whole project and lists what is wron
   CHECK(has(run.out, "p.json: intruders[0].model.file: no such file"));
 }
 
-TEST_CASE("info says what is read in a video and a calibration and a model") {
+TEST_CASE("info prints the properties of a video, a calibration and a model") {
   const TinyProject tiny;
   const Run video = run_sigs("info " + tiny.file("clip.mkv").string());
   CHECK(video.status == 0);
@@ -197,14 +197,14 @@ TEST_CASE("info says what is read in a video and a calibration and a model") {
   CHECK(run_sigs("info nothing.mkv").status == 66);
 }
 
-TEST_CASE("info reads a calibration for the size that is asked for") {
+TEST_CASE("info reads a calibration for the requested size") {
   const TinyProject tiny;
   CHECK(has(run_sigs("info " + tiny.file("lens.xml").string() + " --size 128x96").out, "size: 128x96"));
   CHECK(run_sigs("info " + tiny.file("lens.xml").string() + " --size 128").status == 64);
   CHECK(run_sigs("info " + tiny.file("lens.xml").string() + " --size 100x96").status == 65);
 }
 
-TEST_CASE("another codec on the command line comes with its own container") {
+TEST_CASE("another codec on the command line selects its own container") {
   TinyProject tiny;
   tiny.change(R"("intruders")", R"("export": {"video": {"codec": "ffv1", "container": "mkv"}}, "intruders")");
   const Run run = run_sigs("export " + tiny.project() + " --codec png --masks none --labels none --out " + tiny.out());
@@ -219,7 +219,7 @@ TEST_CASE("progress as lines and as JSON goes to stderr and ends at the last fra
   CHECK(run_sigs(command + "none").err.empty());
 }
 
-TEST_CASE("an interrupted export ends with 130 and leaves no file") {
+TEST_CASE("an interrupted export exits with status 130 and leaves no file") {
   const TinyProject tiny(3000);
   const std::string program = (build_dir() / "sigs").string();
   const std::string project = tiny.project();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be used but is hardly meant: check, export and frame say it alike, and do their work.
+// Settings that are valid but implausible: check, export and frame give the same warnings, and do their work.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string lines_with(const std::string& text, const std::string& part) {
   return found;
 }
 
-// All three say the same warnings, of that field and with those words, and end with 0.
+// All three give the same warnings, for that field and with those words, and exit with status 0.
 void check_warned(const TinyProject& tiny, const std::string& field, const std::vector<std::string>& words) {
   const Run checked = run_sigs("check " + tiny.project());
   CHECK_MESSAGE(checked.status == 0, checked.err);
@@ -110,7 +110,7 @@ TEST_CASE("an intruder that is never in the image, and one behind a mask, are na
   check_warned(hidden, "intruders[0].trajectory", {"never visible", "behind the own body in 10"});
 }
 
-TEST_CASE("a calibration of another image size is refused where its middle lies outside, doubted where it is far off") {
+TEST_CASE("a principal point outside another image size is refused, one far from its centre gives a warning") {
   TinyProject tiny;
   change_lens(tiny, kSize, "");
   CHECK(run_sigs("check " + tiny.project()).err.empty());  // the middle is where it belongs
@@ -126,7 +126,7 @@ TEST_CASE("a calibration of another image size is refused where its middle lies 
   }
 }
 
-TEST_CASE("a focal length that no lens has is named with what it sees") {
+TEST_CASE("an implausible focal length is reported with its field of view") {
   TinyProject wide;
   change_lens(wide, "60. 0. 31.5 0. 60.", "1.77 0. 31.5 0. 1.77");
   change_lens(wide, kFive, four("0. 0. 0. 0."));
@@ -136,14 +136,14 @@ TEST_CASE("a focal length that no lens has is named with what it sees") {
   check_warned(narrow, "footage.calibration", {"fx is 60000 px", "0.06112 degrees"});
 }
 
-TEST_CASE("four coefficients without a model are named, with what was assumed and how to settle it") {
+TEST_CASE("four coefficients without a model are reported, with the assumption and the remedy") {
   TinyProject tiny;
   change_lens(tiny, kFive, four("-0.1 0.01 0.001 -0.002"));
   check_warned(tiny, "footage.calibration", {"fisheye", "read as Brown-Conrady", "footage.lens_model"});
   CHECK(has(run_sigs("info " + tiny.file("lens.xml").string()).err, "read as Brown-Conrady"));
   for (const char* const model : {"brown_conrady", "fisheye"})
     CHECK(run_sigs("check " + tiny.project() + " --set footage.lens_model=" + model).err.empty());
-  // No lens leans so much against its sensor.
+  // No real lens is tilted so much against its sensor.
   change_lens(tiny, "-0.1 0.01 0.001 -0.002", "0.2 0.01 0.15 -0.3");
   check_warned(tiny, "footage.calibration", {"read as fisheye", "too large", "footage.lens_model"});
   const Run info = run_sigs("info " + tiny.file("lens.xml").string());
@@ -154,19 +154,19 @@ TEST_CASE("four coefficients without a model are named, with what was assumed an
   CHECK(has(against.err, "read as Brown-Conrady, as asked for"));
 }
 
-TEST_CASE("a model of no aircraft's size is named, with the unit that it may be in") {
+TEST_CASE("a model of implausible size is reported, with the unit that it may be in") {
   TinyProject tiny;
   put_text(tiny.file("cube.obj"), "v -1450 -100 -100\nv 1450 100 -100\nv 0 0 100\nf 1 2 3\nf 3 2 1\n");
   check_warned(tiny, "intruders[0].model.scale", {"2.9 km long", "millimetres (scale 0.001: 2.9 m"});
-  TinyProject speck;
-  speck.change(R"("file": "cube.obj")", R"("file": "cube.obj", "scale": 0.01)");
-  check_warned(speck, "intruders[0].model.scale", {"0.02 m long", "length_m"});
-  TinyProject wished;
-  wished.change(R"("file": "cube.obj")", R"("file": "cube.obj", "length_m": 3000)");
-  check_warned(wished, "intruders[0].model.length_m", {"3 km long"});
+  TinyProject small_model;
+  small_model.change(R"("file": "cube.obj")", R"("file": "cube.obj", "scale": 0.01)");
+  check_warned(small_model, "intruders[0].model.scale", {"0.02 m long", "length_m"});
+  TinyProject long_model;
+  long_model.change(R"("file": "cube.obj")", R"("file": "cube.obj", "length_m": 3000)");
+  check_warned(long_model, "intruders[0].model.length_m", {"3 km long"});
 }
 
-TEST_CASE("a mask that hides everything or nothing is named") {
+TEST_CASE("a mask that occludes everything or nothing is reported") {
   TinyProject white;
   put_mask(white, cv::Mat(48, 64, CV_8UC1, cv::Scalar(255)));
   check_warned(white, "footage.own_body_mask", {"white in 100 %", "hides every intruder"});
@@ -175,7 +175,7 @@ TEST_CASE("a mask that hides everything or nothing is named") {
   check_warned(black, "footage.own_body_mask", {"black", "hides nothing"});
 }
 
-TEST_CASE("what flies faster than any aircraft, or below the ground, is named with its frame") {
+TEST_CASE("an intruder faster than any aircraft, or below the ground, is reported with the frame") {
   TinyProject fast;
   put_at(fast, "[20, -3, -150]", "[10820, 3, -150]");
   check_warned(fast, "intruders[0].trajectory", {"cube", "30000 m/s", "faster than any aircraft"});
@@ -194,7 +194,7 @@ TEST_CASE("a waypoint without a position is an error that names it") {
   }
 }
 
-TEST_CASE("check and export end with in how many frames an intruder is visible and how large, and agree") {
+TEST_CASE("check and export end with the number of frames with a visible intruder and its sizes, and agree") {
   TinyProject tiny(40);
   tiny.change(R"("frame": 9, "position_m": [20, 3, -150])", R"("frame": 39, "position_m": [60, 45, -150])");
   const VisibilityLine predicted = visibility_in(run_sigs("check " + tiny.project()).out);
@@ -213,7 +213,7 @@ TEST_CASE("check and export end with in how many frames an intruder is visible a
             "cube: never visible in 1 frame"));
 }
 
-TEST_CASE("nothing is doubted about the sample projects") {
+TEST_CASE("the sample projects give no warning") {
   for (const char* const name : {"crossing", "head-on", "two-intruders"}) {
     const Run run = run_sigs("check " + (source_dir() / "projects" / name / (std::string(name) + ".json")).string());
     CHECK(run.status == 0);
@@ -222,7 +222,7 @@ TEST_CASE("nothing is doubted about the sample projects") {
   }
 }
 
-TEST_CASE("nothing is doubted about real calibrations with images of their size") {
+TEST_CASE("real calibrations with images of their size give no warning") {
   if (!has_real_data()) return;
   struct Real {
     const char* file;
@@ -252,7 +252,7 @@ TEST_CASE("nothing is doubted about real calibrations with images of their size"
   }
 }
 
-TEST_CASE("nothing is doubted about real models at their size") {
+TEST_CASE("real models at their size give no warning") {
   if (!has_real_data()) return;
   for (const char* const file :
        {"boeing737-300/boeing737-300.obj", "cessna172p-hires/cessna172p-hires.obj",

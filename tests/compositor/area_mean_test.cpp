@@ -84,7 +84,7 @@ TEST_CASE("the mean over a quadrilateral weighs texels by the area they share wi
   }
 }
 
-TEST_CASE("quadrilaterals that tile a layer share out all of its energy, thin ones and slanted ones too") {
+TEST_CASE("quadrilaterals that tile a layer divide all of its energy, thin ones and slanted ones too") {
   const Layer layer = noise({40, 30}, 5);
   for (const double step : {1.0, 1.37, 2.0, 5.2, 11.0, 37.0, 400.0}) {
     CAPTURE(step);
@@ -101,7 +101,7 @@ TEST_CASE("quadrilaterals that tile a layer share out all of its energy, thin on
         const glm::dvec2 b = q[3] - q[1];
         energy += std::abs(a.x * b.y - a.y * b.x) / 2 * reader.mean_over(q).color[1];
       }
-    // Below one texel a side is widened to one, which shares out a tent.
+    // Below one texel a side is widened to one, which gives tent weights.
     CHECK(energy == doctest::Approx(cv::sum(layer.color)[1]).epsilon(step > 1.2 ? 1e-5 : 0.02));
   }
 }
@@ -130,7 +130,7 @@ TEST_CASE("an empty layer has empty means and a single texel is found") {
   layer.color.at<cv::Vec4f>(20, 32) = {0, 0, 0.5F, 0};  // light without opacity
   AreaReader one(layer);
   CHECK(one.mean_over({glm::dvec2(31, 19), {33, 19}, {33, 21}, {31, 21}}).color[2] == doctest::Approx(0.125));
-  // Texels of a coarser level reach beyond the layer; so does what is asked for.
+  // Texels of a coarser level extend beyond the layer; so does the quadrilateral.
   CHECK(one.mean_over({glm::dvec2(-2, -2), {38, -2}, {38, 26}, {-2, 26}}).color[2] == doctest::Approx(0.5 / (40 * 28)));
 }
 

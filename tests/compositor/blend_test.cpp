@@ -34,7 +34,7 @@ Layer opaque(const cv::Rect& rect, const cv::Vec3d& linear, double opacity = 1) 
 
 }  // namespace
 
-TEST_CASE("samples that a layer does not cover keep their bits in every layout") {
+TEST_CASE("samples that a layer does not cover are bit-identical in every layout") {
   for (const Sort& sort : all_sorts())
     for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display}) {
       CAPTURE(sort.name);
@@ -114,7 +114,7 @@ TEST_CASE("half opacity mixes light in closed form and code values where asked t
   }
 }
 
-TEST_CASE("a vanishing opacity leaves the image as it was") {
+TEST_CASE("an opacity near zero leaves the image unchanged") {
   for (const Sort& sort : all_sorts())
     for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
       for (const double opacity : {1e-4, 1e-7, 1e-20, 1e-38, 1e-44}) {
@@ -123,16 +123,16 @@ TEST_CASE("a vanishing opacity leaves the image as it was") {
         Frame frame = grainy(sort, {37, 23});
         const Frame before = cloned(frame);
         blend_over(frame, opaque({0, 0, 37, 23}, {1, 0.5, 0.25}, opacity), space);
-        int most = 0;
+        int maximum = 0;
         for (int plane = 0; plane < frame.plane_count(); ++plane)
-          most =
-              std::max(most, static_cast<int>(cv::norm(frame.planes[static_cast<std::size_t>(plane)],
+          maximum = std::max(maximum,
+                             static_cast<int>(cv::norm(frame.planes[static_cast<std::size_t>(plane)],
                                                        before.planes[static_cast<std::size_t>(plane)], cv::NORM_INF)));
-        CHECK(most <= (opacity > 1e-6 ? 1 : 0));
+        CHECK(maximum <= (opacity > 1e-6 ? 1 : 0));
       }
 }
 
-TEST_CASE("more opacity never takes a step back") {
+TEST_CASE("the blended value is monotonic in opacity") {
   const Sort sort = all_sorts().front();
   int before = 60;
   for (int i = 1; i <= 400; ++i) {
@@ -198,8 +198,8 @@ TEST_CASE("at the edges of an odd image a chroma sample takes the weight of the 
   }
 }
 
-TEST_CASE("code values beyond black and white survive where nothing is added") {
-  // Limited range footage holds luma below 16 and above 235; half a layer of nothing must not clip it.
+TEST_CASE("code values beyond black and white are kept where nothing is added") {
+  // Limited range footage holds luma below 16 and above 235; half a layer of black must not clip it.
   for (const Sort& sort : all_sorts())
     for (const int code : {0, 3, 240, 255}) {
       CAPTURE(sort.name);
@@ -224,7 +224,7 @@ TEST_CASE("an empty layer changes nothing") {
   }
 }
 
-TEST_CASE("an image replaces whole blocks by its own code values") {
+TEST_CASE("replace_pixels replaces whole blocks by the image's own code values") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     Frame frame = grainy(sort, {11, 9});
@@ -240,7 +240,7 @@ TEST_CASE("an image replaces whole blocks by its own code values") {
   }
 }
 
-TEST_CASE("an image leaves what has no weight and mixes code values between") {
+TEST_CASE("replace_pixels keeps pixels of weight 0 and mixes code values between 0 and 1") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     Frame frame = grainy(sort, {12, 8});
@@ -268,7 +268,7 @@ TEST_CASE("an image leaves what has no weight and mixes code values between") {
   }
 }
 
-TEST_CASE("no weight at all leaves every bit") {
+TEST_CASE("zero weight everywhere leaves every bit unchanged") {
   for (const Sort& sort : all_sorts()) {
     Frame frame = grainy(sort, {13, 7});
     const Frame before = cloned(frame);

@@ -37,8 +37,8 @@ double blurred_edge(double x, double at, double sigma_px) {
   return integral(x + 0.5 - at) - integral(x - 0.5 - at);
 }
 
-// How far the blurred edge is from that, at most and wherever it lies in its pixel. The edge is one row high: columns
-// are summed up.
+// The maximum difference of the blurred edge from that, wherever it lies in its pixel. The edge is one row high:
+// columns are summed up.
 double max_off(double sigma_px) {
   double worst = 0;
   for (double at = -0.5; at <= 0.5; at += 0.05) {
@@ -81,7 +81,7 @@ TEST_CASE("blur of an empty layer is empty") {
   CHECK(blurred(Layer{}, 3).empty());
 }
 
-TEST_CASE("blur reaches three sigmas") {
+TEST_CASE("blur extends to three sigmas") {
   CHECK(blur_margin_px(0) == 0);
   CHECK(blur_margin_px(1e-6) == 1);
   CHECK(blur_margin_px(1) == 3);
@@ -141,7 +141,7 @@ TEST_CASE("a point spreads by sigma squared far below a pixel too") {
 }
 
 TEST_CASE("an edge comes out as its light blurred before pixels average it") {
-  // What a pixel's mean does not say is lost; the bounds are those of the header.
+  // Detail within a pixel is lost; the bounds are those of the header.
   for (const double sigma_px : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7}) CHECK(max_off(sigma_px) < 0.08);
   for (const double sigma_px : {1.0, 1.3, 1.7}) CHECK(max_off(sigma_px) < 0.02);
   for (const double sigma_px : {2.0, 3.0}) CHECK(max_off(sigma_px) < 0.0055);
@@ -149,7 +149,7 @@ TEST_CASE("an edge comes out as its light blurred before pixels average it") {
   CHECK(max_off(0.3) < 0.65 * (blurred_edge(0, 0.5, 0.3)));
 }
 
-TEST_CASE("a blur of next to nothing is none") {
+TEST_CASE("a negligible blur is no blur") {
   const Layer layer = cloudy_layer({-5, 7, 60, 50}, 1);
   for (const double sigma_px : {1e-300, 1e-9, 1e-6}) {
     CAPTURE(sigma_px);
@@ -168,7 +168,7 @@ TEST_CASE("a little more blur changes a pixel by a little, at every sigma") {
     cv::Mat was = cv::Mat::zeros(out.rect.size(), CV_32FC4);
     before.color.copyTo(was(cv::Rect(apart, before.rect.size())));
     CAPTURE(sigma_px);
-    // The kernel grows by a ring of at most exp(-4.5) of its middle each time that it reaches a pixel farther.
+    // The kernel grows by a ring of at most exp(-4.5) of its middle each time that it extends a pixel farther.
     REQUIRE(cv::norm(out.color, was, cv::NORM_INF) < 0.012);
     before = out;
   }

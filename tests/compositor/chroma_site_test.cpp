@@ -9,12 +9,12 @@
 #include "compositor/synthetic_frames.h"
 #include "compositor/synthetic_layers.h"
 
-// Chroma lies where the footage says: each way to lay something on an image, against the same in doubles over the
+// Chroma is placed at the footage's site: each way to composite onto an image, against the same in doubles over the
 // whole image at full resolution.
 namespace sigs::test {
 namespace {
 
-// What rounding to a code value may take, and some 24-bit roundings.
+// The error of rounding to a code value, and some 24-bit roundings.
 constexpr double kBlendRounding = 0.502;
 
 std::vector<Sort> sorts_with_shared_chroma() {
@@ -147,7 +147,7 @@ struct Place {
   cv::Size size_px;
   cv::Rect rect;
 };
-// Within, at each edge, at odd and even beginnings; the whole of odd and tiny images.
+// Within, at each edge, at odd and even first pixels; whole odd and tiny images.
 const Place kPlaces[] = {{{38, 24}, {11, 7, 9, 8}},  {{38, 24}, {12, 6, 8, 9}},  {{37, 23}, {0, 0, 6, 5}},
                          {{37, 23}, {30, 17, 7, 6}}, {{38, 24}, {31, 18, 7, 6}}, {{7, 5}, {0, 0, 7, 5}},
                          {{8, 6}, {0, 0, 8, 6}},     {{1, 1}, {0, 0, 1, 1}},     {{2, 3}, {0, 0, 2, 3}},
@@ -240,7 +240,7 @@ TEST_CASE("the colour of a soft spot lies where its brightness does") {
             place += change * cv::Point2d(x, y);
           }
         CAPTURE(plane);
-        // Rounding of a thousand samples; before their site is heeded it is half a pixel.
+        // Rounding of a thousand samples; without regard to the site it would be half a pixel.
         CHECK(std::abs(place.x / sum - middle.x) < 0.06);
         CHECK(std::abs(place.y / sum - middle.y) < 0.06);
       }

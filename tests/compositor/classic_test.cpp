@@ -117,7 +117,7 @@ cv::Mat green_screen(cv::Size size) {
 }
 
 struct Difference {
-  double most = 0;
+  double maximum = 0;
   int samples = 0;  // that differ at all
 };
 
@@ -132,8 +132,8 @@ Difference between(const cv::Mat& a, const cv::Mat& b) {
 void check_stage(const char* name, const cv::Mat& ours, const cv::Mat& papers, Difference& worst) {
   CAPTURE(name);
   const Difference d = between(ours, papers);
-  CHECK(d.most <= 1);
-  worst = {std::max(worst.most, d.most), worst.samples + d.samples};
+  CHECK(d.maximum <= 1);
+  worst = {std::max(worst.maximum, d.maximum), worst.samples + d.samples};
 }
 
 Difference check_stages(const NamedCamera& named, const cv::Mat& input1, const cv::Mat& input2, double sigma_px) {
@@ -162,7 +162,7 @@ TEST_CASE("the classic stages are those of the paper's section 3.2 done with Ope
       CAPTURE(sigma_px);
       const Difference worst = check_stages(named, textured(size), green_screen(size), sigma_px);
       MESSAGE(named.name << ", sigma " << sigma_px << ": " << worst.samples << " of " << 6 * size.area() * 3
-                         << " samples differ at all, by at most " << worst.most);
+                         << " samples differ at all, by at most " << worst.maximum);
     }
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("the classic stages are those of the paper on a real image too") {
     CAPTURE(named.name);
     const Difference worst = check_stages(named, whole, green_screen(whole.size()), 1.2);
     MESSAGE(named.name << ": " << worst.samples << " of " << 6 * whole.total() * 3
-                       << " samples differ at all, by at most " << worst.most);
+                       << " samples differ at all, by at most " << worst.maximum);
   }
 }
 
@@ -245,7 +245,7 @@ TEST_CASE("green comes out of the key as input 1 bit for bit") {
   }
 }
 
-TEST_CASE("the former method pastes without lens and blur") {
+TEST_CASE("the plain method composites without lens and blur") {
   const cv::Size size(200, 150);
   const cv::Mat input1 = textured(size);
   const cv::Mat input2 = green_screen(size);
@@ -265,7 +265,7 @@ TEST_CASE("an intruder before green has its own colour and no green in its edge"
   layer.coverage.at<float>(0, 0) = 0.5F;
   layer.color.at<cv::Vec4f>(0, 1) = cv::Vec4f(0.5F, 0.25F, 0.125F, 1) * 0.499F;  // less than half: green
   layer.coverage.at<float>(0, 1) = 0.499F;
-  layer.color.at<cv::Vec4f>(0, 2) = {0, 1, 0, 1};  // pure green itself: steps aside
+  layer.color.at<cv::Vec4f>(0, 2) = {0, 1, 0, 1};  // pure green itself: changed by one code
   layer.color.at<cv::Vec4f>(0, 3) = {2, 1, 0, 1};  // brighter than white: clipped
   const cv::Mat image = on_green_screen(layer, {}, {10, 5});
   const auto code = [](double linear) {

@@ -18,7 +18,7 @@ TEST_CASE("a layer is cut to the part inside the bounds") {
   CHECK(clipped(Layer{}, {0, 0, 20, 20}).empty());
 }
 
-TEST_CASE("the own body hides as much as its mask says") {
+TEST_CASE("the own body occludes by its mask's value") {
   const Layer layer = even_layer({2, 3, 4, 4}, {0.25F, 0.5F, 0.75F, 1});
   cv::Mat body = cv::Mat::zeros(20, 20, CV_32FC1);
   body.at<float>(3, 2) = 1;
@@ -30,7 +30,7 @@ TEST_CASE("the own body hides as much as its mask says") {
   CHECK(out.color.at<cv::Vec4f>(0, 1) == cv::Vec4f(0.25F, 0.5F, 0.75F, 1) * 0.75F);
   CHECK(out.coverage.at<float>(0, 1) == 0.75F);
   CHECK(out.color.at<cv::Vec4f>(1, 1) == cv::Vec4f(0.25F, 0.5F, 0.75F, 1));
-  // The layer that was given stays as it was.
+  // The given layer is unchanged.
   CHECK(layer.coverage.at<float>(0, 0) == 1);
 }
 

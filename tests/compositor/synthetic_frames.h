@@ -41,7 +41,7 @@ struct Share {
 };
 
 // Which columns (rows) of an image `pixels` wide (high) a chroma sample averages: 1/2 1/2 of the two that it lies
-// between, 1/4 1/2 1/4 of the one it lies on and its neighbours. The outermost pixel stands in for what is beyond.
+// between, 1/4 1/2 1/4 of the one it lies on and its neighbours. The outermost pixel is repeated beyond the edge.
 [[nodiscard]] std::vector<Share> shares_across(const Sort& sort, int chroma, int pixels);
 [[nodiscard]] std::vector<Share> shares_down(const Sort& sort, int chroma, int pixels);
 

@@ -30,7 +30,7 @@ cv::Scalar sum_of(const Layer& layer) {
   return cv::sum(layer.color);
 }
 
-// Where OpenCV's own model throws a direction (x right, y down, z forward).
+// The pixel of a direction by OpenCV's own model (x right, y down, z forward).
 cv::Point2d thrown(const Lens& lens, const cv::Point3d& direction) {
   const LensParameters& p = lens.parameters();
   const cv::Matx33d matrix(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1);
@@ -101,7 +101,7 @@ TEST_CASE("a single texel keeps its energy wherever it lies") {
     }
 }
 
-TEST_CASE("a soft spot keeps its energy and lands with its middle where OpenCV throws it") {
+TEST_CASE("a soft spot keeps its energy and its centre is where OpenCV projects it") {
   for (const NamedCamera& named : distorting_cameras(kSize)) {
     CAPTURE(named.name);
     const Lens& lens = named.camera.lens;
@@ -239,7 +239,7 @@ TEST_CASE("the faces of a cube around the camera join without a seam") {
   }
 }
 
-TEST_CASE("what the view does not reach stays empty") {
+TEST_CASE("pixels outside the view stay empty") {
   const RenderedView drawn = view_ahead(even_layer({0, 0, 20, 20}, {1, 1, 1, 1}), 300, {9.5, 9.5});
   const Camera camera = pinhole(300, {160, 120});
   const Layer beside = warped(std::vector<RenderedView>{drawn}, camera, {0, 0, 100, 100});
@@ -262,7 +262,7 @@ TEST_CASE("pixels beyond the valid field of the lens stay empty") {
   CHECK(is_valid(out));
 }
 
-TEST_CASE("a table that is kept bends as one made for the layer") {
+TEST_CASE("a cached table warps as one made for the layer") {
   for (const NamedCamera& named : distorting_cameras(kSize)) {
     CAPTURE(named.name);
     LensTable table(named.camera);
@@ -285,7 +285,7 @@ TEST_CASE("rays from a table move the image by no more than their tolerance does
     LensTable fast(named.camera);
     const Layer one = warped(std::vector<RenderedView>{drawn}, exact, kImage);
     const Layer other = warped(std::vector<RenderedView>{drawn}, fast, kImage);
-    // A pixel's mean changes by at most its edges' moves: four times 1e-3 px times the full range of 1.
+    // A pixel's mean changes by at most its edges' displacements: four times 1e-3 px times the full range of 1.
     CHECK(cv::norm(one.coverage, other.coverage, cv::NORM_INF) <= 4e-3);
     CHECK(fast.evaluations() * 10 < exact.evaluations());
   }

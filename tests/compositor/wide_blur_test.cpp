@@ -60,7 +60,7 @@ TEST_CASE("a layer blurred widely is the layer blurred in full") {
     }
 }
 
-TEST_CASE("a surface without end keeps its colour whatever the blur") {
+TEST_CASE("an infinite surface keeps its colour whatever the blur") {
   for (const double sigma_px : {16.0, 40.0, 100.0}) {
     const Layer layer = even_layer({-400, -400, 900, 900}, {0.25F, 0.5F, 0.75F, 1});
     const Layer out = widely_blurred(layer, sigma_px, {0, 0, 64, 48});
@@ -72,20 +72,20 @@ TEST_CASE("a surface without end keeps its colour whatever the blur") {
   }
 }
 
-TEST_CASE("any sigma is blurred, to nothing in the end") {
+TEST_CASE("any sigma is possible, and the result tends to zero") {
   const Layer layer = cloudy_layer({5, 5, 40, 30}, 2);
   double before = 1;
   for (const double sigma_px : {20.0, 500.0, 1e6, 1e9, 1e30}) {
-    const double most = max_after_blur(layer, sigma_px);
-    CHECK(most < before);
-    before = most;
+    const double maximum = max_after_blur(layer, sigma_px);
+    CHECK(maximum < before);
+    before = maximum;
     const Layer out = widely_blurred(layer, sigma_px, {0, 0, 320, 240});
     CHECK(is_valid(out));
-    CHECK(cv::norm(out.color, cv::NORM_INF) <= most * 1.000001);
+    CHECK(cv::norm(out.color, cv::NORM_INF) <= maximum * 1.000001);
   }
 }
 
-TEST_CASE("a point spreads as Gauss says, up to a million pixels") {
+TEST_CASE("a point spreads as a Gaussian, up to a million pixels") {
   const Layer point = even_layer({0, 0, 1, 1}, {0.25F, 0.5F, 0.75F, 1});
   for (const double sigma_px : {16.0, 40.0, 500.0, 1e4, 1e6}) {
     CAPTURE(sigma_px);
@@ -104,7 +104,7 @@ TEST_CASE("a point spreads as Gauss says, up to a million pixels") {
   }
 }
 
-TEST_CASE("energy stays within a thousandth on both sides of sigma 16, and nothing jumps there") {
+TEST_CASE("energy is kept to a thousandth on both sides of sigma 16, without a discontinuity there") {
   const Layer layer = cloudy_layer({10, -20, 50, 40}, 4);
   const Layer below = blurred(layer, kWideSigma_px);
   for (const double sigma_px : {16.0, 16.0001, 17.0, 60.0, 200.0}) {

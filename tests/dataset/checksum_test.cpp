@@ -28,7 +28,7 @@ TEST_CASE("a file's checksum is that of its text, over any number of pieces") {
   }
 }
 
-TEST_CASE("a file that cannot be read is named, a stop is heard") {
+TEST_CASE("a file that cannot be read is named, and a cancellation ends the work") {
   const TemporaryFolder folder;
   CHECK(checksum_of_file(folder / "none").error().kind == ErrorKind::cannot_read);
   CHECK(checksum_of_file(folder.path()).error().kind == ErrorKind::cannot_read);

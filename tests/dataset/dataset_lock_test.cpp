@@ -11,7 +11,7 @@
 using namespace sigs;
 using namespace sigs::test;
 
-TEST_CASE("shards share every video out exactly once, and overlap where one video is in both") {
+TEST_CASE("shards contain every video exactly once, and overlap where one video is in both") {
   for (int parts = 1; parts <= 7; ++parts) {
     for (int video = 0; video < 50; ++video) {
       int times = 0;
@@ -46,7 +46,7 @@ TEST_CASE("of two runs that would make the same video the second is refused, oth
   CHECK(DatasetLock::acquire(folder.path(), {1, 1}));
 }
 
-TEST_CASE("what a killed run leaves keeps nobody out") {
+TEST_CASE("the remains of a killed run block no other run") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(staging_folder_of(folder.path()));
   put_text(staging_folder_of(folder.path()) / "2-of-3.lock", "");

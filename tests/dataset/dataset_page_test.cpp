@@ -59,7 +59,7 @@ TEST_CASE("the dataset's page has the quantities of the flights as the program h
   }
 }
 
-TEST_CASE("the flights that the dataset's page calls alike differ in what it says alone") {
+TEST_CASE("the flights that the dataset's page calls alike differ only as it states") {
   Rows right_left = rows_in_code(FlightKind::right_left);
   right_left[2][2] = std::string("5");
   right_left[3][2] = std::string("95");

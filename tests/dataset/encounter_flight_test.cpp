@@ -13,7 +13,7 @@ using namespace sigs::test;
 
 namespace {
 
-// What a flown path turns out to be, found by looking at its positions alone.
+// The properties of a flown path, measured from its positions alone.
 struct Found {
   double miss_distance_m = 0;
   double time_s = 0;
@@ -162,7 +162,7 @@ TEST_CASE("a video of one frame has an intruder that moves") {
   }
 }
 
-TEST_CASE("encounters that cannot be are told apart") {
+TEST_CASE("each impossible encounter has its own reason") {
   const World world;
   FlightContext context = world.context({.speed_mps = 22});
   CHECK(reason({{"miss_distance_m", 100}, {"closing_speed_mps", 0}}, context) ==

@@ -73,7 +73,7 @@ TEST_CASE("miss distance, bearing, elevation, closing speed and time come back f
   }
 }
 
-TEST_CASE("bearing and elevation are where the intruder is seen long before, whatever it misses by") {
+TEST_CASE("bearing and elevation are the intruder's direction long before, whatever the miss distance") {
   const Encounter encounter{.miss_distance_m = 500,
                             .miss_angle_deg = 30,
                             .bearing_deg = -40,
@@ -106,7 +106,7 @@ TEST_CASE("a closest approach in the past leaves the same closing speed") {
   CHECK(glm::length(relative_motion(*encounter).start_m) == doctest::Approx(50).epsilon(1e-14));
 }
 
-TEST_CASE("an encounter that cannot be says which quantity is in the way") {
+TEST_CASE("an impossible encounter names the quantity that causes it") {
   const Encounter open{.miss_distance_m = 100};
   const auto reason = [&](const EncounterTiming& timing) {
     const auto encounter = timed_encounter(open, timing);
@@ -123,7 +123,7 @@ TEST_CASE("an encounter that cannot be says which quantity is in the way") {
         "range_m: no closing speed leads from 200 m to the miss distance of 100 m in 0 s");
 }
 
-TEST_CASE("at its closest an intruder may start exactly") {
+TEST_CASE("an intruder may start exactly at its closest approach") {
   const auto encounter = timed_encounter({.miss_distance_m = 100}, {.closing_speed_mps = 50, .range_m = 100});
   REQUIRE(encounter);
   CHECK(encounter->time_of_closest_approach_s == 0);

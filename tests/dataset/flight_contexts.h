@@ -14,13 +14,13 @@ struct NamedLens {
   Camera camera;
 };
 
-// From a telephoto lens to a fisheye that sees more than a half-sphere.
+// From a telephoto lens to a fisheye with a field of more than a hemisphere.
 [[nodiscard]] std::vector<NamedLens> example_lenses();
 
 // Footage of 25 frames a second; `jitter_s` makes every third frame late.
 [[nodiscard]] FootageShape footage_of(int frames, double jitter_s = 0);
 
-// All quantities of a kind that have a standard, and those given, which win.
+// All quantities of a kind that have a default, overridden by those given.
 [[nodiscard]] std::map<std::string, double> values_with(FlightKind kind, const std::map<std::string, double>& given);
 
 // How the context's camera sees a planned flight at a time: from the camera, in world axes.

@@ -53,7 +53,7 @@ TEST_CASE("COCO labels of a split have every image and annotation of its videos,
   CHECK(*ids["images"].begin() == 1);
   CHECK(*ids["images"].rbegin() == 9);
 
-  // What each annotation says of its image is what its own video's file says.
+  // Each annotation is that of its own video's file.
   std::map<std::int64_t, nlohmann::json> images;
   for (const nlohmann::json& image : train["images"]) images[image["id"]] = image;
   std::map<std::int64_t, std::string> videos;
@@ -173,7 +173,7 @@ TEST_CASE("merged labels are the same whoever merges them, and go with the forma
   CHECK(fs::exists(made.labels() / "csv/train.csv"));
 }
 
-TEST_CASE("videos whose labels do not go together are refused before anything is made") {
+TEST_CASE("videos whose labels cannot be merged are refused before anything is made") {
   TinyPlan tiny(2);
   for (PlannedVideo& video : tiny.plan.videos) video.project.output.labels = {"coco"};
   tiny.plan.videos[1].project.output.categories = {"drone"};
@@ -193,7 +193,7 @@ TEST_CASE("videos whose labels do not go together are refused before anything is
   }
 }
 
-TEST_CASE("labels that are not as the program writes them are named, with the line") {
+TEST_CASE("labels that differ from the program's own format are reported, with the line") {
   const Labelled made({"coco", "aot"});
   for (const std::string file : {"v1.coco.json", "v1.aot.json"}) {
     CAPTURE(file);
@@ -204,7 +204,7 @@ TEST_CASE("labels that are not as the program writes them are named, with the li
     std::error_code code;
     fs::remove_all(made.tiny.out() / "labels", code);
     put_text(path, wrong);
-    // As it would be if the entry knew nothing of it: the merge itself looks at what it reads.
+    // As if the entry did not list it: the merge itself checks what it reads.
     const SplitLabels labels{.dataset = "tiny", .split = "train", .videos = {{"v1", path}}};
     const fs::path into = made.tiny.inputs().file("merged");
     const Result<void> merged =
@@ -216,8 +216,8 @@ TEST_CASE("labels that are not as the program writes them are named, with the li
   }
 }
 
-// YAML readers take "\ud83d\ude00" for two halves of a letter; so do PyYAML and all that build on it.
-TEST_CASE("names with letters beyond the basic plane stand in YOLO's data.yaml as they are") {
+// YAML readers take "\ud83d\ude00" for two separate code units; so do PyYAML and all that build on it.
+TEST_CASE("characters beyond the basic plane are unchanged in YOLO's data.yaml") {
   const TemporaryFolder folder;
   const std::string name = "clip \xF0\x9F\x98\x80 \"\xC3\xA9\"";
   fs::create_directories(folder / name / "v.yolo/labels/v");

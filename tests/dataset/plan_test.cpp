@@ -62,7 +62,7 @@ TEST_CASE("a group makes every combination, in the order of its lists") {
                                  "dusk.prop.near.0001", "dusk.prop.near.0002"});
 }
 
-TEST_CASE("every planned project is whole: nothing that can be seen without opening it is wrong") {
+TEST_CASE("every planned project is valid as far as can be checked without opening its files") {
   for (const PlannedVideo& video : RecipeFolder().plan(encounters(20)).videos) {
     for (const Problem& problem : validate(video.project)) FAIL_CHECK(problem.field << ": " << problem.what);
     CHECK(video.project.name == video.name);
@@ -81,7 +81,7 @@ TEST_CASE("a plan depends on the recipe alone") {
   }
 }
 
-TEST_CASE("a video is the same however many others there are, and whatever is sampled beside it") {
+TEST_CASE("a video does not depend on the number of others or on other sampled quantities") {
   const Plan few = RecipeFolder().plan(encounters(3));
   nlohmann::ordered_json more = encounters(30);
   more["videos"].insert(more["videos"].begin(), nlohmann::ordered_json{{"flights", {"approaching"}}});
@@ -107,7 +107,7 @@ TEST_CASE("videos differ from each other and from those of another seed") {
   CHECK(distances.size() == 100);
 }
 
-TEST_CASE("frames of a video are those that were asked for, of the background's own part") {
+TEST_CASE("frames of a video are the requested ones, within the background's range") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"][0]["footage"]["first_frame"] = 20;
   json["backgrounds"][0]["footage"]["last_frame"] = 149;
@@ -124,7 +124,7 @@ TEST_CASE("frames of a video are those that were asked for, of the background's 
   CHECK(frames({{"frames", 130}}) == std::pair(20, 149));
 }
 
-TEST_CASE("a sampled first frame is whole and told") {
+TEST_CASE("a sampled first frame is a whole number and is recorded") {
   for (const PlannedVideo& video : RecipeFolder().plan(encounters(20)).videos) {
     const int first = video.project.footage.first_frame;
     CHECK(video.sampled.at("first_frame") == first);
@@ -168,7 +168,7 @@ TEST_CASE("two videos of one name are an error, also where only case differs") {
   CHECK(RecipeFolder().error(json).starts_with("videos[0].name: gives \"labels\", which is kept for"));
 }
 
-TEST_CASE("tags say what a video is made of") {
+TEST_CASE("tags state what a video is made of") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"][0]["tags"] = {{"sky", "clear"}, {"by", "background"}};
   json["aircraft"][0]["tags"] = {{"engines", "2"}, {"by", "aircraft"}};
@@ -215,7 +215,7 @@ TEST_CASE("backgrounds kept together share a split, and a tag that a video lacks
   CHECK(RecipeFolder().error(json) == "splits.keep_together: video day0001 has no tag \"sky\"");
 }
 
-TEST_CASE("a group's own split holds beside sampled ones") {
+TEST_CASE("a group's fixed split is kept beside sampled ones") {
   nlohmann::ordered_json json = encounters(10);
   json["splits"] = {{"train", 1}, {"test", 0}};
   json["videos"].push_back({{"name", "extra"}, {"split", "test"}, {"flights", {"left_right"}}});
@@ -224,7 +224,7 @@ TEST_CASE("a group's own split holds beside sampled ones") {
   CHECK(named(plan, "e0001").split == "train");
 }
 
-TEST_CASE("footage and calibration that cannot be used are told with the background's key") {
+TEST_CASE("unusable footage and calibrations are reported with the background's key") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   const std::string model = json["aircraft"][0]["model"]["file"];
   json["backgrounds"][0]["footage"]["video"] = model;

@@ -84,7 +84,7 @@ TEST_CASE("paths are taken from the recipe's folder and become absolute") {
   CHECK(read->recipe.aircraft[0].model.file == (folder / "in/p.obj").string());
 }
 
-TEST_CASE("settings reach all videos, and what a background says goes before them") {
+TEST_CASE("settings apply to all videos, and a background's values override them") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   json["settings"] = {{"export.video.codec", "h264"},    {"export.video.crf", 30},
                       {"export.labels", {"xml", "csv"}}, {"camera.speed_mps", 11},
@@ -99,7 +99,7 @@ TEST_CASE("settings reach all videos, and what a background says goes before the
   CHECK(project.intruders.at(0).trajectory.bank == BankChoice::level);
 }
 
-TEST_CASE("settings of the command line go before the recipe's, and may be wrong in the same ways") {
+TEST_CASE("settings of the command line override the recipe's and give the same errors") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   json["settings"] = {{"export.video.crf", 30}, {"export.masks", "none"}};
   const auto read = [&](const std::string& setting) {
@@ -138,7 +138,7 @@ TEST_CASE("each way of writing a quantity is read") {
         Quantity{.kind = Quantity::Kind::normal, .low = 1, .high = infinite, .mean = 5, .deviation = 2});
 }
 
-TEST_CASE("quantities that make no sense are errors with their key") {
+TEST_CASE("invalid quantities are errors with their key") {
   const std::string key = "videos[0].flights[0].distance_m: ";
   const nlohmann::ordered_json half_normal{{"normal", {{"mean", 5}}}};
   const nlohmann::ordered_json far_off{{"normal", {{"mean", 0}, {"deviation", 1}, {"low", 9}}}};
@@ -159,7 +159,7 @@ TEST_CASE("quantities that make no sense are errors with their key") {
     CHECK_MESSAGE(quantity_error(wrong).starts_with(key + "expected "), wrong.dump());
 }
 
-TEST_CASE("what is wrong with a recipe is told with its key") {
+TEST_CASE("errors of a recipe are reported with their key") {
   struct Case {
     const char* pointer;
     nlohmann::ordered_json value;
@@ -231,7 +231,7 @@ TEST_CASE("what is wrong with a recipe is told with its key") {
   for (const Case& c : cases) CHECK(error_with(c.pointer, c.value) == c.error);
 }
 
-TEST_CASE("a file that is not there is named with its key, and ends as such") {
+TEST_CASE("a missing file is reported with its key, as an error of reading") {
   const RecipeFolder folder;
   const Result<ReadRecipe> read = folder.read(
       changed([](nlohmann::ordered_json& json) { json["backgrounds"][0]["footage"]["video"] = "no such clip.mp4"; }));
@@ -241,7 +241,7 @@ TEST_CASE("a file that is not there is named with its key, and ends as such") {
   CHECK(read.error().what.starts_with("no such file: "));
 }
 
-TEST_CASE("names that stand twice and splits that there are not are errors") {
+TEST_CASE("duplicate names and unknown splits are errors") {
   const auto error = [](const std::function<void(nlohmann::ordered_json&)>& change) {
     return RecipeFolder().error(changed(change));
   };
@@ -257,7 +257,7 @@ TEST_CASE("names that stand twice and splits that there are not are errors") {
         }) == "videos: make 200000 videos; a recipe may have 100000");
 }
 
-TEST_CASE("unknown keys are warned of by their whole name, remarks are not") {
+TEST_CASE("unknown keys give warnings with their whole name, remarks do not") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   json["colour"] = 1;
   json["about"] = "a remark";
@@ -275,7 +275,7 @@ TEST_CASE("unknown keys are warned of by their whole name, remarks are not") {
                                            file + "videos[0].flights[0].bearing_deg" + end, file + "colour" + end});
 }
 
-TEST_CASE("text that is no recipe is told from one") {
+TEST_CASE("text that is not a recipe is refused") {
   const RecipeFolder folder;
   const auto error = [&](const std::string& text) {
     const Result<ReadRecipe> read = parse_recipe(text, "r.json");
@@ -291,7 +291,7 @@ TEST_CASE("text that is no recipe is told from one") {
   CHECK(error("{\"sigs\": 1}") == "r.json: is a project, not a recipe; `sigs export` makes its video");
 }
 
-TEST_CASE("a recipe that is not there cannot be read") {
+TEST_CASE("a missing recipe cannot be read") {
   const Result<ReadRecipe> read = read_recipe("/no/such/recipe.json");
   REQUIRE(!read);
   CHECK(read.error().kind == ErrorKind::cannot_read);

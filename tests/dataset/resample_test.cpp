@@ -56,7 +56,7 @@ int sum_of(const std::map<std::string, int>& counts) {
 
 }  // namespace
 
-TEST_CASE("thirty random encounters are thirty, each of them possible and seen") {
+TEST_CASE("thirty random encounters are all possible and visible") {
   const Plan plan = RecipeFolder().plan(two_and_two(30));
   CHECK(plan.impossible.empty());
   REQUIRE(plan.videos.size() == 30);
@@ -93,7 +93,7 @@ TEST_CASE("a sampled group that grows keeps the videos it had") {
   }
 }
 
-TEST_CASE("what is sampled anew is spread evenly over what can be") {
+TEST_CASE("repeated samples are distributed evenly over the possible values") {
   constexpr int kVideos = 200;
   const Plan plan = RecipeFolder().plan(one_group(below(kVideos)));
   CHECK(plan.impossible.empty());
@@ -114,7 +114,7 @@ TEST_CASE("what is sampled anew is spread evenly over what can be") {
   CHECK(std::abs(resamples - kVideos) < 4 * std::sqrt(2.0 * kVideos));
 }
 
-TEST_CASE("where no sample can be used, what failed is told with how often") {
+TEST_CASE("where no sample can be used, the reasons are reported with their counts") {
   nlohmann::ordered_json group = below(2);
   group["redraws"] = 7;
   group["flights"][0]["miss_distance_m"] = {{"uniform", {200, 300}}};
@@ -129,7 +129,7 @@ TEST_CASE("where no sample can be used, what failed is told with how often") {
   }
 }
 
-TEST_CASE("an intruder that is never in the picture is sampled anew only where the group says so") {
+TEST_CASE("an intruder that is never in the image is sampled again only where the group asks for it") {
   nlohmann::ordered_json group{{"name", "v{number}"},
                                {"count", 20},
                                {"flights",
@@ -148,7 +148,7 @@ TEST_CASE("an intruder that is never in the picture is sampled anew only where t
   CHECK(unseen() == 0);
 }
 
-TEST_CASE("backgrounds, aircraft and flights are sampled each as likely") {
+TEST_CASE("backgrounds, aircraft and flights are sampled with equal probability") {
   nlohmann::ordered_json json = two_and_two(
       nlohmann::ordered_json::array({{{"videos", 400},
                                       {"flights",
@@ -165,7 +165,7 @@ TEST_CASE("backgrounds, aircraft and flights are sampled each as likely") {
   for (const auto& [what, count] : all) CHECK(std::abs(count - 50) < 27);  // 4 deviations of a binomial, p = 1/8
 }
 
-TEST_CASE("light is sampled from ranges and lists, and settings beside the recipe win over it") {
+TEST_CASE("light is sampled from ranges and lists, and a background's settings override it") {
   nlohmann::ordered_json group{
       {"videos", 40},
       {"flights", {"left_right"}},
@@ -201,7 +201,7 @@ TEST_CASE("light is sampled from ranges and lists, and settings beside the recip
   for (const PlannedVideo& video : plan->videos) CHECK(video.project.light.ambient == 0.9);
 }
 
-TEST_CASE("what is wrong with a sampled group is told with its key") {
+TEST_CASE("errors of a sampled group are reported with their key") {
   const auto error = [](const nlohmann::ordered_json& changes) {
     nlohmann::ordered_json group{{"videos", 3}, {"flights", {"left_right"}}};
     group.update(changes);

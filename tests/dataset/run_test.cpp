@@ -67,10 +67,10 @@ TEST_CASE("a dataset is a folder for each video, lists of its splits, checksums 
   CHECK(index["checksum"] == checksum_of_text(read_text(tiny.out() / "SHA256SUMS").value()));
 }
 
-TEST_CASE("index, entries and list of checksums say what the files hold, and leave none out") {
+TEST_CASE("index, entries and list of checksums describe every file") {
   const TinyPlan tiny(2);
   const DatasetReport report = made(tiny.plan, into(tiny.out()));
-  std::map<std::string, std::string> truth;  // but for the index, the list and the projects, which say where they lie
+  std::map<std::string, std::string> truth;  // except the index, the list and the projects, which contain paths
   for (const auto& [path, text] : contents_of(tiny.out())) truth[path] = checksum_of_text(text);
   for (const char* const path : {"index.json", "SHA256SUMS", "v0/v0.json", "v1/v1.json"}) CHECK(truth.erase(path) == 1);
   std::map<std::string, std::string> listed;
@@ -97,7 +97,7 @@ TEST_CASE("the project in a video's folder opens from there") {
   CHECK(project.name == "v0");
 }
 
-TEST_CASE("the bytes do not depend on how many videos are made side by side") {
+TEST_CASE("the bytes do not depend on how many videos are made in parallel") {
   const TinyPlan tiny;
   CHECK(made(tiny.plan, into(tiny.out("one"))).exported == 4);
   DatasetRequest request = into(tiny.out("three"));
@@ -106,7 +106,7 @@ TEST_CASE("the bytes do not depend on how many videos are made side by side") {
   CHECK(contents_of(tiny.out("one")) == contents_of(tiny.out("three")));
 }
 
-TEST_CASE("a dataset that is there is not touched without resume") {
+TEST_CASE("an existing dataset is not touched without resume") {
   const TinyPlan tiny(2);
   CHECK(made(tiny.plan, into(tiny.out())).exported == 2);
   const auto before = contents_of(tiny.out());
@@ -117,7 +117,7 @@ TEST_CASE("a dataset that is there is not touched without resume") {
   CHECK(contents_of(tiny.out()) == before);
 }
 
-TEST_CASE("resuming makes what is missing, damaged or planned otherwise, and keeps the rest") {
+TEST_CASE("resuming makes missing, damaged and changed videos, and keeps the rest") {
   TinyPlan tiny;
   CHECK(made(tiny.plan, into(tiny.out())).exported == 4);
   const auto before = contents_of(tiny.out());
@@ -147,7 +147,7 @@ TEST_CASE("resuming makes what is missing, damaged or planned otherwise, and kee
   CHECK(made(tiny.plan, later).exported == 4);
 }
 
-TEST_CASE("a split that changes is noted without making the video anew") {
+TEST_CASE("a changed split is recorded without making the video again") {
   TinyPlan tiny(2);
   CHECK(made(tiny.plan, into(tiny.out())).exported == 2);
   tiny.plan.videos[0].split = "val";
@@ -177,7 +177,7 @@ TEST_CASE("a video that fails is listed, the others are made, and there is no in
   CHECK(made(tiny.plan, into(tiny.out("other"))).checksum == again.checksum);
 }
 
-TEST_CASE("shards made apart and put together are the dataset that one run makes") {
+TEST_CASE("shards made separately and merged are the dataset that one run makes") {
   const TinyPlan tiny(5, 3);
   CHECK(made(tiny.plan, into(tiny.out("whole"))).exported == 5);
   for (int part = 1; part <= 3; ++part) {
@@ -206,7 +206,7 @@ TEST_CASE("shards made apart and put together are the dataset that one run makes
   CHECK(contents_of(merge.folder) == contents_of(tiny.out("whole")));
 }
 
-TEST_CASE("what somebody else has put there is not taken away") {
+TEST_CASE("files of another program are not removed") {
   TinyPlan tiny(2, 3);
   fs::create_directories(tiny.out() / "v1");
   put_text(tiny.out() / "v1/mine.txt", "mine");
@@ -228,7 +228,7 @@ TEST_CASE("what somebody else has put there is not taken away") {
   CHECK(make_dataset(tiny.plan, resumed(tiny.out("own")), {}).error().kind == ErrorKind::cannot_create);
 }
 
-TEST_CASE("files among splits, labels and index that no dataset wrote are named and stay, and so does the dataset") {
+TEST_CASE("foreign files among splits, labels and index are named and kept, and the dataset is unchanged") {
   TinyPlan tiny(2, 3);
   for (PlannedVideo& video : tiny.plan.videos) video.project.output.labels = {"xml", "coco"};
   CHECK(made(tiny.plan, into(tiny.out())).exported == 2);
@@ -255,7 +255,7 @@ TEST_CASE("files among splits, labels and index that no dataset wrote are named 
   }
 }
 
-TEST_CASE("a merge of no folder makes none, and of a failed run no empty folder stays") {
+TEST_CASE("a merge of no folders creates none, and a failed run leaves no empty folder") {
   TinyPlan tiny(1, 3);
   DatasetRequest merge = into(tiny.out());
   merge.merge_only = true;
@@ -265,7 +265,7 @@ TEST_CASE("a merge of no folder makes none, and of a failed run no empty folder 
   CHECK_FALSE(fs::exists(tiny.out()));
 }
 
-TEST_CASE("a video that the plan has no more stays, is told of and not in the index") {
+TEST_CASE("a video no longer in the plan is kept, reported, and not in the index") {
   TinyPlan tiny(2, 3);
   CHECK(made(tiny.plan, into(tiny.out())).exported == 2);
   tiny.plan.videos.pop_back();
@@ -277,7 +277,7 @@ TEST_CASE("a video that the plan has no more stays, is told of and not in the in
   CHECK(fs::exists(tiny.out() / "v1/v1.xml"));
 }
 
-TEST_CASE("names that would hit each other or the dataset's own files are refused") {
+TEST_CASE("names that collide with each other or the dataset's own files are refused") {
   for (const char* const name : {"", "a/b", ".hidden", "labels", "splits", "index.json", "SHA256SUMS", "entry", "v1"}) {
     CAPTURE(name);
     TinyPlan tiny(2);
@@ -287,7 +287,7 @@ TEST_CASE("names that would hit each other or the dataset's own files are refuse
   }
 }
 
-TEST_CASE("odd names of videos and folders are no matter") {
+TEST_CASE("unusual names of videos and folders work") {
   TinyPlan tiny(1, 3);
   const std::string name = "Ä <&> \"it's\" \\ x";
   tiny.plan.videos[0].name = name;
@@ -298,7 +298,7 @@ TEST_CASE("odd names of videos and folders are no matter") {
   CHECK(made(tiny.plan, resumed(tiny.out("a 'b' \"ü\""))).kept == 1);
 }
 
-TEST_CASE("a stop is heard, and finished videos stay") {
+TEST_CASE("a cancellation ends the run, and finished videos are kept") {
   const TinyPlan tiny(3);
   std::atomic<bool> stop{false};
   const DatasetControl control{.finished = [&](const std::string& video) { stop = video == "v1"; }, .cancel = &stop};

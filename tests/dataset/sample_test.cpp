@@ -43,7 +43,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 // Largest gap between the sample's distribution and the true one (Kolmogorov, Smirnov), times the root of its size:
-// over 1.95 in one of 1000 samples that are as they should be.
+// over 1.95 in one of 1000 correct samples.
 double kolmogorov(std::vector<double> values, const std::function<double(double)>& probability_below) {
   std::sort(values.begin(), values.end());
   const auto count = double(values.size());
@@ -65,7 +65,7 @@ const Quantity kUniform{.kind = Quantity::Kind::uniform, .low = -3, .high = 5};
 }  // namespace
 
 // Computed by another program from the description in sample.h, with arbitrary precision integers.
-TEST_CASE("random bits are those of the description, for ever") {
+TEST_CASE("random bits are those of the documented generator") {
   CHECK(random_bits({0, "", ""}) == 0x2130748aaac80268);
   CHECK(random_bits({0, "1LRB737", "distance_m"}) == 0xc47b8967891c33c4);
   CHECK(random_bits({1, "1LRB737", "distance_m"}) == 0x49c0f9bb670961c7);
@@ -76,8 +76,8 @@ TEST_CASE("random bits are those of the description, for ever") {
   CHECK(random_share({0, "1LRB737", "distance_m"}) == 0.7675100209972789);
 }
 
-// Quantiles from SciPy's truncnorm at the share that the place has; samples are rounded to some 1e-8 deviations.
-TEST_CASE("a normal sample is the quantile of the cut distribution") {
+// Quantiles from SciPy's truncnorm at the key's share; samples are rounded to some 1e-8 deviations.
+TEST_CASE("a normal sample is the quantile of the truncated distribution") {
   struct Case {
     double mean, deviation, low, high, wanted;
   };
@@ -97,7 +97,7 @@ TEST_CASE("uniform samples fill their range evenly and never leave it") {
   CHECK(kolmogorov(values, [](double x) { return (x + 3) / 8; }) < kMostGap);
 }
 
-TEST_CASE("normal samples follow the normal distribution, cut where it has bounds") {
+TEST_CASE("normal samples follow the normal distribution, truncated at its bounds") {
   const Quantity whole{
       .kind = Quantity::Kind::normal, .low = -kInfinite, .high = kInfinite, .mean = 10, .deviation = 2};
   CHECK(kolmogorov(many(whole, 10'000), [](double x) { return normal_below((x - 10) / 2); }) < kMostGap);
@@ -137,7 +137,7 @@ TEST_CASE("videos, quantities and seeds sample independently of each other") {
   CHECK(std::abs(correlation(one, next)) < 0.04);
 }
 
-TEST_CASE("every seed is one of its own, 0 too") {
+TEST_CASE("every seed, also 0, gives its own sequence") {
   std::set<std::uint64_t> bits;
   for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{2}, kLargest, kLargest - 1})
     for (const char* const video : {"", "a", "b", "ab"})
@@ -151,7 +151,7 @@ TEST_CASE("a fixed quantity is its value, whatever the seed") {
   CHECK(sampled(fixed, {9, "b", "q"}) == 12.5);
 }
 
-TEST_CASE("the span of a quantity holds all that is sampled from it") {
+TEST_CASE("the span of a quantity contains all its samples") {
   const std::vector<Quantity> quantities{
       {.value = 3},
       kUniform,

@@ -5,7 +5,7 @@
 
 using namespace sigs;
 
-TEST_CASE("numbers are written as people write them") {
+TEST_CASE("numbers have at most six digits and short exponents") {
   CHECK(short_text(0) == "0");
   CHECK(short_text(-12.5) == "-12.5");
   CHECK(short_text(98.76543) == "98.7654");

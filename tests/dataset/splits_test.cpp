@@ -50,7 +50,7 @@ std::map<std::string, int> largest_remainders(const std::vector<SplitShare>& sha
 
 }  // namespace
 
-TEST_CASE("single videos are shared out by the largest remainder") {
+TEST_CASE("single videos are divided by the largest-remainder method") {
   const std::vector<SplitShare> shares{{"train", 0.61}, {"val", 0.13}, {"test", 0.26}};
   for (int count = 0; count < 120; ++count) {
     const Result<std::vector<std::string>> splits = splits_of(videos(count), shares, 3);
@@ -93,7 +93,7 @@ TEST_CASE("videos of one unit share a split, and no split lacks more than one un
   CHECK(found.at("test") == 40);
 }
 
-TEST_CASE("large units are placed first, so that small ones can make up for them") {
+TEST_CASE("large units are placed first, so that small ones balance the shares") {
   std::vector<SplitCandidate> list = videos(10);
   for (std::size_t i = 0; i < 6; ++i) list[i].unit = "large";
   for (std::uint64_t seed = 0; seed < 10; ++seed)
@@ -108,7 +108,7 @@ TEST_CASE("three backgrounds kept together make three splits") {
         std::map<std::string, int>{{"train", 8}, {"val", 8}, {"test", 8}});
 }
 
-TEST_CASE("a fixed split holds, and takes the rest of its unit along") {
+TEST_CASE("a fixed split is kept and applies to its whole unit") {
   std::vector<SplitCandidate> list = videos(30);
   for (std::size_t i = 0; i < list.size(); ++i) list[i].unit = "unit" + std::to_string(i % 3);
   list[4].fixed = "test";  // unit1

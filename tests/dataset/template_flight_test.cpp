@@ -16,7 +16,7 @@ const std::vector<CameraSettings> kCameras{
     {.position_m = {50, 20, -2500}, .speed_mps = 0},
     {.position_m = {0, 0, -3000}, .roll_deg = -8, .pitch_deg = 4, .yaw_deg = 25, .speed_mps = 60}};
 
-// The image's place of the intruder in percent, as a real lens has it; far off where it has no image.
+// The intruder's position in the image in percent, through the lens; far off where it has no image.
 glm::dvec2 place_percent(const FlightContext& context, const glm::dvec3& from_camera_m) {
   const std::optional<glm::dvec2> pixel = context.lens.lens.pixel(in_camera(context, from_camera_m));
   if (!pixel) return glm::dvec2(1e9);
@@ -42,7 +42,7 @@ bool in_image(const glm::dvec2& percent) {
   return percent.x > 0 && percent.x < 100 && percent.y > 0 && percent.y < 100;
 }
 
-// Whatever a test says, for every lens and camera.
+// Runs a check for every lens and camera.
 template <class Test>
 void for_all_stages(const Test& test) {
   const FootageShape footage = footage_of(80, 0.01);
@@ -68,7 +68,7 @@ double rounding_percent(const FlightContext& context, const glm::dvec3& from_cam
 
 }  // namespace
 
-TEST_CASE("a crossing begins and ends where it should in the image, through any lens from any camera") {
+TEST_CASE("a crossing begins and ends at the requested places in the image, with any lens and camera") {
   for_all_stages([](const FlightContext& context) {
     for (const FlightKind kind : {FlightKind::left_right, FlightKind::right_left}) {
       const double from = kind == FlightKind::left_right ? 25 : 75;
@@ -94,7 +94,7 @@ TEST_CASE("left to right goes right in every frame, right to left goes left") {
   });
 }
 
-TEST_CASE("a crossing's least distance is the one asked for") {
+TEST_CASE("a crossing's minimum distance is the requested one") {
   for_all_stages([](const FlightContext& context) {
     const PlannedFlight flight = planned(FlightKind::left_right, {{"distance_m", 321}}, context);
     CHECK(flight.derived.at("nearest_m") == doctest::Approx(321).epsilon(1e-5));  // rounded points
@@ -105,7 +105,7 @@ TEST_CASE("a crossing's least distance is the one asked for") {
   });
 }
 
-TEST_CASE("an approaching intruder comes near in every frame, one that moves away goes") {
+TEST_CASE("an approaching intruder's distance falls in every frame, a receding one's rises") {
   for_all_stages([](const FlightContext& context) {
     const std::vector<ViewedFrame> near = viewed_frames(context, planned(FlightKind::approaching, {}, context));
     const std::vector<ViewedFrame> away = viewed_frames(context, planned(FlightKind::moving_away, {}, context));
@@ -140,7 +140,7 @@ TEST_CASE("with the standard quantities an intruder is in the image in every fra
   });
 }
 
-TEST_CASE("places beyond what a lens sees are taken as near to them as the lens allows") {
+TEST_CASE("places beyond a lens' field are replaced by the nearest ones within it") {
   for (const NamedLens& lens : example_lenses()) {
     CAPTURE(lens.name);
     for (const glm::dvec2 place : {glm::dvec2(-1000, 50), {1000, 1000}, {50, -800}, {103, 50}}) {
@@ -195,7 +195,7 @@ TEST_CASE("an intruder too slow to keep before a fast camera is impossible") {
         "speed_mps: at 59 m/s the intruder cannot fly along that line before a camera that flies 60 m/s itself");
 }
 
-TEST_CASE("a template that leads under the ground is impossible") {
+TEST_CASE("a template that leads below the ground is impossible") {
   const Camera lens = example_lenses().front().camera;
   const FootageShape footage = footage_of(80);
   const FlightContext context{.camera = {.speed_mps = 22}, .lens = lens, .footage = footage, .frames = {0, 79}};

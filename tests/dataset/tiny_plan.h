@@ -28,7 +28,7 @@ class TinyPlan {
 
 [[nodiscard]] DatasetSource synthetic_source(const std::string& program = "test 1");
 
-// Runs it; throws what went wrong as std::runtime_error.
+// Runs it; throws an error as std::runtime_error.
 [[nodiscard]] DatasetReport made(const Plan& plan, const DatasetRequest& request);
 
 [[nodiscard]] nlohmann::json json_of(const std::filesystem::path& file);

@@ -45,13 +45,13 @@ TEST_CASE("names that cannot be files are wrong, odd ones are right") {
   CHECK(!wrong_with_file_name(std::string(201, 'x')).empty());
 }
 
-TEST_CASE("a video is not called like what lies beside the videos") {
+TEST_CASE("a video cannot have the name of another entry of the dataset") {
   for (const char* const name :
        {"labels", "splits", "index.json", "SHA256SUMS", "entry", "Labels", "INDEX.JSON", ".part", ""})
     CHECK_MESSAGE(!wrong_with_video_name(name).empty(), name);
   CHECK(wrong_with_video_name("labels2").empty());
 }
 
-TEST_CASE("folding takes case away from ASCII letters alone") {
+TEST_CASE("case folding applies to ASCII letters alone") {
   CHECK(case_folded("AbZ-19 Ñ") == "abz-19 Ñ");
 }

@@ -116,12 +116,12 @@ const std::vector<Change> kBroken{
 
 }  // namespace
 
-TEST_CASE("a written annotation file keeps to the schema") {
+TEST_CASE("a written annotation file is valid by the schema") {
   if (!has_xmllint()) return;
   check_valid(written());
 }
 
-TEST_CASE("the example on the annotation format's page keeps to the schema") {
+TEST_CASE("the example on the annotation format's page is valid by the schema") {
   if (!has_xmllint()) return;
   const std::vector<std::string> examples = blocks(page("annotation-format.md"), "xml");
   REQUIRE(!examples.empty());

@@ -13,7 +13,7 @@
 namespace sigs::test {
 namespace {
 
-// Each asked for once.
+// Each run once.
 const std::string& help_of(const std::string& verb) {
   static std::map<std::string, std::string> known;
   if (const auto found = known.find(verb); found != known.end()) return found->second;

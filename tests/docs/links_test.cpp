@@ -33,11 +33,12 @@ TEST_CASE("every link in the documentation leads to a file") {
   }
 }
 
-TEST_CASE("every file of ours that the documentation names is there") {
+TEST_CASE("every file of the project that the documentation names exists") {
   int named = 0;
   for (const fs::path& path : pages()) {
     const std::string text = *read_text(path);
-    for (const std::string& name : ordered_matches(text, std::regex("`((?:engine|editor|cli|tests|docs)/[A-Za-z0-9_./-]+)`"))) {
+    for (const std::string& name :
+         ordered_matches(text, std::regex("`((?:engine|editor|cli|tests|docs)/[A-Za-z0-9_./-]+)`"))) {
       CHECK_MESSAGE(fs::exists(source_dir() / name), path.filename() << " names " << name);
       ++named;
     }

@@ -28,7 +28,7 @@ std::string general(const std::string& key) {
   return std::regex_replace(key, number, "[]");
 }
 
-// Shortest text, with exponents as people write them: 1e8.
+// Shortest text, with short exponents: 1e8.
 std::string shown(double number) {
   char buffer[64];
   const std::string text(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
@@ -88,7 +88,7 @@ Row row_of(const Field& field) {
           range_text(field),  std::visit(DefaultText{}, field.value),   std::string(field.help)};
 }
 
-// What the code says: one row a setting, with one intruder and one waypoint.
+// The settings in the code: one row for each, with one intruder and one waypoint.
 std::map<std::string, Row> rows_in_code() {
   Project project;
   project.intruders.resize(1);
@@ -133,7 +133,7 @@ void check_project(const std::string& text) {
   const Result<ReadProject> read = parse_project(text, "example.json");
   if (!read) FAIL(read.error().text());
   for (const Warning& warning : read->warnings) FAIL_CHECK(warning.text());
-  for (const Problem& problem : validate(read->project))  // its files are nowhere
+  for (const Problem& problem : validate(read->project))  // its files do not exist
     CHECK_MESSAGE(problem.kind == ErrorKind::cannot_read, problem.field << " " << problem.what);
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("the project format's page describes every setting as the code does") 
   }
 }
 
-TEST_CASE("the project format's page describes no setting that there is not") {
+TEST_CASE("the project format's page describes no unknown setting") {
   const std::map<std::string, Row> in_code = rows_in_code();
   for (const auto& [key, row] : rows_on_page()) CHECK_MESSAGE(in_code.contains(key), key);
 }

@@ -102,7 +102,7 @@ TEST_CASE("the annotation file of the documentation is read as documented") {
   const std::size_t end = page->find("```", begin);
   REQUIRE(end != std::string::npos);
   const TemporaryFolder folder;
-  // Its second frame is cut short there; given here what every frame has.
+  // Its second frame is abridged there; completed here.
   const std::string text = replaced(page->substr(begin, end - begin), "last_frame=\"101\"", "last_frame=\"100\"");
   const std::size_t second = text.find("  <frame index=\"101\"");
   REQUIRE(write_text(folder / "doc.xml", text.substr(0, second) + "</sigs>\n", false));
@@ -119,7 +119,7 @@ TEST_CASE("the annotation file of the documentation is read as documented") {
   CHECK_FALSE(clip->targets[1].frames[0].visible);
 }
 
-TEST_CASE("an annotation file that is not what it should be is refused with its line") {
+TEST_CASE("an invalid annotation file is refused with its line") {
   const TemporaryFolder folder;
   const Result<std::string> good = read_text(written(folder));
   REQUIRE(good);

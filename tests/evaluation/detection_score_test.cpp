@@ -17,7 +17,7 @@ constexpr double kRate_hz = 10;  // the published frame counts are of clips at t
 const Box kTarget{599.5, 399.5, 20, 10};
 const Box kElsewhere{99.5, 99.5, 20, 10};
 
-// Comes nearer by 5 m a frame from 600 m on: nearer than 300 m from frame 61 on, 1 m at the end of 120 frames.
+// Approaches by 5 m a frame from 600 m: nearer than 300 m from frame 61 on, 1 m at the end of 120 frames.
 double approaching_m(int frame) {
   return std::max(600.0 - 5 * frame, 1.0);
 }
@@ -49,7 +49,7 @@ int encounters(const std::function<TargetFrame(int)>& target, int frames = 120, 
 
 }  // namespace
 
-TEST_CASE("extended overlap is the plain one where the truth has area enough") {
+TEST_CASE("extended overlap is the plain one where the truth is large enough") {
   CHECK(extended_overlap({0, 0, 10, 10}, {5, 0, 10, 10}, 100) == doctest::Approx(1.0 / 3).epsilon(1e-12));
   // A small report on a large truth stays small.
   CHECK(extended_overlap({0, 0, 20, 10}, {0, 0, 2, 1}, 100) == doctest::Approx(0.01).epsilon(1e-12));
@@ -67,7 +67,7 @@ TEST_CASE("extended overlap grows a small truth and the report on it about their
   CHECK(extended_overlap({0, 0, 2, 2}, {10.1, 0, 2, 2}, 100) == 0);
 }
 
-TEST_CASE("an encounter followed in good time is detected") {
+TEST_CASE("an encounter tracked early enough is detected") {
   const DetectionScore score = score_of(approach(), matched(30, 60));  // the 31 frames before 300 m is passed
   REQUIRE(score.encounters.size() == 1);
   const EncounterScore& encounter = score.encounters[0];
@@ -89,7 +89,7 @@ TEST_CASE("an encounter followed in good time is detected") {
 
 TEST_CASE("half the frames of the last window before 300 m are enough, one less is not") {
   CHECK(is_detected(approach(), matched(46, 60)));
-  CHECK_FALSE(is_detected(approach(), matched(47, 119)));  // too late, for ever so long
+  CHECK_FALSE(is_detected(approach(), matched(47, 119)));  // too late, however long
   CHECK_FALSE(is_detected(approach(), matched(46, 59)));
   // Every other frame will do: 15 of 30.
   Results half;
@@ -97,7 +97,7 @@ TEST_CASE("half the frames of the last window before 300 m are enough, one less 
   CHECK(is_detected(approach(), half));
 }
 
-TEST_CASE("what is late has a range and a time all the same") {
+TEST_CASE("a late detection has a range and a time all the same") {
   const DetectionScore score = score_of(approach(), matched(100, 119));
   CHECK_FALSE(score.encounters[0].is_detected);
   CHECK(*score.encounters[0].first_detection_range_m == 100);
@@ -105,13 +105,13 @@ TEST_CASE("what is late has a range and a time all the same") {
   CHECK(score.all.rate() == 0);
 }
 
-TEST_CASE("matches of different tracks do not add up to one that is followed") {
+TEST_CASE("matches of different tracks do not add up to one tracked intruder") {
   Results broken;
   for (int frame = 31; frame <= 60; ++frame) report(broken, frame, kTarget, frame);
   CHECK_FALSE(is_detected(approach(), broken));
-  // A reporter that has no tracks is held to its matches alone.
+  // A detector without tracks is judged by its matches alone.
   CHECK(is_detected(approach(), matched(31, 60, kNoTrack)));
-  // One that half the time calls it something else still has it in half the frames.
+  // One that gives it another track half of the time still matches it in half the frames.
   Results two = matched(31, 45, 1);
   for (int frame = 46; frame <= 60; ++frame) report(two, frame, kTarget, 2);
   CHECK(is_detected(approach(), two));
@@ -127,7 +127,7 @@ TEST_CASE("an encounter that begins near is detected in its first three seconds,
 TEST_CASE("an intruder that flies away must be detected before it is near, which is in the first window") {
   const ClipTruth clip = clip_of(80, kRate_hz, [](int i) { return visible_at(kTarget, 200.0 + 5 * i); });
   CHECK(is_detected(clip, matched(10, 40)));
-  CHECK_FALSE(is_detected(clip, matched(30, 79)));  // beyond 300 m again by then, but it has been near
+  CHECK_FALSE(is_detected(clip, matched(30, 79)));  // beyond 300 m again by then, but it was near before
 }
 
 TEST_CASE("just 300 m is not nearer than 300 m") {
@@ -152,7 +152,7 @@ TEST_CASE("a gap of three frames lies within an encounter, one of four ends it")
   CHECK(encounters(far_amid(4)) == 2);
 }
 
-TEST_CASE("frames of a gap are not asked for") {
+TEST_CASE("frames of a gap are not required") {
   const ClipTruth clip = clip_of(33, kRate_hz, [](int i) {
     return i >= 10 && i < 13 ? TargetFrame{.distance_m = 250} : visible_at(kTarget, 250);
   });
@@ -162,7 +162,7 @@ TEST_CASE("frames of a gap are not asked for") {
   CHECK(score_of(clip, {}).encounters[0].frames_visible == 30);
 }
 
-TEST_CASE("an encounter lasts three seconds or is none") {
+TEST_CASE("an encounter lasts at least three seconds") {
   const auto for_frames = [](int count) {
     return [count](int i) { return i < count ? visible_at(kTarget, 250) : TargetFrame{}; };
   };
@@ -189,7 +189,7 @@ TEST_CASE("times of six digits do not cost an encounter a frame, nor a window") 
   CHECK(is_detected(clip, matched(15, 29)));
 }
 
-TEST_CASE("what never comes near is not asked for, and is counted apart") {
+TEST_CASE("an intruder that stays beyond the range is not required, and is counted separately") {
   const ClipTruth clip = clip_of(60, kRate_hz, [](int) { return visible_at(kTarget, 331); });
   const DetectionScore score = score_of(clip, matched(0, 59));
   CHECK(score.all.encounters == 0);
@@ -198,7 +198,7 @@ TEST_CASE("what never comes near is not asked for, and is counted apart") {
   CHECK(score.frame_detection_rate == 1);  // but its frames are
   CHECK(score.false_alarm_boxes == 0);
   CHECK(score_of(clip, {}, {.max_closest_range_m = 331}).all.encounters == 1);
-  // Beyond the longest range nothing is asked for, and nothing is false that is there.
+  // Beyond the maximum range nothing is required, and no report of an intruder there is a false alarm.
   const DetectionScore far =
       score_of(clip_of(60, kRate_hz, [](int) { return visible_at(kTarget, 701); }), matched(0, 59));
   CHECK(far.encounters_too_far == 0);
@@ -222,7 +222,7 @@ TEST_CASE("an encounter's side of the horizon is that of all its frames, or on i
   CHECK(side(HorizonSide::below, HorizonSide::below).below_horizon.detected == 1);
   CHECK(side(HorizonSide::below, HorizonSide::above).on_horizon.detected == 1);
   CHECK(side(HorizonSide::above, HorizonSide::on).on_horizon.detected == 1);
-  // Where one frame does not say, nobody can tell.
+  // Unknown in one frame is unknown for the encounter.
   const DetectionScore unknown = side(HorizonSide::above, HorizonSide::unknown);
   CHECK(unknown.unknown_horizon.detected == 1);
   CHECK(unknown.above_horizon.encounters + unknown.on_horizon.encounters == 0);
@@ -232,7 +232,7 @@ TEST_CASE("false alarms are counted by track for the hour and by box for the fra
   Results results = matched(0, 119, 1);
   for (int frame = 10; frame < 20; ++frame) report(results, frame, kElsewhere, 2);
   report(results, 50, kElsewhere, 3);
-  report(results, 51, kElsewhere, 1);  // a good track that once is elsewhere
+  report(results, 51, kElsewhere, 1);  // a good track that is elsewhere once
   report(results, 60, kElsewhere, kNoTrack);
   report(results, 61, kElsewhere, kNoTrack);
   report(results, 500, kElsewhere, 9);  // no frames of the clip
@@ -247,7 +247,7 @@ TEST_CASE("false alarms are counted by track for the hour and by box for the fra
   CHECK(score.false_boxes_per_frame == doctest::Approx(14.0 / 120).epsilon(1e-12));
 }
 
-TEST_CASE("between a match and a false alarm lies what is neither") {
+TEST_CASE("some reports are neither a match nor a false alarm") {
   // Boxes 20 wide, shifted by d: overlap (20 - d) / (20 + d).
   const auto at_overlap = [](double overlap) {
     Results results;
@@ -273,7 +273,7 @@ TEST_CASE("a report where a hidden intruder is raises no false alarm, and detect
   CHECK(std::isnan(score.frame_detection_rate));
 }
 
-TEST_CASE("reports of a low score are as if they were not") {
+TEST_CASE("reports of a low score are ignored") {
   Results results = matched(0, 119);
   for (int frame = 0; frame < 60; ++frame) results.frames[frame][0].score = 0.3;
   report(results, 70, kElsewhere, 2, 0.3);
@@ -294,7 +294,7 @@ TEST_CASE("one report may match two intruders that are close together") {
   CHECK(score.frame_detection_rate == 0.5);
 }
 
-TEST_CASE("several clips add up, and their tracks are not each other's") {
+TEST_CASE("several clips add up, and their tracks are independent") {
   Results noisy = matched(30, 60);
   report(noisy, 0, kElsewhere, 7);
   Results silent;
@@ -308,11 +308,11 @@ TEST_CASE("several clips add up, and their tracks are not each other's") {
   CHECK(score.all.encounters == 3);
   CHECK(score.all.detected == 1);
   CHECK(score.encounters[1].clip == "two");
-  CHECK(score.mean_first_range_m == 450);  // of the one that was seen at all
+  CHECK(score.mean_first_range_m == 450);  // of the one that was detected at all
   CHECK(score.frame_detection_rate == doctest::Approx(31.0 / 300).epsilon(1e-12));
 }
 
-TEST_CASE("nothing has no rates") {
+TEST_CASE("without clips there are no rates") {
   for (const std::vector<DetectedClip>& clips :
        {std::vector<DetectedClip>{}, std::vector<DetectedClip>{{"empty", clip_of(0, 10, {}), {}}}}) {
     const DetectionScore score = score_detections("some", clips, {});

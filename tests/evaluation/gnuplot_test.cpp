@@ -58,7 +58,7 @@ TEST_CASE("signed errors keep their sign, and curves run from 0 to the last thre
   CHECK(plot_called(plots, "normalized_precision").series[0].runs[0].back().x == 0.5);
 }
 
-TEST_CASE("large errors have an axis on which small ones can still be told apart, and its label says so") {
+TEST_CASE("large errors have an axis on which small ones still differ visibly, as its label says") {
   TrackReport report = synthetic_track_report();
   report.scores[0].frames[3].center_error_px = 700;
   const std::vector<Plot> plots = plots_of(report);
@@ -86,7 +86,7 @@ TEST_CASE("no text of a plot is run by gnuplot or ends its string") {
   CHECK(svg->find("`date`") != std::string::npos);
 }
 
-TEST_CASE("gnuplot's complaint is one line") {
+TEST_CASE("gnuplot's error is reported in one line") {
   const Result<std::string> output = gnuplot_output("plot sin(\n");
   REQUIRE_FALSE(output.has_value());
   if (output.error().kind == ErrorKind::unavailable) return;

@@ -109,7 +109,7 @@ TEST_CASE("a tracker has the same results when repeated, alone, among others and
   cv::setNumThreads(1);
   for (std::size_t i = 0; i < together.size(); ++i) {
     check_equal(together[i], turned[i]);
-    cv::theRNG().state = 12345 + i;  // what was drawn before is no matter
+    cv::theRNG().state = 12345 + i;  // earlier random numbers have no effect
     check_equal(together[i], tracked({together[i].name}).front());
   }
   cv::setNumThreads(threads);
@@ -153,11 +153,11 @@ TEST_CASE("no tracker hangs on a box of a few pixels: it starts, or returns an e
     }
 }
 
-TEST_CASE("what OpenCV throws becomes one line, and the other trackers go on") {
+TEST_CASE("an exception of OpenCV becomes one line, and the other trackers continue") {
   TrackerGroup group = TrackerGroup::make({"medianflow", "mosse"}).value();
   group.start(0, square_image(0), square_box(0));
   group.follow(1, square_image(1));
-  group.follow(2, cv::Mat(7, 5, CV_8UC3, cv::Scalar::all(0)));  // MOSSE takes a piece out of whatever it is shown
+  group.follow(2, cv::Mat(7, 5, CV_8UC3, cv::Scalar::all(0)));  // MOSSE crops a patch from any image it is given
   group.follow(3, square_image(3));
   REQUIRE(group.remarks().size() == 1);
   const std::string remark = group.remarks().front();

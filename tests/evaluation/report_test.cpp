@@ -153,7 +153,7 @@ TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in C
     };
     CHECK(middle("reported", "_x_px", "_width_px") - middle("true", "_x_px", "_width_px") == doctest::Approx(3));
     CHECK(middle("reported", "_y_px", "_height_px") - middle("true", "_y_px", "_height_px") == doctest::Approx(4));
-    // By hand: the left edge lies at 100.5 px + 2 px a frame, so its first column is the next half pixel.
+    // Calculated manually: the left edge lies at 100.5 px + 2 px a frame, so its first column is the next half pixel.
     CHECK(number(row.at("true_x_px")) == doctest::Approx(101 + 2 * number(row.at("frame"))));
     CHECK(number(row.at("true_width_px")) == 40);
     CHECK(number(row.at("distance_m")) == 800 - 10 * number(row.at("frame")));
@@ -168,7 +168,7 @@ TEST_CASE("a tracker off by (3, 4) px has a centre error of 5 in the table, in C
   CHECK(precision["shares"][6] == 1.0);
 }
 
-TEST_CASE("who reports nothing has no errors: a dash, an empty field, null") {
+TEST_CASE("a tracker without reports has no errors: a dash, an empty field, null") {
   const TrackReport report = synthetic_track_report();
   CHECK(table_text(report).find("\nsilent") != std::string::npos);
   const Written written(report);
@@ -318,7 +318,7 @@ TEST_CASE("a report of detectors has the same figures in the table, in CSV and i
   if (has_gnuplot()) CHECK(page.select_nodes("//figure/svg").size() == 2);
 }
 
-TEST_CASE("what a report writes is known by name, and nothing else is") {
+TEST_CASE("the files of a report are recognized by name, and no others") {
   const Written track(synthetic_track_report());
   const Written detect(synthetic_detection_report());
   for (const auto* const names : {&track.report.files, &detect.report.files})

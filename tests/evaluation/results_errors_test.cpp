@@ -40,14 +40,14 @@ std::string aot(const std::string& detection, const std::string& image = "frame_
 
 }  // namespace
 
-TEST_CASE("a file whose lines do not fit the clip's frames is refused with the line") {
+TEST_CASE("a file whose lines do not match the clip's frames is refused with the line") {
   check_refused(
       {"a.txt", "1,1,2,2\n1,1,2,2\n", "line 2: ", "2 lines, one a frame; it must have 3 (frames 100 to 102)"});
   check_refused({"a.txt", "1,1,2,2\n1,1,2,2\n1,1,2,2\n1,1,2,2\n1,1,2,2\n",
                  "line 4: ", "past the clip's end: the file has 5 lines"});
   check_refused({"a.txt", "1\n0\n", "line 2: ", "2 lines, one a frame; it must have 3"});
   check_refused({"a.txt", "1,1,2,2\n\n1,1,2,2\n", "line 2: ", "is empty amid lines"});
-  // What is wrong with a line comes before that there are too many.
+  // An error in a line is reported before an excess of lines.
   check_refused({"a.txt", "1,1,2,2\n1,x,2,2\n", "line 2: ", "'x' is no number"});
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("frames that the clip does not have are refused with the line") {
   check_refused({"a.json", aot("", "1568151307970878896.png"), "line 2: ", "does not end with a frame number"});
 }
 
-TEST_CASE("boxes that are none are refused with the line") {
+TEST_CASE("invalid boxes are refused with the line") {
   check_refused({"a.txt", "1,1,2,2\nnan,1,2,2\n1,1,2,2\n", "line 2: ", "x is NaN"});
   check_refused({"a.txt", "1,1,2,2\nNaN,NaN,NaN,NaN\n1,1,2,2\n", "line 2: ", "write nan alone on its line (vot)"});
   check_refused({"a.txt", "1\nnan,1,2,2\n1,1,2,2\n", "line 2: ", "x is NaN"});
@@ -93,7 +93,7 @@ TEST_CASE("boxes that are none are refused with the line") {
   check_refused({"a.json", aot("{\"x\": 1, \"y\": null, \"w\": 1, \"h\": 2}"), "line 4: ", "y is null, not a number"});
   check_refused({"a.json", aot("{\"x\": 1, \"y\": \"1\", \"w\": 1, \"h\": 2}"), "line 4: ", "y is text, not a number"});
   check_refused({"a.json", aot("{\"x\": 1, \"y\": 1, \"h\": 2}"), "line 4: ", "has no w"});
-  // A file of one line says which entry.
+  // A file of one line gives the entry.
   const std::string good = "{\"x\": 1, \"y\": 1, \"w\": 2, \"h\": 2}";
   const std::string start = "[{\"img_name\": \"100\"}, {\"img_name\": \"101\", \"detections\": [" + good + ", ";
   check_refused(
@@ -135,7 +135,7 @@ TEST_CASE("lines of another layout than the first are refused") {
                  "line 3: ", "frame 'frame' is no number"});
 }
 
-TEST_CASE("what is no result file is refused") {
+TEST_CASE("a file that is not a result file is refused") {
   check_refused({"a.txt", "", "is empty", "an empty list [] (aot, coco)"});
   check_refused({"a.txt", "\xEF\xBB\xBF\r\n \n# nothing\n", "is empty", ""});
   check_refused({"a.txt", "hello there\n", "line 1: ", "is of no known layout: 'hello' is neither a number nor"});
@@ -168,7 +168,7 @@ TEST_CASE("a file that does not exist cannot be read") {
   CHECK(read_results("/nowhere/a.txt", three_frames()).error().kind == ErrorKind::cannot_read);
 }
 
-TEST_CASE("what coco results may not be is refused with the line, and the entry where all are in one line") {
+TEST_CASE("invalid coco results are refused with the line, and the entry where all are in one line") {
   const std::string good = R"({"image_id": 1, "bbox": [1, 1, 2, 2]})";
   const auto second = [&](const std::string& entry) { return "[" + good + ",\n" + entry + "]\n"; };
   check_refused({"a.json", second(R"({"bbox": [1, 1, 2, 2]})"), "line 2: ", "has no image_id"});
@@ -192,7 +192,7 @@ TEST_CASE("what coco results may not be is refused with the line, and the entry 
   check_refused({"a.json", "[" + good + "," + good + "]", "line 1, [1]: ", "a second box for frame"});
 }
 
-TEST_CASE("a JSON file of neither layout names those that are known") {
+TEST_CASE("a JSON file of neither layout is refused with the known ones") {
   check_refused({"a.json", R"([{"file": "100.png", "boxes": [[1, 1, 2, 2]]}])", "line 1: ", "(aot)"});
   check_refused({"a.json", R"([{"file": "100.png", "boxes": [[1, 1, 2, 2]]}])", "line 1: ", "(coco)"});
   check_refused({"a.json", R"({"images": [], "annotations": []})", "line 1: ", "(coco)"});

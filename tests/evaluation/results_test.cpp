@@ -97,7 +97,7 @@ TEST_CASE("scores, tracks and lines are those of the file") {
   CHECK(mot.best_at(100)->track == 9);
   for (const ReportedBox& box : mot.frames.at(101)) CHECK(box.track == kNoTrack);
   CHECK(mot.frames.at(101).size() == 3);
-  CHECK(mot.frames.at(101)[0].score == 1);  // -1: not said
+  CHECK(mot.frames.at(101)[0].score == 1);  // -1: not given
   CHECK(mot.best_at(102) == nullptr);
 
   const Results csv = good("frame,x,y,width,height,score,track\n100,1,1,1,1,0.125,4\n", "a.csv");
@@ -133,7 +133,7 @@ TEST_CASE("VOT's special lines report no box, and 1 marks an initialization") {
   CHECK(results.frames.size() == 1);
   CHECK(box_at(results, 1) == kReportedBox);
   CHECK(results.initializations == std::set<int>{0, 4});
-  // Absent in the first frame already: still seen to be VOT's.
+  // Absent in the first frame already: still recognized as VOT's.
   CHECK(good("nan,nan,nan,nan\nnan,nan,nan,nan\n10,20,10,5\n").frames.size() == 1);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("a file with a line a frame may begin where the tracker was started") 
   CHECK(late.frames.size() == 6);
   CHECK(box_at(late, 14).x == -0.5);
   CHECK(box_at(late, 19).x == 4.5);
-  // All ten lines are about all ten frames, wherever the start is.
+  // All ten lines belong to all ten frames, wherever the start is.
   const Results whole = good(six + "7,1,9,9\n8,1,9,9\n9,1,9,9\n10,1,9,9\n", "whole.txt", {.start_frame = 14}, clip);
   CHECK(box_at(whole, 10).x == -0.5);
   CHECK(whole.frames.size() == 10);
@@ -155,7 +155,7 @@ TEST_CASE("a file with a line a frame may begin where the tracker was started") 
         "ends here with 7 lines, one a frame; it must have 10 (frames 10 to 19), or 6 (from frame 14 on)");
 }
 
-TEST_CASE("one coco file tells of several clips by the number of their first image") {
+TEST_CASE("one coco file covers several clips by the number of their first image") {
   const std::string text = R"([{"image_id": 3, "bbox": [1, 1, 1, 1]}, {"image_id": 4, "bbox": [10, 20, 10, 5]},
       {"image_id": 4, "bbox": [40, 20, 10, 5], "score": 0.5}, {"image_id": 6, "bbox": [10, 20, 10, 5]},
       {"image_id": 7, "bbox": [1, 1, 1, 1]}])";
@@ -181,7 +181,7 @@ TEST_CASE("the files of a detector without detections are not errors") {
   CHECK(good("[{\"img_name\": \"frame_000101.png\", \"detections\": []}]", "none.json").frames.empty());
 }
 
-TEST_CASE("a stated format is believed") {
+TEST_CASE("a stated format is used without detection") {
   const ResultsOptions vot{.format = ResultsFormat::vot};
   CHECK(box_at(good("10,20,10,5\n10,20,10,5\n10,20,10,5\n", "a.txt", vot), 100) == kReportedBox);
   const ResultsOptions mot{.format = ResultsFormat::mot};
@@ -213,7 +213,7 @@ TEST_CASE("three hundred thousand lines are all read") {
   CHECK(results.frames.at(kFrames - 1)[2].line == 3 * kFrames);
 }
 
-TEST_CASE("results that are written are read back as they were") {
+TEST_CASE("written results are read back unchanged") {
   Results written{.name = "mine"};
   report(written, 3, {0.1, -7.25, 1.0 / 3, 20}, 0, 0.75);
   report(written, 3, {5.5, 6.5, 7, 8}, 4, -2);

@@ -11,7 +11,7 @@
 namespace sigs::test {
 namespace {
 
-constexpr double kExact = 1e-9;  // what sums of a hundred doubles leave, by far
+constexpr double kExact = 1e-9;  // well above the rounding of sums of a hundred doubles
 
 const Box kTrueBox{299.5, 199.5, 40, 10};
 
@@ -19,7 +19,7 @@ ClipTruth still_clip(int frames = 100) {
   return clip_of(frames, 25, [](int) { return visible_at(kTrueBox); });
 }
 
-// The tracker says the truth, moved by (dx, dy) in frame i.
+// The tracker reports the truth, shifted by (dx, dy) in frame i.
 template <class Offset>
 TrackScore score_moved(const ClipTruth& clip, Offset&& offset, const TrackPolicy& policy = {}) {
   Results results{.name = "some"};
@@ -66,7 +66,7 @@ TEST_CASE("signs: right of the truth and below it are positive") {
   CHECK(near(score.mean_dy_px, 2.5));
 }
 
-TEST_CASE("a perfect tracker has it all") {
+TEST_CASE("a perfect tracker has the best value of every measure") {
   const ClipTruth clip = clip_of(50, 25, [](int i) { return visible_at({0.1 * i, 0.3 * i, 7.7, 3.3}); });
   const TrackScore score = score_moved(clip, [](int) { return std::pair(0.0, 0.0); });
   for (const double share : score.precision) CHECK(share == 1);
@@ -79,7 +79,7 @@ TEST_CASE("a perfect tracker has it all") {
   CHECK(score.mean_center_error_px == 0);
 }
 
-TEST_CASE("boxes of one size, shifted by a share s of their width, overlap by (1 - s) / (1 + s)") {
+TEST_CASE("boxes of one size, shifted by s times their width, overlap by (1 - s) / (1 + s)") {
   for (const double share : {0.0, 0.1, 0.25, 0.5, 0.9, 0.999, 1.0, 1.5}) {
     CAPTURE(share);
     const double expected = share >= 1 ? 0 : (1 - share) / (1 + share);
@@ -124,7 +124,7 @@ TEST_CASE("normalised errors are shares of the true width and height") {
   CHECK(near(score.normalized_precision_auc, 1.0 / 51));
 }
 
-TEST_CASE("five frames worked out by hand") {
+TEST_CASE("five frames calculated manually") {
   const ClipTruth clip = clip_of(
       5, 10,
       [](int) {
@@ -135,7 +135,7 @@ TEST_CASE("five frames worked out by hand") {
   report(results, 100, {0, 0, 10, 10});    // perfect
   report(results, 101, {6, 8, 10, 10});    // error 10, both 4*2 = 8, overlap 8/192
   report(results, 102, {0, 0, 10, 20});    // error 5 (down), overlap 1/2
-  report(results, 104, {30, 40, 10, 10});  // error 50, apart; and nothing in 103
+  report(results, 104, {30, 40, 10, 10});  // error 50, disjoint; and nothing in 103
   const TrackScore score = score_track(clip, clip.targets[0], results, {});
   CHECK(score.scored == 5);
   CHECK(score.reported == 4);
@@ -191,11 +191,11 @@ TEST_CASE("frames without the intruder are not scored, and what is reported in t
     CHECK_FALSE(score.frames[1].is_scored);
     CHECK(score.frames[1].is_reported);
     CHECK_FALSE(score.frames[1].is_lost);
-    // There is something to draw where there is a box to draw it from.
+    // A frame with a report has a box in the truth.
     CHECK(score.frames[1].center_error_px.has_value() == (box == TruthBox::amodal));
     CHECK(score.mean_center_error_px == 0);
   }
-  // Before the start nobody looks.
+  // Frames before the start are not scored.
   CHECK(score_track(clip, clip.targets[0], results, {.from_frame = 2}).reported_absent == 2);
 }
 
@@ -252,14 +252,14 @@ TEST_CASE("where nothing is scored or reported, a mean is NaN and no number") {
   CHECK(score_track(empty, empty.targets[0], {}, {}).frames.empty());
 }
 
-TEST_CASE("one frame has its mean, median and 95 % in one") {
+TEST_CASE("the mean, median and 95 % of one frame are the same") {
   const TrackScore score = score_moved(still_clip(1), [](int) { return std::pair(0.0, -8.0); });
   CHECK(score.mean_center_error_px == 8);
   CHECK(score.median_center_error_px == 8);
   CHECK(score.p95_center_error_px == 8);
 }
 
-TEST_CASE("a truth without width has errors without end, and none where it is met") {
+TEST_CASE("a truth without width has infinite normalised errors, and none where the centres agree") {
   const ClipTruth clip = clip_of(2, 25, [](int) {
     TargetFrame frame = visible_at(kTrueBox);
     frame.amodal_box = Box{10, 10, 0, 5};

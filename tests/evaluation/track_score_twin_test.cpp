@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scores once more, written otherwise: overlaps by counting cells, curves by sorting.
+// The scores by an independent calculation: overlaps by counting cells, curves by sorting.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 // Boxes of whole pixels, so that cells can be counted.
 Box random_box(std::mt19937& random) {
-  const auto number = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
+  const auto number = [&](int minimum, int maximum) { return std::uniform_int_distribution(minimum, maximum)(random); };
   return {number(0, 40) - 0.5, number(0, 40) - 0.5, double(number(1, 25)), double(number(1, 25))};
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("the overlap of two boxes is that of the pixels they cover") {
   CHECK(overlap({-1e9, -1e9, 2e9, 2e9}, {0, 0, 1, 1}) > 0);
 }
 
-TEST_CASE("scores agree with ones worked out otherwise") {
+TEST_CASE("scores agree with an independent calculation") {
   const std::vector<Pair> pairs = random_pairs(500, 7);
   const auto is_silent = [](std::size_t i) { return i % 17 == 5; };
   const ClipTruth clip = clip_of(static_cast<int>(pairs.size()), 25,
@@ -108,7 +108,7 @@ TEST_CASE("scores agree with ones worked out otherwise") {
   for (int k = 0; k < kSuccessSteps - 1; ++k)  // overlap > k/20 is 1 - overlap < 1 - k/20
     CHECK(std::abs(score.success[static_cast<std::size_t>(k)] - share_up_to(misses, 1 - k / 20.0 - 1e-9, all)) < 1e-9);
   CHECK(std::abs(score.success[20] - share_up_to(misses, 0, all)) < 1e-9);
-  CHECK(score.success[20] > 0);  // some were moved by nothing
+  CHECK(score.success[20] > 0);  // some were shifted by zero
   CHECK(score.lost == std::ranges::count_if(misses, [](double miss) { return miss == 1; }));
 }
 

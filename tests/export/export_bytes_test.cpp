@@ -142,7 +142,7 @@ TEST_CASE("a frame does not depend on the frames and the thread and the context 
   CHECK(same[1]);
 }
 
-TEST_CASE("looking at the stages does not change the image") {
+TEST_CASE("keeping the stages does not change the image") {
   for (const MethodChoice method : kMethods) {
     CAPTURE(static_cast<int>(method));
     Scenario scenario(kSize, kFrames);
@@ -168,7 +168,7 @@ TEST_CASE("looking at the stages does not change the image") {
   }
 }
 
-TEST_CASE("the background that is handed in stays as it was") {
+TEST_CASE("the given background is unchanged") {
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
   const Frame background = grainy_frame(kSize, 1);

@@ -70,7 +70,7 @@ void set_codec(Project& project, CodecChoice codec) {
 
 }  // namespace
 
-TEST_CASE("progress is told once for every frame and in order") {
+TEST_CASE("progress is reported once for every frame and in order") {
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
   std::vector<int> done;
@@ -88,7 +88,7 @@ TEST_CASE("progress is told once for every frame and in order") {
   CHECK(!report->renderer_description.empty());
 }
 
-TEST_CASE("a cancelled export says so and leaves no file") {
+TEST_CASE("a cancelled export returns this error and leaves no file") {
   for (const CodecChoice codec : kCodecs)
     for (const int at : {0, 1, kClipFrames - 1})
       for (const int jobs : {1, 2}) {
@@ -122,7 +122,7 @@ TEST_CASE("a cancelled export leaves the results of the one before") {
   CHECK(files_below(scenario.path("out")) == files);
 }
 
-TEST_CASE("what is there already is not overwritten unasked and no other file appears") {
+TEST_CASE("an existing output is not overwritten unless requested and no other file appears") {
   for (const char* const name : {"lot.mkv", "lot.masks.mkv", "lot.xml"}) {
     CAPTURE(name);
     Scenario scenario(kClipSize, kClipFrames);
@@ -138,7 +138,7 @@ TEST_CASE("what is there already is not overwritten unasked and no other file ap
   }
 }
 
-TEST_CASE("what is there already is overwritten when asked to") {
+TEST_CASE("an existing output is overwritten when requested") {
   for (const CodecChoice codec : kCodecs) {
     CAPTURE(static_cast<int>(codec));
     Scenario scenario(kClipSize, kClipFrames);
@@ -188,7 +188,7 @@ TEST_CASE("an export never overwrites what it reads") {
   CHECK(text_in(scenario.path("pinhole.xml")) == lens);
 }
 
-TEST_CASE("a disk that is full is said and nothing is left behind") {
+TEST_CASE("a full disk is reported and no file is left behind") {
   for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png}) {
     CAPTURE(static_cast<int>(codec));
     Scenario scenario(kClipSize, kClipFrames);
@@ -224,7 +224,7 @@ TEST_CASE("labels that cannot be written to their end fail the export") {
   CHECK(files_below(scenario.path("out")).empty());
 }
 
-TEST_CASE("frames that the project does not have are a usage error and make nothing") {
+TEST_CASE("frames that the project does not have are a usage error and write nothing") {
   for (const FrameRange range : {FrameRange{0, kClipFrames}, FrameRange{5, 4}, FrameRange{-1, 3}}) {
     Scenario scenario(kClipSize, kClipFrames);
     prepare_one_aircraft(scenario);
@@ -236,7 +236,7 @@ TEST_CASE("frames that the project does not have are a usage error and make noth
   }
 }
 
-TEST_CASE("a folder that cannot be made is said") {
+TEST_CASE("a folder that cannot be created is an error") {
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
   write_file_and_folder(scenario.path("wall"), "a file");

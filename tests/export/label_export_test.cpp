@@ -82,7 +82,7 @@ std::size_t lines_in(const fs::path& path) {
 
 }  // namespace
 
-TEST_CASE("labels of an export tell the same truth in every format, and images lie beside them") {
+TEST_CASE("labels of an export have the same truth in every format, and images beside them") {
   Scenario scenario(kLabelledSize, kLabelledFrames);
   prepare_two_aircraft(scenario);
   const Result<ExportReport> report = export_project(request_of(scenario), {});
@@ -127,7 +127,7 @@ TEST_CASE("a video's labels have no images and name the video") {
   CHECK(fs::exists(scenario.path("out/lot.yolo/labels/lot/frame_000002.txt")));
 }
 
-TEST_CASE("a folder of labels is replaced whole by a later export") {
+TEST_CASE("a folder of labels is replaced as a whole by a later export") {
   Scenario scenario(kLabelledSize, kLabelledFrames);
   prepare_two_aircraft(scenario);
   REQUIRE(export_project(request_of(scenario), {}).has_value());
@@ -140,7 +140,7 @@ TEST_CASE("a folder of labels is replaced whole by a later export") {
   CHECK_FALSE(fs::exists(scenario.path("out/lot.voc/Annotations/frame_000002.xml")));
 }
 
-TEST_CASE("a folder of labels that holds anything that no export wrote is never replaced") {
+TEST_CASE("a folder of labels with a foreign file is never replaced") {
   for (const char* const name : {"lot.yolo/notes.txt", "lot.yolo/runs/best.pt", "lot.yolo/labels/lot/frame_x.txt",
                                  "lot.voc/ImageSets/Main/mine.txt", "lot.voc/JPEGImages/frame_000001.jpg"}) {
     CAPTURE(name);
@@ -158,7 +158,7 @@ TEST_CASE("a folder of labels that holds anything that no export wrote is never 
   }
 }
 
-TEST_CASE("every file of every folder of labels is one that a later export knows as its own") {
+TEST_CASE("every file of every folder of labels is recognized by a later export") {
   for (const LabelFormat& format : label_formats()) {
     if (!format.is_folder) continue;
     CAPTURE(format.name);
@@ -176,7 +176,7 @@ TEST_CASE("every file of every folder of labels is one that a later export knows
   }
 }
 
-TEST_CASE("patterns stand for paths") {
+TEST_CASE("patterns match paths") {
   CHECK(fits("data.yaml", "data.yaml"));
   CHECK_FALSE(fits("data.yaml2", "data.yaml"));
   CHECK_FALSE(fits("data", "data.yaml"));
@@ -192,7 +192,7 @@ TEST_CASE("patterns stand for paths") {
 }
 
 // A plate 20.67 m square across the axis at 200 m: 31 px square.
-TEST_CASE("the share inside tells what the border cuts off, and not what is hidden") {
+TEST_CASE("the share inside the image counts truncation and not occlusion") {
   constexpr double kHalf_m = 15.5 * 200 / 300;
   constexpr double kEdge = 2 * 0.0625 / 31;  // drawing with 16 samples a pixel, on two edges
   Scenario scenario;

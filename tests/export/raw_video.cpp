@@ -30,7 +30,7 @@ RawImage image_of(const AVFrame& frame, double tick_s) {
   return image;
 }
 
-void take_images(AVCodecContext* decoder, AVFrame* frame, double tick_s, std::size_t most, RawVideo& video) {
+void take_images(AVCodecContext* decoder, AVFrame* frame, double tick_s, std::size_t max_images, RawVideo& video) {
   while (avcodec_receive_frame(decoder, frame) == 0) {
     if (video.images.empty()) {
       video.is_full_range = frame->color_range == AVCOL_RANGE_JPEG || frame->format == AV_PIX_FMT_YUVJ420P;
@@ -38,7 +38,7 @@ void take_images(AVCodecContext* decoder, AVFrame* frame, double tick_s, std::si
       video.primaries = frame->color_primaries;
       video.transfer = frame->color_trc;
     }
-    if (video.images.size() < most) video.images.push_back(image_of(*frame, tick_s));
+    if (video.images.size() < max_images) video.images.push_back(image_of(*frame, tick_s));
     av_frame_unref(frame);
   }
 }
@@ -56,7 +56,7 @@ AVCodecContext* opened_decoder(const AVFormatContext* input, int stream) {
 
 }  // namespace
 
-RawVideo raw_video(const std::filesystem::path& path, int most) {
+RawVideo raw_video(const std::filesystem::path& path, int max_images) {
   av_log_set_level(AV_LOG_ERROR);
   AVFormatContext* input = nullptr;
   REQUIRE(avformat_open_input(&input, path.c_str(), nullptr, nullptr) >= 0);
@@ -65,7 +65,7 @@ RawVideo raw_video(const std::filesystem::path& path, int most) {
   REQUIRE(stream >= 0);
   AVCodecContext* decoder = opened_decoder(input, stream);
   const double tick_s = av_q2d(input->streams[stream]->time_base);
-  const auto wanted = static_cast<std::size_t>(most);
+  const auto wanted = static_cast<std::size_t>(max_images);
   AVPacket* packet = av_packet_alloc();
   AVFrame* frame = av_frame_alloc();
   RawVideo video;

@@ -25,7 +25,7 @@ struct RawVideo {
 };
 
 // The first `most` images. Only planar 8-bit formats. A failure fails the test.
-[[nodiscard]] RawVideo raw_video(const std::filesystem::path& path, int most);
+[[nodiscard]] RawVideo raw_video(const std::filesystem::path& path, int max_images);
 
 // Writes a text into a file, whose folder is made where it does not exist.
 void write_file_and_folder(const std::filesystem::path& path, const std::string& text);

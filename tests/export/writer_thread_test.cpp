@@ -64,7 +64,7 @@ Scene empty_scene() {
 
 }  // namespace
 
-TEST_CASE("all that was handed to a writer is written once it has settled") {
+TEST_CASE("every frame passed to a writer is written after it has finished") {
   const Scenario scenario;
   const fs::path folder = scenario.path("images");
   WriterThread writer(images_in(folder));
@@ -78,7 +78,7 @@ TEST_CASE("all that was handed to a writer is written once it has settled") {
   CHECK(writer.spent_s() > 0);
 }
 
-TEST_CASE("a writer tells the frame that failed and writes nothing after it") {
+TEST_CASE("a writer reports the frame that failed and writes nothing after it") {
   const Scenario scenario;
   const fs::path folder = scenario.path("images");
   WriterThread writer(images_in(folder));
@@ -96,7 +96,7 @@ TEST_CASE("a writer tells the frame that failed and writes nothing after it") {
   CHECK(images_there(folder) == 3);
 }
 
-TEST_CASE("a writer that is given up does not wait for what is queued") {
+TEST_CASE("a destroyed writer does not wait for queued frames") {
   const Scenario scenario;
   const fs::path folder = scenario.path("images");
   {
@@ -106,7 +106,7 @@ TEST_CASE("a writer that is given up does not wait for what is queued") {
   CHECK(images_there(folder) <= 3);
 }
 
-TEST_CASE("of several outputs that fail the first frame's error is told and of one frame the video's") {
+TEST_CASE("of several failing outputs the first frame's error is reported and of one frame the video's") {
   struct Case {
     int video_fails_at, masks_fail_at;
     const char* told;
@@ -123,7 +123,7 @@ TEST_CASE("of several outputs that fail the first frame's error is told and of o
       const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
       Result<ExportFiles> files = ExportFiles::open(request, footage_info(), empty_scene(), {0, 8});
       REQUIRE(files.has_value());
-      // Images on their way lie in the staging folder, under their final names.
+      // Unfinished images lie in the staging folder, under their final names.
       for (const auto& entry : fs::recursive_directory_iterator(scenario.path("out"))) {
         if (!entry.is_directory() || entry.path().parent_path().filename() != "new") continue;
         const bool is_masks = entry.path().filename().string().find("masks") != std::string::npos;

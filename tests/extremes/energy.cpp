@@ -94,7 +94,7 @@ std::vector<glm::dvec3> targets() {
 
 }  // namespace
 
-TEST_CASE("the warp keeps the light of the drawn view within a thousandth through every lens") {
+TEST_CASE("the warp keeps the light of the rendered view within a thousandth through every lens") {
   for (const LensCase& lens : lens_cases())
     for (const glm::dvec3& from_eye_m : targets()) {
       CAPTURE(lens.name);

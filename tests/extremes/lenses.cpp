@@ -35,7 +35,7 @@ cv::Mat beyond(cv::Size size, const glm::dvec2& center_px, double radius_px) {
 
 }  // namespace
 
-TEST_CASE("a rational lens whose denominator vanishes sees up to there and no ghosts from beyond") {
+TEST_CASE("a rational lens whose denominator vanishes has an image up to there and none from beyond") {
   // r -> r / (1 - 4 r^2): to infinity at r = 1/2, and back from minus infinity behind it.
   const std::vector<double> pole{0, 0, 0, 0, 0, -4, 0, 0};
   for (const double slope : {0.1, 0.25, 0.3, 0.5, 0.6, 1.5, 30.0}) {
@@ -60,7 +60,7 @@ TEST_CASE("a rational lens whose denominator vanishes sees up to there and no gh
 }
 
 TEST_CASE("a pole that a zero of the numerator all but takes away is valid up to the pole and beyond") {
-  // (1 - (4 - 1e-6) r^2) / (1 - 4 r^2): 1 to six digits, save where both are as small.
+  // (1 - (4 - 1e-6) r^2) / (1 - 4 r^2): 1 to six digits, except where both are equally small.
   for (const double slope : {0.3, 0.45, 0.499, 0.49999, 0.4999999, 0.5, 0.500001, 0.52}) {
     CAPTURE(slope);
     Scenario scenario;
@@ -78,7 +78,8 @@ TEST_CASE("a pole that a zero of the numerator all but takes away is valid up to
 }
 
 TEST_CASE("a lens that folds shows nothing beyond its fold and covers all within") {
-  // r (1 - r^2 / 2) turns back at r = sqrt(2/3), 163.3 px; from there OpenCV throws ghosts over the image.
+  // r (1 - r^2 / 2) decreases from r = sqrt(2/3), 163.3 px, on; OpenCV projects points beyond into the image a second
+  // time.
   const double fold_px = kFocal_px * std::sqrt(2.0 / 3) * (2.0 / 3);
   for (const double slope : {0.9, 1.2, 1.4}) {
     Scenario scenario;
@@ -99,7 +100,7 @@ TEST_CASE("a lens that folds shows nothing beyond its fold and covers all within
   CHECK(cv::countNonZero(mask & beyond(mask.size(), kCenter_px, fold_px + 2)) == 0);
 }
 
-TEST_CASE("a fisheye of 170 to 200 degrees throws every direction to its angle times the focal length") {
+TEST_CASE("a fisheye of 170 to 200 degrees projects every direction to its angle times the focal length") {
   for (const double field_deg : {170.0, 180.0, 190.0, 200.0})
     for (const double share : {0.0, 0.5, 0.9, 0.97}) {
       CAPTURE(field_deg);

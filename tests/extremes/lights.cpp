@@ -33,12 +33,12 @@ cv::Vec4f face_of(const ValidFrame& valid) {
 
 }  // namespace
 
-TEST_CASE("a light inside the model leaves its outside to the light from everywhere") {
+TEST_CASE("with a light inside the model its outside has ambient light alone") {
   for (const glm::dvec3& inside_m : {glm::dvec3(60, 0, 0), glm::dvec3(55.001, 0, 0), glm::dvec3(64, 4, -4)})
     CHECK(face_of(composed_frame(cube_lit_from(inside_m)))[0] == doctest::Approx(kAmbient).epsilon(1e-4));
 }
 
-TEST_CASE("a light behind the model leaves the face that we see to the light from everywhere") {
+TEST_CASE("with a light behind the model the visible face has ambient light alone") {
   for (const double behind_m : {70.0, 1e3, 9e11})
     CHECK(face_of(composed_frame(cube_lit_from({behind_m, 0, 0})))[0] == doctest::Approx(kAmbient).epsilon(1e-4));
 }

@@ -47,7 +47,7 @@ void give_model(Scene& scene, Mesh mesh) {
 
 }  // namespace
 
-TEST_CASE("a million triangles are drawn as the sphere that they make") {
+TEST_CASE("a sphere of a million triangles is rendered with its true area") {
   Scenario scenario;
   add_cube(scenario, 1, kEye_m + glm::dvec3(100, 0, 0));
   Scene scene = scenario.opened();
@@ -65,7 +65,7 @@ TEST_CASE("a million triangles are drawn as the sphere that they make") {
   CHECK(truth.visible_fraction == doctest::Approx(1).epsilon(1e-3));
 }
 
-TEST_CASE("a single triangle is drawn with the area that it has, from both sides") {
+TEST_CASE("a single triangle is rendered with its true area, from both sides") {
   for (const bool faces_us : {true, false})
     for (const double supersampling : {1.0, 2.0}) {
       CAPTURE(faces_us);
@@ -83,7 +83,7 @@ TEST_CASE("a single triangle is drawn with the area that it has, from both sides
     }
 }
 
-TEST_CASE("a single triangle seen edge on covers nothing and breaks nothing") {
+TEST_CASE("a single triangle seen edge on covers nothing and causes no error") {
   Scenario scenario;
   std::ofstream(scenario.path("triangle.obj")) << "v 0 0 0\nv 12 0 0\nv 0 12 0\nf 1 2 3\n";
   scenario.add("triangle.obj", kEye_m + glm::dvec3(60, 0, 0));  // flat in the plane of sight

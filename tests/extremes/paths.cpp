@@ -32,7 +32,7 @@ double fastest_turn_rad(const Trajectory& trajectory, double last_s) {
   return max_rad;
 }
 
-// Lays the flight before the camera, so that its middle is 3 km ahead, and takes three frames over it.
+// Moves the flight in front of the camera, so that its middle is 3 km ahead, and takes three frames of it.
 void check_sound_flight(const Flight& flight, const TrajectorySettings& settings, const Scenario& scenario,
                         Scene& scene) {
   std::vector<TimedWaypoint> waypoints = flight.waypoints;
@@ -49,7 +49,7 @@ void check_sound_flight(const Flight& flight, const TrajectorySettings& settings
 
 }  // namespace
 
-TEST_CASE("waypoints that nearly coincide neither stop the numbers nor break the attitude") {
+TEST_CASE("waypoints that nearly coincide give finite positions and attitudes") {
   for (const double apart_m : {0.0, 1e-300, 1e-12, 1e-9, 1e-6, 1e-3, 0.1})
     for (const glm::dvec3& direction : {glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0)})
       for (const TrajectorySettings& settings : all_settings()) {
@@ -60,7 +60,7 @@ TEST_CASE("waypoints that nearly coincide neither stop the numbers nor break the
       }
 }
 
-TEST_CASE("waypoints that nearly coincide and follow each other in a nanosecond give numbers") {
+TEST_CASE("waypoints that nearly coincide and follow each other in a nanosecond give finite numbers") {
   for (const double apart_m : {0.0, 1e-9, 1e-3}) {
     std::vector<TimedWaypoint> waypoints = nearly_coincident(apart_m, {0, 1, 0});
     waypoints[3].time_s = waypoints[2].time_s + 1.5e-9;
@@ -91,7 +91,7 @@ TEST_CASE("cusps and reversals and loops and climbs and stops give valid frames 
 TEST_CASE("through a vertical loop the annotated angles make one turn that never jumps") {
   const std::vector<TimedWaypoint> waypoints = loop(80, 60);
   const Trajectory trajectory = trajectory_through(waypoints);
-  double turned_deg = 0;  // of the nose as seen from the side, up is positive
+  double turned_deg = 0;  // of the nose in side view, up is positive
   double steepest_rad = 0;
   glm::dquat before = trajectory.world_from_body(0).rotation;
   for (double time_s = 0; time_s < waypoints.back().time_s; time_s += 1e-3) {
@@ -105,11 +105,11 @@ TEST_CASE("through a vertical loop the annotated angles make one turn that never
     steepest_rad = std::max(steepest_rad, std::abs(attitude.pitch_rad));
     before = again;
   }
-  CHECK(deg_of_rad(steepest_rad) > 87);  // the loop moves aside by 18 m, 2.05 degrees
+  CHECK(deg_of_rad(steepest_rad) > 87);  // the loop is displaced sideways by 18 m, 2.05 degrees
   CHECK(turned_deg == doctest::Approx(360).epsilon(0.001));
 }
 
-TEST_CASE("what stands still is drawn alike in every frame and level") {
+TEST_CASE("a stationary intruder is level and rendered alike in every frame") {
   Scenario scenario({64, 48});
   add_aircraft(scenario, {60, 3, -152});
   Scene scene = scenario.opened();

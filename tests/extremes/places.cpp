@@ -19,7 +19,7 @@ struct Place {
   bool can_be_seen;  // through a pinhole
 };
 
-// The aircraft is 12 m long and reaches 7 m to its right.
+// The aircraft is 12 m long and extends 7 m to its right.
 std::vector<Place> places() {
   return {{"behind", {-80, 5, 5}, false},
           {"far behind", {-1e7, 0, 0}, false},
@@ -63,7 +63,7 @@ double cube_area_px(double side_m, const glm::dvec3& from_eye_m, double focal_px
 
 }  // namespace
 
-TEST_CASE("wherever the intruder is everything that comes out is valid") {
+TEST_CASE("wherever the intruder is all outputs are valid") {
   const struct {
     MethodChoice method;
     bool is_fisheye;
@@ -104,7 +104,7 @@ TEST_CASE("an image on a surface that is seen edge on from a hundredth of a mill
   }
 }
 
-TEST_CASE("all of it ten thousand kilometres from the world's origin is valid and the same") {
+TEST_CASE("a scene ten thousand kilometres from the world's origin is valid and the same") {
   for (const Place& place : places()) {
     if (length(place.from_eye_m) > 1e6 || (!place.can_be_seen && length(place.from_eye_m) < 20)) continue;
     INFO(place.name);
@@ -151,7 +151,7 @@ TEST_CASE("a target of a hundredth of a pixel covers its true area within a hund
     }
 }
 
-TEST_CASE("a target of a hundredth of a pixel keeps its area through a lens that bends") {
+TEST_CASE("a target of a hundredth of a pixel keeps its area through a distorting lens") {
   // Where a lens magnifies by its Jacobian's determinant, areas grow by that: here the closed form of one coefficient,
   // r -> r (1 + k r^2), which stretches radially by 1 + 3 k r^2 and across by 1 + k r^2.
   const double k1 = -0.25;
@@ -167,7 +167,7 @@ TEST_CASE("a target of a hundredth of a pixel keeps its area through a lens that
   }
 }
 
-TEST_CASE("from a hundredth of a pixel to a hundred pixels the area is true at every supersampling") {
+TEST_CASE("from a hundredth of a pixel to a hundred pixels the area is correct at every supersampling") {
   for (int supersampling = 1; supersampling <= 8; ++supersampling)
     for (const double side_px : {0.01, 0.3, 1.0, 7.3, 100.0}) {
       CAPTURE(supersampling);

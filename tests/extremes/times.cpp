@@ -50,7 +50,7 @@ TEST_CASE("one frame and a hundred thousand frames in one trajectory give valid 
   }
 }
 
-TEST_CASE("the spline over one frame and a hundred thousand frames is good to the last digits") {
+TEST_CASE("the spline over one frame and a hundred thousand frames is accurate to the last digits") {
   // Three waypoints have a closed form: the middle one's acceleration, worked out in long double.
   const long double h = 0.04L;
   const long double k = 4000;
@@ -70,7 +70,7 @@ TEST_CASE("from one waypoint to ten thousand each is passed at its time and the 
     CAPTURE(count);
     std::vector<TimedWaypoint> waypoints = wild(count, 11);
     for (const TrajectorySettings& settings : all_settings()) {
-      // Each a second or two of work at ten thousand; two of the eight will do there.
+      // Each takes a second or two at ten thousand; two of the eight are enough there.
       if (count == 10'000 && (settings.bank == Bank::level || settings.timing == Timing::constant_speed)) continue;
       INFO(name_of(settings));
       const Trajectory trajectory = trajectory_through(waypoints, settings);
@@ -89,7 +89,7 @@ TEST_CASE("from one waypoint to ten thousand each is passed at its time and the 
   }
 }
 
-TEST_CASE("frame times that all fall together stand still and times an hour apart go on") {
+TEST_CASE("equal frame times give a stationary intruder and times an hour apart a moving one") {
   Scenario scenario;
   add_aircraft(scenario, {60, 0, -150});
   Scene scene = scenario.opened();

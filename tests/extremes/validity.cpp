@@ -18,7 +18,7 @@ namespace sigs::test {
 
 namespace {
 
-constexpr double kRounding = 1e-3;  // of sums of floats; wide blur may swing by a thousandth below nothing
+constexpr double kRounding = 1e-3;  // of sums of floats; wide blur may undershoot zero by a thousandth
 
 bool is_share(double value) {
   return value >= 0 && value <= 1;  // false for NaN
@@ -87,13 +87,13 @@ void check_image(const ComposedFrame& composed, const Frame& background) {
   CHECK(cv::countNonZero(changed & (composed.mask == 0)) == 0);
 }
 
-// OpenGL is made once for all frames of the program: what a frame is does not depend on the frames before it.
+// OpenGL is made once for all frames of the program: a frame does not depend on the frames before it.
 ComposeContext& shared_bench() {
   static ComposeContext context;
   return context;
 }
 
-// No surface of the scene sends out more: the light's strongest channel, and gloss of a quarter of it.
+// No surface of the scene emits more: the light's strongest channel, and gloss of a quarter of it.
 double brightest_of(const Scene& scene) {
   const glm::dvec3& color = scene.light.color;
   return 1.25 * std::max({color.r, color.g, color.b});

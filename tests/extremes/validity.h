@@ -10,17 +10,17 @@
 
 namespace sigs::test {
 
-// Every number finite, every share within 0 to 1, every box with a size, every file text that holds numbers holds
-// numbers. Each fault is a failed check that says what and where.
+// Every number finite, every share within 0 to 1, every box with a size, every text of a file that should be a number
+// is one. Each fault is a failed check that names it and its place.
 
-//   brightest  no surface sends out more light than this, 1 for a white light of full strength on a matt surface
+//   brightest  no surface emits more light than this, 1 for a white light of full strength on a matt surface
 void check_valid(const Layer& layer, double brightest);
 void check_valid(const IntruderTruth& truth, cv::Size image_size_px);
 
 // Also the very text of the annotation file: each attribute that holds a number is read back.
 void check_valid(const FrameTruth& truth, cv::Size image_size_px);
 
-// A frame, and all that it is made of.
+// A frame with all its layers and stages.
 struct ValidFrame {
   ComposedFrame composed;
   std::vector<IntruderLayers> layers;  // far to near

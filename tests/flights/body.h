@@ -8,11 +8,11 @@
 namespace sigs::flights {
 
 // A part of the carrying aircraft as the camera sees it, flat. Places are shares of the image's width (x) and height
-// (y), (0, 0) its upper left corner; a part may reach beyond the image.
+// (y), (0, 0) its upper left corner; a part may extend beyond the image.
 struct Part {
   using Outline = std::vector<cv::Point2d>;
   std::vector<Outline> outlines;  // even-odd: the second may be a hole in the first
-  bool rounded = true;            // corners are cut until they look drawn with a brush
+  bool rounded = true;            // corners are rounded, as if painted with a brush
   cv::Scalar color{150, 150, 150};
   double relief = 0.25;          // how much it is lighter where it turns up and darker where it turns down
   int panel_lines = 6;           // across it, with rivets along them
@@ -20,7 +20,7 @@ struct Part {
   cv::Scalar stripe_color{50, 50, 180};
 };
 
-// What spins before or beside the body: seen as a blur through which the world shows. Not own body in the truth.
+// A propeller before or beside the body: a blur through which the world is visible. Not own body in the truth.
 struct Propeller {
   cv::Point2d middle;  // shares of width and height
   double radius = 0;   // of the width; 0: none

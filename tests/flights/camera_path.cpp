@@ -18,7 +18,7 @@ double rad(double deg) {
   return deg * std::numbers::pi / 180;
 }
 
-// A sine of its own phase. part tells one motion of a flight from another.
+// A sine of its own phase. part distinguishes the motions of a flight.
 double swing(double t_s, double rate_hz, int part, std::uint32_t seed) {
   return std::sin(2 * std::numbers::pi * (rate_hz * t_s + random_share(part, 7, seed)));
 }

@@ -15,7 +15,7 @@ struct View {
   cv::Matx33d world_from_camera;
 };
 
-// A flight straight on with a gentle weave at some 20 m/s, 25 frames a second, swaying.
+// A straight flight with gentle lateral and angular oscillation at some 20 m/s, 25 frames a second.
 struct Path {
   double height_m = 120;
   double weave_m = 60;           // to either side

@@ -7,7 +7,7 @@ namespace sigs::flights {
 
 namespace {
 
-// Each flight begins somewhere else and sways in its own time.
+// Each flight has its own starting point and phases of oscillation.
 Path path(std::uint32_t seed) {
   return {.seed = seed};
 }

@@ -24,21 +24,21 @@ struct Case {
   double bar_share = 0;  // of the image's height that a black bar takes at the top, and another at the bottom
   bool exposure_drifts = false;
   bool small_mover = false;
-  double shake = 1;  // factor on how far the body trembles
+  double shake = 1;  // factor on the amplitude of the body's shaking
   double grain_codes = kGrain_codes;
   Reflection reflection;
 };
 
-// frames: how many are meant to be looked at.
+// frames: the intended number of frames.
 [[nodiscard]] std::vector<Case> cases(int frames);
 
-// Harder than can be asked for: where finding the body ends.
+// Beyond the requirements: the limits of the detection.
 [[nodiscard]] std::vector<Case> hard_cases();
 
-// What the confidence is set by, beside cases() and hard_cases(): reflections, and bodies seen through them.
+// The cases to which the confidence is fitted, beside cases() and hard_cases(): reflections, and bodies behind them.
 [[nodiscard]] std::vector<Case> reflecting_cases();
 
-// What nothing is set by: bodies of other shapes, other reflections, other seeds. For the honest figure alone.
+// Cases to which nothing is fitted: bodies of other shapes, other reflections, other seeds. For evaluation alone.
 [[nodiscard]] std::vector<Case> unseen_cases();
 
 [[nodiscard]] std::vector<cv::Rect> bars(const Case& scene, cv::Size size_px);

@@ -15,7 +15,7 @@ namespace sigs::flights {
 
 namespace {
 
-// What several flights share, made when the first of them needs it.
+// Data shared by several flights, made when the first of them needs it.
 class Countries {
  public:
   explicit Countries(int detail) : detail_(detail) {}
@@ -68,10 +68,10 @@ Flight flight(const Case& scene, const FlightSettings& settings, std::shared_ptr
           .own_body = truth,
           .bgr = [=, size_px = settings.size_px](
                      int n) { return drawn(scene, *terrain, *body, *grain, reflection, size_px, n); },
-          .can_be_told = !scene.path.still};
+          .is_decidable = !scene.path.still};
 }
 
-// About as fine as the nearest ground is seen.
+// About the resolution at which the nearest ground appears.
 int detail_for(cv::Size size_px) {
   return size_px.width <= 400 ? 1024 : size_px.width <= 800 ? 2048 : 4096;
 }

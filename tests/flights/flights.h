@@ -9,27 +9,27 @@
 
 namespace sigs::flights {
 
-// Made footage of a flight with the carrying aircraft in view, and the truth about it.
+// Synthetic footage of a flight with the carrying aircraft in view, and its ground truth.
 struct Flight {
   std::string name;  // "tail boom"
   cv::Size size_px;
   cv::Mat own_body;                 // truth, CV_8UC1: 255 where the body hides the world, 0 elsewhere
   std::function<cv::Mat(int)> bgr;  // frame n (any n >= 0, by n alone), CV_8UC3; may be called by several threads
-  bool can_be_told = true;          // false: nothing moves, so that no one can tell
+  bool is_decidable = true;         // false: nothing moves, so that the body cannot be determined
 };
 
 struct FlightSettings {
   cv::Size size_px{640, 480};
-  int frames = 300;  // how many are meant to be looked at; "plain sky first" looks at the sky for half of them
+  int frames = 300;  // intended number; "plain sky first" shows the sky for half of them
 };
 
-// Every case that finding the body has to do well. The terrain below is made once for all of them.
+// Every case that the detection has to solve. The terrain below is made once for all of them.
 [[nodiscard]] std::vector<Flight> all(const FlightSettings& settings = {});
 
-// Flights beyond what finding the body is asked to do; by_name does not know them.
+// Flights beyond the requirements on the detection; by_name does not know them.
 [[nodiscard]] std::vector<Flight> hard(const FlightSettings& settings = {});
 
-// Reflections that stay in the image (cases.h): what the confidence is set by, and what nothing is set by.
+// Reflections that stay in the image (cases.h): those to which the confidence is fitted, and those to which nothing is.
 [[nodiscard]] std::vector<Flight> reflecting(const FlightSettings& settings = {});
 [[nodiscard]] std::vector<Flight> unseen(const FlightSettings& settings = {});
 

@@ -26,8 +26,8 @@ double intersection_over_union(const cv::Mat& a, const cv::Mat& b) {
   return double(cv::countNonZero(a & b)) / cv::countNonZero(a | b);
 }
 
-// How much of a world behind it the body hides, on average over many frames: what is left of a white one, less what
-// stands before a black one. CV_32FC1, 0..1.
+// How much of a world behind it the body hides, on average over many frames: the remaining light of a white one, less
+// that before a black one. CV_32FC1, 0..1.
 cv::Mat mean_cover(const Body& body, int frames, std::uint32_t seed) {
   cv::Mat sum = cv::Mat::zeros(body.size_px, CV_32FC1);
   for (int n = 0; n < frames; ++n) {
@@ -80,7 +80,7 @@ TEST_CASE("every case has its own name, a truth of its size, and images of it") 
   }
 }
 
-TEST_CASE("the harder flights are other ones, and tremble as their names say") {
+TEST_CASE("the harder flights have other names, and shake as those state") {
   const std::vector<std::string> known = names();
   for (const Flight& flight : hard(kSmall)) {
     CHECK(std::ranges::find(known, flight.name) == known.end());
@@ -95,7 +95,7 @@ TEST_CASE("the harder flights are other ones, and tremble as their names say") {
   CHECK(strongest->shake * 2 < Body::kMargin_px);  // no gap at the image's border
 }
 
-TEST_CASE("a frame is the same whatever was asked for before, by whom, and alone or among others") {
+TEST_CASE("a frame is the same whatever was requested before, from any copy of the flight") {
   for (const char* name : {"propeller", "exposure drift", "straight road below"}) {
     const Flight one = by_name(name, kSmall), other = by_name(name, kSmall);
     const cv::Mat first = one.bgr(17);
@@ -105,20 +105,20 @@ TEST_CASE("a frame is the same whatever was asked for before, by whom, and alone
   }
 }
 
-TEST_CASE("a body at rest on average lies where the truth says") {
+TEST_CASE("a body's mean position is that of the truth") {
   const cv::Size size_px(640, 480);
   for (const Part& part : {tail_boom(), nose(), wing_tip_left(), wing_tip_right(), windscreen(), belly()}) {
     const Body body = body_of({part}, size_px, 5);
     const cv::Mat cover = mean_cover(body, 150, 5);
-    // Half of a pixel's wobble in a few hundred pixels of outline is what 150 random shifts leave.
+    // After 150 random shifts some half a pixel of the outline's shaking remains.
     CHECK(intersection_over_union(cover > 0.5, body.truth) > 0.97);
     cv::Mat inner, outer;
     cv::erode(body.truth, inner, cv::Mat(), {-1, -1}, 5, cv::BORDER_REPLICATE);
     cv::dilate(body.truth, outer, cv::Mat(), {-1, -1}, 6);
-    double least = 0;
+    double minimum = 0;
     if (cv::countNonZero(inner) > 0) {
-      cv::minMaxLoc(cover, &least, nullptr, nullptr, nullptr, inner);
-      CHECK(least > 0.98);  // 255 premultiplied is rounded down now and then
+      cv::minMaxLoc(cover, &minimum, nullptr, nullptr, nullptr, inner);
+      CHECK(minimum > 0.98);  // 255 premultiplied is rounded down now and then
     }
     cv::Mat beyond = cover.clone();
     beyond.setTo(0, outer);
@@ -126,7 +126,7 @@ TEST_CASE("a body at rest on average lies where the truth says") {
   }
 }
 
-TEST_CASE("the world shows outside of the truth and not within") {
+TEST_CASE("the world is visible outside of the truth and not within") {
   // Two flights over different terrain with one body: what differs between them is world.
   const cv::Size size_px(320, 240);
   const Body body = body_of({nose(), wing_tip_left()}, size_px, 5);
@@ -143,7 +143,7 @@ TEST_CASE("the world shows outside of the truth and not within") {
   CHECK(intersection_over_union(~differs, body.truth) > 0.97);
 }
 
-TEST_CASE("the ground moves as a plane does before a pinhole camera") {
+TEST_CASE("the ground moves as a plane in front of a pinhole camera") {
   const cv::Size size_px(640, 480);
   const Terrain land = terrain(2048, Roads::winding, 3);
   for (const int n : {0, 40, 200}) {
@@ -165,7 +165,7 @@ TEST_CASE("the ground moves as a plane does before a pinhole camera") {
   }
 }
 
-TEST_CASE("the horizon lies where the attitude puts it") {
+TEST_CASE("the horizon has the position that follows from the attitude") {
   const cv::Size size_px(640, 480);
   const Terrain land = terrain(1024, Roads::winding, 3);
   for (const int n : {0, 30, 77, 150}) {
@@ -183,7 +183,7 @@ TEST_CASE("the horizon lies where the attitude puts it") {
   }
 }
 
-TEST_CASE("the body shakes by half a pixel to two and comes to rest on the whole") {
+TEST_CASE("the body shakes by half a pixel to two, with a mean of zero") {
   cv::Point2d sum;
   for (int n = 0; n < 2000; ++n) {
     const cv::Point2d shift = shake_at(n, {640, 480}, 3).shift_px;
@@ -194,7 +194,7 @@ TEST_CASE("the body shakes by half a pixel to two and comes to rest on the whole
   CHECK(std::hypot(sum.x, sum.y) / 2000 < 0.1);  // sigma of the mean is 0.93 / sqrt(2000) = 0.02 a direction
 }
 
-TEST_CASE("grain is as strong as it says, and each frame has its own") {
+TEST_CASE("noise has the stated strength, and differs between frames") {
   const Grain grain(kGrain_codes);
   cv::Mat before;
   for (int n = 0; n < 3; ++n) {
@@ -209,10 +209,10 @@ TEST_CASE("grain is as strong as it says, and each frame has its own") {
   }
 }
 
-TEST_CASE("a still flight differs from frame to frame by its grain alone, but for the mover") {
+TEST_CASE("the frames of a still flight differ by noise and the moving object alone") {
   for (const char* name : {"still", "still, one mover"}) {
     const Flight flight = by_name(name, kSmall);
-    CHECK_FALSE(flight.can_be_told);
+    CHECK_FALSE(flight.is_decidable);
     cv::Mat apart;
     cv::absdiff(flight.bgr(5), flight.bgr(45), apart);
     const int loud = cv::countNonZero(apart.reshape(1) > 16);  // 5.6 sigma of the difference
@@ -231,13 +231,13 @@ TEST_CASE("letterbox bars are black in every frame and masked in the truth") {
 }
 
 TEST_CASE("the exposure drifts over its whole range") {
-  double least = 9, most = 0;
+  double minimum = 9, maximum = 0;
   for (int n = 0; n < 600; ++n) {
-    least = std::min(least, drifting_gain(n));
-    most = std::max(most, drifting_gain(n));
+    minimum = std::min(minimum, drifting_gain(n));
+    maximum = std::max(maximum, drifting_gain(n));
   }
-  CHECK(least == doctest::Approx(0.72).epsilon(0.03));
-  CHECK(most == doctest::Approx(1.296).epsilon(0.03));
+  CHECK(minimum == doctest::Approx(0.72).epsilon(0.03));
+  CHECK(maximum == doctest::Approx(1.296).epsilon(0.03));
 }
 
 TEST_CASE("plain sky first shows sky for the first half and ground in the second") {

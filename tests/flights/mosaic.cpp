@@ -11,7 +11,7 @@ namespace sigs::flights {
 namespace {
 
 cv::Mat one_octave(int size, int cells, std::uint32_t seed) {
-  constexpr int kBorder = 4;  // what the cubic looks at beyond the edge comes from the other side
+  constexpr int kBorder = 4;  // the cubic's samples beyond the edge come from the other side
   cv::Mat grid(cells, cells, CV_32FC1);
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j) grid.at<float>(i, j) = static_cast<float>(2 * random_share(i, j, seed) - 1);
@@ -37,13 +37,13 @@ Mosaic::Mosaic(const cv::Mat& finest, double cell_m) : cell_m_(cell_m) {
 
 cv::Mat tiled_noise(int size, int coarsest, int octaves, double fade, std::uint32_t seed) {
   cv::Mat sum = cv::Mat::zeros(size, size, CV_32FC1);
-  double strength = 1, most = 0;
+  double strength = 1, sum_of_squares = 0;
   for (int k = 0; k < octaves && (coarsest << k) <= size; ++k) {
     sum += strength * one_octave(size, coarsest << k, seed + static_cast<std::uint32_t>(k));
-    most += strength * strength;
+    sum_of_squares += strength * strength;
     strength *= fade;
   }
-  return cv::Mat(sum / std::sqrt(most));
+  return cv::Mat(sum / std::sqrt(sum_of_squares));
 }
 
 }  // namespace sigs::flights

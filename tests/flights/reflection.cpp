@@ -11,7 +11,7 @@ namespace sigs::flights {
 
 namespace {
 
-constexpr double kVeil = 0.2;  // of the codes: what is mirrored between the things
+constexpr double kVeil = 0.2;  // of the codes: the reflection between the objects
 
 cv::Scalar tint(double codes, int thing, std::uint32_t seed) {
   const auto channel = [&](int c) { return codes * (0.85 + 0.15 * random_share(thing, 20 + c, seed)); };

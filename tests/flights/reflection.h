@@ -6,8 +6,8 @@
 
 namespace sigs::flights {
 
-// What a windscreen or a dome mirrors into the view: light that is added to all that is behind it, so that the world
-// shows through. It stays where it is in the image, or creeps as the sun wanders. Not own body in the truth.
+// A reflection in a windscreen or a dome: light that is added to everything behind it, so that the world
+// is visible through it. It is fixed in the image, or drifts slowly as the sun moves. Not own body in the truth.
 struct Reflection {
   double codes = 0;                  // of its brightest parts; 0: none
   cv::Rect2d where{0, 0.4, 1, 0.6};  // shares of width and height; it fades out there

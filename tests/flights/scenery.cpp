@@ -14,7 +14,7 @@ constexpr float kHazeReach_m = 5500, kThickestHaze = 0.86F;
 constexpr float kCloudBase_m = 1300;
 constexpr int kBlock_px = 16;  // within which haze and fineness are taken as one
 
-// What one row's block of pixels shares.
+// Values that a block of pixels in one row has in common.
 struct Block {
   float ground_level = 0, patch_level = 0, cloud_level = 0;
   float haze = 0;

@@ -6,7 +6,7 @@
 
 namespace sigs::flights {
 
-// Grain of a sensor: normal, some codes strong, of its own in every sample and frame.
+// Sensor noise: normal, some codes strong, independent in every sample and frame.
 class Grain {
  public:
   explicit Grain(double sigma_codes);
@@ -16,7 +16,7 @@ class Grain {
   cv::Mat pool_;  // CV_8SC1, one row; each row of an image begins anywhere in it
 };
 
-// What an exposure that hunts makes of the light: slow swings between 0.7 and 1.3, and jumps.
+// The gain of an unstable exposure control: slow oscillation between 0.7 and 1.3, and jumps.
 [[nodiscard]] double drifting_gain(int frame);
 
 }  // namespace sigs::flights

@@ -14,12 +14,12 @@ namespace sigs::flights {
 [[nodiscard]] Part wing_tip_right();
 [[nodiscard]] Part spinner();
 [[nodiscard]] Part engine_cowl();         // behind the spinner and its propeller
-[[nodiscard]] Part belly();               // hangs in from above
+[[nodiscard]] Part belly();               // enters from the top
 [[nodiscard]] Part strut();               // from the belly to the left
 [[nodiscard]] Part windscreen();          // a frame around all of the view, with a post
 [[nodiscard]] Part bonnet();              // along all of the lower border
-[[nodiscard]] Part pod();                 // hangs in from above at the right
-[[nodiscard]] Part side_float();          // comes in from the left, below
+[[nodiscard]] Part pod();                 // enters from the top right
+[[nodiscard]] Part side_float();          // enters from the lower left
 [[nodiscard]] std::vector<Part> skids();  // two, from the sides to below
 [[nodiscard]] Propeller propeller();
 

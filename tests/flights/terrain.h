@@ -9,7 +9,8 @@ namespace sigs::flights {
 
 enum class Roads { winding, straight_below };  // straight_below: along world X through Y = 0, 13 m wide
 
-// What a flight goes over and under. Repeats after about a kilometre; `patches` (12 km) hides it from afar.
+// The ground below a flight and the clouds above it. Repeats after about a kilometre; `patches` (12 km) conceal that at
+// a distance.
 struct Terrain {
   Mosaic ground;   // channels 0..2: blue, green, red
   Mosaic patches;  // the same, to be multiplied: 128 is 1

@@ -37,7 +37,7 @@ ComposedFrame painted(const std::vector<Block>& blocks, const std::vector<Waypoi
   return composed(scenario.opened(), 1, even_frame(scenario.size_px(), 126, PixelLayout::yuv444));
 }
 
-// Middle of what has more of one colour than gray has: plane 1 blue, plane 2 red.
+// Centroid of the pixels with more of one colour than gray: plane 1 blue, plane 2 red.
 cv::Point2d middle_of(const ComposedFrame& frame, std::size_t plane) {
   cv::Mat strong = frame.image.planes[plane] > 170;
   const cv::Moments m = cv::moments(strong, true);
@@ -67,8 +67,8 @@ TEST_CASE("light from one side makes that side brighter") {
   CHECK(mean_luma(below, kLower) > 1.5 * mean_luma(below, kUpper));
 }
 
-TEST_CASE("light stands in the world and not with the camera") {
-  // The camera looks the other way and lies on its side; the ball is lit from world Y, which it sees on its left.
+TEST_CASE("light is fixed in the world and not to the camera") {
+  // The camera looks the other way and lies on its side; the ball is lit from world Y, which is on the camera's left.
   Scenario scenario;
   write_sphere_obj(scenario.path("ball.obj"), 5);
   scenario.add("ball.obj", {-40, 0, -150});

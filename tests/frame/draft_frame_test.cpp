@@ -45,7 +45,7 @@ TEST_CASE("the draft of a valid project gives the opened scene's bytes") {
   CHECK(cv::countNonZero(opened.mask) > 50);
 }
 
-TEST_CASE("a cross stands where the model would, as large as it would be") {
+TEST_CASE("a cross has the model's place and size") {
   const ValidProject valid;
   SceneFiles files;
   for (const char* const file : {"none.obj", "broken.obj", ""}) {
@@ -61,7 +61,7 @@ TEST_CASE("a cross stands where the model would, as large as it would be") {
   }
 }
 
-TEST_CASE("every file may be missing at once and the frame still has the crosses") {
+TEST_CASE("with every file missing the frame still has the crosses") {
   const ValidProject valid;
   Project project = valid.scenario.project;
   project.footage.video = "";
@@ -72,7 +72,7 @@ TEST_CASE("every file may be missing at once and the frame still has the crosses
   CHECK(cv::countNonZero(draft_frame(valid.scenario, project, files).mask) > 10);
 }
 
-TEST_CASE("whatever number stands in whichever field, the draft can be composed") {
+TEST_CASE("with any number in any field, the draft can be composed") {
   const ValidProject valid;
   SceneFiles files;
   ComposeContext context;

@@ -14,7 +14,7 @@
 namespace sigs::test {
 namespace {
 
-// The lens throws the straight edges of a body as curves. All points of a block's twelve edges, close together.
+// The lens images the straight edges of a body as curves. All points of a block's twelve edges, close together.
 std::vector<cv::Vec3d> points_on_edges(const Block& block, const cv::Vec3d& position_in_camera) {
   constexpr int kSteps = 4000;
   std::vector<cv::Vec3d> points;
@@ -66,7 +66,7 @@ Seen seen_block(Scenario& scenario, const Block& block, const glm::dvec3& positi
 
 }  // namespace
 
-TEST_CASE("straight edges that the lens bows are measured and drawn out to the bow") {
+TEST_CASE("straight edges that the lens curves are measured and rendered as curves") {
   struct Case {
     std::string name;
     std::vector<double> coefficients;
@@ -97,7 +97,7 @@ TEST_CASE("straight edges that the lens bows are measured and drawn out to the b
   }
 }
 
-TEST_CASE("a body that reaches beyond the valid field is measured up to where the field ends") {
+TEST_CASE("a body that extends beyond the valid field is measured up to the end of the field") {
   const std::vector<double> coefficients{-0.3, 0.02, 0, 0, 0};  // folds at 48 degrees, inside this image
   Scenario scenario({480, 360});
   write_calibration(scenario.path("lens.xml"), {250, 0, 239.5, 0, 250, 179.5, 0, 0, 1}, coefficients, {480, 360});

@@ -21,7 +21,7 @@ bool is_finite(const IntruderTruth& truth) {
   return fine;
 }
 
-// A made 200 degree fisheye.
+// A synthetic 200 degree fisheye.
 void see_nearly_all(Scenario& scenario) {
   write_calibration(scenario.path("wide.xml"), {180, 0, 319.5, 0, 180, 239.5, 0, 0, 1}, {0, 0, 0, 0}, {640, 480}, true);
   scenario.project.footage.calibration = "wide.xml";
@@ -51,7 +51,7 @@ TEST_CASE("an intruder behind the camera is nowhere in the image") {
   }
 }
 
-TEST_CASE("an intruder beside the image has a silhouette out there and is not in it") {
+TEST_CASE("an intruder beside the image has a silhouette outside it and is not in it") {
   Scenario scenario;
   add_aircraft(scenario, {100, 80, -150});
   const ComposedFrame frame = composed(scenario);
@@ -132,7 +132,7 @@ TEST_CASE("an intruder 100 km away is a faint spot in the right place") {
   CHECK(box.area() <= 9);
 }
 
-TEST_CASE("an intruder too small for one code value is still in the image by its truth") {
+TEST_CASE("an intruder too small for one code value is still in the image by the annotation") {
   Scenario scenario;
   write_obj(scenario.path("dot.obj"), {{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}, 1);
   scenario.add("dot.obj", {1e5, 0, -150});
@@ -200,7 +200,7 @@ TEST_CASE("an intruder across the plane of a pinhole is drawn where it is ahead"
     CHECK(is_finite(truth));
     CHECK(truth.in_image);
     REQUIRE(truth.visible_box);
-    // Its far end: 2.5 m below the axis and 30 m ahead is 25 px below the middle; from there it reaches down to the
+    // Its far end: 2.5 m below the axis and 30 m ahead is 25 px below the middle; from there it extends down to the
     // edge.
     CHECK(std::abs(truth.visible_box->y - (119.5 + 0.5 + 25)) <= 1.5);
     CHECK(truth.visible_box->br().y == 240);

@@ -20,7 +20,7 @@
 namespace sigs::test {
 namespace {
 
-// What the annotation may be off by, and what it is held to: OpenCV is asked for the vertices alone,
+// The tolerance of the annotation: OpenCV projects the vertices alone,
 // and close to a fold of the lens the edge between two of them bows out by some 4e-4 px. Elsewhere it is 1e-12 px.
 constexpr double kAllowed_px = 0.5;
 constexpr double kHeldTo_px = 1e-3;
@@ -53,7 +53,7 @@ std::vector<Calibration> real_calibrations() {
   return all;
 }
 
-// The corners of an OBJ as its text has them, turned into body axes by hand: nose -X, up +Y, left wing +Z.
+// The corners of an OBJ as its text has them, converted to body axes here: nose -X, up +Y, left wing +Z.
 std::vector<cv::Vec3d> airliner_points(const std::filesystem::path& path) {
   std::vector<cv::Vec3d> points;
   std::ifstream in(path);
@@ -115,7 +115,7 @@ struct Placed {
   cv::Vec3d heading_in_world;
 };
 
-// The intruder's truth as OpenCV has it.
+// The intruder's truth by OpenCV.
 struct Expected {
   cv::Vec3d position_in_camera;
   cv::Point2d center_px;
@@ -274,7 +274,7 @@ void check_tally(const Tally& tally, const std::string& name, const std::string&
 
 }  // namespace
 
-TEST_CASE("a made aircraft lies where OpenCV projects it through every real calibration") {
+TEST_CASE("a synthetic aircraft lies where OpenCV projects it through every real calibration") {
   if (!has_real_data()) return;
   for (const Calibration& calibration : real_calibrations()) {
     Scenario scenario(calibration.camera.size_px);

@@ -18,7 +18,7 @@
 namespace sigs::test {
 namespace {
 
-// How much of each of `in` samples from first_in reaches each of `out` samples from first_out: the Gaussian of whole
+// Weights of `in` samples from first_in in `out` samples from first_out: the Gaussian of whole
 // pixels, cut at three sigmas.
 cv::Mat kernel(int first_out, int out, int first_in, int in, double sigma_px) {
   const int reach = static_cast<int>(std::ceil(3 * sigma_px));
@@ -108,13 +108,13 @@ void check_against_full(const Layer& soft, const Layer& full, double sigma_px, c
   Frame got = cloned(background);
   if (!soft.empty()) blend_over(got, soft, BlendSpace::linear);
   const double off = rmse(got.planes[0], wanted.planes[0]);
-  const double most = cv::norm(got.planes[0], wanted.planes[0], cv::NORM_INF);
-  MESSAGE("sigma " << sigma_px << ": off by " << off << " code values (root of mean square), at most " << most
+  const double maximum = cv::norm(got.planes[0], wanted.planes[0], cv::NORM_INF);
+  MESSAGE("sigma " << sigma_px << ": off by " << off << " code values (root of mean square), at most " << maximum
                    << "; the blurred intruder moves them by "
                    << cv::norm(background.planes[0], wanted.planes[0], cv::NORM_INF));
   CHECK(off <= 0.5);
-  CHECK(most <= 2);
-  if (soft.empty()) CHECK(most <= 1);
+  CHECK(maximum <= 2);
+  if (soft.empty()) CHECK(maximum <= 1);
 }
 
 // Over even images of these lumas.
@@ -200,7 +200,7 @@ TEST_CASE("the truth does not depend on how far the light is blurred") {
   }
 }
 
-TEST_CASE("whatever the blur and the distance, a frame takes no more than moments") {
+TEST_CASE("whatever the blur and the distance, a frame takes little time") {
   for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic})
     for (const double blur_px_per_m : {0.5, 10.0})
       for (const double ahead_m : {20.0, 60.0, 550.0, 1e5, 1e7, 1e8}) {
@@ -211,12 +211,12 @@ TEST_CASE("whatever the blur and the distance, a frame takes no more than moment
         scenario.project.compositing = {.method = method, .blur_px_per_m = blur_px_per_m};
         add_aircraft(scenario, {ahead_m, 0, -150});
         ComposedFrame frame;
-        CHECK(seconds_for(scenario, frame) < 5);  // milliseconds; but the machine may have much else to do
+        CHECK(seconds_for(scenario, frame) < 5);  // milliseconds; but the machine may be busy
         CHECK(frame.truth.intruders[0].in_image);
       }
 }
 
-TEST_CASE("what is blurred until no sample can change is left out, and only that") {
+TEST_CASE("an intruder blurred until no sample can change is left out, and no other") {
   for (const double sigma_px : {100.0, 200.0, 400.0, 800.0, 1e4, 1e6, 1e9}) {
     CAPTURE(sigma_px);
     Scenario scenario;
@@ -245,9 +245,9 @@ TEST_CASE("around the camera a sphere stays opaque before a wide blur") {
   Scene scene = scenario.opened();
   scene.compositing.blur_px_per_m = 100.0 / 4;
   const ComposedFrame frame = composed(scene, 1, even_frame(scenario.size_px(), 100));
-  double least = 0;
-  cv::minMaxIdx(frame.mask, &least);
-  CHECK(least >= 254);
+  double minimum = 0;
+  cv::minMaxIdx(frame.mask, &minimum);
+  CHECK(minimum >= 254);
   CHECK(frame.truth.intruders[0].in_image);
 }
 

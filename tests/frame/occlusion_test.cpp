@@ -97,7 +97,7 @@ TEST_CASE("the own body hides its part of an intruder from image and mask and tr
   CHECK(!same_bytes(frame.image.planes[0], background.planes[0]));
 }
 
-TEST_CASE("an intruder wholly behind the own body leaves the image as it was") {
+TEST_CASE("an intruder wholly behind the own body leaves the image unchanged") {
   Scenario scenario;
   add_plate(scenario);
   const Frame background = grainy_frame(scenario.size_px(), 1);
@@ -116,7 +116,7 @@ TEST_CASE("an intruder wholly behind the own body leaves the image as it was") {
   }
 }
 
-TEST_CASE("the own body's mask hides alike in 8 and 16 bits and in colour") {
+TEST_CASE("the own body's mask occludes alike in 8 and 16 bits and in colour") {
   Scenario scenario;
   add_plate(scenario);
   const Frame background = grainy_frame(scenario.size_px(), 1);

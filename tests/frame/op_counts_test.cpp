@@ -75,14 +75,14 @@ ComposedFrame made(const Ball& ball, cv::Size size_px = kSize) {
 
 }  // namespace
 
-TEST_CASE("work adds up field by field") {
+TEST_CASE("operation counts add up field by field") {
   const OpCounts one{1, 2, 3, 4, 5, 6, 7, 8};
   OpCounts sum{10, 20, 30, 40, 50, 60, 70, 80};
   sum += one;
   CHECK(sum == OpCounts{11, 22, 33, 44, 55, 66, 77, 88});
 }
 
-TEST_CASE("for an intruder out of view nothing is done but asking where it is") {
+TEST_CASE("for an intruder out of view only its position is computed") {
   const std::pair<const char*, glm::dvec3> places[] = {{"behind", {-300, 20, -140}},
                                                        {"beside", {100, 900, -150}},
                                                        {"above", {100, 0, -900}},
@@ -101,7 +101,7 @@ TEST_CASE("for an intruder out of view nothing is done but asking where it is") 
         ComposeContext context;
         const ComposedFrame frame = made(scene, 0, context);
         CAPTURE(text(frame.op_counts));
-        // The annotation tells where an intruder is outside the image too: at most a question for each of its points.
+        // The annotation covers intruders outside the image too: at most one evaluation for each of its points.
         const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
         CHECK(frame.op_counts.lens_evaluations <= (glass == Glass::distorting ? points : 0));
         OpCounts rest = frame.op_counts;
@@ -112,7 +112,7 @@ TEST_CASE("for an intruder out of view nothing is done but asking where it is") 
       }
 }
 
-TEST_CASE("a pinhole lens is never asked") {
+TEST_CASE("a pinhole lens is never evaluated") {
   for (const double sigma_px : {0.0, 2.0}) {
     const OpCounts straight = made({.sigma_px = sigma_px, .glass = Glass::pinhole}).op_counts;
     CHECK(straight.lens_evaluations == 0);
@@ -146,7 +146,7 @@ TEST_CASE("the pixels that are rewritten are those of the mask") {
     }
 }
 
-TEST_CASE("work is proportional to the intruder's pixels") {
+TEST_CASE("the work is proportional to the intruder's pixels") {
   for (const Glass glass : {Glass::pinhole, Glass::distorting})
     for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
       CAPTURE(diameter_px);
@@ -168,7 +168,7 @@ TEST_CASE("work is proportional to the intruder's pixels") {
     }
 }
 
-TEST_CASE("the lens is asked once for each of the intruder's points and where it is, not for its pixels") {
+TEST_CASE("the lens is evaluated for the intruder's points and at its place, not for each of its pixels") {
   for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
     CAPTURE(diameter_px);
     Scenario scenario(kSize);
@@ -179,12 +179,12 @@ TEST_CASE("the lens is asked once for each of the intruder's points and where it
     const auto points = static_cast<std::int64_t>(scene.intruders[0].model->points_m.size());
     const auto asked = static_cast<double>(frame.op_counts.lens_evaluations - points);
     CHECK(asked >= 0);
-    // A few hundred to choose the view; of a pixel's four corners each would ask once, tables ask some 1 in 30.
+    // A few hundred to choose the view; exact rays would need one for each pixel corner, tables need some 1 in 30.
     CHECK(asked <= 600 + 0.15 * static_cast<double>(frame.op_counts.pixels_warped));
   }
 }
 
-TEST_CASE("work does not depend on the size of the image") {
+TEST_CASE("the work does not depend on the size of the image") {
   for (const Glass glass : {Glass::pinhole, Glass::distorting})
     for (const auto& [diameter_px, sigma_px] : {std::pair(20.0, 2.0), std::pair(160.0, 0.0)}) {
       const Ball ball{.diameter_px = diameter_px, .sigma_px = sigma_px, .glass = glass};
@@ -197,7 +197,7 @@ TEST_CASE("work does not depend on the size of the image") {
     }
 }
 
-TEST_CASE("the lens is asked again only where the intruder has moved to") {
+TEST_CASE("the lens is evaluated again only where the intruder has moved to") {
   Scenario scenario(kSize);
   put_lens(scenario, Glass::distorting);
   // 200 px to the right in two frames.
@@ -221,7 +221,7 @@ TEST_CASE("the lens is asked again only where the intruder has moved to") {
   }
 }
 
-TEST_CASE("what is drawn is the box around the intruder and grows with it") {
+TEST_CASE("the rendered region is the box around the intruder and grows with it") {
   for (const double diameter_px : {20.0, 40.0, 80.0, 160.0}) {
     CAPTURE(diameter_px);
     const OpCounts counts = made({.diameter_px = diameter_px}).op_counts;
@@ -236,7 +236,7 @@ TEST_CASE("what is drawn is the box around the intruder and grows with it") {
   }
 }
 
-TEST_CASE("a ball too near for one view is drawn where the image looks and no finer than it needs") {
+TEST_CASE("a ball too near for one view is rendered only within the image and at the needed resolution") {
   const OpCounts counts = made({.diameter_px = 320}).op_counts;  // its middle is not two radii away
   CAPTURE(text(counts));
   // Supersampling 3 is 9 drawn pixels a pixel; faces of a cube are finer than needed towards their edges, and cut by a

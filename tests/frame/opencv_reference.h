@@ -10,8 +10,8 @@
 
 namespace sigs::test {
 
-// Where things lie in the image by OpenCV alone: cv::Rodrigues turns, cv::projectPoints and
-// cv::fisheye::projectPoints throw. World, camera and body axes are those of docs/frames-and-units.md.
+// Positions in the image by OpenCV alone: cv::Rodrigues rotates, cv::projectPoints and
+// cv::fisheye::projectPoints project. World, camera and body axes are those of docs/frames-and-units.md.
 
 // Turns camera or body axes into the world's: yaw about Z, then pitch about the new Y, then roll about the new X.
 [[nodiscard]] cv::Matx33d turned(double roll_deg, double pitch_deg, double yaw_deg);

@@ -15,7 +15,7 @@
 
 namespace sigs::test {
 
-// A box of a made aircraft, in body axes: X out of the nose, Y right wing, Z down.
+// A box of a synthetic aircraft, in body axes: X out of the nose, Y right wing, Z down.
 struct Block {
   glm::dvec3 low_m;
   glm::dvec3 high_m;
@@ -29,17 +29,17 @@ std::vector<glm::dvec3> write_obj(const std::filesystem::path& path, const std::
 // A sphere around the origin, seen from inside as well.
 void write_sphere_obj(const std::filesystem::path& path, double radius_m);
 
-// Fuselage, unequal wings, fin and belly pod: no two views of it are alike. Some 12 m long.
+// Fuselage, unequal wings, fin and belly pod: different from every side. Some 12 m long.
 [[nodiscard]] std::vector<Block> aircraft();
 
 // Calibration in OpenCV's own XML, written by OpenCV.
 void write_calibration(const std::filesystem::path& path, const cv::Matx33d& matrix,
                        const std::vector<double>& coefficients, cv::Size size_px, bool is_fisheye = false);
 
-// Stated in full, so that nothing is guessed from the size of an image when it is read back.
+// Stated in full, so that nothing is assumed from the size of an image when it is read back.
 [[nodiscard]] ColorInfo stated_color();
 
-// An image with structure and grain in all planes, different for every number.
+// An image with structure and noise in all planes, different for every number.
 [[nodiscard]] Frame grainy_frame(cv::Size size_px, int number, PixelLayout layout = PixelLayout::yuv420,
                                  const ColorInfo& color = stated_color());
 
@@ -51,7 +51,7 @@ void write_footage(const std::filesystem::path& path, cv::Size size_px, int fram
                    const ColorInfo& color = stated_color());
 
 // A project in a folder of its own, without intruders: pinhole camera with focal length 300 px at world (0, 0, -150),
-// which looks along world X; no blur. Tests change what they are about.
+// which looks along world X; no blur. Tests change the settings that they check.
 class Scenario {
  public:
   explicit Scenario(cv::Size size_px = {320, 240}, int frames = 3);

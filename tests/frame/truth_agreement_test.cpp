@@ -7,14 +7,14 @@
 
 #include "frame/truth_scenes.h"
 
-// The direct method against rays through the real lens (tests/truth). Codes are of 255.
+// The direct method against ray tracing through the real lens (tests/reference). Codes are of 255.
 namespace sigs::test {
 namespace {
 
 // An image of whole codes cannot do better than the 0.29 that rounding alone makes.
 constexpr double kSoft_rmse = 0.75;
 // Sharp edges and paint fall across pixels' edges by up to 1 / supersampling of a pixel. One percent of the range, in
-// those pixels alone that the intruder reaches, is not seen.
+// the intruder's own pixels, is not visible.
 constexpr double kSharp_rmse = 2.55;
 
 const char* const kAirliner = "airliner/airliner.obj";
@@ -61,7 +61,7 @@ void check_box(const Compared& result, double extent_px) {
 
 }  // namespace
 
-TEST_CASE("blurred aircraft look as rays through the real lens see them") {
+TEST_CASE("blurred aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places())
     for (const char* model : {kAirliner, kLightAircraft}) {  // the latter with windows and a propeller of glass
       if (place.lens != pinhole_lens() && model == kAirliner) continue;
@@ -76,7 +76,7 @@ TEST_CASE("blurred aircraft look as rays through the real lens see them") {
     }
 }
 
-TEST_CASE("sharp aircraft look as rays through the real lens see them") {
+TEST_CASE("sharp aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places()) {
     Sight sight = sight_of(kAirliner, place, 60);
     sight.supersampling = 4;
@@ -96,7 +96,7 @@ TEST_CASE("four times the supersampling comes more than twice as close to the tr
   CHECK(compared(sight).rmse() < 0.5 * coarse);
 }
 
-TEST_CASE("an aircraft 400 px large looks as rays see it, windows and all") {
+TEST_CASE("an aircraft 400 px large agrees with ray tracing, windows included") {
   for (const double sigma_px : {0.0, 2.0}) {
     Sight sight = sight_of(kLightAircraft, places().front(), 400);
     sight.sigma_px = sigma_px;
@@ -107,20 +107,20 @@ TEST_CASE("an aircraft 400 px large looks as rays see it, windows and all") {
   }
 }
 
-TEST_CASE("far aircraft and specks change the image by as much as they should") {
+TEST_CASE("far and tiny aircraft change the image by the correct amount") {
   for (const Place& place : places())
     for (const double extent_px : {8.0, 0.7}) {
       const Sight sight = sight_of(kLightAircraft, place, extent_px);
       const Compared result = compared(sight);
       tell(place.name, sight, result);
-      // A speck of 0.04 px moves no code by more than rounding does; 8 px are all edges.
+      // An intruder of 0.04 px changes no code by more than rounding does; at 8 px all pixels are edges.
       CHECK(result.rmse() < (extent_px < 1 ? 0.6 : 2.0));
       CHECK(std::abs(result.bias()) < 0.5);
       check_box(result, extent_px);
     }
 }
 
-TEST_CASE("half behind the own body and half beyond the image's edge, the rest is true") {
+TEST_CASE("half behind the own body and half beyond the image's edge, the rest is correct") {
   Sight hidden = sight_of(kAirliner, places().front(), 60);
   hidden.sigma_px = 2;
   hidden.half_hidden = true;

@@ -34,7 +34,7 @@ struct Sight {
 struct Compared {
   cv::Mat engine;  // CV_64FC3 codes, red first
   cv::Mat truth;   // CV_64FC3 codes
-  cv::Mat near;    // CV_8UC1: 255 where the intruder's light reaches, and two pixels around
+  cv::Mat near;    // CV_8UC1: 255 where there is light of the intruder, and two pixels around
   truth::ReferenceImage reference;
   IntruderTruth annotation;
 

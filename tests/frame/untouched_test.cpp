@@ -125,7 +125,7 @@ void distort(Scenario& scenario, cv::Size size_px) {
 
 }  // namespace
 
-TEST_CASE("samples of a real clip that no intruder covers come out bit for bit") {
+TEST_CASE("samples of a real clip that no intruder covers are kept bit for bit") {
   if (!has_real_data()) return;
   for (const Clip& clip : kClips) {
     CAPTURE(clip.file);
@@ -145,7 +145,7 @@ TEST_CASE("samples of a real clip that no intruder covers come out bit for bit")
   }
 }
 
-TEST_CASE("a real clip that no intruder enters comes out bit for bit and nothing is drawn") {
+TEST_CASE("a real clip that no intruder enters is kept bit for bit and nothing is rendered") {
   if (!has_real_data()) return;
   for (const Clip& clip : kClips) {
     CAPTURE(clip.file);

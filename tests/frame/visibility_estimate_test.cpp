@@ -151,13 +151,13 @@ TEST_CASE("the own body hides what lies behind it, wholly or in part") {
         VisibilityState::in_view);  // a soft shadow
 }
 
-TEST_CASE("what is half out of the image counts as far as it is in it") {
+TEST_CASE("an intruder half outside the image counts by its part inside") {
   // The right half lies outside; the left half is behind the body, or is not.
   CHECK(Plate(mask_over({300, 0, 20, 240}), {300, 160, 0}).estimate().visibility_state == VisibilityState::occluded);
   CHECK(Plate(mask_over({0, 0, 300, 240}), {300, 160, 0}).estimate().visibility_state == VisibilityState::in_view);
 }
 
-TEST_CASE("the plain method is looked at without its lens") {
+TEST_CASE("the estimate for the plain method is without the lens") {
   Scene scene = open_scene(sample_project("crossing"), sample_footage()).value();
   const Box warped = VisibilityEstimator(scene).at(0, 0).silhouette.value_or(Box{});
   scene.compositing.method = MethodChoice::plain;
@@ -166,7 +166,7 @@ TEST_CASE("the plain method is looked at without its lens") {
   CHECK(apart_px(straight, whole_silhouette(scene, 0, 0)->box) <= allowed_px(straight));
 }
 
-TEST_CASE("a speck far away is in view and small") {
+TEST_CASE("a tiny intruder far away is in view and small") {
   const VisibilityEstimate estimate = Plate(cv::Mat(), {1e7, 0, 0}).estimate();
   CHECK(estimate.visibility_state == VisibilityState::in_view);
   CHECK(estimate.size_px == doctest::Approx(300 * 20 / 1e7).epsilon(1e-3));

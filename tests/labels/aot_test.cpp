@@ -31,7 +31,7 @@ nlohmann::json entities_of(const LabelSequence& clip, const std::vector<FrameTru
 
 }  // namespace
 
-TEST_CASE("an entity of the airborne data has all that its description names") {
+TEST_CASE("an entity of the airborne data has every field of its specification") {
   IntruderTruth truth = visible_intruder(0, {639, 0, 1, 480});
   truth.position_m = {3000, -4000, 12000};
   const nlohmann::json entities = entities_of(synthetic_sequence(100, 100, {"airplane"}), {frame_of(100, {truth})});
@@ -46,7 +46,7 @@ TEST_CASE("an entity of the airborne data has all that its description names") {
   CHECK(entities[0] == expected);
 }
 
-TEST_CASE("the airborne data's flight says how it was filmed") {
+TEST_CASE("the airborne data's flight has frame rate and size of the footage") {
   LabelSequence clip = synthetic_sequence(10, 609, {"airplane"});
   clip.footage.frame_rate_num = 30000;
   clip.footage.frame_rate_den = 1001;
@@ -75,7 +75,7 @@ TEST_CASE("sides of the horizon are 1, 0 and -1") {
   CHECK(entities[2]["id"] == "Drone3");
 }
 
-TEST_CASE("a frame without objects stands in the airborne data without one") {
+TEST_CASE("a frame without objects is in the airborne data without one") {
   const nlohmann::json entities = entities_of(
       synthetic_sequence(0, 2, {"airplane"}),
       {frame_of(0, {invisible_intruder(0)}), frame_of(1, {visible_intruder(0, {1, 1, 2, 2})}), frame_of(2, {})});
@@ -90,7 +90,7 @@ TEST_CASE("a frame without objects stands in the airborne data without one") {
   CHECK(entities[1].contains("bb"));
 }
 
-TEST_CASE("the airborne data leaves out what lies below the thresholds") {
+TEST_CASE("the airborne data leaves out objects below the thresholds") {
   LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
   clip.thresholds.min_visible_fraction = 0.5;
   IntruderTruth hidden = visible_intruder(0, {1, 1, 2, 2});
@@ -130,7 +130,7 @@ TEST_CASE("odd names and far intruders are plain JSON") {
   CHECK(written_aot(clip, {frame_of(0, {truth})})["samples"].contains("bad \xEF\xBF\xBD"));
 }
 
-TEST_CASE("the airborne data does not depend on the country") {
+TEST_CASE("the airborne data does not depend on the locale") {
   const TemporaryFolder folder;
   IntruderTruth truth = visible_intruder(0, {1, 1, 2, 2});
   truth.position_m = {1234.5, 0, 0};

@@ -147,7 +147,7 @@ TEST_CASE("coco: each image has its intruders, and thresholds leave some out") {
   CHECK(coco["info"]["least_visible_fraction"] == 0.5);
 }
 
-TEST_CASE("coco: nothing to see at all is an empty list") {
+TEST_CASE("coco: no visible intruder gives an empty list") {
   const Json coco = coco_of(label_sequence(101), frames_of({{invisible_intruder(0), invisible_intruder(1)},
                                                             {invisible_intruder(0), invisible_intruder(1)}}));
   check_is_coco(coco);
@@ -190,7 +190,7 @@ TEST_CASE("coco: each part of the own body is a crowd region of each image and c
   CHECK(region["segmentation"]["counts"] == coco_counts(runs));
 }
 
-TEST_CASE("coco: odd names come back") {
+TEST_CASE("coco: unusual names are read back") {
   for (const std::string& name : special_names()) {
     LabelSequence sequence = label_sequence();
     sequence.name = sequence.images = name;
@@ -203,7 +203,7 @@ TEST_CASE("coco: odd names come back") {
   }
 }
 
-TEST_CASE("coco: a name that is no UTF-8 does not spoil the file") {
+TEST_CASE("coco: a name that is not UTF-8 leaves the file valid") {
   LabelSequence sequence = label_sequence();
   sequence.intruders[0].name = "a\xFF";
   CHECK(coco_of(sequence, {})["tracks"][0]["name"] == "a\xEF\xBF\xBD");

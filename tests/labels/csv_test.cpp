@@ -73,7 +73,7 @@ FrameTruth full_frame() {
 
 }  // namespace
 
-TEST_CASE("every number of the XML file stands in the CSV file, letter for letter") {
+TEST_CASE("every number of the XML file is in the CSV file, character by character") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
   write_labels("xml", folder / "l.xml", clip, {full_frame()});
@@ -109,7 +109,7 @@ TEST_CASE("every number of the XML file stands in the CSV file, letter for lette
   CHECK(compared == 2 * 29);
 }
 
-TEST_CASE("a CSV row stands for itself: it says whose clip it is of") {
+TEST_CASE("a CSV row is complete in itself: it names its clip") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
   clip.name = "my clip";
@@ -125,7 +125,7 @@ TEST_CASE("a CSV row stands for itself: it says whose clip it is of") {
   CHECK(row["category"] == "drone");
 }
 
-TEST_CASE("boxes that there are not are empty fields, and thresholds leave nothing out") {
+TEST_CASE("missing boxes are empty fields, and thresholds leave nothing out") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
   clip.thresholds = {.min_pixels = 1000, .min_visible_fraction = 1};
@@ -141,7 +141,7 @@ TEST_CASE("boxes that there are not are empty fields, and thresholds leave nothi
   CHECK(table[1]["visible_pixels"] == "1");
 }
 
-TEST_CASE("names with what CSV is made of come back") {
+TEST_CASE("names with CSV's special characters are read back") {
   for (const std::string name : {"a,b", "say \"hello\"", "two\nlines", "cr\r\nlf", "\"", ",", "", "M\xC3\xBCller;x"}) {
     const TemporaryFolder folder;
     FrameTruth frame = frame_of(0, {visible_intruder(0, {1, 1, 1, 1})});
@@ -157,7 +157,7 @@ TEST_CASE("a clip without intruders is a CSV header alone") {
   CHECK(csv_rows(text_of(folder / "l.csv")).size() == 1);
 }
 
-TEST_CASE("CSV labels do not depend on the country") {
+TEST_CASE("CSV labels do not depend on the locale") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
   write_labels("csv", folder / "a.csv", clip, {full_frame()});

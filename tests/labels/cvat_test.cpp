@@ -57,7 +57,7 @@ std::map<int, cv::Rect> shown(const pugi::xml_node& track, int frames) {
 
 }  // namespace
 
-TEST_CASE("cvat: the head tells version, task, labels and size") {
+TEST_CASE("cvat: the header states version, task, labels and size") {
   LabelSequence sequence = label_sequence(149);
   sequence.video = "crossing.mkv";
   const pugi::xml_document document = cvat_of(sequence, {});
@@ -80,7 +80,7 @@ TEST_CASE("cvat: the head tells version, task, labels and size") {
   CHECK_FALSE(root.child("track"));
 }
 
-TEST_CASE("cvat: a box reaches from edge to edge, in frames of the exported video") {
+TEST_CASE("cvat: a box extends from edge to edge, in frames of the exported video") {
   const pugi::xml_document document = cvat_of(
       label_sequence(102),
       frames_of({{invisible_intruder(1)}, {visible_intruder(1, {3, 4, 5, 6})}, {visible_intruder(1, {4, 4, 5, 6})}}));
@@ -101,7 +101,7 @@ TEST_CASE("cvat: a box reaches from edge to edge, in frames of the exported vide
         std::vector<std::string>{"frame", "keyframe", "outside", "occluded", "xtl", "ytl", "xbr", "ybr", "z_order"});
 }
 
-TEST_CASE("cvat: one pixel in a corner of the image comes back") {
+TEST_CASE("cvat: one pixel in a corner of the image is read back") {
   for (const cv::Point corner : {cv::Point(0, 0), {63, 0}, {0, 47}, {63, 47}}) {
     const pugi::xml_document document =
         cvat_of(label_sequence(), frames_of({{visible_intruder(0, {corner, cv::Size(1, 1)})}}));
@@ -109,7 +109,7 @@ TEST_CASE("cvat: one pixel in a corner of the image comes back") {
   }
 }
 
-TEST_CASE("cvat: whatever comes and goes, CVAT shows a box where there is one and none where there is none") {
+TEST_CASE("cvat: whenever intruders appear and disappear, CVAT shows a box exactly in the frames that have one") {
   std::mt19937 random(66);
   for (int round = 0; round < 50; ++round) {
     constexpr int kFrames = 12;
@@ -132,7 +132,7 @@ TEST_CASE("cvat: whatever comes and goes, CVAT shows a box where there is one an
   }
 }
 
-TEST_CASE("cvat: an intruder that is never visible, or never reaches the thresholds, has no track") {
+TEST_CASE("cvat: an intruder that is never visible, or never meets the thresholds, has no track") {
   LabelSequence sequence = label_sequence(101);
   sequence.thresholds.min_pixels = 100;
   const pugi::xml_document document =
@@ -145,7 +145,7 @@ TEST_CASE("cvat: an intruder that is never visible, or never reaches the thresho
   CHECK_FALSE(track.next_sibling("track"));
 }
 
-TEST_CASE("cvat: a partly hidden one is occluded, one cut off by the border is not") {
+TEST_CASE("cvat: a partly hidden intruder is occluded, one truncated by the border is not") {
   IntruderTruth hidden = visible_intruder(0, {1, 1, 4, 4});
   hidden.visible_fraction = 0.5;
   IntruderTruth cut = visible_intruder(1, {0, 1, 4, 4});
@@ -156,7 +156,7 @@ TEST_CASE("cvat: a partly hidden one is occluded, one cut off by the border is n
   CHECK(first.next_sibling("track").child("box").attribute("occluded").as_int(-1) == 0);
 }
 
-TEST_CASE("cvat: odd names come back") {
+TEST_CASE("cvat: unusual names are read back") {
   std::vector<std::string> names = special_names();
   names.emplace_back("tab\tand\nline");
   for (const std::string& name : names) {
@@ -172,7 +172,7 @@ TEST_CASE("cvat: odd names come back") {
   }
 }
 
-TEST_CASE("cvat: the country plays no part") {
+TEST_CASE("cvat: labels do not depend on the locale") {
   LabelSequence sequence = label_sequence(100 + 12344);
   sequence.footage.size_px = {4096, 2160};
   const std::vector<FrameTruth> frames = frames_of({{visible_intruder(0, {2000, 1500, 1, 1})}});

@@ -189,7 +189,7 @@ TEST_CASE("a nose straight up has no heading and so the heading 0") {
   CHECK(box.rotation_y_rad == 0);
 }
 
-TEST_CASE("kitti's row holds the box's numbers") {
+TEST_CASE("kitti's row has the box's numbers") {
   const std::vector<KittiRow> rows =
       written_kitti(synthetic_sequence(0, 0, {"airplane"}), {frame_of(0, {at({100, 100, -3}, 90)})});
   REQUIRE(rows.size() == 1);
@@ -203,7 +203,7 @@ TEST_CASE("kitti's row holds the box's numbers") {
   CHECK(rows[0].alpha == doctest::Approx(-kPi / 4).epsilon(1e-6));
 }
 
-TEST_CASE("kitti's P2 throws a point where OpenCV throws it without distortion") {
+TEST_CASE("kitti's P2 projects a point where OpenCV projects it without distortion") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   clip.camera =
@@ -251,7 +251,7 @@ TEST_CASE("kitti gives the own body in every frame as regions to ignore") {
   }
 }
 
-TEST_CASE("kitti's images, list and calibration lie where the benchmark has them") {
+TEST_CASE("kitti's images, list and calibration have the benchmark's paths") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(98, 100, {"airplane"});
   clip.name = "my clip";
@@ -266,7 +266,7 @@ TEST_CASE("kitti's images, list and calibration lie where the benchmark has them
   CHECK(text_of(folder / "k" / "evaluate_tracking.seqmap.training") == "my_clip empty 000000 000003\n");
 }
 
-TEST_CASE("kitti leaves out what lies below the thresholds") {
+TEST_CASE("kitti leaves out objects below the thresholds") {
   LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
   clip.thresholds.min_pixels = 5;
   const std::vector<KittiRow> rows = written_kitti(
@@ -275,7 +275,7 @@ TEST_CASE("kitti leaves out what lies below the thresholds") {
   CHECK(rows[0].frame == 1);
 }
 
-TEST_CASE("kitti labels do not depend on the country") {
+TEST_CASE("kitti labels do not depend on the locale") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   const CommaLocale comma;

@@ -15,7 +15,7 @@ TEST_CASE("without an own body there are no parts") {
   CHECK(own_body_parts(cv::Mat::zeros(48, 64, CV_32FC1)).empty());
 }
 
-TEST_CASE("components that do not touch are parts of their own, the largest first") {
+TEST_CASE("components that do not touch are separate parts, the largest first") {
   cv::Mat body = cv::Mat::zeros(48, 64, CV_32FC1);
   body(cv::Rect(0, 40, 10, 8)).setTo(1);
   body(cv::Rect(50, 30, 14, 18)).setTo(1);
@@ -51,7 +51,7 @@ TEST_CASE("corners join, half opacity counts and less does not") {
   CHECK(parts[0].pixels == 2);
 }
 
-TEST_CASE("specks of less than a ten thousandth of the image are left out") {
+TEST_CASE("parts of less than a ten thousandth of the image are left out") {
   cv::Mat body = cv::Mat::zeros(200, 300, CV_32FC1);  // 6 px are a ten thousandth
   body(cv::Rect(0, 0, 5, 1)).setTo(1);
   body(cv::Rect(100, 100, 6, 1)).setTo(1);
@@ -195,7 +195,7 @@ TEST_CASE("runs are those that COCO's documentation gives for its examples") {
   CHECK(runs_of_column({1, 1, 1, 1, 1, 1, 0}) == std::vector<std::uint32_t>{0, 6, 1});
 }
 
-TEST_CASE("counts are the characters that the format's rules give by hand") {
+TEST_CASE("counts are the characters derived manually from the format's rules") {
   const auto counts = [](const std::vector<std::uint32_t>& runs) { return coco_counts(runs); };
   CHECK(counts({2, 3, 1, 1}) == "231N");     // the last is 1 - 3 = -2: bits 11110, 30, and 48 + 30 is N
   CHECK(counts({307200}) == "PP\\9");        // 0, 0, 12 and 9 as digits of base 32; all but the last have 32 added
@@ -212,14 +212,14 @@ TEST_CASE("runs go down columns and not along rows") {
   CHECK(column_runs(mask, {0, 0, 3, 2}, {3, 2}) == std::vector<std::uint32_t>{2, 2, 2});
 }
 
-TEST_CASE("any mask comes back from its counts") {
+TEST_CASE("any mask is recovered from its counts") {
   std::mt19937 random(6);
   for (const cv::Size image : {cv::Size(1, 1), cv::Size(1, 9), cv::Size(9, 1), cv::Size(13, 7), cv::Size(200, 150)})
     for (const int percent : {0, 3, 50, 97, 100})
       check_comes_back(random_mask(image, percent, random), {{0, 0}, image}, image);
 }
 
-TEST_CASE("a mask of a box lies where the box lies") {
+TEST_CASE("a mask of a box is placed at the box") {
   std::mt19937 random(7);
   const cv::Size image(40, 30);
   for (int k = 0; k < 200; ++k) {
@@ -230,7 +230,7 @@ TEST_CASE("a mask of a box lies where the box lies") {
   }
 }
 
-TEST_CASE("one pixel in each corner of the image comes back") {
+TEST_CASE("one pixel in each corner of the image is read back") {
   const cv::Mat pixel(1, 1, CV_8UC1, cv::Scalar(255));
   const cv::Size image(1920, 1080);
   for (const cv::Point corner : {cv::Point(0, 0), {1919, 0}, {0, 1079}, {1919, 1079}})

@@ -13,10 +13,10 @@ namespace sigs::test::labels {
 // given.
 [[nodiscard]] LabelSequence synthetic_sequence(int first, int last, const std::vector<std::string>& categories);
 
-// An intruder that shows in a box, the whole of it visible, 100 m ahead.
+// An intruder that is wholly visible in a box, 100 m ahead.
 [[nodiscard]] IntruderTruth visible_intruder(int id, const cv::Rect& box);
 
-// One that does not.
+// One that is not visible.
 [[nodiscard]] IntruderTruth invisible_intruder(int id);
 
 [[nodiscard]] FrameTruth frame_of(int index, std::vector<IntruderTruth> intruders);

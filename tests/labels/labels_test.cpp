@@ -18,7 +18,7 @@ namespace sigs::test {
 
 using namespace labels;
 
-TEST_CASE("what a project may ask for is what can be written, in one order") {
+TEST_CASE("the formats that a project may ask for are those that can be written, in one order") {
   std::vector<std::string_view> names;
   for (const LabelFormat& format : label_formats()) names.push_back(format.name);
   CHECK(names == std::vector<std::string_view>(kLabelNames.begin(), kLabelNames.end()));
@@ -31,12 +31,12 @@ TEST_CASE("a format is found by its name alone") {
   CHECK(label_format("xml,mot") == nullptr);
 }
 
-TEST_CASE("no two formats, and no format and a video or its masks, are called alike") {
+TEST_CASE("no two outputs have the same name: formats, the video and its masks") {
   std::set<std::string_view> suffixes{"", ".mkv", ".mp4", ".avi", ".masks", ".masks.mkv"};
   for (const LabelFormat& format : label_formats()) CHECK_MESSAGE(suffixes.insert(format.suffix).second, format.name);
 }
 
-TEST_CASE("an intruder is labelled where it reaches both thresholds") {
+TEST_CASE("an intruder is labelled where it meets both thresholds") {
   const IntruderTruth truth = visible_intruder(0, {1, 1, 3, 2});
   CHECK(is_labelled(truth, {}));
   CHECK(is_labelled(truth, {.min_pixels = 6, .min_visible_fraction = 1}));

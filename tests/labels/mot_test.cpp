@@ -92,7 +92,7 @@ TEST_CASE("mot counts frames, ids, pixels and classes from 1") {
   check_accepted(folder / "m");
 }
 
-TEST_CASE("mot's seqinfo tells the sequence, in the order that readers by line number expect") {
+TEST_CASE("mot's seqinfo describes the sequence, in the order that readers by line number expect") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(7, 19, {"airplane"});
   clip.footage.frame_rate_num = 30000;
@@ -158,7 +158,7 @@ TEST_CASE("mot's own body takes no class that a category has") {
   CHECK(rows[1].category == 9);
 }
 
-TEST_CASE("mot leaves out what lies below the thresholds and keeps what lies on them") {
+TEST_CASE("mot leaves out objects below the thresholds and keeps those on them") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 3, {"airplane"});
   clip.thresholds = {.min_pixels = 6, .min_visible_fraction = 0.5};
@@ -174,7 +174,7 @@ TEST_CASE("mot leaves out what lies below the thresholds and keeps what lies on 
   CHECK(frames == std::vector<int>{2, 4});
 }
 
-TEST_CASE("mot takes odd names for folders and lists") {
+TEST_CASE("mot accepts unusual names for folders and lists") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 0, {"light <aircraft> & co"});
   clip.name = "a, \"b\" \xC3\xBC 'c' 100%";
@@ -183,7 +183,7 @@ TEST_CASE("mot takes odd names for folders and lists") {
   CHECK(text_of(folder / "m" / "seqmaps" / (clip.name + ".txt")) == "name\n\"a, \"\"b\"\" \xC3\xBC 'c' 100%\"\n");
 }
 
-TEST_CASE("mot labels do not depend on the country") {
+TEST_CASE("mot labels do not depend on the locale") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(0, 1233, {"airplane"});
   IntruderTruth truth = visible_intruder(0, {5, 5, 1234, 9});

@@ -133,7 +133,7 @@ TEST_CASE("the distance is the length of the position") {
   check_number(document.child("frame").child("intruder").child("distance"), "m", 13e3, 0);
 }
 
-TEST_CASE("a box that there is not is left out and not written as zeros") {
+TEST_CASE("a missing box is left out and not written as zeros") {
   FrameTruth truth = some_frame();
   truth.intruders[0].in_image = false;
   truth.intruders[0].visible_fraction = 0;
@@ -148,7 +148,7 @@ TEST_CASE("a box that there is not is left out and not written as zeros") {
   CHECK(intruder.child("position"));
 }
 
-TEST_CASE("intruders stand in the order given and a frame without any has only its camera") {
+TEST_CASE("intruders are in the given order and a frame without any has only its camera") {
   FrameTruth truth = some_frame();
   truth.intruders = {some_intruder(), some_intruder(), some_intruder()};
   for (int i = 0; i < 3; ++i) truth.intruders[static_cast<std::size_t>(i)].id = i;
@@ -163,12 +163,12 @@ TEST_CASE("intruders stand in the order given and a frame without any has only i
   CHECK_FALSE(alone.child("frame").child("intruder"));
 }
 
-TEST_CASE("names with the letters that XML is made of come back") {
+TEST_CASE("names with XML's special characters are read back") {
   for (const std::string name : {"a & b", "<intruder/>", "say \"hello\"", "it's", "]]>", "&amp;", "a > b < c", ""})
     CHECK(name_read_back(name) == name);
 }
 
-TEST_CASE("names in other scripts come back") {
+TEST_CASE("names in other scripts are read back") {
   for (const std::string name : {"Flugzeug \xC3\xBC", "\xE9\xA3\x9B\xE8\xA1\x8C\xE6\xA9\x9F", "\xF0\x9F\x9B\xA9"})
     CHECK(name_read_back(name) == name);
 }
@@ -195,7 +195,7 @@ TEST_CASE("a file names its footage and holds the frames in order") {
   CHECK(sigs.last_child().attribute("index").as_int() == 118);
 }
 
-TEST_CASE("a file does not depend on the country") {
+TEST_CASE("a file does not depend on the locale") {
   const std::string expected = file_of(some_footage(), {some_frame()});
   const CommaLocale comma;
   const std::string found = file_of(some_footage(), {some_frame()});
@@ -203,7 +203,7 @@ TEST_CASE("a file does not depend on the country") {
   CHECK(expected.find("last_frame=\"12345\"") != std::string::npos);
 }
 
-TEST_CASE("what is no number stops the program before it gets into a file") {
+TEST_CASE("a number that is not finite stops the program before it is written") {
   constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
   const auto write = [](const auto& spoil) {
     return aborts([&spoil] {
@@ -222,7 +222,7 @@ TEST_CASE("what is no number stops the program before it gets into a file") {
   CHECK(write([](FrameTruth& truth) { truth.intruders[0].amodal_box->width = kNotANumber; }));
 }
 
-TEST_CASE("a folder that is not there is an error that names the file") {
+TEST_CASE("a missing folder is an error that names the file") {
   const TemporaryFolder folder;
   const Result<SigsXmlWriter> writer = SigsXmlWriter::open(folder / "missing" / "truth.xml", some_footage());
   REQUIRE_FALSE(writer.has_value());

@@ -81,7 +81,7 @@ TEST_CASE("voc: an annotation names its image and holds its objects") {
   CHECK_FALSE(second.next_sibling());
 }
 
-TEST_CASE("voc: one pixel in a corner of the image comes back, and the last pixel is the image's size") {
+TEST_CASE("voc: one pixel in a corner of the image is read back, and the last pixel is the image's size") {
   for (const cv::Point corner : {cv::Point(0, 0), {63, 0}, {0, 47}, {63, 47}}) {
     const pugi::xml_document document =
         annotation_of(label_sequence(), {visible_intruder(0, {corner, cv::Size(1, 1)})});
@@ -113,7 +113,7 @@ TEST_CASE("voc: an image without a box has an annotation without objects, thresh
   CHECK_FALSE(document.child("annotation").child("object"));
 }
 
-TEST_CASE("voc: lists hold all images, and tell which show a category") {
+TEST_CASE("voc: lists have all images, and state which show a category") {
   const TemporaryFolder folder;
   IntruderTruth difficult = visible_intruder(0, {1, 1, 4, 4});
   difficult.visible_fraction = 0.1;
@@ -143,7 +143,7 @@ TEST_CASE("voc: without images there is no folder of them") {
   CHECK(fs::exists(folder / "a" / "Annotations" / "frame_000100.xml"));
 }
 
-TEST_CASE("voc: odd names come back, in files and as parts of files' names") {
+TEST_CASE("voc: unusual names are read back, in files and as parts of file names") {
   for (const std::string& name : special_names()) {
     const TemporaryFolder folder;
     LabelSequence sequence = label_sequence();
@@ -157,7 +157,7 @@ TEST_CASE("voc: odd names come back, in files and as parts of files' names") {
   }
 }
 
-TEST_CASE("voc: categories that no file's name can hold keep lists of their own") {
+TEST_CASE("voc: categories that no file name can contain have lists of their own") {
   const TemporaryFolder folder;
   LabelSequence sequence = label_sequence();
   sequence.categories = {"a/b", "a_b", std::string(300, 'x')};
@@ -169,7 +169,7 @@ TEST_CASE("voc: categories that no file's name can hold keep lists of their own"
   CHECK(files_below(folder / "a" / "ImageSets").size() == 3 + 3 * 3);
 }
 
-TEST_CASE("voc: a grey image has one channel, and the country plays no part") {
+TEST_CASE("voc: a grey image has one channel, and the locale has no effect") {
   LabelSequence sequence = label_sequence();
   sequence.channels = 1;
   sequence.footage.size_px = {4096, 2160};

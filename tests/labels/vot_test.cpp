@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Lines "key=value" as the toolkit reads them: a backslash says that the next letter is meant as it is.
+// Lines "key=value" as the toolkit reads them: a backslash makes the next letter literal.
 std::map<std::string, std::string> properties_of(const fs::path& path) {
   std::map<std::string, std::string> properties;
   for (const std::string& line : lines_of(path)) {
@@ -36,7 +36,7 @@ std::map<std::string, std::string> properties_of(const fs::path& path) {
   return properties;
 }
 
-// As the toolkit parses a region: four numbers, of which none is none, are a rectangle.
+// As the toolkit parses a region: four numbers, none of them NaN, are a rectangle.
 std::vector<std::optional<cv::Rect2d>> regions_of(const fs::path& path) {
   std::vector<std::optional<cv::Rect2d>> regions;
   for (const std::string& line : lines_of(path)) {
@@ -130,7 +130,7 @@ TEST_CASE("where nothing is ever visible vot's list is empty") {
   CHECK(files_below(none / "v") == std::vector<std::string>{"list.txt"});
 }
 
-TEST_CASE("vot calls absent what lies below the thresholds") {
+TEST_CASE("vot marks targets below the thresholds as absent") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
   clip.thresholds.min_pixels = 5;
@@ -141,7 +141,7 @@ TEST_CASE("vot calls absent what lies below the thresholds") {
   CHECK(regions.at(1).has_value());
 }
 
-TEST_CASE("vot names break no lines and no blanks stand around them") {
+TEST_CASE("vot names have no line breaks and no blanks around them") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   clip.name = " two\nlines\xFF ";
@@ -151,7 +151,7 @@ TEST_CASE("vot names break no lines and no blanks stand around them") {
   CHECK(fs::exists(folder / "v" / list[0] / "groundtruth.txt"));
 }
 
-TEST_CASE("vot labels do not depend on the country") {
+TEST_CASE("vot labels do not depend on the locale") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
   IntruderTruth truth = visible_intruder(0, {1, 1, 2, 2});

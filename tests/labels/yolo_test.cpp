@@ -64,7 +64,7 @@ TEST_CASE("yolo: a line is the class and the box's middle and size as shares of 
   CHECK(lines[1].height == 1);
 }
 
-TEST_CASE("yolo: every box of a small image comes back and never leaves the image") {
+TEST_CASE("yolo: every box of a small image is read back and never leaves the image") {
   LabelSequence sequence = label_sequence();
   sequence.footage.size_px = {7, 3};  // no share of these ends in decimals
   constexpr double kLastDecimal = 1e-8;
@@ -127,7 +127,7 @@ TEST_CASE("yolo: readers find the labels of each image, whatever the video is ca
   }
 }
 
-TEST_CASE("yolo: data.yaml has what Ultralytics asks for, and odd names come back") {
+TEST_CASE("yolo: data.yaml has the keys that Ultralytics requires, and unusual names are read back") {
   std::vector<std::string> names = special_names();
   names.emplace_back("control \x7F \xC2\x85 \xC2\x9F");
   names.emplace_back("yes");
@@ -158,7 +158,7 @@ TEST_CASE("yolo: no categories are valid too") {
   CHECK(YAML::LoadFile((folder / "a" / "data.yaml").string())["names"].size() == 0);
 }
 
-TEST_CASE("yolo: the country plays no part") {
+TEST_CASE("yolo: labels do not depend on the locale") {
   const CommaLocale comma;
   const Line line = labels_of(label_sequence(), {visible_intruder(1, {16, 12, 32, 24})}).at(0);
   CHECK(line.number == 1);

@@ -32,7 +32,7 @@ Graph include_graph() {
   return graph;
 }
 
-// The first circle that is met from `header` on, as text; empty if there is none.
+// The first cycle that is found from `header` on, as text; empty if there is none.
 std::string circle_from(const std::string& header, const Graph& graph, std::vector<std::string>& way,
                         std::set<std::string>& cleared) {
   if (cleared.contains(header)) return {};
@@ -69,7 +69,7 @@ TEST_CASE("no header includes what includes it") {
   CHECK(first_circle(graph) == "");
 }
 
-TEST_CASE("the check itself sees a circle") {
+TEST_CASE("the check itself finds a cycle") {
   CHECK(first_circle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"a"}}}) == "a -> b -> c -> a");
   CHECK(first_circle({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {}}}) == "");
 }

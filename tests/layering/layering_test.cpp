@@ -69,7 +69,7 @@ std::string module_of_include(const std::string& include) {
   return slash == std::string::npos ? "" : include.substr(0, slash);
 }
 
-// What stands in the way of an include, empty if nothing does.
+// Why an include is not allowed, empty if it is.
 std::string objection(const Modules& modules, const std::string& from, const std::string& include) {
   const std::string to = module_of_include(include);
   if (to == from) return {};
@@ -138,7 +138,7 @@ TEST_CASE("no file includes a module that the table does not allow") {
   for (const std::string& objection : all_objections(modules_in_readme())) FAIL_CHECK(objection);
 }
 
-TEST_CASE("the check itself sees an include upward or sideways") {
+TEST_CASE("the check itself finds an include upward or sideways") {
   const Modules modules = modules_in_readme();
   CHECK_FALSE(objection(modules, "camera", "spline/trajectory.h").empty());
   CHECK_FALSE(objection(modules, "base", "scene/scene.h").empty());
@@ -151,7 +151,7 @@ TEST_CASE("no source of the engine lies outside a module") {
     CHECK_MESSAGE(!is_code(entry.path()), entry.path());
 }
 
-TEST_CASE("every module says in a README what comes in and what goes out") {
+TEST_CASE("every module has a README with its inputs and outputs") {
   for (const auto& [name, module] : modules_in_readme()) {
     const fs::path folder = folder_of(name);
     CHECK_MESSAGE(fs::exists(folder / "README.md"), folder);

@@ -22,7 +22,7 @@ glm::dvec3 unit(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("every pair of axes across each other turns the model without mirroring it") {
+TEST_CASE("every pair of perpendicular axes rotates the model without mirroring it") {
   int count = 0;
   for (const std::string& forward : kDirections)
     for (const std::string& up : kDirections) {
@@ -44,7 +44,7 @@ TEST_CASE("a model with its nose along minus x and up along y has its left wing 
   CHECK(*rotation * glm::dvec3{0, 0, 1} == glm::dvec3{0, -1, 0});
 }
 
-TEST_CASE("axes that make no sense are refused by name") {
+TEST_CASE("invalid axes are refused by name") {
   const auto refused = [](const ModelAxes& axes, const char* where) {
     const Result<glm::dmat3> rotation = body_from_model(axes);
     REQUIRE_FALSE(rotation);
@@ -75,7 +75,7 @@ TEST_CASE("the box lies in body axes with the wanted scale") {
   CHECK(mesh->radius_m == doctest::Approx(std::sqrt(1 + 0.25 + 4)));
 }
 
-TEST_CASE("the wanted length sets the scale and outranks it") {
+TEST_CASE("a given length sets the scale and overrides it") {
   const test::TemporaryFolder folder;
   const auto path = test::written(folder / "box.obj", test::box_obj());
   const Result<Mesh> mesh = read_obj(path, {.scale = 100, .length_m = 33.4});

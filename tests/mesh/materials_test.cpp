@@ -93,7 +93,7 @@ TEST_CASE("faces without a material are grey without a warning") {
   CHECK(mesh.warnings.empty());
 }
 
-TEST_CASE("a material that no MTL file has is grey and named") {
+TEST_CASE("a material that no MTL file has is grey and reported") {
   const test::TemporaryFolder folder;
   test::written(folder / "model.mtl", "newmtl other\nKd 1 0 0\n");
   test::written(folder / "model.obj", std::string("mtllib model.mtl\n") + kShape + "usemtl paint\nf 1 2 3\n");
@@ -143,7 +143,8 @@ TEST_CASE("textures of every kind become eight bit RGBA with their top row first
 }
 
 TEST_CASE("a texture of too many pixels is named with its size and not decoded") {
-  // Headers that state such a size, with next to nothing behind them: whoever decodes first knows no size.
+  // Headers that state such a size, with next to nothing behind them: a decoder that does not read them first would
+  // allocate that size.
   struct Kind {
     const char* name;
     std::size_t place;  // of the width, then the height

@@ -73,7 +73,7 @@ TEST_CASE("edges of a cube stay sharp") {
   }
 }
 
-TEST_CASE("a roof is smooth below sixty degrees and sharp above") {
+TEST_CASE("an edge between faces is smooth below sixty degrees and sharp above") {
   for (const double fold_deg : {20.0, 59.0, 61.0, 90.0}) {
     CAPTURE(fold_deg);
     const double slope = rad_of_deg(fold_deg / 2);

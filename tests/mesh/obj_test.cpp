@@ -158,7 +158,7 @@ TEST_CASE("polygons of up to a hundred thousand corners keep their area whatever
   alarm(0);
 }
 
-TEST_CASE("a polygon that crosses itself a hundred thousand times ends") {
+TEST_CASE("triangulation of a polygon that crosses itself a hundred thousand times ends") {
   alarm(300);
   const Result<Mesh> mesh = mesh_of(ring_obj(100'000, [](int i) { return i % 3 == 0 ? 100.0 : -50.0; }));
   if (!mesh) CHECK(mesh.error().text().find("100000 corners") != std::string::npos);
@@ -217,7 +217,7 @@ TEST_CASE("indices out of range are counted") {
   refused(start + "f 1 2 2147483647\n", "1 of 2 faces");
 }
 
-TEST_CASE("coordinates that are no finite numbers are refused with their line") {
+TEST_CASE("coordinates that are not finite numbers are refused with their line") {
   for (const char* bad : {"v nan 0 0", "v 0 -nan 0", "v 0 0 inf", "v 1e999 0 0", "v 1 2", "v a b c", "v 1,5 0 0"})
     refused("v 1 0 0\n" + std::string(bad) + "\nv 0 1 0\nf 1 2 3\n", "line 2");
   refused("v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "too large");  // a double, but no float
@@ -232,7 +232,7 @@ TEST_CASE("a missing file cannot be read") {
   CHECK_FALSE(read_obj(folder.path()));
 }
 
-TEST_CASE("any bytes at all are read or refused but never crash") {
+TEST_CASE("any bytes are read or refused and never cause a crash") {
   std::uint32_t state = 1;
   const std::string letters = "vfnt mlub0123456789-+./\n\n\n  \\eE#dKN\r";
   for (int round = 0; round < 200; ++round) {

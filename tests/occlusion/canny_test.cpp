@@ -12,7 +12,7 @@ namespace sigs::test {
 
 namespace {
 
-int sample(const cv::Mat& image, int x, int y) {  // the rim goes on beyond itself
+int sample(const cv::Mat& image, int x, int y) {  // the image's edge is repeated beyond it
   return image.at<uchar>(std::clamp(y, 0, image.rows - 1), std::clamp(x, 0, image.cols - 1));
 }
 
@@ -48,7 +48,7 @@ bool on_ridge(const cv::Mat& p, int x, int y) {
   return here > squared(-along, -1) && here > squared(along, 1);
 }
 
-// Canny's own words: ridges above the high threshold, and those above the low one that hang on to them.
+// Canny's own words: ridges above the high threshold, and those above the low one that are connected to them.
 cv::Mat edges_by_loops(const cv::Mat& p, const CannyThresholds& thresholds) {
   cv::Mat weak = cv::Mat::zeros(p.size(), CV_8UC1);
   cv::Mat edges = weak.clone();

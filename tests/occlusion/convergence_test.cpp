@@ -35,7 +35,7 @@ bool settles(const std::vector<Verdict>& checks, double limit, double between_s 
 
 }  // namespace
 
-TEST_CASE("a mask settles once three checks in a row changed it by less than the limit") {
+TEST_CASE("a mask has converged once three checks in a row changed it by less than the limit") {
   const Verdict same = verdict_with(50);
   CHECK_FALSE(settles({same, same, same}, 0.01));  // the first one has none before it
   CHECK(settles({same, same, same, same}, 0.01));
@@ -44,21 +44,19 @@ TEST_CASE("a mask settles once three checks in a row changed it by less than the
   CHECK(settles({same, verdict_with(51), same, verdict_with(51)}, 0.0197));
 }
 
-TEST_CASE("a change begins the count of quiet checks anew") {
+TEST_CASE("a change restarts the count of unchanged checks") {
   const Verdict before = verdict_with(50);
   const Verdict after = verdict_with(60);
   CHECK_FALSE(settles({before, before, before, after, after, after}, 0.01));
   CHECK(settles({before, before, before, after, after, after, after}, 0.01));
 }
 
-TEST_CASE("an image without an own body settles too") {
+TEST_CASE("the mask of an image without an own body converges too") {
   const Verdict none = verdict_with(0);
   CHECK(settles({none, none, none, none}, 0.01));
 }
 
-TEST_CASE(
-    "nothing settles that was quiet for less than ten seconds, nor while nobody can tell, nor where too little is "
-    "known to move") {
+TEST_CASE("a mask does not converge within ten seconds, while undecided, or with too little known motion") {
   const Verdict same = verdict_with(50);
   CHECK_FALSE(settles({same, same, same, same, same}, 0.01, 2.49));
   CHECK(settles({same, same, same, same, same}, 0.01, 2.5));
@@ -71,9 +69,7 @@ TEST_CASE(
   CHECK(settles({half, half, half, half}, 0.01));
 }
 
-TEST_CASE(
-    "nothing converges while a patch of the image is undecided, in the mask or beside it; an undecided border is no "
-    "patch") {
+TEST_CASE("a mask does not converge while a patch of the image is undecided; a mask's border is no such patch") {
   const auto with_doubt = [](const cv::Rect& where, double confidence) {
     Verdict verdict = verdict_with(50);
     verdict.confidence(where).setTo(confidence);
@@ -104,7 +100,7 @@ TEST_CASE("checks are few, each at half as many frames again, and there are none
   CHECK(checks == std::vector<int>{100, 150, 225, 337, 505, 757, 1135});
 }
 
-TEST_CASE("the last change is what the last two masks do not share of what either has") {
+TEST_CASE("the last change is one minus the intersection over union of the last two masks") {
   ConvergenceCheck convergence(0.5);
   convergence.check(verdict_with(40), 100, 4);
   convergence.check(verdict_with(50), 150, 6);

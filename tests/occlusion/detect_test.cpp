@@ -16,7 +16,7 @@
 namespace sigs::test {
 namespace {
 
-// The method that decides on any footage in which anything differs: what is tested here is what is around it.
+// The method that decides on any footage in which anything differs: these tests are about the code around it.
 OwnBodySettings settings_with(int frames, int every = 1) {
   return {.method = OwnBodyMethod::paper, .frames = frames, .every = every};
 }
@@ -28,7 +28,8 @@ Result<OwnBody> detected(const std::filesystem::path& path, const OwnBodySetting
 }
 
 // Frame by frame, without anything read ahead.
-Verdict by_hand(const std::filesystem::path& path, const OwnBodySettings& settings, const std::vector<int>& frames) {
+Verdict frame_by_frame(const std::filesystem::path& path, const OwnBodySettings& settings,
+                       const std::vector<int>& frames) {
   FrameSource footage = opened(path);
   const std::unique_ptr<DetectionMethod> method = detection_method(settings, footage.info().size_px);
   for (const int n : frames) method->add(footage.read(n).value().planes[0]);
@@ -48,7 +49,7 @@ void check_fails(const Result<OwnBody>& found, const std::filesystem::path& path
 
 }  // namespace
 
-TEST_CASE("the frames that are used are those asked for and the mask is the method's with a soft edge") {
+TEST_CASE("the used frames are the requested ones and the mask is the method's with a soft edge") {
   const TemporaryFolder folder;
   write_flight(folder / "c.mkv");
   OwnBodySettings settings = settings_with(20, 3);
@@ -57,7 +58,7 @@ TEST_CASE("the frames that are used are those asked for and the mask is the meth
   CHECK(found.frames_used == 7);
   CHECK(found.frames_passed == 19);
   CHECK_FALSE(found.converged);
-  const Verdict expected = by_hand(folder / "c.mkv", settings, {5, 8, 11, 14, 17, 20, 23});
+  const Verdict expected = frame_by_frame(folder / "c.mkv", settings, {5, 8, 11, 14, 17, 20, 23});
   CHECK(equal(found.mask, soft_edged(expected.own_body, 4)));
   CHECK(found.share == doctest::Approx(cv::countNonZero(expected.own_body) / (96.0 * 72)));
   REQUIRE(found.confidence.type() == CV_16UC1);
@@ -92,7 +93,7 @@ TEST_CASE("equal frames are an error however many they are and one that differs 
   check_fails(detected(folder / "last.mkv", settings_with(11)), folder / "last.mkv", "nothing moves");
 }
 
-TEST_CASE("what the method cannot tell is an error and no mask") {
+TEST_CASE("an undecided method gives an error and no mask") {
   const TemporaryFolder folder;
   // One sample flickers.
   write_luma_clip(folder / "c.mkv", 30, [](int n) {
@@ -115,16 +116,16 @@ TEST_CASE("damaged frames are left out with a warning that counts them") {
   for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 200; ++i) bytes[i] = static_cast<uint8_t>(bytes[i] + 1);
   write_bytes(folder / "c.mkv", bytes);
   FrameSource footage = opened(folder / "c.mkv");
-  std::vector<int> sound;
+  std::vector<int> intact;
   for (int n = 0; n < footage.info().frame_count(); ++n)
-    if (!footage.read(n).value().damaged) sound.push_back(n);
-  const int damaged = footage.info().frame_count() - static_cast<int>(sound.size());
+    if (!footage.read(n).value().damaged) intact.push_back(n);
+  const int damaged = footage.info().frame_count() - static_cast<int>(intact.size());
   REQUIRE(damaged > 0);
   const OwnBody found = detected(folder / "c.mkv", settings_with(1500)).value();
-  CHECK(found.frames_used == static_cast<int>(sound.size()));
+  CHECK(found.frames_used == static_cast<int>(intact.size()));
   REQUIRE(found.warnings.size() == 1);
   CHECK(found.warnings[0].what.starts_with(std::to_string(damaged) + " of "));
-  CHECK(equal(found.mask, by_hand(folder / "c.mkv", settings_with(1500), sound).own_body));
+  CHECK(equal(found.mask, frame_by_frame(folder / "c.mkv", settings_with(1500), intact).own_body));
 }
 
 TEST_CASE("an image size that changes is an error that names the frame and what to do") {
@@ -143,7 +144,7 @@ TEST_CASE("an image size that changes is an error that names the frame and what 
   CHECK(detected(folder / "both.h264", settings_with(25)).has_value());
 }
 
-TEST_CASE("a detection that is called off ends soon and says so") {
+TEST_CASE("a cancelled detection ends soon with this error") {
   const TemporaryFolder folder;
   write_flight(folder / "c.mkv", 100);
   std::atomic<bool> cancel = false;
@@ -169,7 +170,7 @@ TEST_CASE("progress counts the frames passed up to those to be passed") {
   CHECK(heard == std::vector<std::pair<int, int>>{{1, 7}, {4, 7}, {7, 7}});
 }
 
-TEST_CASE("stages come where they are asked for and change nothing") {
+TEST_CASE("stages are made where requested and change nothing") {
   const TemporaryFolder folder;
   write_flight(folder / "c.mkv");
   const OwnBody without = detected(folder / "c.mkv", settings_with(1500)).value();

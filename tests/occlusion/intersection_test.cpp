@@ -7,7 +7,7 @@
 
 namespace sigs::test {
 
-TEST_CASE("two masks agree by what they share of what either has") {
+TEST_CASE("the agreement of two masks is their intersection over union") {
   const cv::Mat a = drawn({"##..", "##..", "...."});
   CHECK(intersection_over_union(a, drawn({".##.", ".##.", "...."})) == 2.0 / 6);
   CHECK(intersection_over_union(a, drawn({"##..", "....", "...."})) == 2.0 / 4);
@@ -16,7 +16,7 @@ TEST_CASE("two masks agree by what they share of what either has") {
   CHECK(intersection_over_union(a, ~a) == 0);
 }
 
-TEST_CASE("two empty masks are the same, an empty one and another share nothing") {
+TEST_CASE("two empty masks agree fully, an empty one and another do not at all") {
   const cv::Mat none = cv::Mat::zeros(3, 4, CV_8UC1);
   CHECK(intersection_over_union(none, none) == 1);
   CHECK(intersection_over_union(none, drawn({"#...", "....", "...."})) == 0);

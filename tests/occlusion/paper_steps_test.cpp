@@ -64,7 +64,7 @@ cv::Mat sobel_by_loops(const cv::Mat& mask) {
   });
 }
 
-// The pixels that hang together with this one, by sides and corners.
+// The pixels connected to this one, by sides and corners.
 int size_of_part(const cv::Mat& mask, cv::Point start) {
   cv::Mat seen = cv::Mat::zeros(mask.size(), CV_8UC1);
   std::vector<cv::Point> open = {start};
@@ -85,7 +85,7 @@ const std::vector<double> kShares = {0.0, 0.02, 0.2, 0.5, 0.8, 1.0};
 
 }  // namespace
 
-TEST_CASE("dilating and closing reach as far as loops over a disc do") {
+TEST_CASE("dilating and closing agree with loops over a disc") {
   for (const cv::Size size : small_sizes())
     for (const double share : {0.0, 0.02, 0.3, 1.0})
       for (const int diameter_px : {1, 2, 3, 5, 9, 1000}) {
@@ -111,7 +111,7 @@ TEST_CASE("filled contours are those OpenCV finds from outside and draws filled"
       }
 }
 
-TEST_CASE("what is closed is filled with all it holds, what is open towards the rim is not") {
+TEST_CASE("a closed contour is filled with all it contains, one open towards the border is not") {
   CHECK(same_bytes(contours_filled(drawn({".......", ".#####.", ".#...#.", ".#.#.#.", ".#####."})),
                    drawn({".......", ".#####.", ".#####.", ".#####.", ".#####."})));
   const cv::Mat to_the_bottom = drawn({".......", ".#####.", ".#...#.", ".#...#."});
@@ -129,7 +129,7 @@ TEST_CASE("Sobel's edges are those of loops over three by three pixels") {
       }
 }
 
-TEST_CASE("a mask that reaches the rim has no edge along it") {
+TEST_CASE("a mask that touches the border has no edge along it") {
   CHECK(same_bytes(sobel_edges(drawn({".....", ".....", ".....", "#####", "#####", "#####"})),
                    drawn({".....", ".....", "#####", "#####", ".....", "....."})));
 }
@@ -175,7 +175,7 @@ TEST_CASE("padding closes a contour that runs into the bottom, into a side or in
                    drawn({"......", "......", "######", "######"})));
 }
 
-TEST_CASE("parts are dropped by their number of pixels") {
+TEST_CASE("parts are removed by their number of pixels") {
   for (const cv::Size size : small_sizes())
     for (const double share : {0.1, 0.4, 1.0}) {
       const cv::Mat mask = sprinkled(size, share, 21);
@@ -192,7 +192,7 @@ TEST_CASE("parts are dropped by their number of pixels") {
     }
 }
 
-TEST_CASE("half a percent of the image stays, a pixel less goes") {
+TEST_CASE("a part of half a percent of the image is kept, one smaller by a pixel is removed") {
   cv::Mat mask = cv::Mat::zeros(20, 60, CV_8UC1);  // 1200 pixels: half a percent are 6
   mask(cv::Rect(0, 0, 3, 2)).setTo(255);
   mask(cv::Rect(10, 0, 5, 1)).setTo(255);

@@ -21,8 +21,8 @@ namespace {
 
 const cv::Size kSize_px(320, 240);
 
-// What the paper assumes, in its purest form: before a calm world, slow hills of a few grey values, a dark body shakes
-// by a pixel, this way and that.
+// The paper's assumptions, exactly: before a calm world of smooth, low contrast a dark body shakes
+// by a pixel to either side.
 std::vector<cv::Mat> shaking(const cv::Mat& body, int frames) {
   const cv::Mat world = hills({kSize_px.width + frames, kSize_px.height}, 20, 1) / 16 + 180;
   const std::array<cv::Point, 4> kShake = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
@@ -69,7 +69,7 @@ const std::vector<std::string> kStages = {"difference_sum", "canny",  "dilated",
 
 }  // namespace
 
-TEST_CASE("a shaking body before a calm world is found, wherever it enters the image below the top") {
+TEST_CASE("a shaking body in front of a calm world is found, wherever it enters the image below the top") {
   const std::vector<cv::Mat> bodies = {
       nose(),
       with_shape({{0, 110}, {90, 140}, {90, 170}, {0, 180}}),        // a wing from the left
@@ -92,7 +92,7 @@ TEST_CASE("a contour open towards the top is not closed: only its outline is lef
   CHECK(cv::countNonZero(verdict_on(shaking(hanging, 24)).own_body & hanging) < 0.5 * cv::countNonZero(hanging));
 }
 
-TEST_CASE("light that changes all over an even image has no edges and gives no body") {
+TEST_CASE("a brightness change all over an even image has no edges and gives no body") {
   std::vector<cv::Mat> even;
   for (int n = 0; n < 5; ++n) even.emplace_back(kSize_px, CV_8UC1, cv::Scalar(100 + n));
   const Verdict verdict = verdict_on(even);
@@ -143,7 +143,7 @@ TEST_CASE("each stage follows from the one before") {
   CHECK(same_bytes(image(6)(cv::Rect(1, 0, 318, 239)), image(5)(cv::Rect(1, 0, 318, 239))));
 }
 
-TEST_CASE("the sum is of the differences of each frame and the one before, each scaled to a largest one of one") {
+TEST_CASE("the sum is of the differences of successive frames, each scaled to a maximum of one") {
   const std::vector<cv::Mat> frames = shaking(nose(), 9);
   std::vector<double> sum(frames.front().total(), 0);
   for (std::size_t n = 1; n < frames.size(); ++n) {
@@ -154,10 +154,10 @@ TEST_CASE("the sum is of the differences of each frame and the one before, each 
     const double largest = *std::max_element(differences.begin(), differences.end());
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += differences[i] / largest;
   }
-  const auto [least, most] = std::minmax_element(sum.begin(), sum.end());
+  const auto [minimum, maximum] = std::minmax_element(sum.begin(), sum.end());
   const cv::Mat stage = verdict_on(frames, KeepStages::yes).stages.front().image;
   for (std::size_t i = 0; i < sum.size(); ++i)  // rounding to 8 bits
-    REQUIRE(std::abs(stage.data[i] - (sum[i] - *least) / (*most - *least) * 255) <= 0.5 + 1e-3);
+    REQUIRE(std::abs(stage.data[i] - (sum[i] - *minimum) / (*maximum - *minimum) * 255) <= 0.5 + 1e-3);
 }
 
 TEST_CASE("a footage of half the contrast gives the same mask") {
@@ -169,7 +169,7 @@ TEST_CASE("a footage of half the contrast gives the same mask") {
   CHECK(same_bytes(verdict_on(frames).own_body, full.own_body));
 }
 
-TEST_CASE("frames may be written over after they are added, and verdicts asked for in between change nothing") {
+TEST_CASE("frames may be overwritten after they are added, and intermediate verdicts change nothing") {
   const std::vector<cv::Mat> frames = shaking(nose(), 10);
   const auto method = paper_method({}, kSize_px);
   cv::Mat buffer(kSize_px, CV_8UC1);
@@ -195,7 +195,7 @@ TEST_CASE("the verdict is the same on one thread as on all of the machine's") {
   CHECK(same_bytes(alone.confidence, shared.confidence));
 }
 
-TEST_CASE("where no frame differs from the one before, nothing can be decided") {
+TEST_CASE("where no frame differs from the one before, the method is undecided") {
   for (const int frames : {0, 1, 2, 30}) {
     const auto method = paper_method({}, kSize_px);
     for (int n = 0; n < frames; ++n) method->add(shaking(nose(), 1).front());
@@ -207,7 +207,7 @@ TEST_CASE("where no frame differs from the one before, nothing can be decided") 
   }
 }
 
-TEST_CASE("a still pair between others leaves the sum as it is") {
+TEST_CASE("a pair of equal frames leaves the sum unchanged") {
   std::vector<cv::Mat> frames = shaking(nose(), 10);
   const Verdict without = verdict_on(frames, KeepStages::yes);
   frames.insert(frames.begin() + 4, 3, frames[4]);
@@ -215,14 +215,14 @@ TEST_CASE("a still pair between others leaves the sum as it is") {
   for (std::size_t i = 0; i < kStages.size(); ++i) CHECK(same_bytes(with.stages[i].image, without.stages[i].image));
 }
 
-TEST_CASE("confidence is one half at the mask's border, sure away from it, and never against the mask") {
+TEST_CASE("confidence is one half at the mask's border, 0 or 1 far from it, and consistent with the mask") {
   const Verdict verdict = verdict_on(shaking(nose(), 12));
   REQUIRE(verdict.confidence.type() == CV_32FC1);
-  double least = 0;
-  double most = 0;
-  cv::minMaxLoc(verdict.confidence, &least, &most);
-  CHECK(least == 0);
-  CHECK(most == 1);
+  double minimum = 0;
+  double maximum = 0;
+  cv::minMaxLoc(verdict.confidence, &minimum, &maximum);
+  CHECK(minimum == 0);
+  CHECK(maximum == 1);
   CHECK(same_bytes(verdict.confidence > 0.5, verdict.own_body));
   CHECK(verdict.confidence.at<float>(10, 10) == 0);
   CHECK(verdict.confidence.at<float>(239, 160) == 1);
@@ -231,7 +231,7 @@ TEST_CASE("confidence is one half at the mask's border, sure away from it, and n
   CHECK(verdict.confidence.at<float>(first, 160) + verdict.confidence.at<float>(first - 1, 160) == doctest::Approx(1));
 }
 
-TEST_CASE("nothing is left where every part is too small") {
+TEST_CASE("the mask is empty where every part is too small") {
   const Verdict verdict = verdict_on(shaking(nose(), 12), KeepStages::no, {.least_area_percent = 100});
   CHECK_FALSE(verdict.undecided);
   CHECK(cv::countNonZero(verdict.own_body) == 0);

@@ -65,7 +65,7 @@ TEST_CASE("a soft edge is centred on the border, as wide as asked for and linear
   }
 }
 
-TEST_CASE("the edge is as soft along a slope as along a column") {
+TEST_CASE("the edge is as soft along a slanted border as along a column") {
   cv::Mat mask = cv::Mat::zeros(60, 60, CV_8UC1);
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x)
@@ -79,7 +79,7 @@ TEST_CASE("the edge is as soft along a slope as along a column") {
     }
 }
 
-TEST_CASE("a body that reaches the rim does not fade there") {
+TEST_CASE("a body that touches the image's border does not fade there") {
   const cv::Mat soft = soft_edged(body_on_the_right(), 6);
   for (int y = 0; y < 8; ++y) CHECK(soft.at<uchar>(y, 19) == 255);
   for (int x = 0; x < 20; ++x) {
@@ -88,12 +88,12 @@ TEST_CASE("a body that reaches the rim does not fade there") {
   }
 }
 
-TEST_CASE("no softness keeps the mask hard, and so does a softness below a pixel") {
+TEST_CASE("a softness of zero or below a pixel keeps the mask hard") {
   const cv::Mat mask = sprinkled({30, 20}, 0.4, 5);
   for (const double width_px : {0.0, 0.5, 1.0}) CHECK(same_bytes(soft_edged(mask, width_px), mask));
 }
 
-TEST_CASE("a mask without an edge stays as it is, however soft") {
+TEST_CASE("a mask without an edge is unchanged, however soft") {
   for (const cv::Size size : small_sizes())
     for (const double width_px : {0.0, 2.0, 1000.0, 1e7})
       for (const int value : {0, 255}) {
@@ -104,11 +104,11 @@ TEST_CASE("a mask without an edge stays as it is, however soft") {
 
 TEST_CASE("a softness far wider than the image leaves it half grey") {
   const cv::Mat soft = soft_edged(body_on_the_right(), 1e7);
-  double least = 0;
-  double most = 0;
-  cv::minMaxLoc(soft, &least, &most);
-  CHECK(least >= 127);
-  CHECK(most <= 128);
+  double minimum = 0;
+  double maximum = 0;
+  cv::minMaxLoc(soft, &minimum, &maximum);
+  CHECK(minimum >= 127);
+  CHECK(maximum <= 128);
 }
 
 }  // namespace sigs::test

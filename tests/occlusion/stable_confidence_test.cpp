@@ -35,7 +35,7 @@ TEST_CASE("a reflection that is taken for body does not get the confidence of a 
   const std::vector<flights::Flight> reflecting = flights::reflecting({.frames = kReflectionFrames});
   const Verdict mirrored = verdict_on_flight(named(reflecting, "sharp reflection"));
   const double masked = cv::countNonZero(mirrored.own_body);
-  REQUIRE(masked > 0);  // else this says nothing
+  REQUIRE(masked > 0);  // otherwise this test would be void
   CHECK(cv::mean(mirrored.confidence, mirrored.own_body)[0] < 0.8);
   CHECK(cv::countNonZero(mirrored.confidence > 0.9) < 0.15 * masked);
   const flights::Flight nose = named(reflecting, "nose, reflection");

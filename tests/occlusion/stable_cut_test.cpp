@@ -14,9 +14,9 @@ namespace {
 
 using namespace sigs;
 
-cv::Mat random_costs(cv::Size size, double most, cv::RNG& random) {
+cv::Mat random_costs(cv::Size size, double maximum, cv::RNG& random) {
   cv::Mat costs(size, CV_32FC1);
-  random.fill(costs, cv::RNG::UNIFORM, 0, most);
+  random.fill(costs, cv::RNG::UNIFORM, 0, maximum);
   return costs;
 }
 
@@ -63,7 +63,7 @@ PartEvidence sure_evidence(cv::Size size, const cv::Rect& part) {
 
 }  // namespace
 
-TEST_CASE("no labelling of a small image is cheaper than the cut") {
+TEST_CASE("no labelling of a small image costs less than the minimum cut") {
   cv::RNG random(7);
   for (int i = 0; i < 40; ++i) {
     const cv::Size size(4, 3);
@@ -96,7 +96,7 @@ TEST_CASE("a cut near given labels changes nothing farther away") {
   CHECK(cv::countNonZero(far_off) == 0);
 }
 
-TEST_CASE("a part is kept only at the border, and where its rim and its inside together speak for it") {
+TEST_CASE("a part is kept only at the border, and where its rim and its inside together are evidence for it") {
   const cv::Size size(320, 100);
   cv::Mat labels = cv::Mat::zeros(size, CV_8UC1);
   const cv::Rect part(100, 50, 40, 50);

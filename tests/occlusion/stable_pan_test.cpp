@@ -62,7 +62,7 @@ cv::Mat mask_of(const cv::Rect& body) {
 
 }  // namespace
 
-TEST_CASE("where everything moves alike, nothing is found, and it is known for the world") {
+TEST_CASE("where everything moves alike, nothing is found, and the confidence is that of the world") {
   for (const Pan& pan : {Pan{}, Pan{.deviation = 12}, Pan{.blur_px = 3}, Pan{.frames = 60}, Pan{.deviation = 50}}) {
     CAPTURE(pan.deviation);
     CAPTURE(pan.blur_px);
@@ -70,7 +70,7 @@ TEST_CASE("where everything moves alike, nothing is found, and it is known for t
     const Verdict verdict = verdict_on_pan(pan);
     CHECK_MESSAGE(!verdict.undecided, verdict.undecided.value_or(""));
     CHECK(cv::countNonZero(verdict.own_body) == 0);
-    CHECK(cv::mean(verdict.confidence)[0] < 0.25);  // the confidence of world that does not move
+    CHECK(cv::mean(verdict.confidence)[0] < 0.25);  // the confidence of a world that does not move
   }
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("a body before a world that moves alike is found, however small") {
   }
 }
 
-TEST_CASE("grain alone, however strong a sensor's may be, does not move") {
+TEST_CASE("sensor noise alone, however strong, does not count as motion") {
   for (const double deviation : {2.0, 6.0, 10.0}) {
     CAPTURE(deviation);
     const auto method = stable_method({}, kPanSize);

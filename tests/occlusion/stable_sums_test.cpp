@@ -68,7 +68,7 @@ TEST_CASE("a mean image is the mean of its frames over squares of pixels, whatev
     CHECK(image.frames == averager.waiting());
     CHECK(image.luma.cols <= 640);
     CHECK(image.luma.cols == size.width / averager.scale());
-    const int box = std::min(4, averager.scale());  // of larger squares a part is looked at
+    const int box = std::min(4, averager.scale());  // of larger squares a part is used
     for (const cv::Point at : {cv::Point(0, 0), cv::Point(image.luma.cols - 1, image.luma.rows - 1)}) {
       double sum = 0;
       for (const cv::Mat& frame : frames) sum += mean_of_square(frame, averager.scale(), box, at);
@@ -115,7 +115,7 @@ TEST_CASE("the gradient's moments are those of a plain double loop over the imag
     }
 }
 
-TEST_CASE("a clone of the sums goes its own way") {
+TEST_CASE("a clone of the sums is independent") {
   GradientSums sums({9, 7});
   sums.add(random_image(1, 1));
   const cv::Mat before = sums.moments().mean_square;

@@ -38,7 +38,7 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
-TEST_CASE("what stays put is found in synthetic flights") {
+TEST_CASE("the static own body is found in synthetic flights") {
   for (const char* name : {"nose", "wing tip left", "white before bright sky", "propeller", "letterbox",
                            "cockpit frame", "exposure drift", "straight road below", "grey on grey"}) {
     CAPTURE(name);
@@ -55,7 +55,7 @@ TEST_CASE("nothing is found where there is no body") {
   CHECK(cv::countNonZero(verdict.own_body) == 0);
 }
 
-TEST_CASE("a camera that stands still tells nothing, also where something passes by") {
+TEST_CASE("a stationary camera is undecided, also where something passes by") {
   for (const char* name : {"still", "still, one mover"}) {
     CAPTURE(name);
     const Verdict verdict = verdict_after(flight_named(name), 60);
@@ -79,7 +79,7 @@ TEST_CASE("no frame, one frame and black frames are undecided, at any size") {
   }
 }
 
-TEST_CASE("a verdict asked for in between changes nothing, nor does the number of threads") {
+TEST_CASE("an intermediate verdict changes nothing, nor does the number of threads") {
   const flights::Flight flight = flight_named("nose");
   const auto method = stable_method({}, flight.size_px);
   const int threads = cv::getNumThreads();

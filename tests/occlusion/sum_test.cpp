@@ -29,7 +29,7 @@ TEST_CASE("every difference counts one where it is largest") {
   }
 }
 
-TEST_CASE("a black difference adds nothing and says so") {
+TEST_CASE("a black difference adds nothing and returns so") {
   cv::Mat sum(4, 5, CV_32FC1, cv::Scalar(0.25));
   CHECK_FALSE(add_normalised(cv::Mat::zeros(4, 5, CV_8UC1), sum));
   CHECK(cv::countNonZero(sum != 0.25F) == 0);

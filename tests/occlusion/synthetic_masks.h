@@ -9,7 +9,7 @@
 
 namespace sigs::test {
 
-// A mask drawn in letters, one string a row, all of one length: '#' is 255, all else 0.
+// A mask drawn as characters, one string a row, all of one length: '#' is 255, all else 0.
 [[nodiscard]] cv::Mat drawn(std::initializer_list<std::string_view> rows);
 
 // A mask in which each pixel is 255 by this chance.
@@ -20,7 +20,7 @@ namespace sigs::test {
 
 [[nodiscard]] bool same_bytes(const cv::Mat& a, const cv::Mat& b);
 
-// The sizes on which a step must do what its brute-force twin does: a single pixel, lines, small images.
+// The sizes on which a step must agree with its brute-force reference: a single pixel, lines, small images.
 [[nodiscard]] std::vector<cv::Size> small_sizes();
 
 }  // namespace sigs::test

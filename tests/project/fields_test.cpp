@@ -66,7 +66,7 @@ TEST_CASE("an assignment without key or sign or with a wrong type is refused") {
         std::string::npos);
 }
 
-TEST_CASE("a text that is no UTF-8 can be set, and the project still written") {
+TEST_CASE("a text that is not UTF-8 can be set, and the project still written") {
   Project p = with_one_intruder();
   REQUIRE(set_field(p, "footage.video=caf\xe9.mkv").has_value());
   CHECK(p.footage.video == "caf\xe9.mkv");

@@ -47,7 +47,7 @@ std::string error_text(const std::string& json) {
 
 }  // namespace
 
-TEST_CASE("every key of a project file arrives in its place") {
+TEST_CASE("every key of a project file sets its field") {
   const Project p = whole();
   CHECK(p.name == "meeting");
   CHECK(p.footage.video == "a.mkv");
@@ -82,7 +82,7 @@ TEST_CASE("writing and reading again changes nothing") {
   CHECK(once == twice);
 }
 
-TEST_CASE("unknown keys are warned of by their whole name and kept on save") {
+TEST_CASE("unknown keys give warnings with their whole name and are kept on save") {
   const ReadProject read = parse_project(kWhole, "w.json").value();
   std::vector<std::string> texts;
   for (const Warning& warning : read.warnings) texts.push_back(warning.where);
@@ -190,7 +190,7 @@ TEST_CASE("paths are relative to the project file's folder and absolute ones sta
   CHECK(resolved(p, "").empty());
 }
 
-TEST_CASE("brackets within brackets are refused before they take all of the stack") {
+TEST_CASE("deeply nested brackets are refused before they exhaust the stack") {
   const auto nested = [](int depth) {
     return R"({"sigs": 1, "about": ")" + std::string(500, '[') + R"(\" [", "more": )" + std::string(depth, '[') +
            std::string(depth, ']') + "}";

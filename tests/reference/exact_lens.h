@@ -31,8 +31,8 @@ class ExactLens {
   // Pixel of a point in the camera frame. Nothing beyond the field.
   [[nodiscard]] std::optional<Vec2> pixel(const Vec3& p_in_camera) const;
 
-  // Point of the plane that a pixel shows, by Newton's method from a guess. Nothing where that leads nowhere within the
-  // field: another guess may.
+  // Point of the plane that a pixel shows, by Newton's method from a guess. Nothing where that does not converge within
+  // the field: another guess may.
   [[nodiscard]] std::optional<Vec2> plane_point_near(const Vec2& pixel_px, const Vec2& guess) const;
 
   // The same from the nearest of some thousand known points.

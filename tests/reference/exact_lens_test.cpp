@@ -19,7 +19,7 @@ double apart(const glm::dvec2& a, const glm::dvec2& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// In front of the camera, where OpenCV's pinhole models mean something, and short of the rim.
+// In front of the camera, where OpenCV's pinhole models are valid, and short of the rim.
 std::vector<glm::dvec3> directions_before(const Lens& lens) {
   std::vector<glm::dvec3> directions;
   for (const glm::dvec3& d : test::directions_over(lens, 8, 12, 0.98))
@@ -29,7 +29,7 @@ std::vector<glm::dvec3> directions_before(const Lens& lens) {
 
 }  // namespace
 
-TEST_CASE("the exact lens throws points where OpenCV does") {
+TEST_CASE("the exact lens projects points where OpenCV does") {
   for (const test::ExampleLens& example : test::example_lenses()) {
     CAPTURE(example.name);
     const ExactLens<double> exact(example.lens.parameters());
@@ -45,7 +45,7 @@ TEST_CASE("the exact lens throws points where OpenCV does") {
   }
 }
 
-TEST_CASE("the exact lens' inverse in long double is thrown back to within 1e-12 px") {
+TEST_CASE("the exact lens' inverse in long double is projected back to within 1e-12 px") {
   for (const test::ExampleLens& example : test::example_lenses()) {
     CAPTURE(example.name);
     const ExactLens<long double> exact(example.lens.parameters());
@@ -65,7 +65,7 @@ TEST_CASE("the exact lens' inverse in long double is thrown back to within 1e-12
   }
 }
 
-TEST_CASE("the exact lens goes as far as the fold that the engine finds by another road") {
+TEST_CASE("the exact lens' field ends at the fold that the engine finds by another method") {
   for (const test::ExampleLens& example : test::example_lenses()) {
     CAPTURE(example.name);
     const ExactLens<double> exact(example.lens.parameters());

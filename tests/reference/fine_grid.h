@@ -8,8 +8,9 @@
 namespace sigs::truth {
 
 // Squares, per_px to a pixel's side, numbered from the left and upper edge of pixel (0, 0); one ray goes through each.
-// Where in its square is such that each pixel's rays stand in as many different columns and rows as there are rays
-// (Chiu, Shirley and Wang 1994), so that the error along an edge that runs with the pixels is as small as along others.
+// The position within the square is such that each pixel's rays are in as many different columns and rows as there are
+// rays (Chiu, Shirley and Wang 1994), so that the error along an edge that runs with the pixels is as small as along
+// others.
 struct FineGrid {
   int per_px = 1;
   int period = 1;  // squares after which the pattern comes again; divides per_px

@@ -20,7 +20,7 @@ inline constexpr double kReachOfBlur = 6;
 [[nodiscard]] GaussianWeights to_pixels(double x_px, double sigma_px);
 
 // To the nodes k * step_px, the Gaussian's density at each. When the nodes' sums go to pixels by another such Gaussian,
-// their product is one of sigma / sqrt(2), and sums over nodes stand for its integral: what they leave out is
+// their product is one of sigma / sqrt(2), and sums over nodes approximate its integral, with an error of
 // exp(-(pi sigma / step)^2), 1e-12 at kStepsOfNodes (Poisson's sum formula).
 [[nodiscard]] GaussianWeights to_nodes(double x_px, double sigma_px, double step_px);
 inline constexpr double kStepsOfNodes = 0.6;  // step / sigma

@@ -30,7 +30,7 @@ TEST_CASE("a point's blur over pixels is the Gaussian's integral over each") {
       CHECK(std::accumulate(spread.weights.begin(), spread.weights.end(), 0.0) == doctest::Approx(1).epsilon(1e-14));
       for (std::size_t i = 0; i < spread.weights.size(); ++i) {
         const double pixel = spread.first_target + double(i);
-        // What lies beyond six sigmas is with the last pixels.
+        // The part beyond six sigmas is added to the last pixels.
         CHECK(std::abs(spread.weights[i] - integrated(x_px, sigma_px, pixel - 0.5, pixel + 0.5)) < 3e-9);
       }
     }
@@ -44,7 +44,7 @@ TEST_CASE("without blur a point is all in its own pixel") {
   }
 }
 
-TEST_CASE("two Gaussians with nodes between them make the one that both amount to") {
+TEST_CASE("two Gaussians with nodes between them give the Gaussian of their combined variance") {
   const double part_px = 3 / std::numbers::sqrt2;
   for (const double x_px : {0.0, 0.3, -41.77}) {
     const GaussianWeights direct = to_pixels(x_px, 3);

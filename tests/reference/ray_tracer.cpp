@@ -23,7 +23,7 @@ class LensWalk {
   std::optional<glm::dvec3> ray(const glm::dvec2& pixel_px) {
     std::optional<glm::dvec2> point;
     if (is_on_) point = lens_->plane_point_near(pixel_px, last_ + step_);
-    // Beyond the field the search is long and in vain: once a pixel is enough.
+    // Beyond the field the search is long and fails: once a pixel is enough.
     const glm::dvec2 place = glm::floor(pixel_px + 0.5);
     if (!point && place != searched_) {
       point = lens_->plane_point(pixel_px);

@@ -13,7 +13,7 @@
 
 namespace sigs::truth {
 
-// What one ray meets: premultiplied linear light with opacity, and whether it meets anything.
+// The result of one ray: premultiplied linear light with opacity, and whether it hits the body.
 struct RayHit {
   glm::dvec4 color{0, 0, 0, 0};
   bool hits = false;

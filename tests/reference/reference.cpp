@@ -29,7 +29,7 @@ Window common(const Window& a, const Window& b) {
   return {glm::max(a.low_px, b.low_px), glm::min(a.high_px, b.high_px)};
 }
 
-// Where light may come from that the blur carries into the image.
+// The region from which blur may bring light into the image.
 Window window_of(const Setup& setup) {
   const double reach_px = std::ceil(kReachOfBlur * setup.sigma_px);
   return {glm::dvec2(-0.5 - reach_px), glm::dvec2(setup.size_px.width, setup.size_px.height) - 0.5 + reach_px};
@@ -44,7 +44,7 @@ FineGrid grid_over(const Window& window, int per_px, int period) {
   return grid;
 }
 
-// A look with one ray a pixel, where edges alone do not tell how far the body reaches.
+// A pass with one ray a pixel, where edges alone do not bound the body.
 Window looked_for(const RayTracer& tracer, const Outline& outline, const Window& window) {
   constexpr double kMargin_px = 8;
   const FineGrid grid = grid_over(window, 1, 1);

@@ -14,7 +14,7 @@
 // light. It shares data with the engine (meshes, poses, parameters), and no code that makes an image.
 namespace sigs::truth {
 
-// What stands before the camera: one intruder.
+// The scene: one intruder in front of the camera.
 struct Setup {
   const Mesh* mesh = nullptr;
   Pose<frame::Camera, frame::Body> camera_from_body;
@@ -31,12 +31,13 @@ struct Settings {
   int samples_per_side = 16;  // of a pixel: 16 -> 256 rays; more where the image is less than 256 rays across
 };
 
-// The truth over rect, the part of the image that light from the intruder can reach.
+// The truth over rect, the part of the image that can receive light from the intruder.
 struct ReferenceImage {
-  cv::Rect rect;       // empty: nothing of it reaches the image
-  cv::Mat color;       // CV_64FC4: red, green, blue, opacity; premultiplied, linear light, blurred, own body taken off
-  cv::Mat coverage;    // CV_64FC1: share of the pixel that the silhouette covers; sharp, nothing taken off
-  double area_px = 0;  // of the coverage, whole silhouette within the image
+  cv::Rect rect;     // empty: no light of it gets into the image
+  cv::Mat color;     // CV_64FC4: red, green, blue, opacity; premultiplied, linear light, blurred, without what the own
+                     // body occludes
+  cv::Mat coverage;  // CV_64FC1: share of the pixel that the silhouette covers; sharp, without occlusion
+  double area_px = 0;            // of the coverage, whole silhouette within the image
   glm::dvec2 centroid_px{0, 0};  // of the coverage
   Box silhouette;                // around all rays within the image that hit, to a subpixel's width
 };

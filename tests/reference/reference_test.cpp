@@ -81,7 +81,7 @@ TEST_CASE("a band around a fisheye is the ring between its two angles, beyond 90
   CHECK(glm::distance(truth.centroid_px, glm::dvec2(159.5)) < 1e-2);
 }
 
-TEST_CASE("a square that faces the light has the colour that the model says") {
+TEST_CASE("a square that faces the light has the model's colour") {
   Material paint = painted({0.5F, 0.8F, 0.2F});
   paint.specular = {0.4F, 0.2F, 0};
   paint.shininess = 1;
@@ -118,14 +118,14 @@ TEST_CASE("blur adds its variance and keeps the energy") {
     setup.sigma_px = sigma_px;
     const ReferenceImage soft = reference_image(setup);
     for (int c = 0; c < 4; ++c) CHECK(cv::sum(soft.color)[c] == doctest::Approx(cv::sum(sharp.color)[c]).epsilon(1e-6));
-    // Pixels are boxes whatever the blur, so their 1 / 12 is in both. What six sigmas leave out is 1e-7 of sigma^2.
+    // Pixels are boxes whatever the blur, so their 1 / 12 is in both. The part beyond six sigmas is 1e-7 of sigma^2.
     CHECK(moments(soft).x == doctest::Approx(moments(sharp).x).epsilon(1e-5));
     CHECK(moments(soft).y - 15 * 15 / 12.0 - 1 / 12.0 == doctest::Approx(sigma_px * sigma_px).epsilon(2e-3));
     CHECK(soft.area_px == sharp.area_px);
   }
 }
 
-TEST_CASE("blur carries in what lies outside the image") {
+TEST_CASE("blur brings in light from outside the image") {
   const Mesh mesh = square(painted({1, 1, 1}), 2);
   Setup setup = setup_for(mesh, {40, -22.5, 0}, kFocal_px, kSize);  // its right edge at x = -1.75
   CHECK(reference_image(setup).rect.empty());
@@ -138,7 +138,7 @@ TEST_CASE("blur carries in what lies outside the image") {
   CHECK(color_at(truth, 0, 119)[3] > color_at(truth, 3, 119)[3]);
 }
 
-TEST_CASE("glass over white lets through what its opacity leaves, in the order of the ray") {
+TEST_CASE("glass over white transmits by its opacity, in the order of the ray") {
   Mesh mesh;
   add_square(mesh, painted({1, 1, 1}), 1, {0, 0}, 2);
   add_square(mesh, painted({1, 0, 0}, 0.5F), 0, {0, 0}, 2);
@@ -157,7 +157,7 @@ TEST_CASE("glass over white lets through what its opacity leaves, in the order o
   CHECK(truth.coverage.at<double>(120 - truth.rect.y, 160 - truth.rect.x) == doctest::Approx(1).epsilon(1e-12));
 }
 
-TEST_CASE("an image on a surface lies as OBJ says, premultiplied and in linear light") {
+TEST_CASE("a texture on a surface is oriented as in OBJ, premultiplied and in linear light") {
   Material paint = painted({1, 1, 1});
   paint.texture = cv::Mat(2, 2, CV_8UC4, cv::Scalar(255, 255, 255, 255));
   paint.texture.at<cv::Vec4b>(0, 0) = {255, 0, 0, 255};
@@ -182,7 +182,7 @@ TEST_CASE("a target of a hundredth of a pixel covers its true area") {
   }
 }
 
-TEST_CASE("nothing shakes at 1e7 m") {
+TEST_CASE("there is no jitter at 1e7 m") {
   const Mesh mesh = sphere(5);
   const ReferenceImage truth = reference_image(setup_for(mesh, {1e7, 3e6, -2e6}, 3e7, {30000000, 30000000}));
   const glm::dvec3 p(1e7, 3e6, -2e6);
@@ -198,7 +198,7 @@ TEST_CASE("behind the camera there is nothing, around it there is only the body"
   CHECK(inside.area_px == doctest::Approx(32 * 24).epsilon(1e-12));
 }
 
-TEST_CASE("the own body takes off what it hides, and the silhouette stays") {
+TEST_CASE("the own body removes the coverage it occludes, and the silhouette stays") {
   const Mesh mesh = square(painted({1, 1, 1}), 2);
   Setup setup = setup_for(mesh, {40, 0, 0}, kFocal_px, kSize);
   const ReferenceImage whole = reference_image(setup);
@@ -208,7 +208,7 @@ TEST_CASE("the own body takes off what it hides, and the silhouette stays") {
   CHECK(part.area_px == whole.area_px);
 }
 
-TEST_CASE("over a background nothing leaves its code, and half of white is mixed in light") {
+TEST_CASE("zero coverage leaves a background's code value, and half of white is mixed in linear light") {
   ReferenceImage truth{.rect = {2, 1, 3, 1}, .color = cv::Mat::zeros(1, 3, CV_64FC4)};
   truth.color.at<cv::Vec4d>(0, 1) = {1, 1, 1, 1};
   truth.color.at<cv::Vec4d>(0, 2) = {0.5, 0.5, 0.5, 0.5};

@@ -34,7 +34,7 @@ struct Plan {
   cv::Rect covered;  // pixels of the image under the grid
 };
 
-// What some rows of the grid add.
+// The contribution of some rows of the grid.
 struct Slab {
   int first_row = 0;  // target
   cv::Mat color;      // CV_64FC4, the plan's columns
@@ -113,7 +113,7 @@ Slab slab_of(const RayTracer& tracer, const FineGrid& grid, const Plan& plan, in
   return slab;
 }
 
-// Some slabs side by side; which thread makes which changes nothing in them.
+// Several slabs in parallel; their assignment to threads does not affect them.
 std::vector<Slab> slabs_from(const RayTracer& tracer, const FineGrid& grid, const Plan& plan, int first_row) {
   const int left = (grid.count_y - first_row + kRowsPerSlab - 1) / kRowsPerSlab;
   std::vector<Slab> slabs(static_cast<std::size_t>(std::min(left, kSlabsAtOnce)));

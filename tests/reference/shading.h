@@ -10,7 +10,7 @@
 
 namespace sigs::truth {
 
-// Whether nothing behind a surface of it is ever seen.
+// Whether it is opaque: nothing behind its surface is visible.
 [[nodiscard]] bool lets_no_light_through(const Material& material);
 
 // Lights in body coordinates, metres.

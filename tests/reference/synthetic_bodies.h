@@ -9,7 +9,7 @@
 
 namespace sigs::truth {
 
-// Bodies of known shape, in body axes, and where they stand. The camera looks along X; poses are unturned.
+// Bodies of known shape, in body axes, and their positions. The camera looks along X; poses have no rotation.
 
 [[nodiscard]] Material painted(const glm::vec3& diffuse, float opacity = 1);
 

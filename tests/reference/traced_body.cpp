@@ -30,7 +30,7 @@ struct Query {
   const std::vector<bool>* is_opaque;
 };
 
-// Keeps every crossing, and lets the ray go on where light does.
+// Keeps every crossing, and continues the ray through transparent surfaces.
 void keep_crossing(const RTCFilterFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
   const Query& query = *reinterpret_cast<const Query*>(args->context);

@@ -37,7 +37,7 @@ double share(int pixel, double low, double high) {
 
 }  // namespace
 
-TEST_CASE("a unit square facing the camera covers exactly the pixels that a pinhole says") {
+TEST_CASE("a unit square facing the camera covers exactly the pixels of its pinhole projection") {
   // focal / distance = 8 px/m, so the square of 1 m is 8 px; the axis meets the corner between four pixels.
   const Layer layer =
       drawn(facing_quad({-0.5, -0.5}, {0.5, 0.5}, kWhite), at({25, 0, 0}), ambient_only(), view_of({32, 24}, 200));
@@ -48,7 +48,7 @@ TEST_CASE("a unit square facing the camera covers exactly the pixels that a pinh
   CHECK(is_valid(layer));
 }
 
-TEST_CASE("a square beside the axis lies where the pinhole says and not mirrored") {
+TEST_CASE("a square beside the axis lies at its pinhole projection and is not mirrored") {
   // y = 1..2 m right and z = 0.5..0.75 m down of the axis, 8 px a metre; centre (15.5, 11.5).
   const Layer layer =
       drawn(facing_quad({1, 0.5}, {2, 0.75}, kWhite), at({25, 0, 0}), ambient_only(), view_of({40, 24}, 200));
@@ -77,7 +77,7 @@ TEST_CASE("coverage at the edges is the share of the pixel to the accuracy of fo
             share(x, view.center_px.x - 4, view.center_px.x + 4) * share(y, view.center_px.y - 4, view.center_px.y + 4);
         worst = std::max(worst, std::abs(coverage - truth));
       }
-    // The four samples lie on four different rows and columns, each of which stands for a quarter of the pixel: along
+    // The four samples lie on four different rows and columns, each of which represents a quarter of the pixel: along
     // one edge the count is right to half a sample, at a corner, where two edges meet, to twice that.
     CHECK(worst <= 0.26);
   }
@@ -145,7 +145,7 @@ TEST_CASE("a sideways offset of ten thousand kilometres causes no jitter") {
   CHECK(covered(drawn(mesh, pose, ambient_only(), view)) == cv::Rect(8, 25, 48, 16));
 }
 
-TEST_CASE("near surfaces hide far ones even at a hundred kilometres") {
+TEST_CASE("near surfaces occlude far ones even at a hundred kilometres") {
   Mesh mesh;
   mesh.materials = {paint({1, 0, 0}), paint({0, 1, 0})};
   add_quad(mesh, {-0.05F, -1, 1}, {0, 2, 0}, {0, 0, -2}, 0);  // red, 10 cm nearer, drawn first
@@ -164,7 +164,7 @@ TEST_CASE("behind the camera nothing is drawn") {
   }
 }
 
-TEST_CASE("a camera within the body sees its walls all around") {
+TEST_CASE("a camera within the body has its walls all around") {
   const Layer layer = drawn(box({5, 5, 5}, kWhite), at({0, 0, 0}), ambient_only(), view_of({16, 16}, 8));
   CHECK(cv::countNonZero(layer.coverage == 1.0F) == 256);
   CHECK(is_valid(layer));

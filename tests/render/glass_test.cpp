@@ -88,7 +88,7 @@ TEST_CASE("glass shows solid parts behind it and is occluded by solid parts befo
 TEST_CASE("glass never occludes glass, even where no order of whole triangles is right") {
   Mesh mesh;
   mesh.materials = {kRedGlass, kGreenGlass};
-  // A large slanting pane whose triangles' middles are nearer than the small pane, before which it nowhere lies.
+  // A large slanting pane whose triangles' middles are nearer than the small pane, although it is behind it everywhere.
   add_quad(mesh, {-10, -6, 2}, {20, 12, 0}, {0, 0, -4}, 0);
   add_quad(mesh, {5, 4.5F, 1}, {0, 1, 0}, {0, 0, -2}, 1);
   const Layer layer = drawn(measured(std::move(mesh)), at({50, 0, 0}), ambient_only(), view_of({81, 9}, 300));
@@ -112,7 +112,7 @@ TEST_CASE("a pane's edge covers by whole samples and its opacity follows") {
       CHECK(layer.color.at<cv::Vec4f>(y, x)[3] == doctest::Approx(0.25F * layer.coverage.at<float>(y, x)));
 }
 
-TEST_CASE("an image lies on the surface upright and unmirrored") {
+TEST_CASE("a texture lies on the surface upright and unmirrored") {
   const Layer layer = drawn(facing_quad({-1, -1}, {1, 1}, cutout()), at({10, 0, 0}), ambient_only(),
                             view_of({64, 64}, 320));  // the square is as large as the image: 64 px
   const auto at_quarter = [&](int x, int y) { return layer.color.at<cv::Vec4f>(y, x); };
@@ -152,7 +152,7 @@ TEST_CASE("the colour of transparent texels does not bleed into their neighbours
   CHECK(cv::countNonZero(planes[0]) > 0);
 }
 
-TEST_CASE("a texture's mean survives being drawn small") {
+TEST_CASE("a texture's mean is kept when it is rendered small") {
   // Black and white in equal parts are a linear half from far away, not a half of display code.
   Material material = paint({1, 1, 1});
   material.texture.create(256, 256, CV_8UC4);

@@ -54,14 +54,14 @@ TEST_CASE("the same call gives the same bytes, from another renderer too") {
   CHECK(same(first, image(renderer(), mesh)));  // the two take turns on this thread
 }
 
-TEST_CASE("earlier calls leave no trace") {
+TEST_CASE("earlier calls do not affect the result") {
   const Mesh mesh = glass_box();
   const Layer first = image(renderer(), mesh);
   static_cast<void>(drawn(box({3, 3, 3}, paint({1, 1, 1}, 0.5F)), at({5, 0, 0}), Light{}, view_of({700, 300}, 400)));
   CHECK(same(first, image(renderer(), mesh)));
 }
 
-TEST_CASE("two renderers on two threads draw at once") {
+TEST_CASE("two renderers on two threads render at the same time") {
   const Mesh mesh = glass_box();
   const Layer expected = image(renderer(), mesh);
   std::array<int, 2> good{0, 0};

@@ -44,7 +44,7 @@ Mesh measured(Mesh mesh) {
 Mesh facing_quad(const glm::dvec2& low_m, const glm::dvec2& high_m, const Material& material, float x_m) {
   Mesh mesh;
   mesh.materials = {material};
-  // From the lower left corner as the eye sees it (z down): u to the right, v up.
+  // From the lower left corner as seen by the camera (z down): u to the right, v up.
   add_quad(mesh, {x_m, low_m.x, high_m.y}, {0, high_m.x - low_m.x, 0}, {0, 0, low_m.y - high_m.y}, 0);
   return measured(std::move(mesh));
 }

@@ -38,10 +38,10 @@ void add_quad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edge_u, cons
 
 [[nodiscard]] Pose<frame::Camera, frame::Body> at(const glm::dvec3& p_in_camera);
 
-// Light that comes from everywhere alone.
+// Ambient light alone.
 [[nodiscard]] Light ambient_only(double ambient = 1);
 
-// Draws a copy of the mesh, which lives on, with the shared renderer. The test fails where that does not work.
+// Renders a copy of the mesh, which stays alive, with the shared renderer. An error fails the test.
 [[nodiscard]] Layer drawn(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                           const Light& light, const VirtualCamera& view);
 

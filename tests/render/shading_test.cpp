@@ -83,7 +83,7 @@ TEST_CASE("light from above lights the top") {
   CHECK(layer.color.at<cv::Vec4f>(26, 20)[0] < 0.11F);
 }
 
-TEST_CASE("a thin surface is lit on the side that the eye sees") {
+TEST_CASE("a thin surface is lit on the side that faces the eye") {
   // Seen from its back: the light behind the eye lights it, the light beyond it does not.
   Mesh mesh;
   mesh.materials = {paint({1, 1, 1})};

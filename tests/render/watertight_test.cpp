@@ -31,7 +31,7 @@ Mesh without_last_triangle(Mesh mesh) {
   return mesh;
 }
 
-// A triangle that nobody sees, on one of the edges, keeps the body from being watertight.
+// An invisible triangle on one of the edges makes the body not watertight.
 Mesh with_fin_inside(Mesh mesh) {
   const auto tip = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.push_back({{0.5F, 0, 0}, {1, 0, 0}, {0, 0}});
@@ -83,7 +83,7 @@ TEST_CASE("a body looks the same with and without culling") {
       const Layer left_out = drawn(watertight, pose, light, view_of({60, 60}, 120));
       const Layer all_drawn = drawn(open, pose, light, view_of({60, 60}, 120));
       CHECK(same_bytes(left_out.coverage, all_drawn.coverage));
-      // Where a near and a far side meet in a rim, their depths are equal and either may win.
+      // Where a near and a far side meet in a rim, their depths are equal and either may be in front.
       cv::Mat inside;
       cv::erode(left_out.coverage == 1.0F, inside, cv::Mat());
       REQUIRE(cv::countNonZero(inside) > 100);

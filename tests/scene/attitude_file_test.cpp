@@ -67,7 +67,7 @@ TEST_CASE("a file from another system reads the same") {
   }
 }
 
-TEST_CASE("what is wrong is named with its line and column") {
+TEST_CASE("errors are reported with line and column") {
   CHECK(error_of("") == "line 1: expected the header frame,roll_deg,pitch_deg,yaw_deg");
   CHECK(error_of("0,1,2,3\n").starts_with("line 1: expected the header"));
   CHECK(error_of("frame,roll,pitch,yaw\n0,1,2,3\n").starts_with("line 1: expected the header"));
@@ -90,7 +90,7 @@ TEST_CASE("what is wrong is named with its line and column") {
   CHECK(error_of(kHeader + "3,0,0,0\n2.5,0,0,0\n") == "line 3" + rise);
 }
 
-TEST_CASE("numbers have a point whatever the locale is") {
+TEST_CASE("numbers have a decimal point in every locale") {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* const locale : {"de_DE.UTF-8", "fr_FR.UTF-8", "C"}) {
     std::setlocale(LC_ALL, locale);
@@ -101,7 +101,7 @@ TEST_CASE("numbers have a point whatever the locale is") {
   std::setlocale(LC_ALL, before.c_str());
 }
 
-TEST_CASE("a file that is not there and a folder cannot be read") {
+TEST_CASE("a missing file and a folder cannot be read") {
   const test::TemporaryFolder folder;
   CHECK(read_attitude_file(folder / "none.csv").error().kind == ErrorKind::cannot_read);
   CHECK(read_attitude_file(folder.path()).error().kind == ErrorKind::cannot_read);

@@ -144,7 +144,7 @@ TEST_CASE("the placeholder of a missing calibration is a pinhole with a horizont
   CHECK(lens.pixel({1, 0, 0})->y == doctest::Approx(479.5));
 }
 
-TEST_CASE("a mask that cannot be used is named and hides nothing") {
+TEST_CASE("an unusable mask is reported and occludes nothing") {
   Project project = sample_project("crossing");
   SUBCASE("missing") {
     project.footage.own_body_mask = "none.png";
@@ -162,7 +162,7 @@ TEST_CASE("a mask that cannot be used is named and hides nothing") {
   CHECK(draft.scene.intruders[0].model->mesh.vertices.size() > 1000);  // all else is there
 }
 
-TEST_CASE("an attitude file that cannot be used is named and the camera stays level") {
+TEST_CASE("an unusable attitude file is reported and the camera stays level") {
   const TemporaryFolder folder;
   Project project = sample_project("crossing");
   project.camera.attitude_file = (folder / "gyro.csv").string();
@@ -209,7 +209,7 @@ TEST_CASE("a model that cannot be read becomes a cross of its length") {
         scene_at(drafted(good).scene, 77).intruders[1].camera_from_body.translation_m);
 }
 
-TEST_CASE("axes that make no sense are named and the model becomes a cross of ten metres") {
+TEST_CASE("invalid axes are reported and the model becomes a cross of ten metres") {
   Project project = sample_project("crossing");
   project.intruders[0].model.up = "-x";
   const DraftScene draft = drafted(project);
@@ -218,7 +218,7 @@ TEST_CASE("axes that make no sense are named and the model becomes a cross of te
   CHECK(draft.scene.intruders[0].model->mesh.high_m.x == 5);
 }
 
-TEST_CASE("every face of the cross looks outwards") {
+TEST_CASE("every face of the cross faces outwards") {
   SceneFiles files;
   const auto cross = files.cross(12);
   CHECK(files.cross(12) == cross);
@@ -272,7 +272,7 @@ TEST_CASE("a trajectory that cannot be flown hovers at its first waypoint") {
   check_sound(draft);
 }
 
-TEST_CASE("an intruder without waypoints is nowhere and the others keep their place") {
+TEST_CASE("an intruder without waypoints is left out and the others keep their place") {
   Project project = sample_project("two-intruders");
   project.intruders[0].trajectory.waypoints.clear();
   const DraftScene draft = drafted(project);
@@ -293,7 +293,7 @@ TEST_CASE("a range beyond the footage is cut to it") {
   CHECK(draft.scene.first_frame == 199);
 }
 
-TEST_CASE("all that checking finds is named as checking names it") {
+TEST_CASE("every problem that check finds is reported in the same words") {
   Project project = sample_project("two-intruders");
   project.name = "";
   project.footage.video = "none.mp4";
@@ -312,7 +312,7 @@ TEST_CASE("all that checking finds is named as checking names it") {
   check_sound(draft);
 }
 
-TEST_CASE("any number in any field gives a scene that can be looked at") {
+TEST_CASE("any number in any field gives a scene that can be shown") {
   SceneFiles files;
   for (const double value : {kNaN, kInfinity, -kInfinity, 0.0, -1.0, 1e9, 1e13, -1e300}) {
     const std::size_t count = [] {

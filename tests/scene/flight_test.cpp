@@ -77,7 +77,7 @@ TEST_CASE("a level turn has the load factor one over the cosine of its bank") {
   }
 }
 
-TEST_CASE("a turn with level wings is carried sideways") {
+TEST_CASE("a turn with level wings has a sideways load factor") {
   const double radius_m = 500;
   const double speed_mps = 70;
   const FlightState state = flight_at(flying(circle(radius_m, speed_mps, 20), {.bank = Bank::level}), 10);
@@ -86,7 +86,7 @@ TEST_CASE("a turn with level wings is carried sideways") {
         doctest::Approx(speed_mps * speed_mps / radius_m / kGravity_mps2).epsilon(2e-3));  // to the right
 }
 
-TEST_CASE("nothing carries what falls freely") {
+TEST_CASE("free fall has a load factor of zero") {
   std::vector<TimedWaypoint> parabola;
   for (double t = 0; t <= 8; t += 0.05)
     parabola.push_back({t, {90 * t, 0, -2000 - 30 * t + 0.5 * kGravity_mps2 * t * t}});
@@ -94,13 +94,13 @@ TEST_CASE("nothing carries what falls freely") {
   CHECK(std::abs(state.load_factor) < 1e-3);
 }
 
-TEST_CASE("hovering carries its weight") {
+TEST_CASE("hovering has a load factor of one") {
   const FlightState state = flight_at(flying({{0, {10, 20, -1000}}}), 3);
   CHECK(state.speed_mps == 0);
   CHECK(state.load_factor == doctest::Approx(1));
 }
 
-TEST_CASE("two straight flights come closest where the closed form says") {
+TEST_CASE("the closest approach of two straight flights is that of the closed form") {
   for (const double camera_speed_mps : {0.0, 22.0, -40.0})
     for (const double y_m : {-300.0, -1.0, 1e5}) {
       const glm::dvec3 from_m(400, y_m, -1080);
@@ -117,7 +117,7 @@ TEST_CASE("two straight flights come closest where the closed form says") {
     }
 }
 
-TEST_CASE("a hit between two frames is found") {
+TEST_CASE("a collision between two frames is found") {
   const glm::dvec3 velocity_mps(-300, 0, 0);
   const double hit_s = 2.013;
   const glm::dvec3 from_m = glm::dvec3(0, 0, -1000) - hit_s * velocity_mps;
@@ -136,7 +136,7 @@ TEST_CASE("of equal distances the earliest is given") {
   CHECK(closest.time_s == doctest::Approx(1).epsilon(0.1));
 }
 
-TEST_CASE("the deepest of several valleys counts, and only within the range") {
+TEST_CASE("the lowest of several minima counts, and only within the range") {
   std::vector<TimedWaypoint> waypoints;
   const double near_m[] = {300, 120, 300, 90, 300, 60, 300};
   for (int i = 0; i < 7; ++i) waypoints.push_back({2.0 * i, {near_m[i], 0, -1000}});
@@ -156,7 +156,7 @@ TEST_CASE("a long flight is searched in a bounded number of steps") {
   CHECK(closest.distance_m == doctest::Approx(100));
 }
 
-TEST_CASE("limits grow with the aircraft and a length that is none is a small one") {
+TEST_CASE("limits grow with the aircraft's length, and an invalid length counts as small") {
   CHECK(limits_of(10).highest_load_factor == 3.8);
   CHECK(limits_of(18).lowest_load_factor == -1.52);
   CHECK(limits_of(37).highest_load_factor == 2.5);
@@ -242,7 +242,7 @@ TEST_CASE("the samples fly within their limits") {
   }
 }
 
-TEST_CASE("one frame alone is looked at") {
+TEST_CASE("a range of one frame can be checked") {
   Scene scene = scene_of(flying({{0, {0, 0, 5}}}), 1);
   const std::vector<FlightFlag> flags = flight_flags(scene, 0);
   REQUIRE(flags.size() == 1);
@@ -251,7 +251,7 @@ TEST_CASE("one frame alone is looked at") {
   CHECK(flags[0].text() == "5 m below the ground");
 }
 
-TEST_CASE("flags say value and limit, and what is beyond also reads so") {
+TEST_CASE("flags give value and limit, rounded so that the excess is visible") {
   using F = FlightFault;
   CHECK(FlightFlag{F::load, 0, 1, 5.2, 2.5}.text() == "load factor 5.2, at most 2.5 for an aircraft of this size");
   CHECK(FlightFlag{F::load, 0, 1, -2, -1.52}.text() == "load factor -2, at least -1.52 for an aircraft of this size");

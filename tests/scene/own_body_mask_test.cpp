@@ -10,7 +10,7 @@
 
 using namespace sigs;
 
-TEST_CASE("white hides and black shows and gray is in between") {
+TEST_CASE("white occludes, black does not, and grey is in between") {
   const test::TemporaryFolder folder;
   cv::imwrite((folder / "m.png").string(), cv::Mat((cv::Mat_<uchar>(1, 3) << 0, 51, 255)));
   const Result<cv::Mat> mask = read_own_body_mask(folder / "m.png", {3, 1});
@@ -20,7 +20,7 @@ TEST_CASE("white hides and black shows and gray is in between") {
   CHECK(mask->at<float>(0, 2) == doctest::Approx(1.0F));
 }
 
-TEST_CASE("a 16-bit mask says the same as its 8-bit twin") {
+TEST_CASE("a 16-bit mask has the values of the same mask in 8 bits") {
   const test::TemporaryFolder folder;
   cv::imwrite((folder / "8.png").string(), cv::Mat((cv::Mat_<uchar>(1, 3) << 0, 51, 255)));
   cv::imwrite((folder / "16.png").string(), cv::Mat((cv::Mat_<ushort>(1, 3) << 0, 51 * 257, 65535)));
@@ -29,7 +29,7 @@ TEST_CASE("a 16-bit mask says the same as its 8-bit twin") {
   CHECK(cv::norm(difference, cv::NORM_INF) < 1e-6);  // float rounding
 }
 
-TEST_CASE("a mask in colour or with an alpha channel is taken by its brightness") {
+TEST_CASE("a mask in colour or with an alpha channel is read by its brightness") {
   const test::TemporaryFolder folder;
   cv::imwrite((folder / "c.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar::all(255)));
   cv::imwrite((folder / "a.png").string(), cv::Mat(2, 2, CV_8UC4, cv::Scalar::all(255)));
@@ -46,7 +46,7 @@ TEST_CASE("a mask of another size is an error that says both sizes") {
   CHECK(mask.error().what.find("4x4") != std::string::npos);
 }
 
-TEST_CASE("a missing mask and a file that is no image are errors") {
+TEST_CASE("a missing mask and a file that is not an image are errors") {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "t.png") << "no image";
   CHECK(read_own_body_mask(folder / "no.png", {1, 1}).error().kind == ErrorKind::cannot_read);

@@ -51,7 +51,7 @@ TEST_CASE("a path that overshoots far beyond its waypoints is reported with intr
   CHECK(text.find("approximating") != std::string::npos);
 }
 
-TEST_CASE("each way out of a overshoot that the warning names is one") {
+TEST_CASE("each remedy that the warning names removes the overshoot") {
   Project spread = ill_conditioned_project();
   for (const std::size_t inner : {1U, 2U}) spread.intruders[0].trajectory.waypoints[inner].frame.reset();
   CHECK(opened(spread).issues.empty());
@@ -62,7 +62,7 @@ TEST_CASE("each way out of a overshoot that the warning names is one") {
 
   Project more = ill_conditioned_project();
   std::vector<WaypointSettings>& waypoints = more.intruders[0].trajectory.waypoints;
-  // The speed of the short leg dies away over legs that grow tenfold.
+  // The speed of the short leg decays over legs that grow tenfold.
   for (const double frame : {10'001.0, 1'001.0, 101.0, 11.0})
     waypoints.insert(waypoints.begin() + 2, {.frame = frame, .position_m = {503 + 0.09 * (frame - 1), 0, -150}});
   for (const double frame : {90'001.0, 99'001.0, 99'901.0, 99'991.0})
@@ -70,7 +70,7 @@ TEST_CASE("each way out of a overshoot that the warning names is one") {
   CHECK(opened(more).issues.empty());
 }
 
-TEST_CASE("one speed along the same curve does not take the overshoot out of it") {
+TEST_CASE("constant speed along the same curve does not remove the overshoot") {
   Project project = ill_conditioned_project();
   project.intruders[0].trajectory.timing = TimingChoice::constant_speed;
   CHECK(opened(project).issues.size() == 1);

@@ -22,7 +22,7 @@ inline constexpr std::array<const char*, 3> kSampleProjects{"crossing", "head-on
   return std::move(read->project);
 }
 
-// What the sample video has, without opening it.
+// The properties of the sample video, without opening it.
 [[nodiscard]] inline FootageShape sample_footage() {
   FootageShape footage{.size_px = {1280, 960}, .frame_interval_s = 0.04};
   for (int frame = 0; frame < 200; ++frame) footage.times_s.push_back(frame / 25.0);

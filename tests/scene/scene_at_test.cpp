@@ -17,7 +17,7 @@ using namespace sigs::test;
 
 namespace {
 
-// A camera at 1000 m, and intruders that hover where they are put; no models, no footage: only where things are.
+// A camera at 1000 m, and intruders that hover at given places; no models, no footage: only poses.
 Scene scene_with(const std::vector<glm::dvec3>& positions_m, const Attitude& camera_attitude, double speed_mps) {
   Scene scene{.camera = {*Lens::make({}), {640, 480}}};
   scene.motion = {{rotation_of(camera_attitude), {0, 0, -1000}}, speed_mps};
@@ -61,7 +61,7 @@ TEST_CASE("a camera that rolls right sees the horizon's right end rise") {
   CHECK(moment.intruders[0].camera_from_body.translation_m.z < 0);  // above the axis
 }
 
-TEST_CASE("intruders come far to near and equal ones by their number") {
+TEST_CASE("intruders are ordered from far to near and equal ones by their number") {
   const SceneMoment moment = scene_at(scene_with({{10, 0, -1000}, {99, 0, -1000}, {99, 0, -1000}}, {}, 0), 0);
   CHECK(moment.intruders[0].id == 1);
   CHECK(moment.intruders[1].id == 2);
@@ -75,12 +75,12 @@ TEST_CASE("ten thousand kilometres from the origin the difference is still exact
   CHECK(moment.intruders[0].camera_from_body.translation_m == glm::dvec3(100, 0.25, 0));
 }
 
-TEST_CASE("the light is given where the camera sees it") {
+TEST_CASE("the light is given in the camera frame") {
   const SceneMoment moment = scene_at(scene_with({}, {}, 0), 0);
   CHECK(moment.light_in_camera == glm::dvec3(0, 0, -4000));
 }
 
-TEST_CASE("between two known turns the camera turns evenly, before and after them it stays") {
+TEST_CASE("between two known attitudes the camera rotates evenly, before and after them it is fixed") {
   const CameraMotion motion{.turns = {turned(1, {0, 0, rad_of_deg(10)}), turned(3, {0, 0, rad_of_deg(20)}),
                                       turned(4, {rad_of_deg(-6), 0, rad_of_deg(20)})}};
   for (const auto& [time_s, yaw_deg] : {std::pair(-5.0, 10.0), {1.0, 10.0}, {1.5, 12.5}, {2.9, 19.5}, {9.0, 20.0}})
@@ -89,13 +89,13 @@ TEST_CASE("between two known turns the camera turns evenly, before and after the
   CHECK(attitude_at(motion, 1e9).roll_rad == doctest::Approx(rad_of_deg(-6)));
 }
 
-TEST_CASE("from 170 degrees to -170 the camera turns the shorter way") {
+TEST_CASE("from 170 degrees to -170 the camera rotates the shorter way") {
   const CameraMotion motion{.turns = {turned(0, {0, 0, rad_of_deg(170)}), turned(4, {0, 0, rad_of_deg(-170)})}};
   CHECK(attitude_at(motion, 1).yaw_rad == doctest::Approx(rad_of_deg(175)));
   CHECK(attitude_at(motion, 3).yaw_rad == doctest::Approx(rad_of_deg(-175)));
 }
 
-TEST_CASE("one known turn holds for ever and none leaves the attitude as it is, bit for bit") {
+TEST_CASE("one known attitude applies to all times and none leaves the attitude unchanged, bit for bit") {
   const Attitude mean{0.1, -0.2, 0.3};
   CameraMotion motion{.world_from_camera_at_start = {rotation_of(mean), {1, 2, 3}}};
   CHECK(camera_at(motion, 7).rotation == rotation_of(mean));
@@ -104,7 +104,7 @@ TEST_CASE("one known turn holds for ever and none leaves the attitude as it is, 
     CHECK(attitude_at(motion, time_s).yaw_rad == doctest::Approx(0.3 + rad_of_deg(30)));
 }
 
-TEST_CASE("what carries the camera turns it as a whole: about the carrier's axes and not about the camera's") {
+TEST_CASE("the camera rotates with its carrier: about the carrier's axes and not about its own") {
   // A camera that looks 30 degrees down, on a carrier that points to the right.
   const CameraMotion motion{.world_from_camera_at_start = {rotation_of({0, rad_of_deg(-30), 0}), {}},
                             .turns = {turned(0, {0, 0, rad_of_deg(90)})}};
@@ -112,7 +112,7 @@ TEST_CASE("what carries the camera turns it as a whole: about the carrier's axes
   CHECK(glm::distance(axis, glm::dvec3(0, std::cos(rad_of_deg(30)), 0.5)) < 1e-12);
 }
 
-TEST_CASE("the carrier's turns move the camera nowhere") {
+TEST_CASE("the carrier's rotations do not move the camera") {
   const CameraMotion motion{.world_from_camera_at_start = {{1, 0, 0, 0}, {5, 6, -150}},
                             .speed_mps = 22,
                             .turns = {turned(0, {0.3, 0.2, 0.1}), turned(9, {-0.3, 0.1, 1.5})}};
@@ -134,7 +134,7 @@ TEST_CASE("an attitude file's frames have the footage's times, also where its ra
   CHECK(attitude_of(scene_at(scene, 150).world_from_camera.rotation).yaw_rad == doctest::Approx(rad_of_deg(20)));
 }
 
-TEST_CASE("frames that the footage shows at the same time give no number that is none") {
+TEST_CASE("frames of the same presentation time give finite numbers") {
   const CameraMotion motion{.turns = {turned(1, {}), turned(1, {0, 0, 0.2}), turned(2, {0, 0, 0.4})}};
   CHECK(attitude_at(motion, 1).yaw_rad == doctest::Approx(0.2));
   CHECK(attitude_at(motion, 0.5).yaw_rad == doctest::Approx(0));

@@ -25,12 +25,12 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-// A triangle that reaches from the origin to `reach` along X.
+// A triangle that extends from the origin to `reach` along X.
 std::string triangle_obj(const std::string& reach) {
   return "v 0 0 0\nv " + reach + " 0 0\nv 0 1 0\nf 1 2 3\n";
 }
 
-// As an editor does that saves within the clock's resolution: the clock is put forward by hand.
+// As an editor does that saves within the clock's resolution: the clock is advanced explicitly.
 void put_clock_forward(const std::filesystem::path& path) {
   std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
 }
@@ -44,7 +44,7 @@ TEST_CASE("the same file and axes give the same model and others give another") 
   const auto model = files.model(folder / "a.obj", {}).value();
   CHECK(files.model(folder / "a.obj", {}).value() == model);
   CHECK(files.model(folder.path() / "." / "a.obj", {}).value() == model);
-  // Scales that agree in six decimals are still two.
+  // Scales that agree in six decimals are still different.
   const auto small = files.model(folder / "a.obj", {.scale = 1e-9}).value();
   const auto smaller = files.model(folder / "a.obj", {.scale = 2e-9}).value();
   CHECK(small != smaller);
@@ -89,7 +89,7 @@ TEST_CASE("an error lasts until the file is repaired") {
   CHECK_FALSE(files.model("", {}).has_value());
 }
 
-TEST_CASE("models that nobody holds are let go of after a while, held ones never") {
+TEST_CASE("unused models are released after a while, used ones never") {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", triangle_obj("4"));
   SceneFiles files;
@@ -145,7 +145,7 @@ TEST_CASE("a scene that is opened again after a waypoint moved shares everything
   CHECK(before.intruders[1].trajectory.position_m(4).z > after.intruders[1].trajectory.position_m(4).z);
 }
 
-TEST_CASE("a mesh's warnings are given each time a scene is opened, once however many fly it") {
+TEST_CASE("a mesh's warnings are given each time a scene is opened, once for all its intruders") {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "mtllib none.mtl\n" + triangle_obj("4"));
   Project project = sample_project("two-intruders");

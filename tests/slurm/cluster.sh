@@ -1,5 +1,5 @@
-# A Slurm cluster of one machine in a folder of its own, on the loopback interface: real munged, slurmctld and slurmd, by
-# whoever runs it. Sourced.
+# A Slurm cluster of one machine in a folder of its own, on the loopback interface: real munged, slurmctld and slurmd, run by
+# the current user. Sourced.
 #   cluster_start FOLDER   returns once a node is idle; sets SLURM_CONF
 #   cluster_stop FOLDER
 
@@ -66,7 +66,7 @@ cluster_start() {
   chmod 700 "$folder" "$folder/munge"
   head -c 1024 /dev/urandom >"$folder/munge/key"
   chmod 400 "$folder/munge/key"
-  # --force: a folder of our own instead of /etc/munge is what it would complain of.
+  # --force: else it refuses a folder other than /etc/munge.
   /usr/sbin/munged --force --key-file="$folder/munge/key" --socket="$folder/munge/socket" \
     --pid-file="$folder/munge/pid" --log-file="$folder/munge/log" --seed-file="$folder/munge/seed" 2>>"$folder/munge/log"
   export SLURM_CONF=$folder/slurm.conf

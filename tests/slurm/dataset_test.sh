@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A dataset as a Slurm array job is, byte for byte, the one that one machine makes; a shard that fails is said by the merge.
+# A dataset as a Slurm array job is, byte for byte, the one that one machine makes; a shard that fails is reported by the merge.
 #   dataset_test.sh SIGS SOURCE     run by ctest
 set -euo pipefail
 sigs=$1
@@ -69,7 +69,7 @@ await "${jobs#* }"
 diff <(checksums "$folder/one machine") <(checksums "$folder/out") || fail "the cluster's dataset is another one"
 [ "$(find "$folder/out/logs" -name 'shard_*.log' | wc -l)" -eq 3 ] || fail "there are not three logs"
 
-# A shard that cannot be written: the merge says so, and the same submitted again goes on.
+# A shard that cannot be written: the merge reports it, and the same submitted again continues.
 rm -r "$folder/out/LR" "$folder/out/index.json"
 : >"$folder/out/LR"
 jobs=$("$source_dir/scripts/slurm/submit.sh" "$recipe" "$folder/out" 3) || fail "nothing was submitted again"

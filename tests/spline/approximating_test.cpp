@@ -12,7 +12,7 @@ using namespace test;
 
 namespace {
 
-// Equation (2) as printed, but for the factor: its i - 2 is here i.
+// Equation (2) as printed, except for the factor: its i - 2 is i here.
 double printed_basis(double t, int i) {
   const double h = 1;
   const auto knot = [](int k) { return static_cast<double>(k); };

@@ -65,7 +65,7 @@ TEST_CASE("the bank limit holds in wild flights that never get steep") {
     for (double time_s = -1; time_s < waypoints.back().time_s + 1; time_s += 0.01) {
       const Attitude attitude = attitude_at(trajectory, time_s);
       if (std::abs(attitude.pitch_rad) < rad_of_deg(45))
-        CHECK(std::abs(attitude.roll_rad) < rad_of_deg(62));  // the smoothing may lean over the limit a little
+        CHECK(std::abs(attitude.roll_rad) < rad_of_deg(62));  // the smoothing may exceed the limit a little
     }
   }
 }
@@ -138,7 +138,7 @@ TEST_CASE("a hovering intruder is level and looks along world X") {
 }
 
 TEST_CASE("too slow to have a direction is level along world X at every time") {
-  for (double last_s = 28; last_s < 33; last_s += 0.0137)  // whatever way the ends of time are rounded
+  for (double last_s = 28; last_s < 33; last_s += 0.0137)  // however the ends of the time range are rounded
     for (const double time_s : {-100.0, 0.0, 10.0, last_s, last_s + 1.999, last_s + 2, last_s + 100}) {
       const Trajectory trajectory = trajectory_through({{-7.7, {0, 0, -30}}, {last_s, {0, 0, -30.5}}});
       CHECK(rotation_between_rad(trajectory.world_from_body(time_s).rotation, {1, 0, 0, 0}) < 1e-12);

@@ -26,7 +26,8 @@ std::vector<TimedWaypoint> even(int count) {
   return at_times(times_s);
 }
 
-// The same by another road: each cardinal function is a spline of its own, through 1 m at one waypoint and 0 elsewhere.
+// The same by another method: each cardinal function is a spline of its own, through 1 m at one waypoint and 0
+// elsewhere.
 double condition_by_cardinal_functions(std::vector<TimedWaypoint> waypoints) {
   constexpr int kMoments = 200;
   for (TimedWaypoint& waypoint : waypoints) waypoint.position_m = {0, 0, 0};
@@ -92,13 +93,13 @@ TEST_CASE("even times are well conditioned however many waypoints there are") {
   }
 }
 
-TEST_CASE("a leg of one frame next to one of a hundred thousand is known to be stiff") {
+TEST_CASE("a leg of one frame next to one of a hundred thousand has a large condition") {
   const double condition = interpolation_condition(one_frame_and_1e5());
   CHECK(condition > 0.3 * 1e5);
   CHECK(condition < 1e6);
 }
 
-TEST_CASE("times at the edge of what is allowed have a condition that is a number") {
+TEST_CASE("times at the allowed limits have a finite condition") {
   CHECK(std::isfinite(interpolation_condition(at_times({-1e12, 0, 1e-9, 1, 1e12}))));
 }
 
@@ -124,7 +125,7 @@ TEST_CASE("the condition bounds how far moved waypoints move the curve and is re
 }
 
 TEST_CASE("an overshoot beyond the legs around it is found and has its closed form") {
-  // 60 m/s are carried into a leg of 4000 s that asks for 2.25 m/s: with both ends natural the bow is that of three
+  // A leg of 4000 s that needs 2.25 m/s begins at 60 m/s: with both ends natural the bow is that of three
   // waypoints, acceleration 3 (2.25 - 60) / 4000.04 at the middle one, h^2 / 6 * a * 2 / (3 sqrt(3)) off a straight way
   // that the curve overtakes by so much that it lies beyond its end.
   const std::vector<TimedWaypoint> waypoints{
@@ -160,7 +161,7 @@ TEST_CASE("the overshoot falls from leg to leg where many waypoints lie at one p
   }
 }
 
-TEST_CASE("what flies as its waypoints say overshoots nowhere") {
+TEST_CASE("a path that follows its waypoints has no overshoot") {
   for (const Flight& flight : all_flights()) {
     INFO(flight.name);
     if (flight.name.find("wild") == std::string::npos) CHECK(overshoots_of(flight.waypoints).empty());

@@ -25,7 +25,7 @@ Step step_of(const Trajectory& trajectory, double from_s, double to_s) {
           rotation_between_rad(trajectory.world_from_body(from_s).rotation, trajectory.world_from_body(to_s).rotation)};
 }
 
-// What is left of a step's rotation in ever shorter pieces of it: next to nothing, but for a jump.
+// The rotation within ever shorter parts of a step: it tends to zero, except at a jump.
 Step at_its_worst(const Trajectory& trajectory, Step step) {
   for (int halving = 0; halving < 24; ++halving) {
     const double middle_s = step.from_s + (step.to_s - step.from_s) / 2;
@@ -74,7 +74,7 @@ TEST_CASE("attitude is continuous in many wild flights") {
 
 TEST_CASE("two reversals close together are both turned through") {
   // Velocity along X is 0.01 (s - 102) (s - 108): backward for 6 s in a piece of 320 s, between two of its 32 first
-  // samples, and so gently that the force tells nothing.
+  // samples, and so gently that the force does not show it.
   const CubicPiece piece{{{0, 0, 0}, {110.16, 0, 0}, {-1.05, 0, 0}, {0.01 / 3, 0, 0}}};
   const PiecewiseCubic curve({0, 320}, {piece}, {320 * 110.16 - 320 * 320 * 1.05 + 320 * 320 * 320 * 0.01 / 3, 0, 0});
   const AttitudeTable attitude(curve, Bank::coordinated, 1);

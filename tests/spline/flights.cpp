@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHeight_z_m = -150;
 
-// Appends the point to a flight that goes on at one speed.
+// Appends the point to a flight that continues at one speed.
 void fly_to(std::vector<TimedWaypoint>& flight, const glm::dvec3& position_m, double speed_mps) {
   const double arc_length_m = distance(flight.back().position_m, position_m);
   flight.push_back({flight.back().time_s + arc_length_m / speed_mps, position_m});

@@ -19,13 +19,13 @@ namespace sigs::test {
 // Level, up into the vertical, straight up, pushed over forward into level flight.
 [[nodiscard]] std::vector<TimedWaypoint> climb_and_push_over();
 
-// A, B, A: comes to rest at B for no time at all and goes back the way it came.
+// A, B, A: stops at B for an instant and returns on the same line.
 [[nodiscard]] std::vector<TimedWaypoint> reversal(const glm::dvec3& towards_m);
 
 // Several waypoints at the same place, in the middle of a flight.
 [[nodiscard]] std::vector<TimedWaypoint> pause();
 
-// Three waypoints at the same place: the approximating spline stops there for no time and goes back at 45 degrees.
+// Three waypoints at the same place: the approximating spline stops there for an instant and leaves at 45 degrees.
 [[nodiscard]] std::vector<TimedWaypoint> cusp();
 
 // count waypoints anywhere in a cube of 400 m, 0.4 to 4 s apart; the same for the same seed.

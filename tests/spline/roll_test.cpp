@@ -34,7 +34,7 @@ TEST_CASE("a steady desired roll is followed exactly and a steadily growing one 
   const auto growing = smoothed_roll_rad(desired_rolls(
       0.01, 1000, [](double s) { return wrapped_rad(2 * s); }, one));
   for (int i = 300; i < 700; ++i)
-    CHECK(std::abs(growing[i] - 0.02 * i) < 1e-7);  // exp(-3 s / 0.15 s) of the ends is left
+    CHECK(std::abs(growing[i] - 0.02 * i) < 1e-7);  // exp(-3 s / 0.15 s) of the ends' effect remains
 }
 
 TEST_CASE("a sudden change is smoothed as the closed form of the problem says") {
@@ -62,7 +62,7 @@ TEST_CASE("the roll is linear over an interval without weight, and desired rolls
   CHECK(std::abs(roll_rad[500] - 0.5) < 1e-9);  // by symmetry
 }
 
-TEST_CASE("without any desired roll worth following there is no roll") {
+TEST_CASE("without any desired roll of sufficient weight there is no roll") {
   for (const double roll_rad : smoothed_roll_rad(desired_rolls(
            1, 5, [](double s) { return s; }, [](double) { return 0.0; })))
     CHECK(roll_rad == 0);

@@ -118,7 +118,7 @@ TEST_CASE("legs of one frame and of a hundred thousand frames can be combined") 
   }
 }
 
-TEST_CASE("numbers at the edge of what is allowed give numbers") {
+TEST_CASE("numbers at the allowed limits give finite numbers") {
   for (const TrajectorySettings& settings : all_settings())
     for (const double extent_m : {1e-300, 1e-9, 1e12}) {
       INFO(name_of(settings) << " " << extent_m);
@@ -133,7 +133,7 @@ TEST_CASE("numbers at the edge of what is allowed give numbers") {
     }
 }
 
-TEST_CASE("mistakes in the waypoints are named") {
+TEST_CASE("errors in the waypoints are reported") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const std::vector<TimedWaypoint> good{{0, {0, 0, 0}}, {1, {1, 0, 0}}, {2, {2, 0, 0}}, {3, {3, 0, 0}}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loaded before the C library (LD_PRELOAD), so that the program meets file systems, and moments, that a test cannot
-// make otherwise. Each variable of the environment changes one call:
+// Loaded before the C library (LD_PRELOAD), so that the program meets file systems, and points in time, that a test
+// cannot create otherwise. Each variable of the environment changes one call:
 //   SIGS_TEST_FLOCK=N           flock() fails with errno N
 //   SIGS_TEST_NO_RENAMEAT2=1    renameat2() fails with EINVAL where it has flags, as on NFS
 //   SIGS_TEST_FAIL_RENAME=NAME  giving a file or folder the final name NAME fails with EIO, but not putting back an

@@ -128,17 +128,17 @@ TEST_CASE("through a distorted lens the silhouette is what OpenCV projects") {
   }
   const auto silhouette = silhouette_of(points, pose, lens);
   REQUIRE(silhouette.has_value());
-  check_edges(silhouette->box, low, high, 1e-8);  // both are doubles; some 1e-13 of 1e3 px, with room
+  check_edges(silhouette->box, low, high, 1e-8);  // both are doubles; some 1e-13 of 1e3 px, with a margin
 }
 
-TEST_CASE("the silhouette goes on beyond the edges of any image") {
+TEST_CASE("the silhouette extends beyond the edges of any image") {
   const auto silhouette = silhouette_of(cuboid({4, 3, 2}), {{1, 0, 0, 0}, {10, -200, 0}}, pinhole());
   REQUIRE(silhouette.has_value());
   CHECK(silhouette->all_have_image);
   CHECK(std::abs(silhouette->box.x - (kFx * -203 / 6 + kCx)) < 1e-9);  // rounding
 }
 
-TEST_CASE("what lies behind the camera has no silhouette") {
+TEST_CASE("points behind the camera have no silhouette") {
   CHECK_FALSE(silhouette_of(cuboid({4, 3, 2}), {{1, 0, 0, 0}, {-100, 0, 0}}, pinhole()).has_value());
   CHECK_FALSE(silhouette_of({}, {{1, 0, 0, 0}, {100, 0, 0}}, pinhole()).has_value());
 }
@@ -161,7 +161,7 @@ TEST_CASE("points beyond the field of the lens are left out of the silhouette") 
   CHECK(silhouette->box.width == doctest::Approx(kFx * 0.5 * (1 - 0.3 * 0.25)).epsilon(1e-12));  // rounding
 }
 
-TEST_CASE("nothing covered has no box") {
+TEST_CASE("without coverage there is no box") {
   CHECK_FALSE(covered_box(cv::Mat(), cv::Rect(), kLeast).has_value());
   CHECK_FALSE(covered_box(cv::Mat::zeros(4, 6, CV_32FC1), {10, 20, 6, 4}, kLeast).has_value());
 }
@@ -172,7 +172,7 @@ TEST_CASE("the box of one covered pixel is that pixel of the image") {
   CHECK(covered_box(coverage, {10, 20, 6, 4}, kLeast) == cv::Rect(15, 22, 1, 1));
 }
 
-TEST_CASE("a pixel counts from the least coverage on and never where nothing covers it") {
+TEST_CASE("a pixel counts from the minimum coverage on and never without coverage") {
   cv::Mat coverage = cv::Mat::zeros(1, 3, CV_32FC1);
   coverage.at<float>(0, 0) = std::nextafter(kLeast, 0.0F);
   coverage.at<float>(0, 1) = kLeast;
@@ -181,7 +181,7 @@ TEST_CASE("a pixel counts from the least coverage on and never where nothing cov
   CHECK_FALSE(covered_box(cv::Mat::zeros(2, 3, CV_32FC1), {0, 0, 3, 2}, 0).has_value());
 }
 
-TEST_CASE("the maximum coverage is the largest and nothing for no pixels") {
+TEST_CASE("the maximum coverage is that of the largest pixel, and none without pixels") {
   CHECK(max_coverage(cv::Mat()) == 0);
   CHECK(max_coverage(cv::Mat::zeros(2, 3, CV_32FC1)) == 0);
   cv::Mat coverage = cv::Mat::zeros(2, 3, CV_32FC1);
@@ -221,15 +221,15 @@ TEST_CASE("a body is above or below the horizon where all of it is higher or low
   CHECK(side(3) == HorizonSide::on);
   CHECK(side(3.001) == HorizonSide::below);
   CHECK(side(-1e7) == HorizonSide::above);
-  // Banked upright, its half span reaches up and down.
+  // Banked upright, its half span extends up and down.
   const glm::dquat banked = rotation_of(Attitude{.roll_rad = std::numbers::pi / 2});
   CHECK(side(-7.99, banked) == HorizonSide::on);
   CHECK(side(-8.01, banked) == HorizonSide::above);
   CHECK(horizon_side_of({}, CameraFromBody{}, up) == HorizonSide::on);
 }
 
-TEST_CASE("a camera that is pitched up sees what lies on its axis above the horizon") {
-  // By the camera's pitch, up leans back along its axis.
+TEST_CASE("what lies on the axis of a camera that is pitched up is above the horizon") {
+  // With the camera's pitch, the up vector is tilted back along its axis.
   const double pitch_rad = rad_of_deg(10);
   const glm::dvec3 up = glm::conjugate(rotation_of(Attitude{.pitch_rad = pitch_rad})) * glm::dvec3(0, 0, -1);
   const CameraFromBody ahead{{1, 0, 0, 0}, {1000, 0, 0}};
@@ -252,7 +252,7 @@ TEST_CASE("the area is the sum of the shares covered") {
   CHECK(area_px(cv::Mat(1000, 1000, CV_32FC1, cv::Scalar(0.001))) == doctest::Approx(1000).epsilon(1e-7));
 }
 
-TEST_CASE("what the image's border cuts off is not hidden") {
+TEST_CASE("the part outside the image is not hidden") {
   CHECK(occluded_fraction({.visible_fraction = 0.3, .inside_fraction = 0.3}) == 0);
   CHECK(occluded_fraction({.visible_fraction = 1, .inside_fraction = 1}) == 0);
 }
@@ -262,7 +262,7 @@ TEST_CASE("the hidden share is one of what lies in the image") {
   CHECK(occluded_fraction({.visible_fraction = 0, .inside_fraction = 0.5}) == 1);
 }
 
-TEST_CASE("nothing in the image hides nothing, and rounding never leaves 0 to 1") {
+TEST_CASE("without coverage in the image nothing is hidden, and rounding never leaves 0 to 1") {
   CHECK(occluded_fraction({.visible_fraction = 0, .inside_fraction = 0}) == 0);
   CHECK(occluded_fraction({.visible_fraction = 0.5000001, .inside_fraction = 0.5}) == 0);
 }
@@ -273,7 +273,7 @@ TEST_CASE("a twentieth hidden is not yet occluded") {
   CHECK_FALSE(is_occluded({.visible_fraction = 0.1, .inside_fraction = 0.1}));
 }
 
-TEST_CASE("a nearer layer hides by its opacity where it lies over the farther one") {
+TEST_CASE("a nearer layer occludes by its opacity where it covers the farther one") {
   cv::Mat coverage(10, 10, CV_32FC1, cv::Scalar(0.5));
   const cv::Rect rect(20, 20, 10, 10);
   occlude_coverage(coverage, rect, even_layer({25, 18, 10, 6}, {0, 0, 0, 0.75F}));

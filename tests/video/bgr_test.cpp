@@ -163,7 +163,7 @@ TEST_CASE("every byte of a converted image is that of the plain formula pixel by
         for (const cv::Size size :
              {cv::Size(1, 1), cv::Size(15, 4), cv::Size(16, 5), cv::Size(33, 7), cv::Size(98, 6)}) {
           Frame frame = test_frame(layout, size, 3, color_info(range, ColorMatrix::bt601, site));
-          for (int i = 0; i < 3; ++i)  // every code value, far outside of what images contain
+          for (int i = 0; i < 3; ++i)  // every code value, far outside the range of images
             cv::randu(frame.planes[static_cast<size_t>(i)], 0, 256);
           const CodeToRgb map = code_to_rgb(layout, frame.color);
           const cv::Matx33f m = map.to_rgb * 255.0F;

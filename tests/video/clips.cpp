@@ -35,7 +35,7 @@ void receive(AVCodecContext* decoder, AVFrame* image, double tick_s, WholeDecode
   }
 }
 
-// 32-bit mixing of an image's coordinates, so that the grain is the same wherever the test runs.
+// 32-bit mixing of an image's coordinates, so that the noise is the same wherever the test runs.
 uint32_t grain(uint32_t x, uint32_t y, uint32_t number) {
   uint32_t h = x * 374761393U + y * 668265263U + number * 2246822519U;
   h = (h ^ (h >> 13)) * 1274126177U;

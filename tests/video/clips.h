@@ -48,7 +48,7 @@ struct PacketPlace {
                              const std::string& filter = {});
 [[nodiscard]] bool run_ffmpeg(const std::string& arguments);
 
-// An image with structure and grain, different for every number; the same on every machine.
+// An image with structure and noise, different for every number; the same on every machine.
 [[nodiscard]] Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color = {});
 
 // Writes count test frames at the format's nominal rate. The writer's errors fail the test.

@@ -184,7 +184,7 @@ TEST_CASE("an MP4 cut short before its index is refused with this reason") {
   CHECK(error_of(path, ErrorKind::bad_data).find("moov") != std::string::npos);
 }
 
-TEST_CASE("a file that is no video is refused with a reason") {
+TEST_CASE("a file that is not a video is refused with a reason") {
   const TemporaryFolder folder;
   CHECK(error_of(folder / "absent.mp4", ErrorKind::cannot_read) == "no such file");
   CHECK(error_of(folder.path(), ErrorKind::cannot_read) == "is a folder, not a video");
@@ -197,7 +197,7 @@ TEST_CASE("a file that is no video is refused with a reason") {
   CHECK(error_of(folder / "noise.mp4", ErrorKind::cannot_read).find("video") != std::string::npos);
 }
 
-TEST_CASE("sound alone is no video") {
+TEST_CASE("a file with sound alone is not a video") {
   const TemporaryFolder folder;
   if (!run_ffmpeg("-f lavfi -i sine=duration=1 \"" + (folder / "a.wav").string() + "\"")) return;
   CHECK(error_of(folder / "a.wav", ErrorKind::cannot_read) == "there is no video in it");

@@ -128,7 +128,7 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
   }
 }
 
-TEST_CASE("the meaning of the colours is preserved") {
+TEST_CASE("colour range, matrix, primaries, transfer function and chroma site are preserved") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
         std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::avi}})

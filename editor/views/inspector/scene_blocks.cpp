@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kMinDistance_m = 1;
 constexpr double kMaxDistance_m = 1e7;
-constexpr double kUsualDistance_m = 4000;  // of the light, where it is at the camera itself
+constexpr double kUsualDistance_m = 4000;  // where the light was at the camera itself
 
 struct Preset {
   const char* label;

@@ -17,7 +17,7 @@ namespace sigs::libav {
 class Demuxer {
  public:
   // Opens one regular file and nothing else: no playlists, no network.
-  //   cancel  while it is true, opening, reading and seeking soon end; null, or alive as long as the demuxer
+  //   cancel  while it is true, opening, reading and seeking soon end; null, or outlives the demuxer
   // Errors: cannot_read (missing, a device or pipe, not a video, a playlist, no video stream), bad_data (an MP4
   // without its index), interrupted.
   [[nodiscard]] static Result<Demuxer> open(const std::filesystem::path& path, const std::atomic<bool>* cancel);

@@ -49,7 +49,7 @@ bool is_shown(const PacketMark& mark) {
 // The largest number of packets that come before another in decoding although they are shown after it.
 int reorder_depth(const PacketTable& table, const std::vector<int>& ordinals) {
   int deepest = 0;
-  // A image's place in presentation against its place in decoding; the depth is the greatest lag.
+  // An image's place in presentation against its place in decoding; the depth is the greatest lag.
   std::vector<int> shown;
   for (int i = 0; i < table.size(); ++i)
     if (is_shown(table[i])) shown.push_back(i);

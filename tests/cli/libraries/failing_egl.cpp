@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A libEGL.so.1 whose functions are there and can nothing.
+// A libEGL.so.1 whose functions exist and always fail.
 extern "C" {
 void* eglGetProcAddress(const char*) {
   return nullptr;

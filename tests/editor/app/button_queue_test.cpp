@@ -47,7 +47,7 @@ TEST_CASE("different buttons change in the same update, in order") {
   CHECK_FALSE(second.down[1]);
 }
 
-TEST_CASE("buttons that ImGui does not know are passed over") {
+TEST_CASE("buttons unknown to ImGui are ignored") {
   ButtonQueue queue;
   queue.push({7, true, 0, 0});
   queue.push({-1, true, 0, 0});

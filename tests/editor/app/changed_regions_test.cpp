@@ -13,7 +13,7 @@ using namespace sigs::editor;
 
 namespace {
 
-// ImGui without a window: what it would draw is all that matters.
+// ImGui without a window: only its draw data matter.
 class Screen {
  public:
   Screen() {
@@ -108,7 +108,7 @@ TEST_CASE("of a panel's images the one that is exchanged is drawn, the others ar
   CHECK(within(changed[0], {299, 199, 401, 301}));
 }
 
-TEST_CASE("what a panel leaves behind as it moves is drawn too") {
+TEST_CASE("the area that a moving panel uncovers is drawn too") {
   Screen screen;
   float x = 20;
   const auto draw = [&] { panel("a", x, 40, 100, 100, "moves"); };
@@ -122,7 +122,7 @@ TEST_CASE("what a panel leaves behind as it moves is drawn too") {
   CHECK(holds({500, 40, 600, 140}));
 }
 
-TEST_CASE("a panel that comes, goes or changes its place in the pile draws everything") {
+TEST_CASE("a panel that appears, disappears or changes its stacking order redraws everything") {
   Screen screen;
   bool second = false;
   const auto draw = [&] {
@@ -180,7 +180,7 @@ TEST_CASE("regions are few and never overlap, and hold every panel that changed"
   }
 }
 
-TEST_CASE("the common part of apart rectangles is none") {
+TEST_CASE("the intersection of disjoint rectangles is empty") {
   const ImVec4 none = common_part({0, 0, 10, 10}, {20, 0, 30, 10});
   CHECK(none.z <= none.x);
   const ImVec4 some = common_part({0, 0, 10, 10}, {5, -5, 30, 7});

@@ -40,14 +40,14 @@ std::string turns_of(KeyQueue& queue, bool types_text) {
 
 }  // namespace
 
-TEST_CASE("a key that goes down and up between two updates is seen down in one update and up in the next") {
+TEST_CASE("a key pressed and released between two updates is down in one update and up in the next") {
   KeyQueue queue;
   queue.push(key(kEnter, true, KeyKind::action));
   queue.push(key(kEnter, false, KeyKind::action));
   CHECK(turns_of(queue, false) == "[2|]2");
 }
 
-TEST_CASE("a modifier that is let go before the key of its chord is still down in the update of that key") {
+TEST_CASE("a modifier released before the key of its chord is still down in the update of that key") {
   KeyQueue queue;
   queue.push(key(kCtrl, true, KeyKind::modifier));
   queue.push(key('l', true, KeyKind::action));

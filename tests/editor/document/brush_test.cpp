@@ -128,7 +128,7 @@ TEST_CASE("only pixels of the rectangle that is changed have changed, and all of
   }
 }
 
-TEST_CASE("beside the image, far away and at places that are none nothing is painted") {
+TEST_CASE("nothing is painted outside the image, far away or at positions that are not finite") {
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<glm::dvec2, glm::dvec2>> lines{
@@ -151,7 +151,7 @@ TEST_CASE("a line from very far through the image crosses it") {
   CHECK(cv::countNonZero(mask.row(29)) == 0);
 }
 
-TEST_CASE("the radius grows and shrinks in steps that are seen, within its limits") {
+TEST_CASE("the radius grows and shrinks in visible steps, within its limits") {
   for (double radius_px = kMinRadius_px; radius_px < kMaxRadius_px;) {
     const double next = stepped_radius_px(radius_px, 1);
     CHECK(next >= std::min(kMaxRadius_px, radius_px + 0.5));

@@ -23,7 +23,7 @@ Project head_on() {
 
 }  // namespace
 
-TEST_CASE("what touches no image leaves the content id alone and what does changes it") {
+TEST_CASE("the content id changes with everything that affects an image, and with nothing else") {
   const ContentId id = content_id_of(head_on());
   const std::vector<std::function<void(Project&)>> harmless{
       [](Project& p) { p.name = "another"; },
@@ -106,12 +106,12 @@ TEST_CASE("undo brings the content id back with the revision, and saving elsewhe
   CHECK(document.revision().content == before);
 }
 
-TEST_CASE("an id keeps nothing of its project, so that thousands of them take no memory to speak of") {
+TEST_CASE("an id does not keep its project alive, so that thousands of them take little memory") {
   CHECK(std::is_trivially_copyable_v<ContentId>);
   CHECK(sizeof(ContentId) <= 32);
 }
 
-TEST_CASE("names with bytes that are no UTF-8 have different ids") {
+TEST_CASE("names with bytes that are not UTF-8 have different ids") {
   Project one = head_on();
   Project other = head_on();
   one.intruders[0].name = "\xE9";

@@ -68,7 +68,7 @@ TEST_CASE("every state of a drag has a number of its own") {
   CHECK(document.revision().number != first);
 }
 
-TEST_CASE("an edit after undo drops what was undone, and never takes up its number again") {
+TEST_CASE("an edit after undo discards the undone steps and never reuses their numbers") {
   Document document;
   document.apply(Edit(speed(1)));
   const std::uint64_t undone = document.revision().number;
@@ -78,14 +78,14 @@ TEST_CASE("an edit after undo drops what was undone, and never takes up its numb
   CHECK_FALSE(document.can_redo());
 }
 
-TEST_CASE("what changes nothing makes no step") {
+TEST_CASE("an edit that changes nothing is not a step of the history") {
   Document document;
   document.apply(Edit(speed(0)));
   CHECK_FALSE(document.can_undo());
   CHECK_FALSE(document.has_unsaved_changes());
 }
 
-TEST_CASE("a change that fails, or leaves numbers that are none, is refused as a whole") {
+TEST_CASE("a change that fails, or gives numbers that are not finite, is refused as a whole") {
   Document document(with_waypoints(2));
   const Project before = document.project();
   document.apply(Edit(speed(std::numeric_limits<double>::quiet_NaN())));
@@ -102,7 +102,7 @@ TEST_CASE("a change that fails, or leaves numbers that are none, is refused as a
   CHECK_FALSE(document.can_undo());
 }
 
-TEST_CASE("undo comes back to the saved state as saved") {
+TEST_CASE("undo to the saved state counts as saved") {
   const test::TemporaryFolder folder;
   Document document(with_waypoints(3));
   REQUIRE(document.save_as(folder / "a.json").has_value());
@@ -197,7 +197,7 @@ TEST_CASE("a selection never points beyond the project") {
   CHECK(document.selection().intruder == 0);
 }
 
-TEST_CASE("a long history is kept within bounds, the newest steps first") {
+TEST_CASE("a long history is limited to its newest steps") {
   Document document(with_waypoints(10'000));
   for (int i = 1; i <= 400; ++i) document.apply(Edit(speed(i)));
   int steps = 0;

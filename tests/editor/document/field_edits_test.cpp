@@ -22,7 +22,7 @@ Project with_intruders(std::size_t count, std::size_t waypoints = 2) {
   return project;
 }
 
-// Something else than what is there, within the range of any field of its type.
+// Another value than the present one, within the range of any field of its type.
 PlainValue another(const PlainValue& value) {
   if (const auto* const number = std::get_if<double>(&value)) return *number + 0.5;
   if (const auto* const number = std::get_if<int>(&value)) return *number + 1;
@@ -91,7 +91,7 @@ TEST_CASE("an optional value can be taken away") {
   CHECK(!project.footage.last_frame);
 }
 
-TEST_CASE("what is not finite, of another type or not there leaves the project alone") {
+TEST_CASE("a value not finite or of another type, or an unknown key, leaves the project unchanged") {
   Project project = with_intruders(1);
   const Project before = project;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -141,7 +141,7 @@ TEST_CASE("a sheet holds every field but the waypoints'") {
   CHECK(sheet.fields().size() + of_waypoints == all.size());
 }
 
-TEST_CASE("a sheet does not look at the project that it was made from any more") {
+TEST_CASE("a sheet does not refer to the project from which it was made") {
   Project project;
   const FieldSheet sheet(project);
   project.camera.speed_mps = 70;
@@ -199,7 +199,7 @@ TEST_CASE("coordinates keep their hundredths however far away they are") {
     }
 }
 
-TEST_CASE("ranges and values are told with their unit") {
+TEST_CASE("ranges and values are shown with their unit") {
   const FieldSheet sheet(with_intruders(1));
   CHECK(range_text(field_of(sheet, "camera.speed_mps")) == "-1000 to 1000 m/s");
   CHECK(range_text(field_of(sheet, "camera.attitude_deg.pitch")) == "-90 to 90°");
@@ -231,7 +231,7 @@ TEST_CASE("advice is given where a file has to be chosen, and only there") {
   CHECK(advice({"intruders[0].trajectory.waypoints", "is empty"}, nullptr).empty());
 }
 
-TEST_CASE("a zero that is no number is told by its word") {
+TEST_CASE("a zero with a special meaning is shown as a word") {
   Project project;
   for (const Field& field : fields_of(project)) {
     if (field.key == "own_body.paper.canny_low") {

@@ -23,7 +23,7 @@ ChangeProject speed(double mps, std::string gesture = {}) {
 
 }  // namespace
 
-TEST_CASE("a drag that is taken back leaves no trace: project, selection, undo and redo are as before it") {
+TEST_CASE("a cancelled drag leaves no trace: project, selection, undo and redo are as before it") {
   Document document(with_waypoints(3));
   document.apply(Edit(speed(1)));
   document.apply(Edit(speed(2)));
@@ -47,7 +47,7 @@ TEST_CASE("a drag that is taken back leaves no trace: project, selection, undo a
   CHECK_FALSE(document.can_undo());
 }
 
-TEST_CASE("a drag that has changed nothing, or has ended, cannot be taken back") {
+TEST_CASE("a drag that has changed nothing, or has ended, cannot be cancelled") {
   Document document(with_waypoints(3));
   document.apply(Edit(speed(1)));
   document.apply(Edit(CancelGesture{"drag"}));
@@ -63,7 +63,7 @@ TEST_CASE("a drag that has changed nothing, or has ended, cannot be taken back")
   CHECK(document.project().camera.speed_mps == 4);
 }
 
-TEST_CASE("a drag that goes on drops what was undone before it") {
+TEST_CASE("a drag that continues discards the steps that were undone before it") {
   Document document;
   document.apply(Edit(speed(1)));
   document.apply(Edit(Undo{}));
@@ -76,7 +76,7 @@ TEST_CASE("a drag that goes on drops what was undone before it") {
   CHECK_FALSE(document.can_redo());
 }
 
-TEST_CASE("the oldest step is not lost to a drag that is taken back") {
+TEST_CASE("a cancelled drag does not remove the oldest step") {
   Document document;
   for (int i = 1; i <= 1000; ++i) document.apply(Edit(speed(i)));
   for (int i = 1001; i <= 1010; ++i) document.apply(Edit(speed(i, "drag")));
@@ -85,7 +85,7 @@ TEST_CASE("the oldest step is not lost to a drag that is taken back") {
   CHECK(document.project().camera.speed_mps == 0);
 }
 
-TEST_CASE("a drag is told of every change that is not its own") {
+TEST_CASE("changes other than a drag's own are detected") {
   Document document(with_waypoints(3));
   const std::uint64_t before = document.revision().number;
   CHECK_FALSE(document.has_other_changes(before, "drag"));

@@ -33,7 +33,7 @@ void stroke(MaskPainting& painting, const Brush& brush, std::initializer_list<gl
 
 }  // namespace
 
-TEST_CASE("undo and redo walk through the very bytes of every state") {
+TEST_CASE("undo and redo restore every state byte for byte") {
   MaskPainting painting(noise());
   std::vector<cv::Mat> masks{painting.mask().clone()};
   std::vector<std::uint64_t> states{painting.state()};
@@ -46,7 +46,7 @@ TEST_CASE("undo and redo walk through the very bytes of every state") {
       const Brush brush{2.0 + i % 5, 1.5, i % 3 == 0};
       stroke(painting, brush, {{place(random), place(random)}, {place(random), place(random)}, {40, 30}});
     }
-    if (is_same(painting.mask(), masks.back())) continue;  // passed where all was so already
+    if (is_same(painting.mask(), masks.back())) continue;  // painted where all was set already
     masks.push_back(painting.mask().clone());
     states.push_back(painting.state());
   }
@@ -84,7 +84,7 @@ TEST_CASE("a stroke is drawn without gaps between the places it passed") {
   for (int x = 5; x <= 75; ++x) CHECK(in_pieces.mask().at<uchar>(30, x) == 255);
 }
 
-TEST_CASE("a stroke that is taken back leaves no trace") {
+TEST_CASE("a cancelled stroke leaves no trace") {
   MaskPainting painting(noise());
   const std::uint64_t state = painting.state();
   painting.begin_stroke({8, 2}, {20, 20});
@@ -99,7 +99,7 @@ TEST_CASE("a stroke that is taken back leaves no trace") {
   CHECK(is_same(painting.mask(), noise()));
 }
 
-TEST_CASE("what changes no byte is no step") {
+TEST_CASE("a change of no byte is not a step of the history") {
   MaskPainting painting(black());
   stroke(painting, {5, 1, true}, {{20, 20}, {40, 40}});  // black stays black
   stroke(painting, {5, 1}, {{-50, -50}, {-60, -50}});    // beside the image
@@ -108,7 +108,7 @@ TEST_CASE("what changes no byte is no step") {
   CHECK_FALSE(painting.has_unsaved_changes());
 }
 
-TEST_CASE("a step after an undo takes the place of what was undone") {
+TEST_CASE("a step after an undo replaces the undone ones") {
   MaskPainting painting(black());
   stroke(painting, {5, 1}, {{20, 20}});
   stroke(painting, {5, 1}, {{60, 20}});
@@ -119,7 +119,7 @@ TEST_CASE("a step after an undo takes the place of what was undone") {
   CHECK(painting.undo_name() == "erase");
 }
 
-TEST_CASE("saved is what was saved, also after going back and forth") {
+TEST_CASE("the saved state counts as saved, also after undo and redo") {
   MaskPainting painting(black());
   CHECK_FALSE(painting.has_unsaved_changes());
   stroke(painting, {5, 1}, {{20, 20}});
@@ -135,7 +135,7 @@ TEST_CASE("saved is what was saved, also after going back and forth") {
   CHECK_FALSE(painting.has_unsaved_changes());
 }
 
-TEST_CASE("strokes by hand are told from masks that came as a whole") {
+TEST_CASE("painted strokes are distinguished from masks set as a whole") {
   MaskPainting painting(black());
   CHECK_FALSE(painting.has_strokes());
   painting.replace(noise(), "detected mask");
@@ -151,7 +151,7 @@ TEST_CASE("strokes by hand are told from masks that came as a whole") {
   CHECK(painting.has_strokes());
 }
 
-TEST_CASE("the painting is a copy: the mask that it came from stays as it is") {
+TEST_CASE("the painting is a copy: the original mask is unchanged") {
   const cv::Mat given = black();
   MaskPainting painting(given);
   stroke(painting, {5, 1}, {{20, 20}});
@@ -160,7 +160,7 @@ TEST_CASE("the painting is a copy: the mask that it came from stays as it is") {
   CHECK(cv::countNonZero(given) == 0);
 }
 
-TEST_CASE("long painting forgets its oldest steps and never its newest") {
+TEST_CASE("long painting discards its oldest steps and never its newest") {
   MaskPainting painting(black());
   for (int i = 0; i < 1200; ++i) stroke(painting, {3, 0, i % 2 == 1}, {{40, 30}});
   int steps = 0;
@@ -168,7 +168,7 @@ TEST_CASE("long painting forgets its oldest steps and never its newest") {
   CHECK(steps == 1000);
 }
 
-TEST_CASE("a painting of nothing can be asked for everything") {
+TEST_CASE("every function of an empty painting can be called") {
   MaskPainting painting;
   CHECK(painting.empty());
   stroke(painting, {5, 1}, {{20, 20}, {30, 30}});

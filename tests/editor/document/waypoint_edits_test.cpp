@@ -26,7 +26,7 @@ std::vector<double> frames_of(const TrajectoryPlan& plan) {
 
 }  // namespace
 
-TEST_CASE("a waypoint goes where it belongs in time") {
+TEST_CASE("a waypoint is inserted in order of time") {
   TrajectoryPlan plan = plan_with({0, 10, 20});
   CHECK(put_waypoint(plan, 15, {1, 2, 3}, frames_of(plan)) == 2);
   CHECK(frames_of(plan) == std::vector<double>{0, 10, 15, 20});
@@ -36,7 +36,7 @@ TEST_CASE("a waypoint goes where it belongs in time") {
   CHECK(frames_of(plan) == std::vector<double>{-4, 0, 10, 15, 20, 99});
 }
 
-TEST_CASE("a waypoint put where one stands moves that one") {
+TEST_CASE("a waypoint added at the frame of another moves that one") {
   TrajectoryPlan plan = plan_with({0, 10, 20});
   CHECK(put_waypoint(plan, 10, {7, 7, 7}, frames_of(plan)) == 1);
   CHECK(frames_of(plan) == std::vector<double>{0, 10, 20});
@@ -67,7 +67,7 @@ TEST_CASE("the last waypoint cannot be deleted") {
   CHECK(plan.waypoints.size() == 1);
 }
 
-TEST_CASE("a copy lies between the waypoint and the next, or as far on as the last step") {
+TEST_CASE("a copy lies between the waypoint and the next, or beyond the last by the last interval") {
   TrajectoryPlan plan = plan_with({0, 10, 20});
   CHECK(duplicate_waypoint(plan, 0, frames_of(plan)) == 1);
   CHECK(frames_of(plan) == std::vector<double>{0, 5, 10, 20});
@@ -77,7 +77,7 @@ TEST_CASE("a copy lies between the waypoint and the next, or as far on as the la
   CHECK(plan.waypoints[4].position_m.x == 30);
 }
 
-TEST_CASE("neighbours a frame apart leave no room for a copy") {
+TEST_CASE("between neighbours one frame apart no copy is possible") {
   TrajectoryPlan plan = plan_with({0, 1});
   CHECK(duplicate_waypoint(plan, 0, frames_of(plan)) == 0);
   CHECK(plan.waypoints.size() == 2);
@@ -93,7 +93,7 @@ TEST_CASE("a waypoint dragged in time stops at its neighbours") {
   CHECK(*plan.waypoints[1].frame == 1);
 }
 
-TEST_CASE("whatever is asked, waypoints stay in order of time") {
+TEST_CASE("after any edit waypoints are in order of time") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-50, 250);
   TrajectoryPlan plan = plan_with({0, 60, 199});

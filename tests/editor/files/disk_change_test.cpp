@@ -20,7 +20,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a file that lies as it did has not changed") {
+TEST_CASE("a file of the same size and time has not changed") {
   const TemporaryFolder folder;
   write(folder / "p.json", "one");
   DiskChange change;
@@ -29,7 +29,7 @@ TEST_CASE("a file that lies as it did has not changed") {
   CHECK_FALSE(change.changed());
 }
 
-TEST_CASE("another size or another time is another's work") {
+TEST_CASE("another size or time is a change by another program") {
   const TemporaryFolder folder;
   const auto path = folder / "p.json";
   write(path, "one");
@@ -45,7 +45,7 @@ TEST_CASE("another size or another time is another's work") {
   CHECK_MESSAGE(change.changed(), "the time alone");
 }
 
-TEST_CASE("a file that is gone can be saved again; one that came meanwhile cannot") {
+TEST_CASE("a removed file can be saved again; one that appeared meanwhile cannot be replaced") {
   const TemporaryFolder folder;
   const auto path = folder / "p.json";
   write(path, "one");

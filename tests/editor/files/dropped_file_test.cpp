@@ -37,7 +37,7 @@ Project after(const DroppedFile& dropped, const Selection& selection, Project pr
 
 }  // namespace
 
-TEST_CASE("the files of the sample projects are what they are") {
+TEST_CASE("the files of the sample projects are recognized") {
   CHECK(kind_of(source_dir() / "projects/head-on/head-on.json") == DroppedKind::project);
   for (const auto& [folder, kind] :
        {std::pair{"assets/footage", DroppedKind::video}, std::pair{"assets/calibrations", DroppedKind::calibration},
@@ -49,7 +49,7 @@ TEST_CASE("the files of the sample projects are what they are") {
   }
 }
 
-TEST_CASE("the first bytes count more than the name") {
+TEST_CASE("the first bytes take precedence over the name") {
   CHECK(kind_of_bytes(std::string("\x89PNG\r\n\x1a\n"), "mask") == DroppedKind::mask);
   CHECK(kind_of_bytes(std::string("\0\0\0\x20"
                                   "ftypisom",
@@ -61,13 +61,13 @@ TEST_CASE("the first bytes count more than the name") {
   CHECK(kind_of_bytes("%YAML:1.0\n---\n", "cam") == DroppedKind::calibration);
 }
 
-TEST_CASE("the name decides where the bytes say nothing") {
+TEST_CASE("the name decides where the bytes do not") {
   CHECK(kind_of_bytes("v 0 0 0\n", "A.OBJ") == DroppedKind::model);
   CHECK(kind_of_bytes("camera_matrix:\n", "cam.yaml") == DroppedKind::calibration);
   CHECK(kind_of_bytes("", "clip.MP4") == DroppedKind::video);
 }
 
-TEST_CASE("what is nothing says why") {
+TEST_CASE("an unrecognized file gives the reason") {
   const TemporaryFolder folder;
   std::ofstream(folder / "letter.doc") << "Dear Sir";
   for (const fs::path& path : {folder / "letter.doc", folder / "nowhere.mp4", folder.path(), fs::path()}) {
@@ -86,7 +86,7 @@ TEST_CASE("dropped inputs are named from the project's folder") {
   CHECK(after({DroppedKind::mask, "/a/b/m.png", {}}, {}, project).footage.own_body_mask == "m.png");
 }
 
-TEST_CASE("what a tracker wrote is told from calibrations and projects, and changes no project") {
+TEST_CASE("tracking results are distinguished from calibrations and projects, and change no project") {
   CHECK(kind_of_bytes("frame,x,y,width,height\n0,1,2,3,4\n", "kcf.csv") == DroppedKind::results);
   CHECK(kind_of_bytes("1,2,3,4\n", "kcf.TXT") == DroppedKind::results);
   CHECK(kind_of_bytes(" \n[{\"img_name\": \"a.png\", \"detections\": []}]", "kcf.json") == DroppedKind::results);

@@ -92,7 +92,7 @@ TEST_CASE("an editor that closes during an export leaves nothing behind") {
   CHECK(tiny.files_out() == 0);
 }
 
-TEST_CASE("what goes wrong is told by field") {
+TEST_CASE("errors are reported by field") {
   const TinyProject tiny;
   Project project = read(tiny);
   project.intruders[0].model.file = "nowhere.obj";
@@ -104,7 +104,7 @@ TEST_CASE("what goes wrong is told by field") {
   CHECK(tiny.files_out() == 0);
 }
 
-TEST_CASE("what is there is not overwritten unless that is asked for") {
+TEST_CASE("existing files are not overwritten unless requested") {
   const TinyProject tiny(3);
   ExportJob job([] {});
   ExportRequest request{.project = read(tiny), .folder = tiny.out()};
@@ -117,7 +117,7 @@ TEST_CASE("what is there is not overwritten unless that is asked for") {
   CHECK(finished(job).phase == JobPhase::done);
 }
 
-TEST_CASE("the export runs at low priority, the thread that asks for it stays as it was") {
+TEST_CASE("the export runs at low priority, the calling thread keeps its own") {
   const TinyProject tiny(300);
   const int own = ::getpriority(PRIO_PROCESS, 0);
   std::atomic<int> exporting = own;

@@ -12,7 +12,7 @@ using namespace sigs;
 using namespace sigs::editor;
 using sigs::test::TinyProject;
 
-TEST_CASE("what an export writes is known before, whatever is chosen") {
+TEST_CASE("the files that an export will write are known in advance, for every choice") {
   const TinyProject tiny(2);
   Project project = read_project(tiny.project()).value().project;
   for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png})
@@ -44,7 +44,7 @@ TEST_CASE("the usual folder lies beside the project file") {
   CHECK(usual_export_folder(project).is_absolute());
 }
 
-TEST_CASE("the equal command survives a shell") {
+TEST_CASE("the equivalent command is quoted correctly for a shell") {
   ExportRequest request{.folder = "/home/me/my out"};
   request.project.file = "/home/me/it's.json";
   CHECK(export_command(request) == R"(sigs export '/home/me/it'\''s.json' --out '/home/me/my out')");

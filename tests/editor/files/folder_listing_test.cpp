@@ -34,7 +34,7 @@ TEST_CASE("folders come first, numbers count as numbers, hidden files are left o
   CHECK(names_of(shown_entries(listing, {".mp4"}, {SortBy::name, true})) == "zebra clip 10.mp4 Clip 9.MP4 ");
 }
 
-TEST_CASE("natural order is an order") {
+TEST_CASE("natural order is a total order") {
   const std::vector<std::string> names{"", "0", "00", "1", "a", "A", "a1", "a01", "a2", "a10", "a10b", "b", "\xC3\xA4"};
   for (const std::string& a : names)
     for (const std::string& b : names) {
@@ -45,7 +45,7 @@ TEST_CASE("natural order is an order") {
     }
 }
 
-TEST_CASE("sizes read as people say them") {
+TEST_CASE("sizes are written in B, KB, MB and so on") {
   CHECK(size_text(0) == "0 B");
   CHECK(size_text(999) == "999 B");
   CHECK(size_text(1400) == "1.4 KB");

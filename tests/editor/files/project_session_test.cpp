@@ -22,7 +22,7 @@ TEST_CASE("a project is opened in the background and becomes a recent one") {
   CHECK(d.settings.recent[0] == path);
 }
 
-TEST_CASE("what cannot be opened is told, and the present project stays") {
+TEST_CASE("a project that cannot be opened is reported, and the current one stays") {
   SessionFixture d;
   d.open(d.written("a.json", "a"));
   std::ofstream(d.folder / "broken.json") << "{";
@@ -57,7 +57,7 @@ TEST_CASE("unsaved changes are asked for before they are lost, whatever would lo
   }
 }
 
-TEST_CASE("saving from the question goes on to what was wanted") {
+TEST_CASE("saving from the question continues with the requested action") {
   SessionFixture d;
   d.open(d.written("a.json", "a"));
   d.edit("changed");
@@ -67,7 +67,7 @@ TEST_CASE("saving from the question goes on to what was wanted") {
   CHECK(read_project(d.folder / "a.json")->project.name == "changed");
 }
 
-TEST_CASE("a save that fails stops what was to follow") {
+TEST_CASE("a failed save cancels the action that was to follow") {
   SessionFixture d;
   d.session.handle(NewProject{});
   d.edit("a");
@@ -89,19 +89,19 @@ TEST_CASE("a project without a file asks for a name, and takes it") {
   CHECK(read_project(d.folder / "flight.json")->project.name == "flight");
 }
 
-TEST_CASE("a file name that was not chosen ends what was to follow it") {
+TEST_CASE("a cancelled choice of a file name cancels the action that was to follow") {
   SessionFixture d;
   d.session.handle(NewProject{});
   d.edit("a");
   d.session.handle(Quit{});
   d.session.answer(0);
-  (void)d.session.take_requests();  // the person closes the browser
+  (void)d.session.take_requests();  // the user closes the browser
   d.session.handle(SaveProject{});
   d.choose_file(d.folder / "a.json");
   CHECK_FALSE(d.session.is_done());
 }
 
-TEST_CASE("another's changes on disk are not overwritten without a question") {
+TEST_CASE("changes on disk by another program are not overwritten without a question") {
   SessionFixture d;
   const fs::path path = d.written("a.json", "a");
   d.open(path);
@@ -131,7 +131,7 @@ TEST_CASE("a running export is not lost without a question") {
   CHECK(d.session.is_done());
 }
 
-TEST_CASE("what is edited while a file is read is not lost either") {
+TEST_CASE("edits made while a file is read are not lost either") {
   SessionFixture d;
   d.open(d.written("a.json", "a"));
   d.session.handle(OpenProject{d.written("b.json", "b")});
@@ -189,7 +189,7 @@ TEST_CASE("dropped files open projects or change the one that is there") {
   CHECK(d.errors().find("letter.doc") != std::string::npos);
 }
 
-TEST_CASE("requests that belong to others are left to them") {
+TEST_CASE("requests for other modules are left to them") {
   SessionFixture d;
   CHECK_FALSE(d.session.handle(Play{1}));
   CHECK_FALSE(d.session.handle(ShowHelp{}));
@@ -239,7 +239,7 @@ TEST_CASE("mask and project are asked for one after the other, and saving either
   CHECK(read_project(d.folder / "a.json")->project.name == "changed");
 }
 
-TEST_CASE("what is painted while another project is read is asked for again") {
+TEST_CASE("strokes painted while another project is read are asked for again") {
   SessionFixture d;
   const fs::path other = d.written("b.json", "b");
   d.open(d.written("a.json", "a"));
@@ -255,7 +255,7 @@ TEST_CASE("what is painted while another project is read is asked for again") {
   CHECK(d.document.project().name == "b");
 }
 
-TEST_CASE("a project that was never saved is to be saved beside its footage, not where one looked last") {
+TEST_CASE("a project never saved is proposed beside its footage, not in the folder visited last") {
   SessionFixture d;
   d.settings.last_folder = d.folder / "looked";
   fs::create_directories(d.folder / "clips");
@@ -275,7 +275,7 @@ TEST_CASE("a project that was never saved is to be saved beside its footage, not
   CHECK(proposed() == d.folder / "clips");
 }
 
-TEST_CASE("messages of the project before are cleared when another is shown, before anything is message of that") {
+TEST_CASE("messages of the previous project are cleared before the next one can give any") {
   SessionFixture d;
   d.open(d.written("a.json", "a"));
   const std::vector<Request> requests = d.session.take_requests();

@@ -5,7 +5,7 @@
 
 using sigs::editor::RateMeter;
 
-TEST_CASE("a steady pace is told exactly, and so is what is left") {
+TEST_CASE("at a steady rate the rate and the remaining time are exact") {
   RateMeter meter;
   for (int i = 0; i <= 300; ++i) meter.note(100 + i * 0.04, i);
   REQUIRE(meter.rate_hz());
@@ -15,7 +15,7 @@ TEST_CASE("a steady pace is told exactly, and so is what is left") {
   CHECK(*meter.left_s(0) == 0);
 }
 
-TEST_CASE("before anything is known nothing is told") {
+TEST_CASE("without any progress no rate is given") {
   RateMeter meter;
   CHECK_FALSE(meter.rate_hz());
   meter.note(5, 0);
@@ -26,11 +26,11 @@ TEST_CASE("before anything is known nothing is told") {
   CHECK_FALSE(RateMeter().left_s(1));
 }
 
-TEST_CASE("a change of pace is followed within some ten seconds") {
+TEST_CASE("a change of rate shows within some ten seconds") {
   RateMeter meter;
   int done = 0;
   double now_s = 0;
   for (; now_s < 60; now_s += 0.01) meter.note(now_s, ++done);
   for (; now_s < 70; now_s += 0.5) meter.note(now_s, ++done);
-  CHECK(*meter.rate_hz() == doctest::Approx(2).epsilon(0.1));  // a note or two at the window's edge
+  CHECK(*meter.rate_hz() == doctest::Approx(2).epsilon(0.1));  // a measurement or two at the window's edge
 }

@@ -59,7 +59,7 @@ TEST_CASE("unsaved changes are written once they are old enough, and not before"
   CHECK(files_in(folder.path(), ".json") == 1);
 }
 
-TEST_CASE("a person who never pauses is kept as well: the first unwritten change counts") {
+TEST_CASE("work without a pause is recorded as well: the first unwritten change counts") {
   const TemporaryFolder folder;
   Recovery recovery(folder.path());
   Document document = edited("a");
@@ -85,7 +85,7 @@ TEST_CASE("saving and orderly closing leave nothing behind") {
   CHECK(fs::is_empty(folder / "state"));
 }
 
-TEST_CASE("what a dead editor left is found, with its file and name, and reads as it was") {
+TEST_CASE("the recovery file of a crashed editor is found, with its file and name, and reads as it was") {
   const TemporaryFolder folder;
   const Document document = edited("night flight", folder / "somewhere/p.json");
   editor_that_dies(folder / "state", document);
@@ -105,7 +105,7 @@ TEST_CASE("what a dead editor left is found, with its file and name, and reads a
   CHECK(files_in(folder / "state", ".json") == 0);
 }
 
-TEST_CASE("a running editor's changes are no one else's") {
+TEST_CASE("a running editor's recovery file is not offered to others") {
   const TemporaryFolder folder;
   Recovery running(folder.path());
   REQUIRE(running.write(edited("a")));
@@ -158,7 +158,7 @@ TEST_CASE("a folder that cannot be written is reported once, and writing is trie
   CHECK(files_in(folder / "state", ".json") == 1);
 }
 
-TEST_CASE("files that are no recovery files are passed over") {
+TEST_CASE("files that are not recovery files are ignored") {
   const TemporaryFolder folder;
   std::ofstream(folder / "notes.json") << "[1, 2";
   std::ofstream(folder / "other.json") << "{\"sigs\": 1}";
@@ -194,7 +194,7 @@ void editor_that_dies(const fs::path& folder, const Document& document, const Ma
 
 }  // namespace
 
-TEST_CASE("a mask that was not saved outlives its editor, also where the project itself was saved") {
+TEST_CASE("an unsaved mask is recovered after its editor has ended, also where the project was saved") {
   for (const bool is_saved : {false, true}) {
     const TemporaryFolder folder;
     Document document = edited("a", folder / "p.json");
@@ -219,7 +219,7 @@ TEST_CASE("a mask that was not saved outlives its editor, also where the project
   }
 }
 
-TEST_CASE("what is painted on is written again, what is in the middle of a stroke is not") {
+TEST_CASE("a mask is written again when painted on, and not in the middle of a stroke") {
   const TemporaryFolder folder;
   Recovery recovery(folder.path());
   const Document document = edited("a");

@@ -39,7 +39,7 @@ fs::path place_of(const std::vector<Relinked>& places, const std::string& field)
 
 }  // namespace
 
-TEST_CASE("missing files are named by field and place; those that are there or not asked for are not") {
+TEST_CASE("missing files are named by field and path; existing and unnamed ones are not") {
   const TemporaryFolder folder;
   touch(folder / "calibrations/cam.xml");
   const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
@@ -49,7 +49,7 @@ TEST_CASE("missing files are named by field and place; those that are there or n
   CHECK(missing[2].field == "intruders[1].model.file");
 }
 
-TEST_CASE("a tree that moved as a whole is found again from one of its files") {
+TEST_CASE("a folder tree that moved as a whole is found from one of its files") {
   const TemporaryFolder folder;
   for (const char* file : {"footage/day/clip.mp4", "calibrations/cam.xml", "models/a.obj"})
     touch(folder / "disk2/archive" / file);
@@ -62,7 +62,7 @@ TEST_CASE("a tree that moved as a whole is found again from one of its files") {
   CHECK(place_of(places, "intruders[1].model.file") == folder / "disk2/archive/models/a.obj");
 }
 
-TEST_CASE("files thrown together into one folder are found there") {
+TEST_CASE("files collected in one folder are found there") {
   const TemporaryFolder folder;
   for (const char* file : {"clip.mp4", "cam.xml", "a.obj"}) touch(folder / "all" / file);
   const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));
@@ -80,7 +80,7 @@ TEST_CASE("a renamed file is the same one for all fields that had it") {
   CHECK(places[0] == Relinked{"intruders[1].model.file", folder / "new/b.obj"});
 }
 
-TEST_CASE("nothing is proposed that is not there") {
+TEST_CASE("no missing file is proposed") {
   const TemporaryFolder folder;
   touch(folder / "new/clip.mp4");
   const std::vector<MissingFile> missing = missing_files(project_in(folder.path()));

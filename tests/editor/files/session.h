@@ -18,7 +18,7 @@ namespace sigs::editor {
 namespace fs = std::filesystem;
 using sigs::test::TemporaryFolder;
 
-// An editor without a window, and a person who answers.
+// An editor without a window, and a user who answers its questions.
 struct SessionFixture {
   TemporaryFolder folder;
   Document document;

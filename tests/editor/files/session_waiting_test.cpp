@@ -31,7 +31,7 @@ TEST_CASE("a project that is read while a question is open waits for the answer"
   }
 }
 
-TEST_CASE("whatever comes while a question is open is asked for after it") {
+TEST_CASE("requests made while a question is open are asked for after it") {
   SessionFixture d;
   const fs::path other = d.written("b.json", "b");
   Edits edits;

@@ -34,7 +34,7 @@ Mesh ball(int rings, int spokes) {
 
 }  // namespace
 
-TEST_CASE("a coarse ball is a ball of few faces that look outwards, in its colours") {
+TEST_CASE("a simplified ball has few faces that face outwards, in its colours") {
   const Mesh mesh = ball(60, 80);
   for (const int maximum : {60, 300, 700}) {
     const CoarseMesh coarse_ball = coarse(mesh, maximum);
@@ -52,7 +52,7 @@ TEST_CASE("a coarse ball is a ball of few faces that look outwards, in its colou
   }
 }
 
-TEST_CASE("nothing has no faces, and transparent parts are left out") {
+TEST_CASE("an empty mesh has no faces, and transparent parts are left out") {
   CHECK(coarse(Mesh{}).faces.empty());
   CHECK(coarse(ball(6, 8), 0).faces.empty());
   Mesh glassy = ball(20, 20);

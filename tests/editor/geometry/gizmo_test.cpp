@@ -67,7 +67,7 @@ TEST_CASE("a point pulled along its arrow is under the mouse") {
     for (int i = 0; i < 3; ++i) {
       const glm::dvec3 start_m = beside_target(camera);
       if (glm::length(glm::cross(sight(camera, start_m), axis_of(i))) < 0.2) continue;
-      // Where it would be seen elsewhere on its axis: exactly there it goes.
+      // Where it would appear elsewhere on its axis: it moves exactly there.
       const glm::dvec3 goal_m = start_m + axis_of(i) * (0.11 * camera.distance_m);
       const GizmoDrag drag{kAxisParts[i], start_m, camera.screen_of(start_m, kRect).value()};
       const glm::dvec3 end_m = dragged(drag, camera.screen_of(goal_m, kRect).value(), camera, kRect);
@@ -171,7 +171,7 @@ TEST_CASE("ten thousand kilometres out a drag is still under the mouse") {
   }
 }
 
-TEST_CASE("a point that is not in sight stays where it is") {
+TEST_CASE("a point that is not in view stays where it is") {
   const OrbitCamera camera{};
   CHECK(dragged({GizmoPart::y, {-2000, 1, 2}, {5, 5}}, {50, 60}, camera, kRect) == glm::dvec3{-2000, 1, 2});
 }
@@ -225,7 +225,7 @@ TEST_CASE("arrows point where their axes go") {
   CHECK_FALSE(shape.planes[2].has_value());
 }
 
-TEST_CASE("no gizmo where its centre is not in sight") {
+TEST_CASE("no gizmo is drawn where its centre is not in view") {
   CHECK_FALSE(gizmo_shape({.center_m = {-5000, 0, 0}}, OrbitCamera{}, kRect).has_value());
   CHECK_FALSE(gizmo_shape({.center_m = {kNan, 0, 0}}, OrbitCamera{}, kRect).has_value());
 }

@@ -18,7 +18,7 @@ bool is_whole(double value) {
   return value == std::round(value);
 }
 
-// What of the image shows, along x and y, screen pixels.
+// The visible part of the image, along x and y, screen pixels.
 glm::dvec2 showing(const ImageView& view) {
   const glm::dvec2 low = glm::max(view.screen_of({-0.5, -0.5}), kPanel.low);
   const glm::dvec2 high = glm::min(view.screen_of(kImageSize - 0.5), kPanel.high);
@@ -85,7 +85,7 @@ TEST_CASE("zooming leaves the image point under the cursor, but for the step to 
     }
 }
 
-TEST_CASE("zoom stays within its limits, however hard the wheel is turned") {
+TEST_CASE("zoom stays within its limits, however far the wheel is turned") {
   for (const double factor : {1e-300, 1e300, std::numeric_limits<double>::infinity()}) {
     const ImageView view = zoomed({1.7, {5, 5}}, factor, {100, 100});
     CHECK(view.zoom == (factor < 1 ? kMinZoom : kMaxZoom));
@@ -108,7 +108,7 @@ TEST_CASE("slow zooming gets away from a whole number in both directions") {
   }
 }
 
-TEST_CASE("no factor at all leaves the view") {
+TEST_CASE("an invalid factor leaves the view unchanged") {
   const ImageView view{1.37, {4.5, 5.5}};
   for (const double factor : {1.0, 0.0, -2.0, kNotANumber}) CHECK(zoomed(view, factor, {50, 50}) == view);
   CHECK(zoomed(view, 2, {kNotANumber, 50}) == view);
@@ -135,7 +135,7 @@ TEST_CASE("however far it is panned, a quarter of the rectangle or of the image 
     }
 }
 
-TEST_CASE("panning by what is no number moves nothing") {
+TEST_CASE("panning by NaN moves nothing") {
   const ImageView view{2, {4, 5}};
   CHECK(panned(view, {kNotANumber, 3}, kImageSize, kPanel) == view);
   CHECK(panned(view, {3, std::numeric_limits<double>::infinity()}, kImageSize, kPanel) == view);

@@ -33,7 +33,7 @@ TEST_CASE("straight ahead is the principal point, right is right and below is be
   }
 }
 
-TEST_CASE("a point behind a pixel is at its distance and is seen in that pixel") {
+TEST_CASE("a point behind a pixel is at the given distance and projects to that pixel") {
   for (const Camera& camera : example_lenses())
     for (const CameraPose& pose : {kLevel, kTurned})
       for (const glm::dvec2& pixel : kPixels)
@@ -54,7 +54,7 @@ TEST_CASE("no distance and no ray give no point") {
   CHECK_FALSE(point_behind({1e6, 1e6}, 10, kLevel, lenses[0].lens).has_value());
 }
 
-TEST_CASE("a point dragged across the footage follows the mouse at its distance, and keeps its grip") {
+TEST_CASE("a point dragged across the footage follows the mouse at its distance, with a fixed offset") {
   for (const Camera& camera : example_lenses())
     for (const CameraPose& pose : {kLevel, kTurned})
       for (const double distance_m : {30.0, 1e7}) {
@@ -70,7 +70,7 @@ TEST_CASE("a point dragged across the footage follows the mouse at its distance,
       }
 }
 
-TEST_CASE("there and back again is the same point, through each lens") {
+TEST_CASE("projecting and unprojecting gives the same point, through each lens") {
   for (const Camera& camera : example_lenses())
     for (const CameraPose& pose : {kLevel, kTurned})
       for (const double distance_m : {1.0, 30.0, 1e7}) {
@@ -141,7 +141,7 @@ bool in_image(const glm::dvec2& p) {
   return p.x >= 0 && p.y >= 0 && p.x < kSize.x && p.y < kSize.y;
 }
 
-// Turns around the camera and comes close to it.
+// Circles the camera and comes close to it.
 glm::dvec3 spiral(double t) {
   return kPose.translation_m + glm::dvec3{60 * std::cos(2 * t) + 20, 40 * std::sin(2 * t), 10 * std::sin(5 * t)};
 }
@@ -183,7 +183,7 @@ TEST_CASE("straight lines of points stay straight through a pinhole and are with
   }
 }
 
-TEST_CASE("no points, one point and points that are no numbers give no line") {
+TEST_CASE("no points, one point and points that are not finite give no line") {
   const Camera camera = example_lenses()[0];
   CHECK(points_through_lens({}, kPose, camera.lens, kSize).empty());
   const std::vector<glm::dvec3> one{{2000, 0, -150}};
@@ -280,7 +280,7 @@ TEST_CASE("through every lens the horizon passes through the pixels that it was 
       }
 }
 
-TEST_CASE("what was drawn is dragged back: the line's own points give its roll and pitch") {
+TEST_CASE("dragging to the drawn line's own points gives its roll and pitch") {
   for (const Camera& camera : example_lenses()) {
     const HorizonTilt tilt{0.15, -0.1};
     const CameraPose pose{.rotation = rotation_of({tilt.roll_rad, tilt.pitch_rad, 2.0})};

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-// The textbook's way to the screen: OpenGL's matrices in homogeneous coordinates.
+// The textbook projection to the screen: OpenGL's matrices in homogeneous coordinates.
 glm::dvec2 matrix_screen(const OrbitCamera& camera, const glm::dvec3& p_m, const ScreenRect& rect) {
   const glm::dvec2 size = rect.size();
   const double aspect = size.x / size.y;
@@ -58,7 +58,7 @@ TEST_CASE("the eye's axes are right-handed and of unit length, from above too") 
   CHECK(glm::length(OrbitCamera{}.up() - glm::dvec3{0, 0, -1}) < 1e-12);
 }
 
-TEST_CASE("points come to the screen where OpenGL's matrices put them") {
+TEST_CASE("points are projected to the screen as by OpenGL's matrices") {
   for (const ScreenRect& rect : {kRect, ScreenRect{{0, 0}, {300, 700}}})
     for (const OrbitCamera& camera : example_cameras())
       for (const glm::dvec3& point : points_around(camera)) {
@@ -68,7 +68,7 @@ TEST_CASE("points come to the screen where OpenGL's matrices put them") {
       }
 }
 
-TEST_CASE("the ray behind a place of the screen meets what is seen there") {
+TEST_CASE("the ray through a screen position meets the point shown there") {
   for (const OrbitCamera& camera : example_cameras())
     for (const glm::dvec3& point : points_around(camera)) {
       const Ray ray = camera.ray_at(camera.screen_of(point, kRect).value(), kRect);
@@ -97,7 +97,7 @@ TEST_CASE("both projections show the target's depth at the same size") {
   CHECK(perspective * 2 * 1000 * std::tan(0.4) == doctest::Approx(600));  // the field spans the shorter side
 }
 
-TEST_CASE("what is behind the eye or no number has no place on the screen") {
+TEST_CASE("a point behind the eye or not finite has no screen position") {
   const OrbitCamera camera{};  // at -1000, looks along X
   CHECK_FALSE(camera.screen_of({-1001, 0, 0}, kRect).has_value());
   CHECK_FALSE(camera.screen_of({-1000, 0, 0}, kRect).has_value());
@@ -118,7 +118,7 @@ TEST_CASE("a rectangle of no size crashes nothing") {
   }
 }
 
-TEST_CASE("a line in sight runs from end to end") {
+TEST_CASE("a line in view runs from end to end") {
   for (const OrbitCamera& camera : example_cameras()) {
     const std::vector<glm::dvec3> points = points_around(camera);
     const auto line = screen_line(camera, kRect, points[0], points[7]);
@@ -171,7 +171,7 @@ TEST_CASE("orbiting keeps the target in the middle and turns it with the mouse")
   CHECK(orbited(camera, {0, 20}).screen_of(near_side, kRect)->y > camera.screen_of(near_side, kRect)->y);
 }
 
-TEST_CASE("elevation stops upright and bearing goes round") {
+TEST_CASE("elevation is limited at the vertical and bearing wraps around") {
   OrbitCamera camera{};
   CHECK(orbited(camera, {0, 1e9}).elevation_rad == doctest::Approx(std::numbers::pi / 2));
   CHECK(orbited(camera, {0, -1e9}).elevation_rad == doctest::Approx(-std::numbers::pi / 2));
@@ -192,7 +192,7 @@ TEST_CASE("panning moves what lies at the target's depth with the mouse") {
   }
 }
 
-TEST_CASE("coming nearer keeps what lies under the cursor at the target's depth") {
+TEST_CASE("zooming in keeps the point under the cursor at the target's depth") {
   const glm::dvec2 cursor{250, 500};
   for (const OrbitCamera& camera : example_cameras())
     for (const double factor : {0.5, 0.95, 1.3, 8.0}) {
@@ -206,7 +206,7 @@ TEST_CASE("coming nearer keeps what lies under the cursor at the target's depth"
     }
 }
 
-TEST_CASE("distance stays within its limits and a factor that is none changes nothing") {
+TEST_CASE("distance stays within its limits and an invalid factor changes nothing") {
   const OrbitCamera camera{};
   CHECK(approached(camera, 1e300, {200, 200}, kRect).distance_m == 0.1);
   CHECK(approached(camera, kInfinity, {200, 200}, kRect).distance_m == 0.1);
@@ -217,7 +217,7 @@ TEST_CASE("distance stays within its limits and a factor that is none changes no
   CHECK(approached(camera, 2, {kNan, 200}, kRect).distance_m == camera.distance_m);
 }
 
-TEST_CASE("framed points are all in sight, with a margin, and fill the screen") {
+TEST_CASE("framed points are all in view, with a margin, and fill the screen") {
   for (const ScreenRect& rect : {kRect, ScreenRect{{0, 0}, {300, 700}}})
     for (const OrbitCamera& camera : example_cameras()) {
       const std::vector<glm::dvec3> points{{0, 0, -150}, {900, -100, -200}, {1500, 400, -80}, {1e4, 30, -151}};
@@ -243,7 +243,7 @@ TEST_CASE("points in a row behind each other are framed before the eye") {
   for (const glm::dvec3& point : row) CHECK(framed.screen_of(point, kRect).has_value());
 }
 
-TEST_CASE("nothing to frame changes nothing, one place turns the eye there") {
+TEST_CASE("framing no points changes nothing, framing one turns the eye towards it") {
   const OrbitCamera camera{.target_m = {1, 2, 3}};
   CHECK(framing(camera, {}, kRect).target_m == camera.target_m);
   const std::vector<glm::dvec3> none{{kNan, 0, 0}};
@@ -274,7 +274,7 @@ TEST_CASE("straight back is bearing +pi from either side of zero") {
   CHECK(direction_of({-1, -1e-300, 0}, {0, 0, 0}).bearing_rad == doctest::Approx(kPi));
 }
 
-TEST_CASE("a light at the very place has neither direction nor distance") {
+TEST_CASE("a light at the reference point has neither direction nor distance") {
   const LightDirection none = direction_of({4, 5, 6}, {4, 5, 6});
   CHECK((none.bearing_rad == 0 && none.elevation_rad == 0 && none.distance_m == 0));
   CHECK(position_of({1, 1, 0}, {4, 5, 6}) == glm::dvec3{4, 5, 6});

@@ -90,11 +90,11 @@ TEST_CASE("panning stops at the ends of the footage") {
   CHECK(panned(ruler, -1e9, 100).first == 0);
   CHECK(panned(ruler, kInfinity, 100).first == 50);
   CHECK(panned(ruler, kNan, 100).first == 10);
-  CHECK(panned({0, 500, 0, 130}, 1e9, 100).first == 0);     // all of it in sight,
+  CHECK(panned({0, 500, 0, 130}, 1e9, 100).first == 0);     // all of it in view,
   CHECK(panned({0, 500, 0, 130}, -1e9, 100).first == -30);  // wherever it lies
 }
 
-TEST_CASE("a frame is brought in sight by the shortest way, with its whole cell") {
+TEST_CASE("a frame is scrolled into view by the shortest way, with its whole cell") {
   const TimeRuler ruler{0, 500, 10, 50};
   CHECK(with_frame_in_sight(ruler, 10, 100).first == 10);
   CHECK(with_frame_in_sight(ruler, 59, 100).first == 10);
@@ -106,7 +106,7 @@ TEST_CASE("a frame is brought in sight by the shortest way, with its whole cell"
   CHECK(with_frame_in_sight(ruler, kNan, 100).first == 10);
 }
 
-TEST_CASE("ticks and labels keep their distances at all zooms, and are no sparser than need be") {
+TEST_CASE("ticks and labels keep their spacing at all zooms, and are no sparser than necessary") {
   for (const TimeRuler& ruler : example_rulers()) {
     const std::vector<Tick> all = ticks(ruler, 70);
     CAPTURE(ruler.count);
@@ -174,7 +174,7 @@ TEST_CASE("negative times have a sign, and what rounds to zero has none") {
   CHECK(time_text(-59.9951) == "-1:00.00");
 }
 
-TEST_CASE("what is no time is said so") {
+TEST_CASE("a time that is not finite or too large is shown as dashes") {
   CHECK(time_text(kNan) == "--:--.--");
   CHECK(time_text(-kInfinity) == "--:--.--");
   CHECK(time_text(1e300) == "--:--.--");
@@ -204,7 +204,7 @@ TEST_CASE("a step that is round already is kept, in spite of the last digit") {
   CHECK(round_step(5.01) == 10);
 }
 
-TEST_CASE("no positive number asks for no step in particular") {
+TEST_CASE("a minimum that is not positive and finite gives the step 1") {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double none : {0.0, -3.0, infinity, -infinity, std::numeric_limits<double>::quiet_NaN()})
     CHECK(round_step(none) == 1);

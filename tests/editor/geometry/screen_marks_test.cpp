@@ -22,7 +22,7 @@ TEST_CASE("the nearest point within reach is picked, and of points in one place 
   CHECK_FALSE(nearest_point({}, {0, 0}, 8).has_value());
 }
 
-TEST_CASE("the nearest place on a line has its segment, its share, and no gap is bridged") {
+TEST_CASE("the nearest point on a line has its segment and its share of it, and no gap is bridged") {
   const std::vector<std::optional<glm::dvec2>> line{glm::dvec2{0, 0}, glm::dvec2{100, 0}, std::nullopt,
                                                     glm::dvec2{100, 80}, glm::dvec2{0, 80}};
   const auto place = nearest_place(line, {25, 3}, 10);
@@ -36,9 +36,9 @@ TEST_CASE("the nearest place on a line has its segment, its share, and no gap is
   CHECK(nearest_place(point, {5, 6}, 10)->share == 0);
 }
 
-TEST_CASE("a share on the screen is the share of the world that is seen there") {
+TEST_CASE("a share along a line on the screen gives the share in the world at that point") {
   for (const double share : {0.0, 0.2, 0.7, 1.0}) {
-    const glm::dvec2 a{3, 10};  // aside and depth
+    const glm::dvec2 a{3, 10};  // lateral position and depth
     const glm::dvec2 b{-8, 45};
     const glm::dvec2 p = glm::mix(a, b, share);
     const double on_screen = (p.x / p.y - a.x / a.y) / (b.x / b.y - a.x / a.y);

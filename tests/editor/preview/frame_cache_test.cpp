@@ -27,7 +27,7 @@ void put(Cache& cache, FrameKey key, std::size_t bytes) {
 
 }  // namespace
 
-TEST_CASE("what was put into a cache is found under its own content and frame alone") {
+TEST_CASE("a cached image is found under its own content and frame alone") {
   Cache cache(100);
   put(cache, key(1, 5), 10);
   REQUIRE(cache.find(key(1, 5)));
@@ -37,7 +37,7 @@ TEST_CASE("what was put into a cache is found under its own content and frame al
   CHECK(cache.bytes() == 10);
 }
 
-TEST_CASE("a full cache lets the frame go that is farthest from the playhead") {
+TEST_CASE("a full cache evicts the frame farthest from the playhead") {
   Cache cache(40);
   cache.set_playhead(key(1, 10));
   for (const int frame : {10, 7, 12, 14}) put(cache, key(1, frame), 10);
@@ -49,7 +49,7 @@ TEST_CASE("a full cache lets the frame go that is farthest from the playhead") {
   CHECK(cache.frames_of(content(1)) == std::vector<int>{9, 10, 11, 12});
 }
 
-TEST_CASE("frames of other contents go before any of the present one but stay while there is room") {
+TEST_CASE("frames of other contents are evicted before those of the current one, and only from a full cache") {
   Cache cache(40);
   cache.set_playhead(key(2, 10));
   put(cache, key(1, 10), 10);
@@ -65,7 +65,7 @@ TEST_CASE("frames of other contents go before any of the present one but stay wh
   CHECK(cache.frames_of(content(2)) == std::vector<int>{10, 11, 12, 90});
 }
 
-TEST_CASE("of other contents that are equally far the one that came first goes first") {
+TEST_CASE("of other contents that are equally far the oldest is evicted first") {
   Cache cache(30);
   cache.set_playhead(key(9, 4));
   for (const std::uint64_t number : {3, 1, 2}) put(cache, key(number, 4), 10);
@@ -84,7 +84,7 @@ TEST_CASE("putting a frame again replaces it and counts it once") {
   CHECK_FALSE(cache.would_keep(key(1, 6), 101));
 }
 
-TEST_CASE("a lower limit lets go at once what no longer fits") {
+TEST_CASE("a lower limit evicts at once what no longer fits") {
   Cache cache(40);
   cache.set_playhead(key(1, 10));
   for (const int frame : {10, 7, 12, 14}) put(cache, key(1, frame), 10);
@@ -116,14 +116,14 @@ TEST_CASE("distances do not overflow") {
   CHECK(cache.frames_of(content(1)) == std::vector<int>{kMin, 0});
 }
 
-TEST_CASE("whatever comes the memory bound holds and the frames that stay are the best by the rule") {
+TEST_CASE("after any sequence of calls the memory limit holds and the rule's best frames are kept") {
   std::mt19937 random(7);
   const auto any = [&random](int maximum) { return std::uniform_int_distribution<int>(0, maximum)(random); };
   Cache cache(1000);
   std::map<FrameKey, std::size_t> truth;
   std::map<ContentId, int> came;  // since when there are frames of a content
   FrameKey playhead = key(1, 50);
-  // By brute force: the minimum of all, looked at one by one.
+  // By brute force: the minimum of all.
   const auto is_less = [&](FrameKey a, FrameKey b) {
     const bool a_other = a.content != playhead.content, b_other = b.content != playhead.content;
     if (a_other != b_other) return a_other;

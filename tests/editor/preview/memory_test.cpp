@@ -27,7 +27,7 @@ std::shared_ptr<const PreviewImage> image(bool staged) {
   return std::make_shared<const PreviewImage>(std::move(made));
 }
 
-// What is alive of all that was put into a preview state, weighed by the test itself.
+// The memory of all images put into a preview state that still exist, summed by the test itself.
 struct MemoryFixture {
   PreviewState preview_state{PreviewLimits{.cache_bytes = kLimit}, [] {}};
   std::vector<std::pair<std::weak_ptr<const void>, std::size_t>> put_down;
@@ -39,8 +39,8 @@ struct MemoryFixture {
   }
 
   void put_decoded(FrameKey key) {
-    auto decoded =
-        std::make_shared<const DecodedFrame>(DecodedFrame{.frame = grey_frame({.size_px = kFrameSize, .times_s = {0}}, 0)});
+    auto decoded = std::make_shared<const DecodedFrame>(
+        DecodedFrame{.frame = grey_frame({.size_px = kFrameSize, .times_s = {0}}, 0)});
     preview_state.put_decoded(key, noted(std::move(decoded), kDecoded_bytes));
   }
   void put_image(FrameKey key, bool was_wanted) {
@@ -73,7 +73,7 @@ FrameKey image_key(std::uint64_t revision_number, int frame) {
 
 }  // namespace
 
-TEST_CASE("images, decoded frames and stages stay within one limit whatever comes") {
+TEST_CASE("images, decoded frames and stages stay within one limit after any requests") {
   MemoryFixture fixture;
   std::size_t maximum = 0;
   for (std::uint64_t number = 1; number <= 3; ++number)
@@ -91,7 +91,7 @@ TEST_CASE("images, decoded frames and stages stay within one limit whatever come
   CHECK(maximum <= kLimit);
 }
 
-TEST_CASE("stages that the view no longer asks for are let go") {
+TEST_CASE("stages that the view no longer asks for are released") {
   MemoryFixture fixture;
   fixture.preview_state.want({.revision = revision(1), .stages = true});
   fixture.preview_state.set_input_files(kFiles, {.id = kFootage});
@@ -104,7 +104,7 @@ TEST_CASE("stages that the view no longer asks for are let go") {
   CHECK(fixture.alive() == kImage_bytes);
 }
 
-TEST_CASE("what is told of the memory is what is alive, with the window's textures") {
+TEST_CASE("the reported memory is the memory in use, with the window's textures") {
   MemoryFixture fixture;
   fixture.preview_state.want({.revision = revision(1), .frame = 3});
   fixture.preview_state.set_input_files(kFiles, {.id = kFootage});
@@ -122,7 +122,7 @@ TEST_CASE("what is told of the memory is what is alive, with the window's textur
   CHECK(fixture.preview_state.shown().image_is_current == true);
 }
 
-TEST_CASE("what is shown stays though it is larger than the limit, and nothing else does") {
+TEST_CASE("the shown image is kept though it is larger than the limit, and nothing else is") {
   MemoryFixture fixture;
   fixture.preview_state.want({.revision = revision(1), .frame = 3});
   fixture.preview_state.set_input_files(kFiles, {.id = kFootage});

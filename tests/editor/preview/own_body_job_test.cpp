@@ -52,7 +52,7 @@ DetectionRequest of(int frames) {
 
 }  // namespace
 
-TEST_CASE("what was found is there at the end, with what it was asked") {
+TEST_CASE("a detection ends with its result and the settings that it was started with") {
   std::atomic<int> wakes = 0;
   OwnBodyJob job([&] { ++wakes; }, quick);
   CHECK(job.state().phase == JobPhase::none);
@@ -80,7 +80,7 @@ TEST_CASE("a detection that is stopped ends soon, and another can follow") {
   CHECK(finished(job).phase == JobPhase::done);
 }
 
-TEST_CASE("what was found before stays while another is looked for, and when that fails") {
+TEST_CASE("the previous result stays during another detection, and when that fails") {
   bool fails = false;
   OwnBodyJob job([] {},
                  [&](const DetectionRequest& request, const DetectionControl& control) -> Result<OwnBody> {
@@ -102,7 +102,7 @@ TEST_CASE("what was found before stays while another is looked for, and when tha
   CHECK(state.value_request == of(7));
 }
 
-TEST_CASE("a detection that is forgotten ends without a word, whether it was running or done") {
+TEST_CASE("a discarded detection ends without a message, whether it was running or done") {
   OwnBodyJob job([] {}, either);
   REQUIRE(job.start(of(5)));
   REQUIRE(finished(job).value);
@@ -127,7 +127,7 @@ TEST_CASE("an editor that closes during a detection does not wait for its end") 
                    });
     REQUIRE(job.start(of(1500)));
   }
-  CHECK(ended);  // by being stopped: it has no other end
+  CHECK(ended);  // by being cancelled: it has no other end
 }
 
 TEST_CASE("the window is woken some ten times a second, however fast frames pass") {
@@ -140,7 +140,7 @@ TEST_CASE("the window is woken some ten times a second, however fast frames pass
   CHECK(wakes <= 3 + 10 * took_s.count());
 }
 
-TEST_CASE("the detection runs at low priority, the thread that asks for it stays as it was") {
+TEST_CASE("the detection runs at low priority, the calling thread keeps its own") {
   const int own = ::getpriority(PRIO_PROCESS, 0);
   std::atomic<int> detecting = own;
   OwnBodyJob job([] {},
@@ -154,7 +154,7 @@ TEST_CASE("the detection runs at low priority, the thread that asks for it stays
   CHECK(detecting >= std::min(10, own + 1));
 }
 
-TEST_CASE("footage that cannot be opened is told by its name") {
+TEST_CASE("footage that cannot be opened is reported by its name") {
   OwnBodyJob job([] {});
   DetectionRequest request = of(10);
   request.video = "nowhere.mp4";

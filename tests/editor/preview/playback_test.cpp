@@ -28,7 +28,7 @@ Playback playing(double now_s, int frame, double speed) {
 
 }  // namespace
 
-TEST_CASE("at an even rate the frame is the one that the clock says") {
+TEST_CASE("at an even rate the frame is the clock's") {
   const double start_s = 12345.678;
   for (const double speed : {0.5, 1.0, 2.0, 4.0, 8.0}) {
     const Playback playback = playing(start_s, 10, speed);
@@ -77,7 +77,7 @@ TEST_CASE("backwards each frame stays for its own duration") {
   CHECK(playback.frame_at(7.351, times, {0, 3, false}).frame == 0);
 }
 
-TEST_CASE("a range is played to its end and says so") {
+TEST_CASE("playback of a range stops at its end and reports this") {
   const Playback forwards = playing(0, 20, 1);
   CHECK(forwards.frame_at(0.39, k25Hz, {15, 29, false}).frame == 29);
   CHECK_FALSE(forwards.frame_at(0.39, k25Hz, {15, 29, false}).over);
@@ -88,12 +88,12 @@ TEST_CASE("a range is played to its end and says so") {
   CHECK(backwards.frame_at(1e6, k25Hz, {15, 29, false}).over);
 }
 
-TEST_CASE("a loop goes round for ever and shows each frame as long as any other") {
+TEST_CASE("a loop repeats without end and shows each frame for the same time") {
   for (const double speed : {1.0, -1.0, 4.0, -8.0}) {
     const Playback playback = playing(0, 20, speed);
     std::vector<int> observed(100, 0);
     const int samples = 20 * 15 * 100;
-    for (int i = 0; i < samples; ++i) {  // 100 rounds of 15 frames, 20 looks a frame
+    for (int i = 0; i < samples; ++i) {  // 100 rounds of 15 frames, 20 queries a frame
       const double now_s = (i + 0.5) * 0.04 / 20 / std::abs(speed);
       const PlayedFrame played = playback.frame_at(now_s, k25Hz, {15, 29, true});
       REQUIRE_FALSE(played.over);
@@ -116,7 +116,7 @@ TEST_CASE("play begins at the playhead wherever something is left to play") {
   CHECK(playing(0, 60, 1).frame_at(0.041, k25Hz, {30, 60, true}).frame == 30);
 }
 
-TEST_CASE("nonsense is clamped") {
+TEST_CASE("invalid values are clamped") {
   const std::vector<double> one{0.0};
   const std::vector<double> still{0, 0, 0, 0};
   for (const double speed : {1.0, -1.0})
@@ -131,7 +131,7 @@ TEST_CASE("nonsense is clamped") {
     }
 }
 
-TEST_CASE("pausing stands still") {
+TEST_CASE("a paused playhead does not move") {
   Playback playback = playing(0, 12, 1);
   CHECK(playback.playing());
   playback.pause();

@@ -18,7 +18,7 @@ PreviewClient::PreviewClient(editor::PreviewLimits limits)
         woken_.notify_all();
       }) {}
 
-// By being woken alone: what was put down without a call is never observed.
+// Only when woken: a result without a notification is never observed.
 editor::PreviewOutput PreviewClient::wait(const std::function<bool(const editor::PreviewOutput&)>& is_there) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   std::unique_lock lock(mutex_);

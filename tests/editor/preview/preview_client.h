@@ -11,7 +11,7 @@
 
 namespace sigs::test {
 
-// A window's part in previewing: asks, sleeps until it is woken, looks.
+// The window's part in previewing: requests, sleeps until it is woken, reads the state.
 class PreviewClient {
  public:
   explicit PreviewClient(editor::PreviewLimits limits = {});

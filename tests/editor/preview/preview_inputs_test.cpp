@@ -34,7 +34,7 @@ bool is_plain_grey(const cv::Mat& bgr) {
 
 }  // namespace
 
-TEST_CASE("without footage intruders fly before grey") {
+TEST_CASE("without footage intruders are shown over grey") {
   Project project = sample("head-on");
   for (const char* video : {"", "nowhere.mp4"}) {
     project.footage.video = video;
@@ -53,7 +53,7 @@ TEST_CASE("without footage intruders fly before grey") {
   }
 }
 
-TEST_CASE("a project of nothing at all has an image") {
+TEST_CASE("an empty project has an image") {
   PreviewClient preview_client;
   const PreviewOutput shown = preview_client.show(frame_of(revision(1, Project()), 3));
   CHECK(is_plain_grey(shown.image->bgr));
@@ -61,7 +61,7 @@ TEST_CASE("a project of nothing at all has an image") {
   CHECK(shown.scene->draft.problems.size() > 0);
 }
 
-TEST_CASE("a missing model, calibration and mask are named and with_preset in for") {
+TEST_CASE("a missing model, calibration and mask are named and replaced by placeholders") {
   Project project = sample("head-on");
   project.intruders[0].model.file = "nowhere.obj";
   project.footage.calibration = "nowhere.xml";
@@ -79,7 +79,7 @@ TEST_CASE("a missing model, calibration and mask are named and with_preset in fo
   CHECK_FALSE(shown.model->rgba.empty());  // the cross
 }
 
-TEST_CASE("an intruder without waypoints has an empty survey and a model to look at") {
+TEST_CASE("an intruder without waypoints has an empty survey and a model that can be shown") {
   Project project = sample("head-on");
   project.intruders[0].trajectory.waypoints.clear();
   PreviewClient preview_client;
@@ -127,7 +127,7 @@ TEST_CASE("a frame that cannot be used shows the one that replaces it and says w
   CHECK(preview_client.show(frame_of(revision(1, project), 3)).image->problem.empty());
 }
 
-TEST_CASE("footage that takes for ever to open holds up neither the model nor other footage nor the end") {
+TEST_CASE("footage that never finishes opening delays neither the model nor other footage nor the end") {
   const TinyProject tiny;
   fs::resize_file(tiny.file("clip.mkv"), std::uintmax_t{1} << 38);  // sparse: its end is looked for for minutes
   Project project = sample("head-on");
@@ -151,7 +151,7 @@ TEST_CASE("footage that takes for ever to open holds up neither the model nor ot
   CHECK(std::chrono::steady_clock::now() - end < std::chrono::seconds(3));
 }
 
-TEST_CASE("footage that is no video is grey and says why") {
+TEST_CASE("a file that is not a video gives grey footage and a reason") {
   const TemporaryFolder folder;
   Project project = sample("head-on");
   REQUIRE(write_text(folder / "no.mp4", "this is no video", false));
@@ -162,7 +162,7 @@ TEST_CASE("footage that is no video is grey and says why") {
   CHECK(shown.scene->footage->problem.find("no.mp4") != std::string::npos);
 }
 
-TEST_CASE("a video that appears on disk is taken up by itself") {
+TEST_CASE("a video that appears on disk is opened without a request") {
   const TemporaryFolder folder;
   Project project = sample("head-on");
   const fs::path real = resolved(project, project.footage.video);
@@ -178,7 +178,7 @@ TEST_CASE("a video that appears on disk is taken up by itself") {
   CHECK(shown.scene->footage->shape.times_s.size() == 200);
 }
 
-TEST_CASE("a mask that is replaced on disk hides at once, without any edit") {
+TEST_CASE("a mask that is replaced on disk takes effect at once, without any edit") {
   const TemporaryFolder folder;
   const fs::path mask = folder / "mask.png";
   const auto put_mask = [&](uchar share) {
@@ -212,7 +212,7 @@ TEST_CASE("an attitude file that is saved again turns the camera at once, withou
       [](const PreviewOutput& s) { return s.image_is_current && cv::countNonZero(s.image->mask) == 0; });
 }
 
-TEST_CASE("other footage is opened aside and the old image stays until it is there") {
+TEST_CASE("other footage is opened in the background and the old image stays until then") {
   PreviewClient preview_client;
   Project project = sample("head-on");
   const PreviewOutput before = preview_client.show(frame_of(revision(1, project), 20));
@@ -222,7 +222,7 @@ TEST_CASE("other footage is opened aside and the old image stays until it is the
   CHECK(preview_client.shown().image == before.image);
   CHECK_FALSE(preview_client.shown().image_is_current);
   preview_client.wait(is_current);
-  // There and back faster than anything can be opened.
+  // To other footage and back faster than it can be opened.
   for (std::uint64_t i = 0; i < 40; ++i) {
     preview_client.want(frame_of(i % 2 == 0 ? revision(1, project) : revision(2, other), static_cast<int>(20 + i)));
     std::this_thread::sleep_for(std::chrono::milliseconds(i % 7));
@@ -234,7 +234,7 @@ TEST_CASE("other footage is opened aside and the old image stays until it is the
   CHECK(is_same_image(after.image->bgr, before.image->bgr));
 }
 
-TEST_CASE("a wish beyond the footage shows its last frame") {
+TEST_CASE("a request beyond the footage shows its last frame") {
   PreviewClient preview_client;
   const Revision project = revision(1, sample("head-on"));
   CHECK(preview_client.show(frame_of(project, 5000)).image->frame == 199);

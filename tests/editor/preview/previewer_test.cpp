@@ -30,7 +30,7 @@ Project moved(Project project, double by_m) {
   return project;
 }
 
-// The engine's own road, without editor.
+// By the engine's own functions, without the editor.
 struct Engine {
   explicit Engine(const Project& project)
       : source(FrameSource::open(resolved(project, project.footage.video)).value()),
@@ -136,7 +136,7 @@ TEST_CASE("another lens after the first warps as by itself") {
                       bgr_of(Engine(other).composed(kFrame).image)));
 }
 
-TEST_CASE("the next frames are composed ahead and a cached frame is there at once") {
+TEST_CASE("the next frames are composed ahead and a cached frame is shown at once") {
   PreviewClient preview_client({.cache_bytes = std::size_t(1) << 30, .ahead = 12});
   PreviewRequest wanted = frame_of(revision(1, sample("head-on")), 10);
   wanted.range_last = 18;
@@ -194,7 +194,7 @@ TEST_CASE("a cache too small for anything still shows the right image") {
   preview_client.wait([](const PreviewOutput& s) { return !s.busy; });
 }
 
-TEST_CASE("a storm of requests ends at the right image") {
+TEST_CASE("a fast series of requests ends at the right image") {
   const Project project = sample("head-on");
   std::mt19937 random(3);
   PreviewClient preview_client({.cache_bytes = std::size_t(64) << 20, .ahead = 8});
@@ -220,7 +220,7 @@ TEST_CASE("a storm of requests ends at the right image") {
   CHECK(is_same_image(shown.image->bgr, bgr_of(Engine(moved(project, 3.5)).composed(kFrame).image)));
 }
 
-TEST_CASE("edits that come faster than images starve nothing") {
+TEST_CASE("edits that come faster than images do not stop the preview") {
   const Project project = sample("head-on");
   PreviewClient preview_client({.ahead = 0});
   preview_client.show(frame_of(revision(1, project), kFrame));
@@ -235,10 +235,10 @@ TEST_CASE("edits that come faster than images starve nothing") {
     images += shown != observed ? 1 : 0;
     observed = shown;
   }
-  CHECK(images >= 5);  // some tens on any machine that is not held up
+  CHECK(images >= 5);  // some tens on any machine that is not overloaded
 }
 
-TEST_CASE("a scrub faster than decoding shows images on its way") {
+TEST_CASE("scrubbing faster than decoding still shows images") {
   PreviewClient preview_client({.ahead = 0});
   const Revision project = revision(1, sample("head-on"));
   preview_client.show(frame_of(project, 0));
@@ -253,7 +253,7 @@ TEST_CASE("a scrub faster than decoding shows images on its way") {
   CHECK(images >= 3);
 }
 
-TEST_CASE("it goes away promptly while busy") {
+TEST_CASE("a busy previewer is destroyed promptly") {
   // One step of either thread: a frame composed, or decoded from its keyframe on. On a busy machine that is measured.
   const auto before = std::chrono::steady_clock::now();
   PreviewClient({.ahead = 0}).show(frame_of(revision(1, sample("head-on")), 150));

@@ -82,7 +82,7 @@ void write_results(const fs::path& path, const ClipTruth& clip) {
   put_text(path, text);
 }
 
-TrackScore score_by_hand(const fs::path& file, const ClipTruth& clip) {
+TrackScore score_of_file(const fs::path& file, const ClipTruth& clip) {
   const TrackPolicy policy = policy_from_start(clip, clip.targets[0]).value();
   const Results results = read_results(file, clip.footage, {.start_frame = policy.from_frame}).value();
   return score_track(clip, clip.targets[0], results, policy);
@@ -126,16 +126,16 @@ TEST_CASE("the editor's figures are those of the annotation that is exported") {
   const ClipTruth clip = exported_truth(tiny, project);
   const fs::path file = tiny.file("my tracker.csv");
   write_results(file, clip);
-  const TrackScore by_hand = score_by_hand(file, clip);
-  REQUIRE(by_hand.scored > 6);
-  REQUIRE(by_hand.lost == 2);
+  const TrackScore expected = score_of_file(file, clip);
+  REQUIRE(expected.scored > 6);
+  REQUIRE(expected.lost == 2);
 
   Scoring scoring([] {});
   const Scene scene = opened(project);
   const Surveys surveys = surveys_of(scene);
-  // Outlines would not do.
-  REQUIRE(score_by_hand(file, *outline_truth(*scene, surveys)).mean_center_error_px >
-          by_hand.mean_center_error_px + 0.3);
+  // Outlines would not give this.
+  REQUIRE(score_of_file(file, *outline_truth(*scene, surveys)).mean_center_error_px >
+          expected.mean_center_error_px + 0.3);
   scoring.want({.scene = scene, .surveys = surveys, .files = {file_at(file)}});
   REQUIRE(comes_true([&] { return is_measured(scoring.scored()); }));
   const std::shared_ptr<const Scored> scored = scoring.scored();
@@ -144,10 +144,10 @@ TEST_CASE("the editor's figures are those of the annotation that is exported") {
   CHECK(scored->target == "cube");
   CHECK(scored->first_frame == clip.footage.first_frame);
   REQUIRE(scored->trackers[0].score);
-  check_same(*scored->trackers[0].score, by_hand);
+  check_same(*scored->trackers[0].score, expected);
 }
 
-TEST_CASE("until frames are drawn the outlines tell it, within a pixel or so") {
+TEST_CASE("until frames are rendered outlines give the truth, within a pixel or so") {
   const TinyProject tiny;
   const Project project = read(tiny);
   const ClipTruth clip = exported_truth(tiny, project);
@@ -177,10 +177,10 @@ TEST_CASE("until frames are drawn the outlines tell it, within a pixel or so") {
 
 TEST_CASE("a project that cannot be drawn is scored by outlines, and says why") {
   TinyProject tiny;
-  const Project sound = read(tiny);
+  const Project valid = read(tiny);
   const fs::path file = tiny.file("t.csv");
-  write_results(file, exported_truth(tiny, sound));
-  Project broken = sound;
+  write_results(file, exported_truth(tiny, valid));
+  Project broken = valid;
   broken.intruders[0].model.file = "gone.obj";
   const Scene scene = opened(broken);
   Scoring scoring([] {});

@@ -65,7 +65,7 @@ TEST_CASE("the survey is what the engine says of each frame") {
   }
 }
 
-TEST_CASE("a long survey comes in slices and grows") {
+TEST_CASE("a long survey is made in slices and grows") {
   constexpr int kFrames = 20000;
   SurveyBuilder maker;
   CHECK(maker.done());
@@ -94,5 +94,5 @@ TEST_CASE("a long survey comes in slices and grows") {
   CHECK(showings >= 5);
   CHECK(showings <= 30);  // each copies all there is
   MESSAGE("slices " << slices << ", longest " << max_duration_s * 1e3 << " ms");
-  CHECK(max_duration_s < 0.25);  // 3 ms where nobody else has the core
+  CHECK(max_duration_s < 0.25);  // 3 ms where no other process uses the core
 }

@@ -40,7 +40,7 @@ Project project_at(double height_m) {
   return project;
 }
 
-// Shows frames in which nothing flies; `holds` keeps it in the midst.
+// Shows frames without intruders; `holds` keeps it from finishing.
 struct TruthBuilderFixture {
   std::atomic<bool> holds = false;
   std::atomic<int> begun = 0;
@@ -72,7 +72,7 @@ struct TruthBuilderFixture {
 
 }  // namespace
 
-TEST_CASE("the truth of a scene holds all its frames, and says how many there will be") {
+TEST_CASE("the truth of a scene has all its frames, and their number in advance") {
   TruthBuilderFixture fixture;
   const Scene scene = scene_of(project_at(100));
   fixture.maker.want(scene);
@@ -84,7 +84,7 @@ TEST_CASE("the truth of a scene holds all its frames, and says how many there wi
   CHECK(fixture.begun == 1);
 }
 
-TEST_CASE("undo finds the truth that was measured before, and settings of the export change nothing") {
+TEST_CASE("undo finds the truth measured before, and settings of the export change nothing") {
   TruthBuilderFixture fixture;
   const Scene first = scene_of(project_at(100));
   const Scene second = scene_of(project_at(200));
@@ -105,7 +105,7 @@ TEST_CASE("undo finds the truth that was measured before, and settings of the ex
   CHECK(fixture.begun == 2);
 }
 
-TEST_CASE("what is under way is given up for other images, and begun anew when they come back") {
+TEST_CASE("the work is abandoned for other images, and restarted when they come back") {
   TruthBuilderFixture fixture;
   fixture.holds = true;
   const Scene first = scene_of(project_at(100));
@@ -122,7 +122,7 @@ TEST_CASE("what is under way is given up for other images, and begun anew when t
   CHECK(fixture.begun == 3);
 }
 
-TEST_CASE("what is under way goes on where the images stay the same") {
+TEST_CASE("the work continues where the images stay the same") {
   TruthBuilderFixture fixture;
   fixture.holds = true;
   const Scene first = scene_of(project_at(100));
@@ -137,7 +137,7 @@ TEST_CASE("what is under way goes on where the images stay the same") {
   CHECK(fixture.begun == 1);
 }
 
-TEST_CASE("wanting nothing ends it, and so does the end of the program") {
+TEST_CASE("a request for nothing ends the work, and so does the end of the program") {
   TruthBuilderFixture fixture;
   fixture.holds = true;
   fixture.maker.want(scene_of(project_at(100)));
@@ -151,13 +151,13 @@ TEST_CASE("wanting nothing ends it, and so does the end of the program") {
 
 TEST_CASE("footage that is missing and problems of the project are why there is no measured truth") {
   TruthBuilderFixture fixture;
-  const Scene sound = scene_of(project_at(100));
-  OpenedScene greyed = *sound;
+  const Scene valid = scene_of(project_at(100));
+  OpenedScene greyed = *valid;
   greyed.footage =
-      std::make_shared<Footage>(Footage{.shape = sound->footage->shape, .problem = "gone.mp4: is not there"});
+      std::make_shared<Footage>(Footage{.shape = valid->footage->shape, .problem = "gone.mp4: is not there"});
   fixture.maker.want(std::make_shared<const OpenedScene>(greyed));
   REQUIRE(comes_true([&] { return fixture.maker.state().problem == "gone.mp4: is not there"; }));
-  OpenedScene faulty = *sound;
+  OpenedScene faulty = *valid;
   faulty.draft.problems.push_back({"camera.speed_mps", "must be finite", ErrorKind::bad_project});
   fixture.maker.want(std::make_shared<const OpenedScene>(faulty));
   REQUIRE(comes_true([&] { return fixture.maker.state().problem == "the project has problems"; }));

@@ -31,7 +31,7 @@ cv::Rect visible_box(const cv::Mat& rgba) {
   return {left, top, right - left + 1, bottom - top + 1};
 }
 
-// A long thin spike from the origin out of the nose: which way it points is which way the nose does.
+// A long thin spike from the origin out of the nose: its direction in the image is that of the nose.
 Mesh spike() {
   Mesh mesh;
   const glm::vec3 normal(0, 0, -1);
@@ -47,7 +47,7 @@ Mesh spike() {
 
 }  // namespace
 
-TEST_CASE("the nose points to the viewer's right and comes nearer, seen from above, and turns with the table") {
+TEST_CASE("the nose points to the viewer's right and forwards, seen from above, and turns with the turntable") {
   Renderer renderer = Renderer::create().value();
   const cv::Size size(201, 201);
   // Nose at yaw 145 and 325 degrees, 10 m long, seen from 18 degrees above and four radii (of the bounds' sphere,
@@ -87,7 +87,7 @@ TEST_CASE("the ends of the axes that are drawn over the model are where its tip 
   CHECK(turntable_point_px({0, 0, -1}, 1.0, size).y < 100);  // its top is up
 }
 
-TEST_CASE("a model of any size fills the image and leaves it nowhere") {
+TEST_CASE("a model of any size fills the image and lies within it") {
   Renderer renderer = Renderer::create().value();
   const auto model = source_dir() / "assets/models/airliner/airliner.obj";
   for (const double length_m : {0.01, 40.0, 1e6}) {

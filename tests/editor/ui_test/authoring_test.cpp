@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr double kMouse_px = 1.6;  // the mouse stands on whole pixels, places are rounded outwards
+constexpr double kMouse_px = 1.6;  // the mouse is at whole pixels, places are rounded outwards
 
 // Where the head-on sample's camera is: 22 m/s along X, footage of 25 frames a second.
 glm::dvec3 camera_m(int frame) {
@@ -217,7 +217,7 @@ void export_both_ways(UiTest& ui_test, const fs::path& project) {
   (void)editor.place("export/hide");
   editor.settle();
   ui_test.image("exporting");
-  // It tells some ten times a second how far it is; the probe is silent on it.
+  // It reports its progress some ten times a second; the probe does not show it.
   editor.wait_for("the export's end", [&](const Json& now) { return now["places"].contains("export/again"); });
   ui_test.image("exported");
   editor.click("export/close");

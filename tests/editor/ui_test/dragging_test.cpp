@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kFrame = 150;  // of the waypoint that is dragged: the second of three
 
-// Where the mouse takes hold of it: over the footage, in the world, on the timeline.
+// Where the mouse drags it: over the footage, in the world, on the timeline.
 struct Handle {
   const char* place;
   double by_x;
@@ -73,7 +73,7 @@ void check_only_it_moved(const Waypoints& before, const Waypoints& after) {
 
 }  // namespace
 
-TEST_CASE("a key pressed in a drag of a waypoint touches neither it nor its neighbours") {
+TEST_CASE("a key pressed while a waypoint is dragged changes neither it nor its neighbours") {
   if (!can_drive_windows()) return;
   UiTest ui_test("keys-in-drag");
   EditorDriver& editor = ui_test.editor();

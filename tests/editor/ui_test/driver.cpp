@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLook_s = 0.004;  // between two looks at what the editor tells
+constexpr double kLook_s = 0.004;  // between two readings of the editor's probe
 
 void rest(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -110,7 +110,7 @@ bool can_drive_windows() {
 
 namespace {
 
-// A key without meaning to the editor. What was done before it has come when it has.
+// A key without meaning to the editor. Earlier events have arrived when this one has.
 constexpr const char* kMeaningless = "Pause";
 
 constexpr double kDoubleClick_s = 0.4;  // between its clicks at most: editor/app/window.cpp
@@ -120,8 +120,8 @@ bool is_down(const nlohmann::json& state, int button) {
   return (state.value("buttons", 0U) >> kBits.at(static_cast<std::size_t>(button - 1)) & 1U) != 0;
 }
 
-// In which no key comes twice: GLFW takes two presses in one millisecond for one, and a busy screen has any number of
-// them in one.
+// In which no key comes twice: GLFW takes two presses in one millisecond for one, and on a busy display any number of
+// them arrive in one.
 std::vector<std::string> pieces_of(const std::string& text) {
   std::vector<std::string> pieces;
   std::set<int> keys;

@@ -11,7 +11,7 @@
 
 namespace sigs::test {
 
-// A place on the screen as the editor tells it.
+// A place on the screen as the editor's probe gives it.
 struct ScreenPlace {
   double x = 0;
   double y = 0;
@@ -30,8 +30,8 @@ constexpr double kPatience_s = 240;
 // Whether the interface shows an element in a state of the editor, by its name.
 [[nodiscard]] bool shows(const nlohmann::json& state, const std::string& place);
 
-// A screen without hardware and the editor on it, driven with real mouse and key events. Throws std::runtime_error
-// where something does not come about in kPatience_s.
+// A virtual display with the editor, driven by real mouse and key events. Throws std::runtime_error
+// where something does not happen within kPatience_s.
 class EditorDriver {
  public:
   //   home  an empty folder for settings and recovery files
@@ -45,7 +45,7 @@ class EditorDriver {
   [[nodiscard]] bool running();     // false once the program has ended
   [[nodiscard]] int exit_status();  // waits for the end
 
-  // What the editor tells (editor/app/app.h), as of now.
+  // The editor's present state (editor/app/app.h).
   [[nodiscard]] nlohmann::json state() const;
   [[nodiscard]] bool has_place(const std::string& name) const;
   [[nodiscard]] ScreenPlace place(const std::string& name);  // waits for it
@@ -54,13 +54,13 @@ class EditorDriver {
   void wait_for_image();
   void settle();  // some updates of the window's loop
 
-  // Each of these returns when the window has seen what was done and has shown what came of it, or has ended.
-  // Hurried, they return when it has been seen.
+  // Each of these returns when the window has processed the events and shown the result, or has ended.
+  // Hurried, they return when the events have been processed.
   void set_hurried(bool hurried) { hurried_ = hurried; }
   void move(double x, double y);
   void click(double x, double y, int button = 1);
   void click(const std::string& place, int button = 1);
-  // Whether it was seen as fast as it has to be; on a busy machine it may have been two clicks.
+  // Whether it was processed fast enough; on a busy machine it may have been two clicks.
   [[nodiscard]] bool double_click(double x, double y);
   // In steps, with the button held; keys ("ctrl") are held meanwhile.
   void drag(double x, double y, double to_x, double to_y, int button = 1, const std::string& held_key = {});
@@ -68,14 +68,14 @@ class EditorDriver {
   // The parts of a drag, for what happens in its middle.
   void hold(double x, double y, int button = 1);
   void release(int button = 1);
-  void wheel(double x, double y, int clicks);  // positive: away from the hand
+  void wheel(double x, double y, int clicks);  // positive: away from the user
   void key(const std::string& keys);           // "ctrl+z"
   void type(const std::string& text);
 
   void screenshot(const std::filesystem::path& file) const;  // PNG
 
  private:
-  // Those that do not wait for the rest: one update has seen it.
+  // Those that do not wait for the result: one update has processed the event.
   void point_at(double x, double y);
   void press(int button);
   void lift(int button);
@@ -92,7 +92,7 @@ class EditorDriver {
   pid_t editor_ = -1;
   int exit_status_ = 0;
   bool hurried_ = false;
-  int released_keys_ = 0;  // since the start, modifiers aside
+  int released_keys_ = 0;  // since the start, without modifiers
 };
 
 }  // namespace sigs::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The horizon's line over the footage: asked for, dragged, taken back.
+// The horizon's line over the footage: asked for, dragged, undone.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr double kLineAccuracy_px = 2;  // the mouse stands on whole pixels, places are rounded outwards
+constexpr double kLineAccuracy_px = 2;  // the mouse is at whole pixels, places are rounded outwards
 constexpr double kRounding_deg = 0.01;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
@@ -78,7 +78,7 @@ void choose(UiTest& ui_test, const std::string& step, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a new project asks for its horizon, which nobody has set by looking or clicking") {
+TEST_CASE("a new project asks for its horizon, which looking and clicking do not set") {
   if (!can_drive_windows()) return;
   // All files of a flight in the folder that the browser opens.
   const TemporaryFolder flight;

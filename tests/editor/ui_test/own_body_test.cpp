@@ -27,7 +27,7 @@ fs::path open_without_mask(UiTest& ui_test) {
   ui_test.editor().wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   ui_test.editor().wait_for_image();
   ui_test.editor().click("tab/own body");
-  // The world's panel makes room an update later.
+  // The world's panel shrinks an update later.
   ui_test.editor().wait_for("room", [](const Json& now) {
     return shows(now, "own body/canvas") && now["places"]["own body/canvas"][2].get<double>() > 800;
   });
@@ -73,7 +73,7 @@ int value_at(const fs::path& mask, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("strokes that were not saved outlive a crash") {
+TEST_CASE("unsaved strokes are recovered after a crash") {
   if (!can_drive_windows()) return;
   UiTest ui_test("own-body-crash", {{"autosave_s", 1}});
   EditorDriver& editor = ui_test.editor();
@@ -140,7 +140,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   }
   editor.click("own body/look Paint");
 
-  // From here on by hand alone: how good the detection is others test.
+  // From here on by painting alone: other tests cover the quality of the detection.
   editor.click("own body/clear");
   const int revision = revision_of(editor.state());
   stroke(ui_test, {200, 200}, {500, 200});
@@ -163,7 +163,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   CHECK(value_at(mask, 640, 940) == 0);  // cleared
   CHECK(ui_test.saved(project)["footage"]["own_body_mask"] == "flight_own_body.png");
   CHECK(editor.state()["problems"].empty());
-  // The last press was in the panel: the project's edit goes, what was painted stays.
+  // The last press was in the panel: the project's edit is undone, the painting stays.
   ui_test.edit([&] { editor.key("ctrl+z"); });
   editor.wait_for("the other use", [](const Json& now) { return !shows(now, "own body/used"); });
   CHECK_FALSE(shows(editor.state(), "own body/unsaved"));
@@ -186,7 +186,7 @@ TEST_CASE("a person finds the own body, corrects it by hand and uses it") {
   CHECK(editor.exit_status() == 0);
 }
 
-TEST_CASE("an unsaved mask is not given up without a question") {
+TEST_CASE("an unsaved mask is not discarded without a question") {
   if (!can_drive_windows()) return;
   UiTest ui_test("own-body-guard");
   EditorDriver& editor = ui_test.editor();

@@ -60,7 +60,7 @@ class RandomInput {
   std::string one_of(const std::vector<std::string>& words) {
     return words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
   }
-  // Of what the window shows now, the menu bar aside.
+  // Of what the window shows now, except the menu bar.
   std::string one_of_the_places() {
     std::vector<std::string> names;
     const Json state = editor_.state();
@@ -83,7 +83,7 @@ void wait_until_idle(EditorDriver& editor) {
 
 }  // namespace
 
-TEST_CASE("no sequence of keys and mouse ends the editor, and it still saves") {
+TEST_CASE("no sequence of keys and mouse input crashes the editor, and it still saves") {
   if (!can_drive_windows()) return;
   UiTest ui_test("random_input");
   EditorDriver& editor = ui_test.editor();

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// As a person measures trackers of OpenCV; where their boxes lie then.
+// Evaluates trackers of OpenCV as a user does; where the files of their boxes are.
 fs::path results_of_trackers(const fs::path& project, const fs::path& folder) {
   std::ostringstream command;  // paths come quoted
   command << build_dir() / "sigs"
@@ -48,7 +48,7 @@ void load(UiTest& ui_test, const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a person loads what trackers said and sees them beside the truth") {
+TEST_CASE("a person loads trackers' results and sees them beside the truth") {
   if (!can_drive_windows()) return;
   UiTest ui_test("results");
   EditorDriver& editor = ui_test.editor();
@@ -77,7 +77,7 @@ TEST_CASE("a person loads what trackers said and sees them beside the truth") {
   editor.settle();
   editor.screenshot(build_dir() / "screenshots/results-hover.png");
 
-  // A broken file is told with its line, and can be sent away.
+  // An invalid file is reported with its line, and can be removed.
   editor.click("results/load");
   choose(ui_test, "broken.csv");
   ui_test.wait_for_place("results/broken/problem");

@@ -51,7 +51,7 @@ Json broken_project() {
 
 }  // namespace
 
-TEST_CASE("what was not saved outlives a crash") {
+TEST_CASE("unsaved work is recovered after a crash") {
   if (!can_drive_windows()) return;
   UiTest ui_test("crash", {{"autosave_s", 1}});
   EditorDriver& editor = ui_test.editor();
@@ -74,7 +74,7 @@ TEST_CASE("what was not saved outlives a crash") {
   editor.wait_for("the recovery file to go", [&](const Json&) { return !keeps_something(ui_test.folder()); });
 }
 
-TEST_CASE("nothing unsaved is given up without a question") {
+TEST_CASE("no unsaved work is discarded without a question") {
   if (!can_drive_windows()) return;
   UiTest ui_test("guard");
   EditorDriver& editor = ui_test.editor();
@@ -106,7 +106,7 @@ TEST_CASE("a project whose files are missing opens, says what is missing and can
   const fs::path project = put(broken_project(), ui_test.folder() / "broken.json");
   editor.start({project.string()});
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
-  // What is said of it covers neither the timeline nor the line that is read off the image.
+  // Its messages cover neither the timeline nor the status line of the image.
   const ScreenPlace message = editor.place("toast/0");
   const ScreenPlace image = editor.place("viewport");
   CHECK(message.y + message.height <= image.y + image.height);
@@ -127,7 +127,7 @@ TEST_CASE("a project whose files are missing opens, says what is missing and can
   CHECK(editor.exit_status() == 0);
 }
 
-TEST_CASE("a file that is no project leaves the start page with a message") {
+TEST_CASE("a file that is not a project leaves the start page with a message") {
   if (!can_drive_windows()) return;
   UiTest ui_test("no-project");
   EditorDriver& editor = ui_test.editor();

@@ -17,7 +17,7 @@ bool is_open(const Json& now) {
   return now.value("page", "") == "project";
 }
 
-// Every text of a project that a person sees, so long, in words and in one.
+// Every visible text of a project, of this length, in several words and in one.
 Json wordy_project(std::size_t length) {
   const auto text = [&](const std::string& word) {
     std::string all;
@@ -96,7 +96,7 @@ std::string recovery_of(const Json& project, const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("texts of any length are shown, and the editor goes on") {
+TEST_CASE("texts of any length are shown, and the editor keeps running") {
   if (!can_drive_windows()) return;
   for (const int length : {20'000, 100'000}) {
     UiTest ui_test("texts-" + std::to_string(length));
@@ -135,7 +135,7 @@ TEST_CASE("a long text in a recovery file is offered, opened and saved") {
   CHECK(ui_test.saved(ui_test.folder() / "wordy.json")["name"] == project["name"]);
 }
 
-TEST_CASE("a recovery file that cannot be read is told of with its name, and can be removed") {
+TEST_CASE("a recovery file that cannot be read is reported with its name, and can be removed") {
   if (!can_drive_windows()) return;
   UiTest ui_test("recovery-unreadable");
   EditorDriver& editor = ui_test.editor();
@@ -153,7 +153,7 @@ TEST_CASE("a recovery file that cannot be read is told of with its name, and can
   editor.wait_for("the row to go", [](const Json& now) { return !now["places"].contains("start/discard.0"); });
 }
 
-TEST_CASE("what is typed into a field has a limit, and the editor stays") {
+TEST_CASE("text typed into a field has a limit, and the editor keeps running") {
   if (!can_drive_windows()) return;
   UiTest ui_test("texts-typed");
   EditorDriver& editor = ui_test.editor();

@@ -13,7 +13,7 @@
 
 namespace sigs::test {
 
-// A person at a window of 1600 x 960: an editor with settings and files of its own.
+// A user at a window of 1600 x 960: an editor with settings and files of its own.
 class UiTest {
  public:
   // Images are called NAME-*.png.
@@ -23,13 +23,13 @@ class UiTest {
   EditorDriver& editor() { return editor_; }
   [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
 
-  // Into the build folder's screenshots/, where the mouse marks nothing.
+  // Into the build folder's screenshots/, with the mouse away from anything it would highlight.
   void image(const std::string& what);
 
   // Until the interface shows the element of this name.
   void wait_for_place(const std::string& place);
 
-  // With the mouse on the ruler. The first intruder's waypoints have to reach from frame 0 to `last`.
+  // With the mouse on the ruler. The first intruder's waypoints must span frame 0 to `last`.
   void scrub_to(int frame, int last = 199);
   // What changes the project; returns when it has, and the image with it.
   void edit(const std::function<void()>& action);

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 namespace {
 
 // A camera below the ground that flies away from the intruder, which is a kilometre long.
-Json doubtful_project() {
+Json implausible_project() {
   Json project = sample_project("head-on");
   project["camera"]["position_m"] = {0, 0, 20};
   project["intruders"][0]["model"]["length_m"] = 1000;
@@ -60,7 +60,7 @@ TEST_CASE("the inspector lists what `sigs check` warns of, and a click leads the
   if (!can_drive_windows()) return;
   UiTest ui_test("warnings");
   EditorDriver& editor = ui_test.editor();
-  const fs::path project = put(doubtful_project(), ui_test.folder() / "doubtful.json");
+  const fs::path project = put(implausible_project(), ui_test.folder() / "doubtful.json");
   const std::set<std::string> expected = warned_of_by_check(project);
   CHECK(expected.contains("intruders[0].trajectory"));
   editor.start({project.string()});
@@ -75,7 +75,7 @@ TEST_CASE("the inspector lists what `sigs check` warns of, and a click leads the
   ui_test.image("gone to");
 }
 
-TEST_CASE("a sound project has no warnings in the inspector") {
+TEST_CASE("a valid project has no warnings in the inspector") {
   if (!can_drive_windows()) return;
   UiTest ui_test("no-warnings");
   EditorDriver& editor = ui_test.editor();

@@ -74,7 +74,7 @@ TEST_CASE("a curve has gaps where nothing is compared, and says where the target
   CHECK(curves.curves[1].lost.empty());
 }
 
-TEST_CASE("all curves share a scale from 0 to beyond the largest error, in which small ones are still told apart") {
+TEST_CASE("all curves share a scale from 0 to beyond the largest error, on which small ones differ visibly") {
   const ErrorCurves curves = error_curves(scored());
   CHECK(curves.max_px == 250);
   CHECK(curves.scale.share_of(0) == 0);
@@ -97,7 +97,7 @@ TEST_CASE("a tracker that is not shown has no curve and does not stretch the sca
   CHECK(error_curves({}).max_px == 0);
 }
 
-TEST_CASE("a frame is told in words: an error, lost, silent, not scored, unknown") {
+TEST_CASE("a frame's state has a text: an error, lost, silent, not scored, unknown") {
   const Scored all = scored();
   const ScoredTracker& tracker = all.trackers[0];
   CHECK(moment_text(tracker, 20, 20) == "not scored");
@@ -108,7 +108,7 @@ TEST_CASE("a frame is told in words: an error, lost, silent, not scored, unknown
   CHECK(moment_of({}, 20, 21) == TrackerMoment::unknown);
 }
 
-TEST_CASE("numbers are as precise as they are worth, and what is none is a dash") {
+TEST_CASE("numbers have their significant digits, and a value that is not finite is a dash") {
   CHECK(pixels_text(0.404) == "0.40 px");
   CHECK(pixels_text(13.37) == "13.4 px");
   CHECK(pixels_text(1234.5) == "1234 px");
@@ -120,7 +120,7 @@ TEST_CASE("numbers are as precise as they are worth, and what is none is a dash"
   CHECK(percent_text(NAN) == "-");
 }
 
-TEST_CASE("it is always said what the figures are measured by") {
+TEST_CASE("the reference of the figures is always named") {
   Scored now = scored();
   CHECK(truth_text(now).find("sigs evaluate track") != std::string::npos);
   now.truth = TruthKind::outlines;
@@ -134,7 +134,7 @@ TEST_CASE("it is always said what the figures are measured by") {
   CHECK(truth_text(now).find("no intruder") != std::string::npos);
 }
 
-TEST_CASE("trackers of one name are told apart by their folders") {
+TEST_CASE("trackers of one name are distinguished by their folders") {
   Scored all = scored();
   CHECK(shown_name(all, all.trackers[0]) == "run/kcf");
   all.trackers[1].name = "mil";

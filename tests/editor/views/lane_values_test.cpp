@@ -11,7 +11,7 @@
 using namespace sigs;
 using namespace sigs::editor;
 
-TEST_CASE("what is out of view has no size, and does not stretch the scale of what is seen") {
+TEST_CASE("an intruder out of view has no size, and does not stretch the scale of visible ones") {
   Survey survey;
   for (const double size_px : {12.0, 40.0, 3600.0, 20.0})
     survey.estimates.push_back({.distance_m = 100,
@@ -87,7 +87,7 @@ TEST_CASE("a single spike among many frames still shows") {
   CHECK(top->x == doctest::Approx(far.x_of(54'321.5)));
 }
 
-TEST_CASE("values that are not finite leave gaps, and nothing gives nothing") {
+TEST_CASE("values that are not finite leave gaps, and no values give no curve") {
   std::vector<double> values = wave(300);
   values[100] = std::numeric_limits<double>::quiet_NaN();
   values[200] = std::numeric_limits<double>::infinity();
@@ -117,7 +117,7 @@ TEST_CASE("a scale holds all values, begins at zero where they come near it, and
   CHECK(scale_for({}, 2).high == 2);
 }
 
-TEST_CASE("a logarithmic scale has a place for zero and gives small values more room") {
+TEST_CASE("a logarithmic scale has a place for zero and more space for small values") {
   const LaneScale scale = scale_for(std::vector{0.0, 1000.0}, 1, Scaling::logarithmic);
   CHECK(scale.share_of(0) == 0);
   CHECK(scale.share_of(10) > 0.3);

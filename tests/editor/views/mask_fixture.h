@@ -29,12 +29,12 @@ inline bool is_same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
 
-// Finds a disk at a place that the settings name.
+// Finds a disk at the place that the settings give.
 inline Result<OwnBody> find_disk(const DetectionRequest& request, const DetectionControl&) {
   return OwnBody{.mask = disk(request.settings.frames), .frames_used = request.settings.frames};
 }
 
-// A project without a window, and a person who works on its mask.
+// A project without a window, and a user who works on its mask.
 struct MaskFixture {
   test::TemporaryFolder folder;
   Document document;
@@ -53,7 +53,7 @@ struct MaskFixture {
     scene.draft.scene.footage.size_px = kSize;
   }
 
-  // An update of the window: edits are taken, the scene is opened anew, the mask is looked at.
+  // An update of the window: edits are applied, the scene is opened again, the mask is checked.
   void update() {
     document.apply(edits.take_edits());
     scene.revision = document.revision().number;

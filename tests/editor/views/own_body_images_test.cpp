@@ -14,7 +14,7 @@ cv::Vec3b color_at(int confidence) {
 
 }  // namespace
 
-TEST_CASE("confidence is blue for the world, grey where nobody can tell, violet for the own body") {
+TEST_CASE("confidence is blue for the world, grey where undecided, violet for the own body") {
   const cv::Vec3b world = color_at(0);
   const cv::Vec3b unknown = color_at(32768);
   const cv::Vec3b body = color_at(65535);
@@ -42,7 +42,7 @@ TEST_CASE("the tint is as opaque as the mask says") {
   CHECK(tint.at<cv::Vec4b>(0, 2)[3] == 128);
 }
 
-TEST_CASE("what was found is told in a line") {
+TEST_CASE("a result has a text of one line") {
   CHECK(result_text({.frames_used = 800, .converged = true, .share = 0.1234}) ==
         "Found in 800 frames, converged early");
   CHECK(result_text({.frames_used = 2, .share = 0.00456}) == "Found in 2 frames");
@@ -52,7 +52,7 @@ TEST_CASE("what was found is told in a line") {
   CHECK(share_text(0) == "0 % of the image");
 }
 
-TEST_CASE("a result is doubted where the engine warns, where most is masked and where little was looked through") {
+TEST_CASE("a result has a warning where the engine warns, most is masked, or little footage was used") {
   CHECK(cautions_about({.share = 0.5}, 10).empty());
   CHECK(cautions_about({.share = 0}, 60).empty());
   const std::vector<std::string> all =
@@ -64,7 +64,7 @@ TEST_CASE("a result is doubted where the engine warns, where most is masked and 
   CHECK(cautions_about({}, 9.99).size() == 1);
 }
 
-TEST_CASE("progress is told with the time that is left") {
+TEST_CASE("progress is shown with the remaining time") {
   DetectionState state{.phase = JobPhase::running};
   CHECK(progress_text(state) == "opening the footage...");
   state.done = 120;
@@ -76,7 +76,7 @@ TEST_CASE("progress is told with the time that is left") {
   CHECK(progress_text(state) == "stopping...");
 }
 
-TEST_CASE("stages keep their order and say which step they are") {
+TEST_CASE("stages keep their order and have their number") {
   OwnBody found;
   found.stages = {{"sum", "Sum of differences", cv::Mat::zeros(4, 4, CV_8UC1)},
                   {"none", "Not made", cv::Mat()},

@@ -45,12 +45,12 @@ TEST_CASE("a file that another program has changed is taken over as a step") {
   CHECK(b.session.unsaved() == 0);
   b.session.painting().undo();
   CHECK(is_same(b.session.painting().mask(), painted));
-  b.use_mask_of_scene(cv::Mat());  // and one that is gone takes nothing away
+  b.use_mask_of_scene(cv::Mat());  // and a missing one removes nothing
   b.update();
   CHECK(is_same(b.session.painting().mask(), painted));
 }
 
-TEST_CASE("the painting is called by where it comes from") {
+TEST_CASE("the painting is named after its source") {
   MaskFixture b("mask.png");
   b.use_mask_of_scene(disk(10));
   b.update();
@@ -72,7 +72,7 @@ TEST_CASE("the painting is called by where it comes from") {
   CHECK(without.session.mask_text(without.document.project()) == "Nothing painted");
 }
 
-TEST_CASE("before it is left the mask is saved under a free name and used; only saved where it does not fit") {
+TEST_CASE("before leaving, the mask is saved under a free name and used; only saved where its size differs") {
   MaskFixture b("shared/mask.png");
   b.use_mask_of_scene(disk(10));
   b.update();
@@ -97,7 +97,7 @@ TEST_CASE("before it is left the mask is saved under a free name and used; only 
   CHECK(b.document.project().footage.own_body_mask == "flight_own_body.png");
 }
 
-TEST_CASE("what was found follows the soft edge at once, and comes back with it") {
+TEST_CASE("a detected mask follows the soft edge at once, and is restored with it") {
   MaskFixture b;
   b.update();
   b.detect(20);
@@ -137,7 +137,7 @@ TEST_CASE("a mask with strokes gets another soft edge only when the person asks"
   CHECK(b.session.mask_text(b.document.project()) == "detected, not saved");
 }
 
-TEST_CASE("the share follows what is painted, also within a stroke") {
+TEST_CASE("the share follows the painting, also within a stroke") {
   MaskFixture b;
   b.update();
   b.update();
@@ -162,11 +162,11 @@ TEST_CASE("the share follows what is painted, also within a stroke") {
 
 TEST_CASE(
     "a mask that is recovered after a crash is unsaved as it was, and neither project nor detection replaces it") {
-  for (const bool by_hand : {false, true}) {
+  for (const bool has_strokes_of_user : {false, true}) {
     MaskFixture b;
     b.update();
     b.session.forget();
-    b.session.recover({disk(25), by_hand});
+    b.session.recover({disk(25), has_strokes_of_user});
     b.use_mask_of_scene(disk(10));
     b.update();
     CHECK(is_same(b.session.painting().mask(), disk(25)));
@@ -175,14 +175,14 @@ TEST_CASE(
     const MaskToKeep kept = b.session.to_keep();
     CHECK(kept.state == b.session.unsaved());
     CHECK(is_same(kept.pixels, disk(25)));
-    CHECK(kept.has_strokes == by_hand);
+    CHECK(kept.has_strokes == has_strokes_of_user);
     CHECK_FALSE(kept.is_changing);
     b.detect(12);
-    CHECK(is_same(b.session.painting().mask(), by_hand ? disk(25) : disk(12)));
-    CHECK(b.session.found_waits() == by_hand);
+    CHECK(is_same(b.session.painting().mask(), has_strokes_of_user ? disk(25) : disk(12)));
+    CHECK(b.session.found_waits() == has_strokes_of_user);
     b.session.painting().begin_stroke({3, 1}, {5, 5});
     CHECK(b.session.to_keep().is_changing);
     b.session.painting().take_back_stroke();
-    REQUIRE(b.session.painting().can_undo() == !by_hand);
+    REQUIRE(b.session.painting().can_undo() == !has_strokes_of_user);
   }
 }

@@ -22,7 +22,7 @@ TEST_CASE("painting begins with the project's mask, which is saved, or with noth
   CHECK_FALSE(without.session.is_used(without.document.project()));
 }
 
-TEST_CASE("what is found is taken over as a step of the painting, again and again") {
+TEST_CASE("a detected mask becomes a step of the painting, each time") {
   MaskFixture b;
   b.update();
   b.detect(10);
@@ -37,7 +37,7 @@ TEST_CASE("what is found is taken over as a step of the painting, again and agai
   CHECK(is_same(b.session.painting().mask(), disk(10)));
 }
 
-TEST_CASE("strokes by hand are kept when something else is found, until the person takes it") {
+TEST_CASE("painted strokes are kept after another detection, until its result is chosen") {
   MaskFixture b;
   b.update();
   b.detect(10);
@@ -146,7 +146,7 @@ TEST_CASE("the project's own file is replaced only by the call that says so") {
   CHECK(is_same(b.session.painting().mask(), disk(10)));
 }
 
-TEST_CASE("where it cannot be written nothing counts as saved and nothing is used") {
+TEST_CASE("a mask that cannot be written neither counts as saved nor is used") {
   MaskFixture b;
   b.update();
   b.detect(10);
@@ -174,7 +174,7 @@ TEST_CASE("the project's mask is followed while nothing is unsaved, and never pa
   CHECK(b.session.unsaved() != 0);
 }
 
-TEST_CASE("a stroke is not disturbed by what comes meanwhile") {
+TEST_CASE("a stroke is not disturbed by results that arrive meanwhile") {
   MaskFixture b;
   b.update();
   b.session.painting().begin_stroke({3, 1}, {5, 5});
@@ -207,7 +207,7 @@ TEST_CASE("footage of another size begins anew, but not while something is unsav
   CHECK(b.session.unsaved() == 0);
 }
 
-TEST_CASE("what was found in other footage is forgotten") {
+TEST_CASE("results of other footage are discarded") {
   MaskFixture b;
   b.update();
   b.detect(10);
@@ -217,7 +217,7 @@ TEST_CASE("what was found in other footage is forgotten") {
   CHECK(is_same(b.session.painting().mask(), disk(10)));
 }
 
-TEST_CASE("another project has nothing of the one before") {
+TEST_CASE("another project has nothing of the previous one") {
   MaskFixture b;
   b.update();
   b.detect(10);

@@ -16,7 +16,7 @@ double zoom_in(int columns, int rows, const glm::dvec2& image_px, const glm::dve
 
 }  // namespace
 
-TEST_CASE("no other grid that holds all images shows them larger") {
+TEST_CASE("no other grid of all images shows them larger") {
   for (const int count : {1, 2, 3, 5, 7, 10})
     for (const glm::dvec2 room_px : {glm::dvec2(780, 650), glm::dvec2(1500, 300), glm::dvec2(300, 1200)})
       for (const glm::dvec2 image_px : {glm::dvec2(1280, 960), glm::dvec2(3840, 2160), glm::dvec2(600, 900)}) {
@@ -29,7 +29,7 @@ TEST_CASE("no other grid that holds all images shows them larger") {
       }
 }
 
-TEST_CASE("a grid of nothing, or in no room, is still a grid") {
+TEST_CASE("a grid of no images, or on an empty area, is still a grid") {
   CHECK(grid_shape(0, {1280, 960}, {800, 600}, 22).columns == 1);
   const GridShape cramped = grid_shape(7, {1280, 960}, {1, 1}, 22);
   CHECK(cramped.columns * cramped.rows >= 7);
@@ -71,7 +71,7 @@ TEST_CASE("each intruder with stages is named once, rising") {
   CHECK(intruders_of({}).empty());
 }
 
-TEST_CASE("an intruder's tiles are its own stages and the frame's, in the order in which they were made") {
+TEST_CASE("an intruder's tiles are its own stages and the frame's, in the order of computation") {
   std::vector<Stage> stages{stage("input1"), stage("0_layer"), stage("1_layer"), stage("1_bent"), stage("output")};
   CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Warped", "Output"});
   CHECK(labels_of(stage_tiles(stages, std::nullopt)) == std::vector<std::string>{"Input 1", "Output"});

@@ -49,12 +49,12 @@ TEST_CASE("distances have three digits or four, and the unit that suits them") {
   CHECK(distance_text(14'177'000) == "14177 km");
 }
 
-TEST_CASE("what is no distance is a dash") {
+TEST_CASE("a distance that is not finite is a dash") {
   CHECK(distance_text(std::numeric_limits<double>::infinity()) == "-");
   CHECK(distance_text(std::numeric_limits<double>::quiet_NaN()) == "-");
 }
 
-TEST_CASE("lengths of time are told as a clock shows them") {
+TEST_CASE("durations are written as a clock shows them") {
   CHECK(clock_text(0) == "0:00");
   CHECK(clock_text(5.4) == "0:05");
   CHECK(clock_text(65) == "1:05");

@@ -27,7 +27,7 @@ TEST_CASE("textures of footage that plays stay below their limit") {
   }
 }
 
-TEST_CASE("what is drawn never goes and what was drawn last goes last") {
+TEST_CASE("a drawn texture is never evicted and the one drawn last is evicted last") {
   TextureOrder order;
   for (std::size_t i = 0; i < 4; ++i) {
     order.use(key(i), 100);
@@ -50,7 +50,7 @@ TEST_CASE("an image and its smaller copy are two textures and a texture drawn tw
   CHECK(order.bytes() == 111);
 }
 
-TEST_CASE("what is not drawn any more goes after a while though there is room") {
+TEST_CASE("a texture no longer drawn is evicted after a while, even below the limit") {
   TextureOrder order;
   order.use(key(1), 100);
   for (int turn = 0; turn < 30; ++turn) CHECK(order.end_update(1000).empty());

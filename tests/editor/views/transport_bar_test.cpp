@@ -23,7 +23,7 @@ TEST_CASE("numbers, steps from the playhead and times are frames, within the foo
   CHECK(frame_from_entry("12", 0, {}) == 12);
 }
 
-TEST_CASE("what is no number is no frame") {
+TEST_CASE("text that is not a number is not a frame") {
   const std::vector<double> times_s{0, 0.04};
   for (const char* entry :
        {"", "  ", "+", "-", "abc", "1x", "1e3", "nan", "inf", ":", "1:", ":5", "--1", "0x1", "+0:01"})

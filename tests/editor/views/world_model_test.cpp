@@ -23,7 +23,7 @@ TEST_CASE("a pinhole's image has four corners on the plane a metre ahead") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(glm::distance(border.rays[i], expected[i]) < 1e-12);
 }
 
-TEST_CASE("the border's rays meet the image's edge through every lens that sees it") {
+TEST_CASE("the border's rays meet the image's edge through every lens whose field contains it") {
   for (const Camera& camera : editor::test::example_lenses()) {
     const ImageBorder border = image_border(camera);
     REQUIRE(border.corners.size() == 4);
@@ -101,7 +101,7 @@ TEST_CASE("asked-for parameters get points of their own, those beyond the ends n
   CHECK(samples.at.back() == 1);
 }
 
-TEST_CASE("an S whose middle lies on its chord is not taken for straight") {
+TEST_CASE("an S-shaped curve whose middle lies on its chord is not taken for straight") {
   const auto wave = [](double x) { return glm::dvec3(x, std::sin(2 * std::numbers::pi * x), 0); };
   const CurveSamples samples = sampled_curve(wave, 0, 1, {}, 0.01, 400);
   CHECK(std::abs(samples.point_at(0.25).y - 1) < 0.011);

@@ -70,7 +70,7 @@ struct Bystander {
 
 }  // namespace
 
-TEST_CASE("what lies under the mouse is picked: waypoint, camera, light, else the curve with its frame") {
+TEST_CASE("the object under the mouse is picked: waypoint, camera, light, else the curve with its frame") {
   Bystander it(crossing());
   CHECK(it.pick(it.on_screen({400, -100, -150})).what == Selection{Selected::waypoint, 0, 0});
   CHECK(it.pick(it.on_screen({600, 100, -150}) + glm::dvec2(3, -3)).what == Selection{Selected::waypoint, 1, 1});
@@ -85,7 +85,7 @@ TEST_CASE("what lies under the mouse is picked: waypoint, camera, light, else th
   CHECK_FALSE(nothing.frame.has_value());
 }
 
-TEST_CASE("of waypoints at one place the one of the intruder that is worked on is picked") {
+TEST_CASE("of waypoints at one place the selected intruder's is picked") {
   Project project = crossing();
   project.intruders[1].trajectory.waypoints[0].position_m = {400, -100, -150};
   Bystander it(project);
@@ -97,7 +97,8 @@ TEST_CASE("of waypoints at one place the one of the intruder that is worked on i
 }
 
 TEST_CASE(
-    "a waypoint put at a place of the screen lies under the mouse, level with the camera where nothing flies yet") {
+    "a waypoint added at a screen position is under the mouse, at the height of the camera where there is no path "
+    "yet") {
   Bystander it(crossing());
   for (const double elevation_rad : {std::numbers::pi / 2, 0.5, 0.0, -0.4})
     for (const Projection projection : {Projection::parallel, Projection::perspective}) {
@@ -127,7 +128,7 @@ TEST_CASE("moving the camera at a later moment moves where it starts") {
   CHECK(it.document.project().camera.position_m == glm::dvec3(20, 5, -160));
 }
 
-TEST_CASE("a waypoint that has gone cannot be moved") {
+TEST_CASE("a deleted waypoint cannot be moved") {
   Bystander it(crossing());
   CHECK_FALSE(movable(it.world, {Selected::waypoint, 0, 2}).has_value());
   CHECK_FALSE(movable(it.world, {Selected::waypoint, 7, 0}).has_value());

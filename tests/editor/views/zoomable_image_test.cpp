@@ -11,11 +11,11 @@ using namespace sigs::editor;
 namespace {
 
 const cv::Size kImage(1280, 960);
-const glm::dvec2 kRoom(780, 611);
+const glm::dvec2 kArea(780, 611);
 
 ZoomableImage laid_out() {
   ZoomableImage look;
-  look.lay_out(kImage, kRoom);
+  look.lay_out(kImage, kArea);
   return look;
 }
 
@@ -25,18 +25,18 @@ double apart(const glm::dvec2& a, const glm::dvec2& b) {
 
 }  // namespace
 
-TEST_CASE("a fitted image fills its room one way, in the middle, and follows the room") {
+TEST_CASE("a fitted image fills its area in one direction, centred, and follows the area's size") {
   ZoomableImage look = laid_out();
-  for (const glm::dvec2 room : {kRoom, glm::dvec2(300, 900), glm::dvec2(2000, 1500)}) {
-    look.lay_out(kImage, room);
+  for (const glm::dvec2 area : {kArea, glm::dvec2(300, 900), glm::dvec2(2000, 1500)}) {
+    look.lay_out(kImage, area);
     CHECK(look.is_fitted());
-    CHECK(look.zoom() == doctest::Approx(std::min(room.x / 1280, room.y / 960)));
+    CHECK(look.zoom() == doctest::Approx(std::min(area.x / 1280, area.y / 960)));
     // Whole pixels from 1:1 on.
-    CHECK(apart(look.view({0, 0}).screen_of({639.5, 479.5}), room / 2.0) < 1);
+    CHECK(apart(look.view({0, 0}).screen_of({639.5, 479.5}), area / 2.0) < 1);
   }
 }
 
-TEST_CASE("zooming keeps what is under the cursor under it") {
+TEST_CASE("zooming keeps the image point under the cursor") {
   ZoomableImage look = laid_out();
   const glm::dvec2 at(400, 300);
   for (int notch = 0; notch < 12; ++notch) {
@@ -62,28 +62,28 @@ TEST_CASE("at 1:1 and above, image pixels begin at whole screen pixels") {
   }
 }
 
-TEST_CASE("panning goes with the mouse from where it began, not update by update") {
+TEST_CASE("panning follows the mouse from its start, not update by update") {
   ZoomableImage look = laid_out();
-  look.zoom_to(3, kRoom / 2.0);
+  look.zoom_to(3, kArea / 2.0);
   const glm::dvec2 before = look.view({0, 0}).screen_of({640, 480});
   look.begin_pan();
   for (int step = 1; step <= 50; ++step) look.pan(glm::dvec2(1, -2) * static_cast<double>(step));
   CHECK(apart(look.view({0, 0}).screen_of({640, 480}), before + glm::dvec2(50, -100)) < 1e-9);
 }
 
-TEST_CASE("however far it is panned, some of the image stays in sight") {
+TEST_CASE("however far it is panned, some of the image stays in view") {
   ZoomableImage look = laid_out();
   for (const glm::dvec2 by : {glm::dvec2(1e6, 1e6), glm::dvec2(-1e6, -1e6), glm::dvec2(1e6, -1e6)}) {
     look.begin_pan();
     look.pan(by);
-    CHECK_FALSE(pixels_in_sight(look.view({0, 0}), kImage, {{0, 0}, kRoom}).empty());
+    CHECK_FALSE(pixels_in_sight(look.view({0, 0}), kImage, {{0, 0}, kArea}).empty());
   }
 }
 
-TEST_CASE("a room that grows keeps what is in its middle there") {
+TEST_CASE("a growing area keeps the image point at its centre") {
   ZoomableImage look = laid_out();
   look.zoom_to(4, {200, 500});
-  const glm::dvec2 middle = look.view({0, 0}).image_of(kRoom / 2.0);
+  const glm::dvec2 middle = look.view({0, 0}).image_of(kArea / 2.0);
   const glm::dvec2 larger(1000, 801);
   look.lay_out(kImage, larger);
   CHECK(look.zoom() == 4);
@@ -93,23 +93,23 @@ TEST_CASE("a room that grows keeps what is in its middle there") {
 TEST_CASE("another image size is fitted again") {
   ZoomableImage look = laid_out();
   look.zoom_to(4, {200, 500});
-  look.lay_out({640, 480}, kRoom);
+  look.lay_out({640, 480}, kArea);
   CHECK(look.is_fitted());
 }
 
-TEST_CASE("a part that is shown lies in the middle with room around it") {
+TEST_CASE("a shown part is centred with a margin around it") {
   ZoomableImage look = laid_out();
   for (const Box part : {Box{600, 400, 40, 10}, Box{500, 300, 400, 300}, Box{640, 480, 0.2, 0.1}}) {
     look.show(part);
     const ImageView view = look.view({0, 0});
-    CHECK(apart(view.screen_of({part.x + part.width / 2, part.y + part.height / 2}), kRoom / 2.0) <= 1);
+    CHECK(apart(view.screen_of({part.x + part.width / 2, part.y + part.height / 2}), kArea / 2.0) <= 1);
     // A whole zoom less than 3 % away is taken instead.
-    CHECK(part.width * look.zoom() <= 1.03 * kRoom.x / 2);
-    CHECK(part.height * look.zoom() <= 1.03 * kRoom.y / 2);
+    CHECK(part.width * look.zoom() <= 1.03 * kArea.x / 2);
+    CHECK(part.height * look.zoom() <= 1.03 * kArea.y / 2);
   }
 }
 
-TEST_CASE("the pixels in sight are those whose squares meet the rect") {
+TEST_CASE("the pixels in view are those whose squares meet the rect") {
   const ScreenRect rect{{10, 20}, {110, 90}};
   for (const ImageView view : {ImageView{1, {30, 40}}, ImageView{7, {-200, -333}}, ImageView{0.3, {11, 15.5}}}) {
     cv::Rect expected;
@@ -127,7 +127,7 @@ TEST_CASE("the pixels in sight are those whose squares meet the rect") {
   }
 }
 
-TEST_CASE("from afar an image is averaged, so that a single bright pixel leaves a trace") {
+TEST_CASE("a reduced image is averaged, so that a single bright pixel leaves a trace") {
   cv::Mat image(12, 12, CV_8UC1, cv::Scalar(0));
   image.at<uchar>(4, 7) = 160;
   const auto from = [&image](double zoom) { return reduced_copy(image, divisor_at(zoom)); };
