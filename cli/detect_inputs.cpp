@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/detect_inputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +11,7 @@
 #include "base/nesting.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "cli/options.h"
 
 namespace sigs::cli {
@@ -163,9 +166,9 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
     return by_shared_files(std::move(inputs.clips), files);
   if (files.size() != inputs.clips.size())
     return fail("--results",
-                "there are " + std::to_string(inputs.clips.size()) + " clips and " + std::to_string(files.size()) +
-                    (files.size() == 1 ? " file" : " files") +
-                    " of results; name one for each, in order, or a folder for each detector",
+                fmt::format("there are {} clips and {} of results; name one for each, in order, or a folder for each "
+                            "detector",
+                            inputs.clips.size(), count_text(std::ssize(files), "file")),
                 ErrorKind::usage);
   inputs.detectors = {name_of_folder(files.front().parent_path())};
   for (std::size_t i = 0; i < files.size(); ++i) inputs.clips[i].results = {files[i]};

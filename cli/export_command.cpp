@@ -9,6 +9,7 @@
 #include <string_view>
 #include <thread>
 
+#include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "cli/progress.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/tracked_clip.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -51,13 +52,10 @@ class LabelledImages {
   std::optional<FrameSource> video_;  // none: path_ is a folder
 };
 
-std::string size_text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 Result<void> check_size(const fs::path& path, cv::Size size, const FootageTruth& footage) {
   if (size == footage.size_px) return {};
-  return fail(path.string(), "is " + size_text(size) + ", the labels are of " + size_text(footage.size_px));
+  return fail(path.string(),
+              fmt::format("is {}, the labels are of {}", image_size_text(size), image_size_text(footage.size_px)));
 }
 
 Result<void> check_count(const fs::path& path, int count, const ClipTruth& clip) {
@@ -133,13 +131,6 @@ Result<cv::Mat> LabelledImages::at(int frame) {
   if (image.empty()) return fail(file.string(), "cannot be read as an image");
   if (const Result<void> fits = check_size(file, image.size(), footage_); !fits) return fail(fits.error());
   return image;
-}
-
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 // Which intruder is followed. Names are those of the clip's, in their order.
@@ -294,7 +285,7 @@ Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup gro
 Result<TrackedClip> tracked_clip(const TrackRequest& request) {
   Result<TrackerGroup> group = TrackerGroup::make(request.trackers);
   if (!group) return fail("--tracker " + group.error().where, group.error().what, group.error().kind);
-  const std::string extension = extension_of(request.input.file);
+  const std::string extension = lower_extension(request.input.file);
   if (extension == ".xml") return tracked_labels(request, std::move(*group));
   if (extension != ".json")
     return fail(request.input.file.string(), "is neither a project (.json) nor labels (.xml)", ErrorKind::usage);

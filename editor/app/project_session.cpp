@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/project_session.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "base/text.h"
 #include "editor/document/dropped_file.h"
 #include "editor/document/project_paths.h"
 #include "editor/widgets/texts.h"
@@ -218,8 +221,8 @@ void ProjectSession::take_loaded() {
   remember_project(settings_, loaded->path);
   for (const Warning& warning : loaded->read->warnings) show_message(warning.text());
   if (const std::size_t missing = missing_files(document_.project()).size(); missing > 0)
-    show_message(std::to_string(missing) + (missing == 1 ? " file of this project is" : " files of this project are") +
-                     " missing; File > Find missing files shows which",
+    show_message(fmt::format("{} of this project {} missing; File > Find missing files shows which",
+                             count_text(static_cast<std::int64_t>(missing), "file"), missing == 1 ? "is" : "are"),
                  true);
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "editor/document/field_edits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <type_traits>
 #include <utility>
+
+#include "base/text.h"
 
 namespace sigs::editor {
 
@@ -28,13 +31,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kNames{{
     {"own_body.stable.least_moving_percent", "Least that moves"},
     {"footage.calibration", "Calibration"},
 }};
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return small;
-}
 
 std::string with_spaces(std::string_view name) {
   std::string text(name);
@@ -186,8 +182,8 @@ std::string label_of(std::string_view key) {
 }
 
 bool matches(const Field& field, std::string_view words) {
-  const std::string where = lower(field.key + " " + label_of(field.key) + " " + std::string(field.help));
-  const std::string wanted = lower(words);
+  const std::string where = lower_case(fmt::format("{} {} {}", field.key, label_of(field.key), field.help));
+  const std::string wanted = lower_case(words);
   for (std::size_t begin = 0; begin < wanted.size();) {
     const std::size_t end = std::min(wanted.find(' ', begin), wanted.size());
     if (where.find(wanted.substr(begin, end - begin)) == std::string::npos) return false;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 
+#include "base/text.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
@@ -139,7 +140,7 @@ class RightSide {
     const std::size_t count = problems.size();
     const bool is_missing = std::any_of(problems.begin(), problems.end(),
                                         [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
-    const std::string text = std::to_string(count) + (count == 1 ? " problem" : " problems");
+    const std::string text = count_text(std::ssize(problems), "problem");
     const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(24);
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();

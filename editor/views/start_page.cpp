@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "editor/document/dropped_file.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
@@ -27,9 +28,7 @@ constexpr float kImageShape = float(kImageHeight_px) / kImageWidth_px;
 std::string time_ago(std::int64_t unix_s) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::int64_t minutes = (std::chrono::duration_cast<std::chrono::seconds>(now).count() - unix_s) / 60;
-  const auto text = [](std::int64_t count, const char* unit) {
-    return std::to_string(count) + " " + unit + (count == 1 ? " ago" : "s ago");
-  };
+  const auto text = [](std::int64_t count, const char* unit) { return count_text(count, unit) + " ago"; };
   if (minutes < 1) return "just now";
   if (minutes < 60) return text(minutes, "minute");
   return minutes < 2880 ? text(minutes / 60, "hour") : text(minutes / 1440, "day");

@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/paths.h"
+#include "base/text.h"
 #include "base/threads.h"
 
 namespace sigs::editor {
@@ -28,11 +30,6 @@ bool is_digit(char c) {
 
 char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), lower);
-  return text;
 }
 
 // The digits from a place on, without leading zeros; moves the place behind them.
@@ -50,9 +47,9 @@ int sign_of(const Value& a, const Value& b) {
 
 bool has_extension(const std::string& name, const std::vector<std::string>& extensions) {
   if (extensions.empty()) return true;
-  const std::string extension = lowered(fs::path(name).extension().string());
+  const std::string extension = lower_extension(name);
   return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const std::string& wanted) { return lowered(wanted) == extension; });
+                     [&](const std::string& wanted) { return lower_case(wanted) == extension; });
 }
 
 int compared(const FolderEntry& a, const FolderEntry& b, SortBy by) {

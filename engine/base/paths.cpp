@@ -4,12 +4,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include "base/text.h"
 
 namespace sigs {
 
@@ -88,10 +89,7 @@ std::string wrong_with_file_name(const std::string& name) {
 }
 
 std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 Result<std::vector<fs::path>> folder_contents(const fs::path& folder) {

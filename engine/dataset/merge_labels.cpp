@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/text.h"
 #include "dataset/video_name.h"
 #include "labels/label_text.h"
 #include "labels/labels.h"
@@ -24,7 +25,7 @@ bool has_labels(const PlannedVideo& video, std::string_view format) {
 
 std::string category_list(const Project& project) {
   const std::vector<std::string> categories = categories_of(project);
-  return categories.empty() ? "none" : comma_separated(categories);
+  return categories.empty() ? "none" : listed(categories);
 }
 
 Result<void> check_categories(const Plan& plan) {

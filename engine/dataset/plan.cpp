@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "dataset/footage_cache.h"
 #include "dataset/splits.h"
 #include "dataset/video_name.h"
@@ -41,8 +44,8 @@ Result<std::vector<VideoSpec>> all_specs(const Recipe& recipe) {
     const std::string key = recipe.file.string() + ": videos[" + std::to_string(i) + "].name";
     for (VideoSpec& spec : specs_of(recipe, i)) {
       if (const std::string wrong = wrong_with_video_name(spec.name); !wrong.empty())
-        return fail(key, "gives \"" + spec.name + "\", which " + wrong);
-      const auto [place, is_new] = group_of_name.emplace(case_folded(spec.name), i);
+        return fail(key, fmt::format("gives \"{}\", which {}", spec.name, wrong));
+      const auto [place, is_new] = group_of_name.emplace(lower_case(spec.name), i);
       if (!is_new)
         return fail(key, "gives \"" + spec.name + "\", which videos[" + std::to_string(place->second) +
                              "] gives already; names must differ in more than case, as by {number}");

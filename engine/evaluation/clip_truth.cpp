@@ -38,8 +38,8 @@ Result<void> add_targets(ClipTruth& clip, const std::vector<TargetInFrame>& targ
 
 Result<void> check_targets(const ClipTruth& clip, int index, const std::vector<TargetInFrame>& targets) {
   if (targets.size() != clip.targets.size())
-    return fail("", fmt::format("frame {} has {}, the frames before it {}", index, count_of_intruders(targets.size()),
-                                clip.targets.size()));
+    return fail("", fmt::format("frame {} has {}, the frames before it {}", index,
+                                count_text(std::ssize(targets), "intruder"), clip.targets.size()));
   for (std::size_t i = 0; i < targets.size(); ++i)
     if (targets[i].id != clip.targets[i].id)
       return fail("", fmt::format("frame {} has intruder {} where the frames before it have {}", index, targets[i].id,

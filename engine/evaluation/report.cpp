@@ -118,11 +118,11 @@ std::vector<std::string> uncounted_in(const DetectionReport& report) {
   const DetectionPolicy& policy = report.policy;
   const DetectionScore& score = report.scores.front();  // the truth is the same for all
   if (score.encounters_too_short > 0)
-    reasons.push_back(not_counted(score.encounters_too_short) + "shorter than " + exact_text(policy.min_encounter_s) +
-                      " s (--min-encounter)");
+    reasons.push_back(fmt::format("{}shorter than {} s (--min-encounter)", not_counted(score.encounters_too_short),
+                                  exact_text(policy.min_encounter_s)));
   if (score.encounters_too_far > 0)
-    reasons.push_back(not_counted(score.encounters_too_far) + "the intruder comes no nearer than " +
-                      exact_text(policy.max_closest_range_m) + " m (--max-closest-range)");
+    reasons.push_back(fmt::format("{}the intruder comes no nearer than {} m (--max-closest-range)",
+                                  not_counted(score.encounters_too_far), exact_text(policy.max_closest_range_m)));
   if (score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
     reasons.push_back("there is no encounter: no intruder is seen within " + exact_text(policy.max_range_m) +
                       " m (--max-range)");

@@ -95,8 +95,8 @@ std::string page(const std::string& title, const std::string& body) {
 
 std::string clip_text(const TrackReport& report) {
   const FootageTruth& footage = report.footage;
-  return fmt::format("{}, {} x {} pixels, frames {} to {}, {} frames/s. Followed: {}, from frame {}.", footage.video,
-                     footage.size_px.width, footage.size_px.height, footage.first_frame, footage.last_frame,
+  return fmt::format("{}, {} pixels, frames {} to {}, {} frames/s. Followed: {}, from frame {}.", footage.video,
+                     image_size_text(footage.size_px, " x "), footage.first_frame, footage.last_frame,
                      fixed_text(rate_hz(footage), 2), report.target, report.policy.from_frame);
 }
 
@@ -116,7 +116,7 @@ std::string report_html(const TrackReport& report, const std::vector<ReportPlot>
 }
 
 std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
-  const std::string clips = report.clips.size() == 1 ? "1 film" : std::to_string(report.clips.size()) + " films";
+  const std::string clips = count_text(std::ssize(report.clips), "film");
   std::string body = table_html(table_of(report));
   for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "base/csv.h"
 #include "base/input_file.h"
+#include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_parsing.h"
@@ -19,12 +19,6 @@ namespace sigs {
 namespace {
 
 constexpr std::array<std::string_view, 7> kFormatNames = {"auto", "otb", "vot", "mot", "csv", "aot", "coco"};
-
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 // First line that is not empty.
 std::optional<TextLine> first_line(const std::string& text) {
@@ -49,8 +43,7 @@ Result<void> check_text(const ResultsFile& file) {
 
 Result<ResultsFormat> detected_format(const ResultsFile& file) {
   const TextLine first = *first_line(file.text);  // check_text() has found that there is one
-  if (lower_case(file.path.extension().string()) == ".json" || first.text.starts_with('[') ||
-      first.text.starts_with('{'))
+  if (lower_extension(file.path) == ".json" || first.text.starts_with('[') || first.text.starts_with('{'))
     return json_format(file);
   const std::vector<std::string_view> columns = csv_fields(first.text);
   if (std::ranges::find(columns, "frame") != columns.end()) return ResultsFormat::csv;

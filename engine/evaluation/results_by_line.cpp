@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/csv.h"
+#include "base/text.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_parsing.h"
 #include "labels/label_text.h"
@@ -171,8 +172,8 @@ Result<Results> read_mot(const ResultsFile& file) {
       first_line = line->number;
     }
     if (fields.size() < kMinFields)
-      return file.wrong(line->number, fmt::format("expected frame, id, left, top, width, height and on, found {} {}",
-                                                  fields.size(), fields.size() == 1 ? "field" : "fields"));
+      return file.wrong(line->number, fmt::format("expected frame, id, left, top, width, height and on, found {}",
+                                                  count_text(std::ssize(fields), "field")));
     if (fields.size() != expected)
       return file.wrong(line->number,
                         fmt::format("has {} fields, line {} has {}", fields.size(), first_line, expected));

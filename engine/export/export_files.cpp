@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "export/export_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
 
-#include "scene/opened_project.h"
+#include "base/text.h"
 #include "export/frame_stream.h"
 
 namespace sigs {
@@ -214,8 +216,8 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
   const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
   if (project.output.codec == CodecChoice::h264 && odd && shares_chroma)
     return fail(project.file.string() + ": export.video.codec",
-                "h264 needs an even width and height, the footage is " + std::to_string(size.width) + "x" +
-                    std::to_string(size.height) + "; use ffv1, mjpeg or png",
+                fmt::format("h264 needs an even width and height, the footage is {}; use ffv1, mjpeg or png",
+                            image_size_text(size)),
                 ErrorKind::bad_project);
   return {};
 }

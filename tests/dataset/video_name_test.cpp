@@ -51,7 +51,3 @@ TEST_CASE("a video is not called like what lies beside the videos") {
     CHECK_MESSAGE(!wrong_with_video_name(name).empty(), name);
   CHECK(wrong_with_video_name("labels2").empty());
 }
-
-TEST_CASE("folding takes case away from ASCII letters alone") {
-  CHECK(case_folded("AbZ-19 Ñ") == "abz-19 Ñ");
-}

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/views/inspector/trajectory.h"
 #include "editor/widgets/icons.h"
@@ -34,7 +35,7 @@ std::optional<std::string> draw_list(const ViewContext& context, const ProblemsB
                                      const std::string& name, ImU32 shade) {
   if (problems.empty()) return std::nullopt;
   const std::size_t count = problems.size();
-  const std::string title = std::to_string(count) + " " + name + (count == 1 ? "" : "s");
+  const std::string title = count_text(static_cast<std::int64_t>(count), name);
   std::optional<std::string> clicked;
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
   const std::string id = name + "s";

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -27,10 +28,6 @@ const cv::Vec3d kBody(230, 110, 225);
 cv::Vec3b color_of_confidence(double confidence) {
   const double side = 2 * confidence - 1;
   return cv::Vec3b(kUnknown + std::abs(side) * ((side < 0 ? kWorld : kBody) - kUnknown));
-}
-
-std::string frames_text(int frames) {
-  return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ std::string share_text(double share) {
 }
 
 std::string result_text(const OwnBody& found) {
-  const std::string frames = frames_text(found.frames_used) + (found.converged ? ", converged early" : "");
+  const std::string frames = count_text(found.frames_used, "frame") + (found.converged ? ", converged early" : "");
   return (found.share > 0 ? "Found in " : "No own body in ") + frames;
 }
 
@@ -85,8 +82,8 @@ std::vector<std::string> cautions_about(const OwnBody& found, double seconds) {
 std::string progress_text(const DetectionState& state) {
   if (state.is_stopping) return "stopping...";
   if (state.total <= 0) return "opening the footage...";
-  std::string text = std::to_string(state.done) + " of " + frames_text(state.total);
-  if (state.left_s) text += ", " + clock_text(*state.left_s) + " left";
+  std::string text = fmt::format("{} of {}", state.done, count_text(state.total, "frame"));
+  if (state.left_s) text += fmt::format(", {} left", clock_text(*state.left_s));
   return text;
 }
 
