@@ -28,10 +28,7 @@ void open_in_background(const std::shared_ptr<PreviewState>& preview_state, cons
     });
     static_cast<void>(done);  // where not even that can be said, the footage stays "being opened"
   };
-  if (Result<std::thread> thread = started_thread(open))
-    thread->detach();
-  else
-    open();  // what is wanted meanwhile waits
+  run_in_background(open);
 }
 
 DecodedFrame grey_with_problem(const VideoInfo& video, int frame, std::string problem) {

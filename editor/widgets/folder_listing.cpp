@@ -11,7 +11,6 @@
 #include <ctime>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "base/paths.h"
@@ -145,10 +144,7 @@ void FolderReader::read(const fs::path& folder) {
         listing ? std::move(*listing) : FolderListing{.folder = folder, .problem = listing.error().text()};
     pending->done.notify_all();
   };
-  if (Result<std::thread> thread = started_thread(read_it))
-    thread->detach();
-  else
-    read_it();  // the window waits
+  run_in_background(read_it);
   std::unique_lock lock(pending_->mutex);
   pending_->done.wait_for(lock, std::chrono::milliseconds(40), [this] { return pending_->listing.has_value(); });
 }
