@@ -82,7 +82,7 @@ std::string table_text(const std::vector<Column>& columns) {
     if (&column == &columns.front() || !is_constant(column))
       varying.push_back(column);
     else if (column.cells.front() != "-")
-      shared += (shared.empty() ? "all: " : ", ") + column.title + " " + column.cells.front();
+      shared += fmt::format("{}{} {}", shared.empty() ? "all: " : ", ", column.title, column.cells.front());
   }
   return aligned(varying) + (shared.empty() ? "" : shared + "\n") + "\n";
 }
@@ -118,7 +118,7 @@ std::string or_dash(const std::map<std::string, std::string>& tags, const char* 
 
 std::string view_text(const std::optional<Visibility>& view) {
   if (!view) return "?";
-  const std::string share = std::to_string(view->visible) + "/" + std::to_string(view->frames_checked);
+  const std::string share = fmt::format("{}/{}", view->visible, view->frames_checked);
   return view->visible > 0 ? share : "never";
 }
 
@@ -196,7 +196,7 @@ std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard)
 
 std::string resamples_line(const std::vector<const PlannedVideo*>& videos) {
   const std::string text = resamples_text(resamples_of(videos));
-  return text.empty() ? text : "sampled again: " + text + "\n";
+  return text.empty() ? text : fmt::format("sampled again: {}\n", text);
 }
 
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,

@@ -106,7 +106,8 @@ Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
                 "no results for this clip; where nothing was detected, they are a file without boxes",
                 ErrorKind::cannot_read);
   if (found.size() > 1)
-    return fail(folder.string(), "has both " + found[0].filename().string() + " and " + found[1].filename().string());
+    return fail(folder.string(),
+                fmt::format("has both {} and {}", found[0].filename().string(), found[1].filename().string()));
   return found.front();
 }
 
@@ -179,14 +180,14 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
 
 void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
   if (!results.clip.empty() && results.clip != clip)
-    print_warning(
-        {file.string(), "its img_name is of " + results.clip + ", the clip is " + clip + ": are these its results?"});
+    print_warning({file.string(),
+                   fmt::format("its img_name is of {}, the clip is {}: are these its results?", results.clip, clip)});
 }
 
 std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
   std::string free = name;
   for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
-    free = name + " (" + std::to_string(n) + ")";
+    free = fmt::format("{} ({})", name, n);
   return free;
 }
 

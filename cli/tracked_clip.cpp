@@ -60,8 +60,7 @@ Result<void> check_size(const fs::path& path, cv::Size size, const FootageTruth&
 
 Result<void> check_count(const fs::path& path, int count, const ClipTruth& clip) {
   if (count == clip.frames()) return {};
-  return fail(path.string(),
-              "has " + std::to_string(count) + " frames, the labels have " + std::to_string(clip.frames()));
+  return fail(path.string(), fmt::format("has {} frames, the labels have {}", count, clip.frames()));
 }
 
 Result<int> image_count_in(const fs::path& folder) {
@@ -90,13 +89,13 @@ Result<fs::path> LabelledImages::beside(const fs::path& labels) {
       found.push_back(path);
   if (found.empty())
     return fail(labels.string(),
-                "has neither " + labels.stem().string() + ".mkv, .mp4, .avi nor a folder " + labels.stem().string() +
-                    " beside it; name its images with --video",
+                fmt::format("has neither {}.mkv, .mp4, .avi nor a folder {} beside it; name its images with --video",
+                            labels.stem().string(), labels.stem().string()),
                 ErrorKind::cannot_read);
   if (found.size() > 1)
     return fail(labels.string(),
-                "has both " + found[0].filename().string() + " and " + found[1].filename().string() +
-                    " beside it; choose with --video",
+                fmt::format("has both {} and {} beside it; choose with --video", found[0].filename().string(),
+                            found[1].filename().string()),
                 ErrorKind::cannot_read);
   return found.front();
 }
@@ -141,11 +140,11 @@ Result<int> target_of(const TrackRequest& request, const std::vector<std::string
   const int chosen = request.intruder.value_or(count == 1 ? 0 : -1);
   if (chosen >= 0 && chosen < count) return chosen;
   std::string there;
-  for (int i = 0; i < count; ++i) there += (i == 0 ? "" : ", ") + std::to_string(i) + " " + names[i];
+  for (int i = 0; i < count; ++i) there += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, names[i]);
   if (request.intruder)
-    return fail("--intruder " + std::to_string(chosen), "there is none of that number; there are " + there,
+    return fail(fmt::format("--intruder {}", chosen), "there is none of that number; there are " + there,
                 ErrorKind::usage);
-  return fail(file, "has " + std::to_string(count) + " intruders; choose with --intruder: " + there, ErrorKind::usage);
+  return fail(file, fmt::format("has {} intruders; choose with --intruder: {}", count, there), ErrorKind::usage);
 }
 
 const Box& start_box(const TargetFrame& frame, TruthBox truth) {
@@ -172,10 +171,10 @@ Result<void> check_interrupt() {
 
 Error never_trackable(const TrackRequest& request, const TrackedClip& clip) {
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
-  std::string what = "intruder " + std::to_string(target.id) + " is in no frame seen with sides of at least " +
-                     number_text(request.min_side_px, 3) + " px";
+  std::string what = fmt::format("intruder {} is in no frame seen with sides of at least {} px", target.id,
+                                 number_text(request.min_side_px, 3));
   if (request.policy.min_visible_fraction > 0)
-    what += " and to " + number_text(100 * request.policy.min_visible_fraction, 3) + " %";
+    what += fmt::format(" and to {} %", number_text(100 * request.policy.min_visible_fraction, 3));
   return {request.input.file.string(), what + ": there is nothing to follow"};
 }
 
@@ -234,8 +233,9 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   progress.end();
   if (!damaged) return fail(damaged.error());
   if (*damaged > 0)
-    print_warning({clip->footage().video, std::to_string(*damaged) + " of " + std::to_string(total) +
-                                              " frames are damaged; the last intact one before each stands in"});
+    print_warning(
+        {clip->footage().video,
+         fmt::format("{} of {} frames are damaged; the last intact one before each stands in", *damaged, total)});
   return finished(request, std::move(tracked), group);
 }
 

@@ -59,7 +59,7 @@ struct Words {
   }
   std::string operator()(const std::string& value) const { return value.empty() ? "none" : value; }
   std::string operator()(const glm::dvec3& v) const {
-    return number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z, field.unit);
+    return fmt::format("{}, {}, {}", number_text(v.x), number_text(v.y), number_text(v.z, field.unit));
   }
   std::string operator()(const std::vector<std::string>& values) const {
     std::string text;
@@ -195,9 +195,10 @@ bool matches(const Field& field, std::string_view words) {
 std::string range_text(const Field& field) {
   const bool low = std::isfinite(field.minimum);
   const bool high = std::isfinite(field.maximum);
-  if (low && high) return limit_text(field.minimum) + " to " + limit_text(field.maximum) + unit_text(field.unit);
-  if (low) return "at least " + limit_text(field.minimum) + unit_text(field.unit);
-  return high ? "at most " + limit_text(field.maximum) + unit_text(field.unit) : "";
+  if (low && high)
+    return fmt::format("{} to {}{}", limit_text(field.minimum), limit_text(field.maximum), unit_text(field.unit));
+  if (low) return fmt::format("at least {}{}", limit_text(field.minimum), unit_text(field.unit));
+  return high ? fmt::format("at most {}{}", limit_text(field.maximum), unit_text(field.unit)) : "";
 }
 
 std::string word_for_zero(std::string_view key) {
@@ -228,7 +229,7 @@ std::string number_format(double value, std::string_view unit) {
   const int before_point = magnitude >= 1 ? static_cast<int>(std::floor(std::log10(magnitude))) + 1 : 1;
   const int digits = std::clamp(before_point + 2, 6, 15);
   const std::string beside = unit == "%" ? " %%" : unit_text(unit);
-  return "%." + std::to_string(digits) + "g" + beside;
+  return fmt::format("%.{}g{}", digits, beside);
 }
 
 std::string number_text(double value, std::string_view unit) {

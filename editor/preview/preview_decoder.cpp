@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/preview_decoder.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -37,7 +39,7 @@ DecodedFrame grey_with_problem(const VideoInfo& video, int frame, std::string pr
 
 DecodedFrame decoded_frame(FrameSource& source, int number) {
   Result<Frame> frame = guarded([&] { return source.read(number); });
-  const std::string where = source.info().path.string() + ": frame " + std::to_string(number);
+  const std::string where = fmt::format("{}: frame {}", source.info().path.string(), number);
   if (frame && frame->damaged)
     return {std::move(*frame), where + " is damaged; another frame of the footage replaces it"};
   if (frame) return {std::move(*frame), ""};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/dialogs.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -140,6 +141,7 @@ bool SettingsDialog::draw(Settings& settings, UiProbe& ui_probe) {
     if (!ImGui::IsItemActive()) font_px_ = 0;
     setting_label("Keep unsaved changes after",
                   "Seconds after a change until it is kept on disk for the case of a crash");
+    ImGui::SetNextItemWidth(-1);
     auto autosave_s = static_cast<float>(settings.autosave_s);
     if (ImGui::SliderFloat("##autosave", &autosave_s, 1, 300, "%.0f s",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
@@ -182,7 +184,7 @@ void RelinkDialog::found(const MissingFile& missing, const fs::path& place) {
 
 void RelinkDialog::browse(const ViewContext& context, const MissingFile& missing) {
   const std::string extension = missing.place.extension().string();
-  context.edits.ask(AskForFile{.title = "Where is " + missing.place.filename().string() + "?",
+  context.edits.ask(AskForFile{.title = fmt::format("Where is {}?", missing.place.filename().string()),
                                .extensions = extension.empty() ? std::vector<std::string>() : std::vector{extension},
                                .start = missing.place.parent_path(),
                                .chosen = [this, missing](const fs::path& place) { found(missing, place); }});

@@ -65,8 +65,8 @@ void draw_file_menu(const ViewContext& context, bool has_project) {
 void draw_edit_menu(const ViewContext& context, bool has_project) {
   if (!begin_menu(context, "Edit")) return;
   const Document& document = context.document;
-  const std::string undo = "Undo " + document.undo_name() + "###Undo";
-  const std::string redo = "Redo " + document.redo_name() + "###Redo";
+  const std::string undo = fmt::format("Undo {}###Undo", document.undo_name());
+  const std::string redo = fmt::format("Redo {}###Redo", document.redo_name());
   if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) context.edits.undo();
   context.ui_probe.note_item("menu/Undo");
   if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) context.edits.redo();
@@ -137,7 +137,6 @@ class RightSide {
 
   void show_problems(const std::vector<Problem>& problems) {
     if (problems.empty()) return;
-    const std::size_t count = problems.size();
     const bool is_missing = std::any_of(problems.begin(), problems.end(),
                                         [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
     const std::string text = count_text(std::ssize(problems), "problem");

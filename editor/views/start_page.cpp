@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/start_page.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -36,8 +37,8 @@ std::string time_ago(std::int64_t unix_s) {
 
 std::string text_of(const AbandonedProject& project) {
   const std::string where = project.project_file.empty() ? "never saved" : project.project_file.string();
-  return shortened(project.name, 60) + "  -  " + time_ago(project.written_unix_s) + ", " + where +
-         (project.has_mask ? ", with an own-body mask" : "");
+  return fmt::format("{}  -  {}, {}{}", shortened(project.name, 60), time_ago(project.written_unix_s), where,
+                     project.has_mask ? ", with an own-body mask" : "");
 }
 
 void heading(const char* text) {
@@ -120,7 +121,8 @@ void StartPage::draw_head(const ViewContext& context, const StartPageContent& co
   if (content.loading.empty()) return;
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  quiet_text(elided("Reading " + content.loading.filename().string() + "...", ImGui::GetContentRegionAvail().x));
+  quiet_text(
+      elided(fmt::format("Reading {}...", content.loading.filename().string()), ImGui::GetContentRegionAvail().x));
 }
 
 void StartPage::draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice) {
@@ -132,11 +134,11 @@ void StartPage::draw_abandoned(const ViewContext& context, const StartPageConten
     ImGui::PushID(static_cast<int>(i));
     if (is_readable) {
       if (dialog_button("Open##recover", true)) choice.recover = project;
-      context.ui_probe.note_item("start/recover." + std::to_string(i));
+      context.ui_probe.note_item(fmt::format("start/recover.{}", i));
       ImGui::SameLine();
     }
     if (dialog_button("Discard##recover")) choice.discard = project;
-    context.ui_probe.note_item("start/discard." + std::to_string(i));
+    context.ui_probe.note_item(fmt::format("start/discard.{}", i));
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     const std::string text = is_readable ? text_of(project) : "Cannot be read: " + project.recovery_file.string();
@@ -212,7 +214,7 @@ void StartPage::draw_recent(const ViewContext& context, float width) {
     if (ImGui::Selectable("##recent", false, is_there ? 0 : ImGuiSelectableFlags_Disabled, {width, height}))
       context.edits.ask(OpenProject{file});
     ImGui::PopID();
-    context.ui_probe.note_item("start/recent." + std::to_string(i));
+    context.ui_probe.note_item(fmt::format("start/recent.{}", i));
     tooltip_for_item(is_there ? file.c_str() : (file.string() + " is not there").c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 main = is_there ? color::kText : faded(color::kQuiet, 0.6);

@@ -48,8 +48,8 @@ std::string metres(double value_m) {
 // The length of the relative path from the first frame to the CPA: Pythagoras.
 tl::expected<double, std::string> path_length_m(double range_m, double miss_m) {
   if (range_m < miss_m)
-    return tl::unexpected("range_m: the intruder starts " + metres(range_m) +
-                          " away, nearer than the miss distance of " + metres(miss_m));
+    return tl::unexpected(fmt::format("range_m: the intruder starts {} away, nearer than the miss distance of {}",
+                                      metres(range_m), metres(miss_m)));
   return std::sqrt((range_m - miss_m) * (range_m + miss_m));
 }
 

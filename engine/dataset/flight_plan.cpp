@@ -149,7 +149,7 @@ Possible<void> check_waypoint(FlightKind kind, const WaypointSettings& waypoint)
   const glm::dvec3& p_m = waypoint.position_m;
   const char* const height =
       kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
-  const std::string frame = " in frame " + std::to_string(std::lround(*waypoint.frame));
+  const std::string frame = fmt::format(" in frame {}", std::lround(*waypoint.frame));
   if (p_m.z > kRounding_m)
     return tl::unexpected(
         fmt::format("{}: the intruder is underground{}, {} m below z = 0", height, frame, short_number_text(p_m.z)));

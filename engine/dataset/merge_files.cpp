@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -110,8 +112,8 @@ class CocoMerge {
     for (const Json& video : videos)
       if (step) step = list.put(video);
     if (!step) return step;
-    return out_.put("\n],\n\"categories\": " + text_of(categories) + ",\n\"tracks\": " + text_of(tracks) +
-                    ",\n\"annotations\": [");
+    return out_.put(fmt::format("\n],\n\"categories\": {},\n\"tracks\": {},\n\"annotations\": [", text_of(categories),
+                                text_of(tracks)));
   }
 
   Result<void> put_annotations() {
@@ -184,7 +186,7 @@ class LineReader {
   // To be called where the line last read is not what it should be.
   void mark_malformed() {
     if (!problem_)
-      problem_ = Error{file_.string() + ": line " + std::to_string(number_),
+      problem_ = Error{fmt::format("{}: line {}", file_.string(), number_),
                        "is not as sigs writes it; make the video anew", ErrorKind::bad_data};
   }
 

@@ -61,7 +61,7 @@ void read_field(RecipeNode& node, const LightField& field, LightPlan& light) {
   if (!json->is_array() || json->size() != field.names.size())
     return node.log().wrong(where, "expected a list of three quantities");
   for (std::size_t i = 0; i < json->size(); ++i)
-    read_number(json->at(i), where + "[" + std::to_string(i) + "]", field, i, light, node.log());
+    read_number(json->at(i), fmt::format("{}[{}]", where, i), field, i, light, node.log());
 }
 
 bool is_set(const std::vector<std::string>& settings, const char* key) {
@@ -121,11 +121,11 @@ std::vector<std::string> picked(RecipeNode& group, const char* key, const std::v
   std::vector<std::string> names = group.texts(key);
   if (names.empty()) return there;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string where = group.key_of(key) + "[" + std::to_string(i) + "]";
+    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
     if (!has(there, names[i]))
       group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
     if (std::count(names.begin(), names.end(), names[i]) > 1)
-      group.log().wrong(where, "stands there twice: \"" + names[i] + "\"");
+      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
   }
   return names;
 }
@@ -161,7 +161,7 @@ FlightPlan read_flight(RecipeNode node) {
   const std::string kind_name = node.needed_text("kind");
   const std::optional<FlightKind> kind = flight_kind_of(kind_name);
   if (!kind) {
-    node.log().wrong(node.key_of("kind"), "is \"" + kind_name + "\"; there are " + kinds());
+    node.log().wrong(node.key_of("kind"), fmt::format("is \"{}\"; there are {}", kind_name, kinds()));
     return flight;
   }
   flight.kind = *kind;
@@ -189,7 +189,7 @@ std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_sampled) {
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Json& item = list->at(i);
-    const std::string key = group.key_of("flights") + "[" + std::to_string(i) + "]";
+    const std::string key = fmt::format("{}[{}]", group.key_of("flights"), i);
     const Json named{{"kind", item}};
     flights.push_back(read_flight(RecipeNode(item.is_string() ? named : item, key, group.log())));
   }

@@ -133,7 +133,7 @@ std::string one_line(const std::exception& thrown) {
 }
 
 std::string frame_text(int frame) {
-  return "frame " + std::to_string(frame);
+  return fmt::format("frame {}", frame);
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ struct OpenCvTracker::Impl {
       seed(frame);
       return call();
     } catch (const std::exception& thrown) {
-      return fail(where, std::string("OpenCV cannot ") + what + " it: " + one_line(thrown));
+      return fail(where, fmt::format("OpenCV cannot {} it: {}", what, one_line(thrown)));
     }
   }
 };

@@ -40,7 +40,7 @@ std::string element(const std::string& name, const std::string& text) {
 std::string table_html(const std::vector<TableColumn>& columns) {
   std::string text = "<div class=\"table\"><table>\n<thead><tr>";
   for (const TableColumn& column : columns)
-    text += "<th scope=\"col\">" + html(column.title) + "<small>" + html(column.unit) + "</small></th>";
+    text += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", html(column.title), html(column.unit));
   text += "</tr></thead>\n<tbody>\n";
   for (std::size_t row = 0; row < columns.front().cells.size(); ++row) {
     text += "<tr>";
@@ -68,7 +68,7 @@ std::string inlined(const ReportPlot& image) {
   const std::string own = image.name + "-";
   for (const std::string_view before : {" id='", " id=\"", "href='#", "href=\"#", "url(#"})
     svg = replaced(std::move(svg), before, std::string(before) + own);
-  return "<figure>\n<svg role=\"img\" aria-label=\"" + html(image.title) + "\"" + svg.substr(4) + "</figure>\n";
+  return fmt::format("<figure>\n<svg role=\"img\" aria-label=\"{}\"{}</figure>\n", html(image.title), svg.substr(4));
 }
 
 std::string list_of(const std::vector<std::string>& lines) {
@@ -85,12 +85,13 @@ std::string plots_html(const std::vector<ReportPlot>& images) {
 }
 
 std::string page(const std::string& title, const std::string& body) {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
-         element("title", title) + "\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n<main>\n" +
-         element("h1", title) + "\n" + body +
-         "<footer>Written by SIGS. Its page docs/evaluation.md defines every "
-         "figure.</footer>\n</main>\n</body>\n</html>\n";
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "{}\n<style>{}</style>\n</head>\n<body>\n<main>\n{}\n{}"
+      "<footer>Written by SIGS. Its page docs/evaluation.md defines every figure.</footer>\n"
+      "</main>\n</body>\n</html>\n",
+      element("title", title), kStyle, element("h1", title), body);
 }
 
 std::string clip_text(const TrackReport& report) {

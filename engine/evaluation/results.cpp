@@ -51,16 +51,20 @@ Result<ResultsFormat> detected_format(const ResultsFile& file) {
   const auto is_number = [](std::string_view field) { return number_of(field).has_value(); };
   const auto wrong = std::ranges::find_if_not(fields, is_number);
   if (wrong != fields.end())
-    return file.wrong(first.number, "is of no known layout: " + in_quotes(*wrong) +
-                                        " is neither a number nor the name of a csv column (frame,x,y,width,height)");
+    return file.wrong(
+        first.number,
+        fmt::format(
+            "is of no known layout: {} is neither a number nor the name of a csv column (frame,x,y,width,height)",
+            in_quotes(*wrong)));
   if (number_of(fields.front()) != number_of(fields.front())) return ResultsFormat::vot;  // nan
   if (fields.size() == 1 || fields.size() == 8) return ResultsFormat::vot;
   if (fields.size() == 4)
     return lower_case(file.path.filename().string()) == "groundtruth.txt" ? ResultsFormat::vot : ResultsFormat::otb;
   if (fields.size() >= 6) return ResultsFormat::mot;
-  return file.wrong(first.number, "is of no known layout: " + std::to_string(fields.size()) +
-                                      " numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot; "
-                                      "csv begins with the line frame,x,y,width,height, aot and coco with [");
+  return file.wrong(first.number,
+                    fmt::format("is of no known layout: {} numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot; "
+                                "csv begins with the line frame,x,y,width,height, aot and coco with [",
+                                fields.size()));
 }
 
 Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {

@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "export/frame_stream.h"
+#include "scene/opened_project.h"
 
 namespace sigs {
 
@@ -43,7 +44,7 @@ Result<void> check_label_folder(const fs::path& folder, const LabelFormat& forma
     const std::string path = it->path().lexically_relative(folder).generic_string();
     const auto is_written = [&path](std::string_view pattern) { return fits(path, pattern); };
     if (std::none_of(format.files.begin(), format.files.end(), is_written))
-      return fail(folder.string(), "holds " + path + ", which no export wrote; choose another folder",
+      return fail(folder.string(), fmt::format("holds {}, which no export wrote; choose another folder", path),
                   ErrorKind::cannot_create);
   }
   if (code && code != std::errc::no_such_file_or_directory)
@@ -163,7 +164,7 @@ Result<void> check_image_folder(const fs::path& folder) {
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const std::string name = it->path().filename().string();
     if (!name.starts_with("frame_") || it->path().extension() != ".png")
-      return fail(folder.string(), "holds " + name + ", which no export wrote; choose another folder",
+      return fail(folder.string(), fmt::format("holds {}, which no export wrote; choose another folder", name),
                   ErrorKind::cannot_create);
   }
   if (code && code != std::errc::no_such_file_or_directory)

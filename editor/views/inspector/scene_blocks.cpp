@@ -157,7 +157,7 @@ std::string lens_text(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
   const std::string model = lens.model == LensModel::brown_conrady ? "Brown-Conrady" : "Kannala-Brandt (fisheye)";
   const std::string distortion =
-      camera.lens.is_pinhole() ? "no distortion" : std::to_string(lens.coefficients.size()) + " coefficients";
+      camera.lens.is_pinhole() ? "no distortion" : fmt::format("{} coefficients", lens.coefficients.size());
   const double valid_deg = std::min(180.0, deg_of_rad(camera.lens.valid_angle_rad()));
   return fmt::format("{}, {}, {}\nfocal length {} x {} px\nvalid to {} from the axis",
                      image_size_text(camera.size_px, " x "), model, distortion,
@@ -188,7 +188,7 @@ constexpr double kMaxPreviewWidth = 300;  // where the text is 15 px high
 constexpr double kTurnAPixel_rad = 0.01;  // a drag across the preview is about half a turn
 
 std::string key_of(int intruder) {
-  return "intruders[" + std::to_string(intruder) + "]";
+  return fmt::format("intruders[{}]", intruder);
 }
 
 bool has_problem(const ProblemsByField& problems, int intruder) {
@@ -323,8 +323,8 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
   context.ui_probe.note_item("inspector/model image");
   draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");
   draw_axis(list, low, size, {0, 0, -1}, turn_rad_, color::kText, "top");
-  note(decimetres(model->size_m.x) + " m long, " + decimetres(model->size_m.y) + " m span, " +
-       decimetres(model->size_m.z) + " m high");
+  note(fmt::format("{} m long, {} m span, {} m high", decimetres(model->size_m.x), decimetres(model->size_m.y),
+                   decimetres(model->size_m.z)));
 }
 
 void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {

@@ -53,7 +53,7 @@ std::vector<StageTile> stage_tiles(const OwnBody& found) {
   std::vector<StageTile> tiles;
   for (const DetectionStage& stage : found.stages)
     if (!stage.image.empty())
-      tiles.push_back({std::to_string(tiles.size() + 1) + "  " + stage.title, stage.name, stage.image});
+      tiles.push_back({fmt::format("{}  {}", tiles.size() + 1, stage.title), stage.name, stage.image});
   return tiles;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/overlays.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -165,7 +167,7 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
     if (!ScreenRect{canvas.rect.low - radius, canvas.rect.high + radius}.contains(at)) continue;
     const bool is_selected = selection == Selection{Selected::waypoint, mark.intruder, mark.waypoint};
     if (thinning.leaves_out(at) && !is_selected) continue;
-    context.ui_probe.note("viewport/waypoint/" + std::to_string(mark.intruder) + "/" + std::to_string(mark.waypoint),
+    context.ui_probe.note(fmt::format("viewport/waypoint/{}/{}", mark.intruder, mark.waypoint),
                           {at - radius, at + radius});
     const MarkStyle style{
         .selected = is_selected, .worked_on = current == mark.intruder, .here = std::abs(mark.frame - eye.frame) < 0.5};

@@ -184,8 +184,7 @@ void ProblemBanner::lay_out(const ScreenRect& rect) {
   if (!folded_) {
     texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMaxShown, problems_.size())));
     if (problems_.size() > kMaxShown)
-      texts.push_back("and " + std::to_string(problems_.size() - kMaxShown) +
-                      " more, at their fields in the inspector");
+      texts.push_back(fmt::format("and {} more, at their fields in the inspector", problems_.size() - kMaxShown));
   }
   glm::dvec2 size(0, 2 * padding() - scaled(3));
   for (const std::string& text : texts) {
