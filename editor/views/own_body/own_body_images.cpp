@@ -90,7 +90,6 @@ std::string progress_text(const DetectionState& state) {
 namespace {
 
 constexpr int kTile_px = 512;
-constexpr double kTint = 0.5;  // how much of the footage the mask covers where it is white
 
 bool is_same(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size()) return false;
@@ -122,14 +121,12 @@ void draw_tile(const ImageCanvas& canvas, Textures& textures, const cv::Rect& pl
 
 }  // namespace
 
-cv::Mat tinted(const cv::Mat& mask) {
+cv::Mat tinted(const cv::Mat& mask, double opacity) {
   const ImVec4 tone = ImGui::ColorConvertU32ToFloat4(color::kOwnBody);
-  const auto part = [](float value) { return cv::saturate_cast<uchar>(255.0F * value); };
-  cv::Mat tint(mask.size(), CV_8UC4);
-  for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x)
-      tint.at<cv::Vec4b>(y, x) = {part(tone.x), part(tone.y), part(tone.z),
-                                  cv::saturate_cast<uchar>(kTint * mask.at<uchar>(y, x))};
+  cv::Mat alpha;
+  mask.convertTo(alpha, CV_8U, mask.depth() == CV_8U ? opacity : 255 * opacity);
+  cv::Mat tint(mask.size(), CV_8UC4, 255 * cv::Scalar(tone.x, tone.y, tone.z));
+  cv::insertChannel(alpha, tint, 3);
   return tint;
 }
 
@@ -145,7 +142,7 @@ void MaskTiles::refresh(Tile& tile, const cv::Mat& mask, int divisor, MaskStyle 
 void MaskTiles::draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& mask, MaskStyle look) {
   if (mask.size() != size_px_) tiles_.clear();
   size_px_ = mask.size();
-  const int divisor = std::max(1, static_cast<int>(std::floor(1 / canvas.view.zoom + 1e-9)));
+  const int divisor = divisor_at(canvas.view.zoom);
   const cv::Rect in_sight = pixels_in_sight(canvas.view, mask.size(), canvas.rect);
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
   for (int y = 0; y < mask.rows; y += kTile_px)

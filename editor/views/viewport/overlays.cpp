@@ -10,6 +10,7 @@
 #include <string>
 
 #include "editor/geometry/screen_marks.h"
+#include "editor/views/own_body/own_body_images.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -111,12 +112,8 @@ void OwnBodyTint::draw(const ImageCanvas& canvas, Textures& textures, const cv::
   if (own_body.empty() || own_body.type() != CV_32FC1) return;
   if (made_for_.data != own_body.data) {
     made_for_ = own_body;
-    tint_ = cv::Mat(own_body.size(), CV_8UC4);  // other memory: textures know images by it
-    const ImVec4 tone = ImGui::ColorConvertU32ToFloat4(color::kOwnBody);
-    own_body.forEach<float>([&](float share, const int* at) {
-      const auto part = [](float value) { return cv::saturate_cast<uchar>(255.0F * value); };
-      tint_.at<cv::Vec4b>(at[0], at[1]) = {part(tone.x), part(tone.y), part(tone.z), part(tone.w * share)};
-    });
+    // Other memory: textures know images by it.
+    tint_ = tinted(own_body, ImGui::ColorConvertU32ToFloat4(color::kOwnBody).w);
   }
   draw_image(canvas.draw, textures, tint_, canvas.view, canvas.rect);
 }
