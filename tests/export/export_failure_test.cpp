@@ -4,13 +4,13 @@
 
 #include <atomic>
 #include <csignal>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "export/export_project.h"
 #include "frame/synthetic_scenes.h"
+#include "support/files.h"
 
 namespace sigs::test {
 namespace {
@@ -26,18 +26,8 @@ void prepare(Scenario& scenario) {
   scenario.add("aircraft.obj", {60, 0, -150});
 }
 
-std::string text_in(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-// Files below a folder, also those with names of parts.
-std::vector<std::string> files_below(const fs::path& folder) {
+// Files and folders below a folder, also those with names of parts; none where there is no such folder.
+std::vector<std::string> everything_below(const fs::path& folder) {
   std::vector<std::string> files;
   if (!fs::exists(folder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -107,7 +97,7 @@ TEST_CASE("a cancelled export says so and leaves no file") {
             export_project({.project = scenario.project, .folder = scenario.path("out"), .jobs = jobs}, control);
         REQUIRE(!report.has_value());
         CHECK(report.error().kind == ErrorKind::interrupted);
-        CHECK(files_below(scenario.path("out")).empty());
+        CHECK(everything_below(scenario.path("out")).empty());
       }
 }
 
@@ -115,15 +105,15 @@ TEST_CASE("a cancelled export leaves the results of the one before") {
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
   REQUIRE(export_project({.project = scenario.project, .folder = scenario.path("out")}, {}).has_value());
-  const std::string before = text_in(scenario.path("out/lot.mkv"));
-  const std::vector<std::string> files = files_below(scenario.path("out"));
+  const std::string before = text_of(scenario.path("out/lot.mkv"));
+  const std::vector<std::string> files = everything_below(scenario.path("out"));
   std::atomic<bool> cancel{false};
   const ExportControl control{.progress = [&](int n, int) { cancel = n >= 3; }, .cancel = &cancel};
   scenario.project.light.ambient = 1;
   REQUIRE(!export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, control)
                .has_value());
-  CHECK(text_in(scenario.path("out/lot.mkv")) == before);
-  CHECK(files_below(scenario.path("out")) == files);
+  CHECK(text_of(scenario.path("out/lot.mkv")) == before);
+  CHECK(everything_below(scenario.path("out")) == files);
 }
 
 TEST_CASE("what is there already is not overwritten unasked and no other file appears") {
@@ -131,14 +121,14 @@ TEST_CASE("what is there already is not overwritten unasked and no other file ap
     CAPTURE(name);
     Scenario scenario(kSize, kFrames);
     prepare(scenario);
-    put(scenario.path("out") / name, "mine");
+    write_file_and_folders(scenario.path("out") / name, "mine");
     const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
     const Result<ExportReport> report = export_project(request, {});
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::cannot_create);
     CHECK(report.error().text().find(name) != std::string::npos);
-    CHECK(text_in(scenario.path("out") / name) == "mine");
-    CHECK(files_below(scenario.path("out")) == std::vector<std::string>{name});
+    CHECK(text_of(scenario.path("out") / name) == "mine");
+    CHECK(everything_below(scenario.path("out")) == std::vector<std::string>{name});
   }
 }
 
@@ -150,14 +140,14 @@ TEST_CASE("what is there already is overwritten when asked to") {
     set_codec(scenario.project, codec);
     ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
     REQUIRE(export_project(request, {}).has_value());
-    const std::vector<std::string> files = files_below(scenario.path("out"));
+    const std::vector<std::string> files = everything_below(scenario.path("out"));
     CHECK(!export_project(request, {}).has_value());
     request.overwrite = true;
     request.frames = FrameRange{0, 3};
     const Result<ExportReport> again = export_project(request, {});
     if (!again) FAIL(again.error().text());
     // Images of the longer export do not stay among those of the shorter one.
-    CHECK(files_below(scenario.path("out")).size() ==
+    CHECK(everything_below(scenario.path("out")).size() ==
           files.size() - (codec == CodecChoice::png ? 2 * (kFrames - 4) : 0));
   }
 }
@@ -166,30 +156,30 @@ TEST_CASE("an export never replaces a folder that holds anything but its own ima
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
   set_codec(scenario.project, CodecChoice::png);
-  put(scenario.path("out/lot/diary.txt"), "mine");
+  write_file_and_folders(scenario.path("out/lot/diary.txt"), "mine");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, {});
   REQUIRE(!report.has_value());
   CHECK(report.error().kind == ErrorKind::cannot_create);
-  CHECK(text_in(scenario.path("out/lot/diary.txt")) == "mine");
+  CHECK(text_of(scenario.path("out/lot/diary.txt")) == "mine");
 }
 
 TEST_CASE("an export never overwrites what it reads") {
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
-  const std::string footage = text_in(scenario.path("footage.mkv"));
+  const std::string footage = text_of(scenario.path("footage.mkv"));
   scenario.project.name = "footage";
   const Result<ExportReport> over_footage =
       export_project({.project = scenario.project, .folder = scenario.path("."), .overwrite = true}, {});
   REQUIRE(!over_footage.has_value());
   CHECK(over_footage.error().kind == ErrorKind::cannot_create);
-  CHECK(text_in(scenario.path("footage.mkv")) == footage);
+  CHECK(text_of(scenario.path("footage.mkv")) == footage);
 
-  const std::string lens = text_in(scenario.path("pinhole.xml"));
+  const std::string lens = text_of(scenario.path("pinhole.xml"));
   scenario.project.name = "pinhole";
   CHECK(
       !export_project({.project = scenario.project, .folder = scenario.path("."), .overwrite = true}, {}).has_value());
-  CHECK(text_in(scenario.path("pinhole.xml")) == lens);
+  CHECK(text_of(scenario.path("pinhole.xml")) == lens);
 }
 
 TEST_CASE("a disk that is full is said and nothing is left behind") {
@@ -206,7 +196,7 @@ TEST_CASE("a disk that is full is said and nothing is left behind") {
     }
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::write_failed);
-    CHECK(files_below(scenario.path("out")).empty());
+    CHECK(everything_below(scenario.path("out")).empty());
   }
 }
 
@@ -225,7 +215,7 @@ TEST_CASE("labels that cannot be written to their end fail the export") {
   }
   REQUIRE(!report.has_value());
   CHECK(report.error().kind == ErrorKind::write_failed);
-  CHECK(files_below(scenario.path("out")).empty());
+  CHECK(everything_below(scenario.path("out")).empty());
 }
 
 TEST_CASE("frames that the project does not have are a usage error and make nothing") {
@@ -243,7 +233,7 @@ TEST_CASE("frames that the project does not have are a usage error and make noth
 TEST_CASE("a folder that cannot be made is said") {
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
-  put(scenario.path("wall"), "a file");
+  write_file_and_folders(scenario.path("wall"), "a file");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("wall/out")}, {});
   REQUIRE(!report.has_value());

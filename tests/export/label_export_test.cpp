@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <pugixml.hpp>
@@ -13,6 +12,7 @@
 #include "export/export_files.h"
 #include "export/export_project.h"
 #include "frame/synthetic_scenes.h"
+#include "support/files.h"
 #include "truth/measure.h"
 
 namespace sigs::test {
@@ -47,11 +47,6 @@ ExportRequest request_of(const Scenario& scenario, bool overwrite = false, int f
           .overwrite = overwrite};
 }
 
-void put(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 // Boxes of a frame by the XML file of our own, x y width height.
 std::vector<std::vector<int>> boxes_in_xml(const Scenario& scenario, int frame) {
   pugi::xml_document document;
@@ -80,7 +75,7 @@ std::vector<std::vector<int>> boxes_in_voc(const Scenario& scenario, const std::
 }
 
 std::size_t lines_in(const fs::path& path) {
-  const std::string text = *read_text(path);
+  const std::string text = text_of(path);
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -91,7 +86,7 @@ TEST_CASE("labels of an export tell the same truth in every format, and images l
   prepare(scenario);
   const Result<ExportReport> report = export_project(request_of(scenario), {});
   REQUIRE_MESSAGE(report.has_value(), (report ? "" : report.error().text()));
-  const Json coco = Json::parse(*read_text(scenario.path("out/lot.coco.json")));
+  const Json coco = json_of(scenario.path("out/lot.coco.json"));
   REQUIRE(coco["images"].size() == 3);
   for (const Json& image : coco["images"]) {
     const std::vector<std::vector<int>> boxes = boxes_in_xml(scenario, image["footage_frame"].get<int>());
@@ -125,7 +120,7 @@ TEST_CASE("a video's labels have no images and name the video") {
   prepare(scenario);
   scenario.project.output.codec = CodecChoice::ffv1;
   REQUIRE(export_project(request_of(scenario), {}).has_value());
-  CHECK(Json::parse(*read_text(scenario.path("out/lot.coco.json")))["videos"][0]["file_name"] == "lot.mkv");
+  CHECK(json_of(scenario.path("out/lot.coco.json"))["videos"][0]["file_name"] == "lot.mkv");
   CHECK_FALSE(fs::exists(scenario.path("out/lot.yolo/images")));
   CHECK_FALSE(fs::exists(scenario.path("out/lot.voc/JPEGImages")));
   CHECK(fs::exists(scenario.path("out/lot.yolo/labels/lot/frame_000002.txt")));
@@ -136,7 +131,7 @@ TEST_CASE("a folder of labels is replaced whole by a later export") {
   prepare(scenario);
   REQUIRE(export_project(request_of(scenario), {}).has_value());
   CHECK_FALSE(export_project(request_of(scenario), {}).has_value());
-  put(scenario.path("out/lot.yolo/labels/lot.cache"), "what a reader leaves there");
+  write_file_and_folders(scenario.path("out/lot.yolo/labels/lot.cache"), "what a reader leaves there");
   const Result<ExportReport> again = export_project(request_of(scenario, true, 4, 5), {});
   REQUIRE_MESSAGE(again.has_value(), (again ? "" : again.error().text()));
   CHECK_FALSE(fs::exists(scenario.path("out/lot.yolo/labels/lot/frame_000002.txt")));
@@ -150,14 +145,14 @@ TEST_CASE("a folder of labels that holds anything that no export wrote is never 
     CAPTURE(name);
     Scenario scenario(kSize, kFrames);
     prepare(scenario);
-    put(scenario.path("out") / name, "mine");
+    write_file_and_folders(scenario.path("out") / name, "mine");
     const Result<ExportReport> report = export_project(request_of(scenario, true), {});
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::cannot_create);
     CHECK(report.error().where ==
           scenario.path("out").string() + "/" + std::string(name).substr(0, std::string(name).find('/')));
     CHECK(report.error().what.find(std::string(name).substr(std::string(name).find('/') + 1)) != std::string::npos);
-    CHECK(*read_text(scenario.path("out") / name) == "mine");
+    CHECK(text_of(scenario.path("out") / name) == "mine");
     CHECK_FALSE(fs::exists(scenario.path("out/lot.xml")));
   }
 }
@@ -174,7 +169,7 @@ TEST_CASE("every file of every folder of labels is one that a later export knows
       REQUIRE(export_project(request_of(scenario), {}).has_value());
       const Result<ExportReport> again = export_project(request_of(scenario, true), {});
       CHECK_MESSAGE(again.has_value(), (again ? "" : again.error().text()));
-      put(scenario.path("out") / ("lot" + std::string(format.suffix)) / "mine", "mine");
+      write_file_and_folders(scenario.path("out") / ("lot" + std::string(format.suffix)) / "mine", "mine");
       CHECK_FALSE(export_project(request_of(scenario, true), {}).has_value());
     }
   }

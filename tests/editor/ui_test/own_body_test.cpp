@@ -8,6 +8,7 @@
 #include <string>
 
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
 
 namespace sigs::test {
 
@@ -86,7 +87,7 @@ TEST_CASE("strokes that were not saved outlive a crash") {
   UiTest ui_test("own-body-crash", {{"autosave_s", 1}});
   EditorDriver& editor = ui_test.editor();
   const fs::path project = open_without_mask(ui_test);
-  const std::string original = bytes_of(project);
+  const std::string original = text_of(project);
   const glm::dvec2 from = on_screen(ui_test, 200, 200);
   editor.hold(from.x, from.y);
   editor.settle();
@@ -99,7 +100,7 @@ TEST_CASE("strokes that were not saved outlive a crash") {
   wait_for_place(ui_test, "own body/unsaved");
   editor.wait_for("the recovery files", [&](const Json&) { return keeps_mask(ui_test.folder()); });
   editor.kill();
-  CHECK(bytes_of(project) == original);
+  CHECK(text_of(project) == original);
 
   editor.start({});
   (void)editor.place("start/recover.0");
