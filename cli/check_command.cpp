@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "cli/options.h"
 #include "export/export_project.h"
 #include "project/validate.h"
@@ -26,18 +27,12 @@ void print(const Error& error) {
   std::printf("%s\n", error.text().c_str());
 }
 
-// "1 warning", "2 warnings"
-std::string counted(std::size_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 // Two lines an intruder. The condition is that of spline/conditioning.h.
 void print_intruders(const Project& project, const Scene& scene, const std::vector<Visibility>& visibilities) {
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const IntruderSettings& intruder = project.intruders[i];
-    const std::size_t count = intruder.trajectory.waypoints.size();
-    std::printf("intruders[%zu] \"%s\": %zu %s", i, intruder.name.c_str(), count,
-                count == 1 ? "waypoint" : "waypoints");
+    std::printf("intruders[%zu] \"%s\": %s", i, intruder.name.c_str(),
+                count_text(std::ssize(intruder.trajectory.waypoints), "waypoint").c_str());
     if (const std::optional<double> condition = path_condition(project, i, scene))
       std::printf(", condition %.4g", *condition);
     std::printf("\nintruders[%zu] \"%s\": %s\n", i, intruder.name.c_str(), text_of(visibilities[i]).c_str());
@@ -51,7 +46,7 @@ Result<void> check(const ProjectOptions& options) {
   const std::vector<Problem> problems = validate(*project);
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
-    return fail(project->file.string(), counted(problems.size(), "problem"), problems.front().kind);
+    return fail(project->file.string(), count_text(problems.size(), "problem"), problems.front().kind);
   const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());
@@ -64,8 +59,8 @@ Result<void> check(const ProjectOptions& options) {
   for (const Warning& warning : warnings) print_warning(warning);
   print_intruders(*project, *scene, visibilities);
   std::printf("%s: %s; frames %d to %d, %s\n", project->file.c_str(),
-              warnings.empty() ? "nothing is wrong" : ("no errors, " + counted(warnings.size(), "warning")).c_str(),
-              scene->first_frame, scene->last_frame, counted(scene->intruders.size(), "intruder").c_str());
+              warnings.empty() ? "nothing is wrong" : ("no errors, " + count_text(warnings.size(), "warning")).c_str(),
+              scene->first_frame, scene->last_frame, count_text(scene->intruders.size(), "intruder").c_str());
   return {};
 }
 

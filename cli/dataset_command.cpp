@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -12,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "cli/dataset_table.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -57,10 +60,6 @@ Result<Shard> shard_of(const std::string& text) {
     if (wrong == std::errc() && last == end && shard.part >= 1 && shard.part <= shard.parts) return shard;
   }
   return fail("--shard " + text, "expected I/N with I from 1 to N, as in 2/3", ErrorKind::usage);
-}
-
-std::string count_text(std::size_t count, const char* thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 // What several videos have in common is printed once.
@@ -146,8 +145,8 @@ void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
     if (visibilities[i] && visibilities[i]->visible == 0 && ++count <= kNamed)
       names += (count > 1 ? ", " : "") + videos[i]->name;
   if (count > 0)
-    print_warning({"", "the intruder is never in the image in " + count_text(count, "video") + ": " + names +
-                           (count > kNamed ? ", ..." : "")});
+    print_warning({"", fmt::format("the intruder is never in the image in {}: {}{}", count_text(count, "video"), names,
+                                   count > kNamed ? ", ..." : "")});
 }
 
 // The table, and the errors of the request.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/dataset_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +11,6 @@
 
 #include "base/text.h"
 #include "dataset/run.h"
-#include "dataset/short_text.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -81,17 +82,17 @@ std::string table_text(const std::vector<Column>& columns) {
     if (&column == &columns.front() || !is_constant(column))
       varying.push_back(column);
     else if (column.cells.front() != "-")
-      shared += (shared.empty() ? "all: " : ", ") + column.title + " " + column.cells.front();
+      shared += fmt::format("{}{} {}", shared.empty() ? "all: " : ", ", column.title, column.cells.front());
   }
   return aligned(varying) + (shared.empty() ? "" : shared + "\n") + "\n";
 }
 
 // Four significant digits, and all digits before the decimal point.
 std::string rounded_text(double value) {
-  if (value == 0 || !std::isfinite(value)) return short_text(value);
+  if (value == 0 || !std::isfinite(value)) return short_number_text(value);
   const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
   const double rounded = step < 1 ? std::round(value / step) * step : std::round(value);
-  return short_text(rounded);
+  return short_number_text(rounded);
 }
 
 // Sizes of images, each footage opened once.
@@ -117,7 +118,7 @@ std::string or_dash(const std::map<std::string, std::string>& tags, const char* 
 
 std::string view_text(const std::optional<Visibility>& view) {
   if (!view) return "?";
-  const std::string share = std::to_string(view->visible) + "/" + std::to_string(view->frames_checked);
+  const std::string share = fmt::format("{}/{}", view->visible, view->frames_checked);
   return view->visible > 0 ? share : "never";
 }
 
@@ -195,7 +196,7 @@ std::vector<const PlannedVideo*> videos_of(const Plan& plan, const Shard& shard)
 
 std::string resamples_line(const std::vector<const PlannedVideo*>& videos) {
   const std::string text = resamples_text(resamples_of(videos));
-  return text.empty() ? text : "sampled again: " + text + "\n";
+  return text.empty() ? text : fmt::format("sampled again: {}\n", text);
 }
 
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
@@ -215,9 +216,8 @@ Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));
-  return text + resamples_line(videos) + std::to_string(videos.size()) +
-         (videos.size() == 1 ? " video, " : " videos, ") + std::to_string(frames) +
-         (frames == 1 ? " frame, about " : " frames, about ") + size_text(bytes) + "\n";
+  return fmt::format("{}{}{}, {}, about {}\n", text, resamples_line(videos), count_text(std::ssize(videos), "video"),
+                     count_text(frames, "frame"), size_text(bytes));
 }
 
 }  // namespace sigs::cli

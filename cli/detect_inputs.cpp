@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/detect_inputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +11,7 @@
 #include "base/nesting.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "cli/options.h"
 
 namespace sigs::cli {
@@ -103,7 +106,8 @@ Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
                 "no results for this clip; where nothing was detected, they are a file without boxes",
                 ErrorKind::cannot_read);
   if (found.size() > 1)
-    return fail(folder.string(), "has both " + found[0].filename().string() + " and " + found[1].filename().string());
+    return fail(folder.string(),
+                fmt::format("has both {} and {}", found[0].filename().string(), found[1].filename().string()));
   return found.front();
 }
 
@@ -163,9 +167,9 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
     return by_shared_files(std::move(inputs.clips), files);
   if (files.size() != inputs.clips.size())
     return fail("--results",
-                "there are " + std::to_string(inputs.clips.size()) + " clips and " + std::to_string(files.size()) +
-                    (files.size() == 1 ? " file" : " files") +
-                    " of results; name one for each, in order, or a folder for each detector",
+                fmt::format("there are {} clips and {} of results; name one for each, in order, or a folder for each "
+                            "detector",
+                            inputs.clips.size(), count_text(std::ssize(files), "file")),
                 ErrorKind::usage);
   inputs.detectors = {name_of_folder(files.front().parent_path())};
   for (std::size_t i = 0; i < files.size(); ++i) inputs.clips[i].results = {files[i]};
@@ -176,14 +180,14 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
 
 void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
   if (!results.clip.empty() && results.clip != clip)
-    print_warning(
-        {file.string(), "its img_name is of " + results.clip + ", the clip is " + clip + ": are these its results?"});
+    print_warning({file.string(),
+                   fmt::format("its img_name is of {}, the clip is {}: are these its results?", results.clip, clip)});
 }
 
 std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
   std::string free = name;
   for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
-    free = name + " (" + std::to_string(n) + ")";
+    free = fmt::format("{} ({})", name, n);
   return free;
 }
 

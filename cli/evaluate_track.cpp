@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -81,7 +83,7 @@ TrackReport report_of(const TrackedClip& clip, const std::vector<Results>& all) 
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
   TrackReport report{.clip = clip.name,
                      .footage = clip.truth.footage,
-                     .target = "intruder " + std::to_string(target.id) + " (" + target.name + ")",
+                     .target = fmt::format("intruder {} ({})", target.id, target.name),
                      .policy = clip.policy,
                      .remarks = clip.remarks};
   for (const Results& results : all) report.scores.push_back(score_track(clip.truth, target, results, report.policy));
@@ -90,9 +92,9 @@ TrackReport report_of(const TrackedClip& clip, const std::vector<Results>& all) 
 
 // Where scoring begins, in a line above the table.
 std::string heading_of(const TrackReport& report) {
-  return report.clip + ": " + report.target + ", box of " +
-         (report.policy.truth == TruthBox::visible ? "what can be seen" : "the whole") + ", frames " +
-         std::to_string(report.policy.from_frame) + " to " + std::to_string(report.footage.last_frame) + "\n";
+  return fmt::format("{}: {}, box of {}, frames {} to {}\n", report.clip, report.target,
+                     report.policy.truth == TruthBox::visible ? "what can be seen" : "the whole",
+                     report.policy.from_frame, report.footage.last_frame);
 }
 
 // The results of the trackers that ran, in a format that can be read again.
@@ -184,7 +186,8 @@ Command add_evaluate_track(CLI::App& evaluate) {
       ->check(not_empty());
   std::string known = "all";
   for (const std::string_view name : tracker_names()) known.append(", ").append(name);
-  command->add_option("--tracker", request.trackers, "OpenCV's tracker to run: " + known + "; several by commas")
+  command
+      ->add_option("--tracker", request.trackers, fmt::format("OpenCV's tracker to run: {}; several by commas", known))
       ->option_text("NAMES ...")
       ->delimiter(',')
       ->allow_extra_args(false);

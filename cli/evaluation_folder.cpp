@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/evaluation_folder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 #include <string>
@@ -58,7 +60,7 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
   const Result<std::string> foreign = foreign_content_of(place);
   if (!foreign) return fail(foreign.error());
   if (!foreign->empty())
-    return fail(not_free(shown, "holds " + *foreign + ", which no evaluation wrote; choose another folder"));
+    return fail(not_free(shown, fmt::format("holds {}, which no evaluation wrote; choose another folder", *foreign)));
   return {};
 }
 

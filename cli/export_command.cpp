@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -9,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "cli/progress.h"
@@ -175,7 +178,8 @@ Command add_export_command(CLI::App& program) {
   for (const SettingText& setting : kSettings)
     command->add_option(setting.option, options->settings[setting.key], setting.help)->option_text(setting.value);
   command
-      ->add_option("--labels", options->labels, "annotation formats, separated by commas: " + label_names() + "; none")
+      ->add_option("--labels", options->labels,
+                   fmt::format("annotation formats, separated by commas: {}; none", label_names()))
       ->option_text("NAMES");
   command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
       ->check(CLI::Range(0, 256))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -36,7 +38,7 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)
-    return fail("--frame " + std::to_string(options.frame), "the footage has frames 0 to " + std::to_string(count - 1),
+    return fail(fmt::format("--frame {}", options.frame), fmt::format("the footage has frames 0 to {}", count - 1),
                 ErrorKind::usage);
   const Result<Scene> scene = open_scene(project, shape_of(source->info()));
   if (!scene) return fail(scene.error());
@@ -45,8 +47,8 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
   if (background->damaged)
-    print_warning({source->info().path.string(), "frame " + std::to_string(options.frame) +
-                                                     " is damaged; another frame of the footage stands in for it"});
+    print_warning({source->info().path.string(),
+                   fmt::format("frame {} is damaged; another frame of the footage stands in for it", options.frame)});
   ComposeContext context;
   return compose_frame(*scene, options.frame, std::move(*background), context,
                        options.stages ? Stages::keep : Stages::leave_out);
@@ -56,11 +58,10 @@ using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;
 
 // By their final names.
 NamedImages stage_images(const ComposedFrame& frame, const FrameOptions& options) {
-  const std::string base = "frame_" + std::to_string(options.frame);
+  const std::string base = fmt::format("frame_{}", options.frame);
   NamedImages images{{options.folder / (base + ".png"), bgr_of(frame.image)}};
   for (std::size_t i = 0; i < frame.stages.size(); ++i) {
-    const std::string number = (i < 10 ? "0" : "") + std::to_string(i);
-    images.emplace_back(options.folder / (base + "_" + number + "_" + frame.stages[i].name + ".png"),
+    images.emplace_back(options.folder / fmt::format("{}_{:02}_{}.png", base, i, frame.stages[i].name),
                         frame.stages[i].image);
   }
   return images;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "base/paths.h"
 #include "base/pose.h"
+#include "base/text.h"
 #include "camera/camera.h"
 #include "cli/options.h"
 #include "mesh/mesh.h"
@@ -81,8 +81,8 @@ double length_s(const VideoInfo& video) {
 }
 
 void print_video(const VideoInfo& video) {
-  std::printf("video: %s, %dx%d, %s (%s), container %s\n", video.codec.c_str(), video.size_px.width,
-              video.size_px.height, name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
+  std::printf("video: %s, %s, %s (%s), container %s\n", video.codec.c_str(), image_size_text(video.size_px).c_str(),
+              name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
   if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
   std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
               video.variable_frame_rate ? " (variable)" : "", length_s(video));
@@ -102,7 +102,7 @@ void print_camera(const Camera& camera) {
   std::printf("calibration: %s, %zu coefficients%s\n",
               lens.model == LensModel::kannala_brandt ? "Kannala-Brandt fisheye" : "Brown-Conrady",
               lens.coefficients.size(), camera.lens.is_pinhole() ? " (a plain pinhole)" : "");
-  std::printf("size: %dx%d\n", camera.size_px.width, camera.size_px.height);
+  std::printf("size: %s\n", image_size_text(camera.size_px).c_str());
   std::printf("fx fy cx cy: %.6g %.6g %.6g %.6g px\n", lens.fx, lens.fy, lens.cx, lens.cy);
   std::printf("coefficients:");
   for (const double coefficient : lens.coefficients) std::printf(" %.9g", coefficient);
@@ -125,13 +125,6 @@ void print_mesh(const Mesh& mesh) {
     std::printf("material %s: color %.3g %.3g %.3g, opacity %.3g%s\n", material.name.c_str(), material.diffuse.x,
                 material.diffuse.y, material.diffuse.z, material.opacity, material.texture.empty() ? "" : ", textured");
   for (const Warning& warning : mesh.warnings) print_warning(warning);
-}
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 // "1280x960". Error usage.

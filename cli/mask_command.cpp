@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "base/paths.h"
 #include "cli/mask_outputs.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -45,10 +45,7 @@ struct MaskOptions {
 };
 
 bool is_project(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".json";
+  return lower_extension(file) == ".json";
 }
 
 // A video alone is a project with nothing else in it, at the place where the program was started.

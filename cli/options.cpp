@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -50,7 +52,7 @@ std::string choice_error(const Choice& choice, const std::string& text) {
     if (name == text) return "";
     names += (names.empty() ? "" : " or ") + std::string(name);
   }
-  return "is " + text + ", must be " + names;
+  return fmt::format("is {}, must be {}", text, names);
 }
 
 std::string number_error(const Field& field, const std::string& text) {
@@ -58,12 +60,13 @@ std::string number_error(const Field& field, const std::string& text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_negative = text.starts_with('-');
   if (end != text.data() + text.size() || code == std::errc::invalid_argument)
-    return "is " + text + ", must be a whole number";
+    return fmt::format("is {}, must be a whole number", text);
   const bool is_too_long = code == std::errc::result_out_of_range;
   const auto value = static_cast<double>(number);
   if (is_too_long ? is_negative : value < field.minimum)
-    return "is " + text + ", must be " + whole_text(field.minimum) + " or more";
-  if (is_too_long || value > field.maximum) return "is " + text + ", must be " + whole_text(field.maximum) + " or less";
+    return fmt::format("is {}, must be {} or more", text, whole_text(field.minimum));
+  if (is_too_long || value > field.maximum)
+    return fmt::format("is {}, must be {} or less", text, whole_text(field.maximum));
   return "";
 }
 
@@ -158,7 +161,7 @@ CLI::Validator from_to(double low, double high) {
     double number = 0;
     const bool is_number = CLI::detail::lexical_cast(text, number);
     if (is_number && number >= low && number <= high) return {};
-    return "must lie between " + number_text(low, 3) + " and " + number_text(high, 3) + ", not " + text;
+    return fmt::format("must lie between {} and {}, not {}", number_text(low, 3), number_text(high, 3), text);
   };
   return {wrong, ""};
 }

@@ -4,10 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#include "base/text.h"
 
 namespace sigs::cli {
 
@@ -26,16 +27,6 @@ ProgressStyle progress_style(const std::string& name) {
   if (name == "plain") return ProgressStyle::plain;
   if (name == "json") return ProgressStyle::json;
   return name == "none" ? ProgressStyle::none : ProgressStyle::automatic;
-}
-
-std::string clock_text(double seconds) {
-  const long whole = std::lround(std::max(0.0, seconds));
-  char text[32];
-  if (whole >= 3600)
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  else
-    std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
-  return text;
 }
 
 Progress::Progress(ProgressStyle style) : style_(style) {

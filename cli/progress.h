@@ -37,7 +37,4 @@ class Progress {
   Clock::time_point drawn_ = Clock::time_point::min();
 };
 
-// "1:05", "2:10:00".
-[[nodiscard]] std::string clock_text(double seconds);
-
 }  // namespace sigs::cli

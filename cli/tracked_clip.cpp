@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/tracked_clip.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -51,19 +52,15 @@ class LabelledImages {
   std::optional<FrameSource> video_;  // none: path_ is a folder
 };
 
-std::string size_text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 Result<void> check_size(const fs::path& path, cv::Size size, const FootageTruth& footage) {
   if (size == footage.size_px) return {};
-  return fail(path.string(), "is " + size_text(size) + ", the labels are of " + size_text(footage.size_px));
+  return fail(path.string(),
+              fmt::format("is {}, the labels are of {}", image_size_text(size), image_size_text(footage.size_px)));
 }
 
 Result<void> check_count(const fs::path& path, int count, const ClipTruth& clip) {
   if (count == clip.frames()) return {};
-  return fail(path.string(),
-              "has " + std::to_string(count) + " frames, the labels have " + std::to_string(clip.frames()));
+  return fail(path.string(), fmt::format("has {} frames, the labels have {}", count, clip.frames()));
 }
 
 Result<int> image_count_in(const fs::path& folder) {
@@ -92,13 +89,13 @@ Result<fs::path> LabelledImages::beside(const fs::path& labels) {
       found.push_back(path);
   if (found.empty())
     return fail(labels.string(),
-                "has neither " + labels.stem().string() + ".mkv, .mp4, .avi nor a folder " + labels.stem().string() +
-                    " beside it; name its images with --video",
+                fmt::format("has neither {}.mkv, .mp4, .avi nor a folder {} beside it; name its images with --video",
+                            labels.stem().string(), labels.stem().string()),
                 ErrorKind::cannot_read);
   if (found.size() > 1)
     return fail(labels.string(),
-                "has both " + found[0].filename().string() + " and " + found[1].filename().string() +
-                    " beside it; choose with --video",
+                fmt::format("has both {} and {} beside it; choose with --video", found[0].filename().string(),
+                            found[1].filename().string()),
                 ErrorKind::cannot_read);
   return found.front();
 }
@@ -135,13 +132,6 @@ Result<cv::Mat> LabelledImages::at(int frame) {
   return image;
 }
 
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 // Which intruder is tracked. Names are those of the clip's, in their order.
 Result<int> target_of(const TrackRequest& request, const std::vector<std::string>& names) {
   const std::string file = request.input.file.string();
@@ -150,11 +140,11 @@ Result<int> target_of(const TrackRequest& request, const std::vector<std::string
   const int chosen = request.intruder.value_or(count == 1 ? 0 : -1);
   if (chosen >= 0 && chosen < count) return chosen;
   std::string there;
-  for (int i = 0; i < count; ++i) there += (i == 0 ? "" : ", ") + std::to_string(i) + " " + names[i];
+  for (int i = 0; i < count; ++i) there += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, names[i]);
   if (request.intruder)
-    return fail("--intruder " + std::to_string(chosen), "there is none of that number; there are " + there,
+    return fail(fmt::format("--intruder {}", chosen), "there is none of that number; there are " + there,
                 ErrorKind::usage);
-  return fail(file, "has " + std::to_string(count) + " intruders; choose with --intruder: " + there, ErrorKind::usage);
+  return fail(file, fmt::format("has {} intruders; choose with --intruder: {}", count, there), ErrorKind::usage);
 }
 
 const Box& start_box(const TargetFrame& frame, TruthBox truth) {
@@ -181,10 +171,10 @@ Result<void> check_interrupt() {
 
 Error never_trackable(const TrackRequest& request, const TrackedClip& clip) {
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
-  std::string what = "intruder " + std::to_string(target.id) + " is in no frame seen with sides of at least " +
-                     number_text(request.min_side_px, 3) + " px";
+  std::string what = fmt::format("intruder {} is in no frame seen with sides of at least {} px", target.id,
+                                 number_text(request.min_side_px, 3));
   if (request.policy.min_visible_fraction > 0)
-    what += " and to " + number_text(100 * request.policy.min_visible_fraction, 3) + " %";
+    what += fmt::format(" and to {} %", number_text(100 * request.policy.min_visible_fraction, 3));
   return {request.input.file.string(), what + ": there is nothing to follow"};
 }
 
@@ -243,8 +233,9 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   progress.end();
   if (!damaged) return fail(damaged.error());
   if (*damaged > 0)
-    print_warning({clip->footage().video, std::to_string(*damaged) + " of " + std::to_string(total) +
-                                              " frames are damaged; the last intact one before each stands in"});
+    print_warning(
+        {clip->footage().video,
+         fmt::format("{} of {} frames are damaged; the last intact one before each stands in", *damaged, total)});
   return finished(request, std::move(tracked), group);
 }
 
@@ -294,7 +285,7 @@ Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup gro
 Result<TrackedClip> tracked_clip(const TrackRequest& request) {
   Result<TrackerGroup> group = TrackerGroup::make(request.trackers);
   if (!group) return fail("--tracker " + group.error().where, group.error().what, group.error().kind);
-  const std::string extension = extension_of(request.input.file);
+  const std::string extension = lower_extension(request.input.file);
   if (extension == ".xml") return tracked_labels(request, std::move(*group));
   if (extension != ".json")
     return fail(request.input.file.string(), "is neither a project (.json) nor labels (.xml)", ErrorKind::usage);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/app_shell.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -111,7 +113,7 @@ void AppShell::report_export() {
   if (export_view_.is_open()) return;
   const ExportState state = export_.state();
   if (state.phase == JobPhase::done)
-    toasts_.show({"Exported into " + state.request.folder.string() + "; Ctrl + E shows it"}, now_s_);
+    toasts_.show({fmt::format("Exported into {}; Ctrl + E shows it", state.request.folder.string())}, now_s_);
   if (state.phase == JobPhase::failed) toasts_.show({"The export failed; Ctrl + E shows why", true}, now_s_);
 }
 

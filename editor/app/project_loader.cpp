@@ -3,7 +3,6 @@
 
 #include <mutex>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "base/threads.h"
@@ -52,10 +51,7 @@ void ProjectLoader::start(std::filesystem::path path) {
     }
     wake();
   };
-  if (Result<std::thread> thread = started_thread(read_it))
-    thread->detach();
-  else
-    read_it();  // the window waits
+  run_in_background(read_it);
 }
 
 std::filesystem::path ProjectLoader::path() const {

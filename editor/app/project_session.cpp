@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/project_session.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "base/text.h"
 #include "editor/document/dropped_file.h"
 #include "editor/document/project_paths.h"
 #include "editor/widgets/texts.h"
@@ -158,7 +161,7 @@ void ProjectSession::leave_document_then(Step next) {
     next();
   };
   ask({.title = "Unsaved changes",
-       .text = "Save the changes of " + shown_name(document_.project()) + "?",
+       .text = fmt::format("Save the changes of {}?", shown_name(document_.project())),
        .answers = {"Save", "Don't save", "Cancel"}},
       {[this, next] { save_then(next); }, give_up, {}});
 }
@@ -218,8 +221,8 @@ void ProjectSession::take_loaded() {
   remember_project(settings_, loaded->path);
   for (const Warning& warning : loaded->read->warnings) show_message(warning.text());
   if (const std::size_t missing = missing_files(document_.project()).size(); missing > 0)
-    show_message(std::to_string(missing) + (missing == 1 ? " file of this project is" : " files of this project are") +
-                     " missing; File > Find missing files shows which",
+    show_message(fmt::format("{} of this project {} missing; File > Find missing files shows which",
+                             count_text(static_cast<std::int64_t>(missing), "file"), missing == 1 ? "is" : "are"),
                  true);
 }
 
@@ -302,8 +305,9 @@ void ProjectSession::show_recovered(const AbandonedProject& abandoned) {
   recovered_mask_ = std::move(taken->mask);
   if (!taken->mask_problem.empty()) show_message("The own-body mask is lost: " + taken->mask_problem, true);
   const std::string name = shortened(abandoned.name, kMaxName);
-  show_message(recovered_mask_ ? "Recovered " + name + " and the own-body mask that was painted; save both to keep them"
-                               : "Recovered " + name + "; save it to keep it");
+  show_message(recovered_mask_
+                   ? fmt::format("Recovered {} and the own-body mask that was painted; save both to keep them", name)
+                   : fmt::format("Recovered {}; save it to keep it", name));
 }
 
 void ProjectSession::discard(const AbandonedProject& abandoned) {
@@ -335,7 +339,8 @@ void ProjectSession::handle_dropped(const fs::path& path, Edits& edits) {
     if (has_project_)
       edits.ask(LoadResults{path});
     else
-      show_message("Open the project that " + path.filename().string() + " belongs to, then drop it again", true);
+      show_message(fmt::format("Open the project that {} belongs to, then drop it again", path.filename().string()),
+                   true);
     return;
   }
   if (!has_project_) show(Project());

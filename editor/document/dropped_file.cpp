@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "base/input_file.h"
+#include "base/paths.h"
 #include "editor/document/project_paths.h"
 
 namespace sigs::editor {
@@ -28,13 +28,6 @@ std::string first_bytes(const fs::path& path) {
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
   return bytes;
-}
-
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 bool at(std::string_view bytes, std::size_t offset, std::string_view mark) {
@@ -121,7 +114,7 @@ DroppedFile classified_drop(const fs::path& path) {
     return nothing(file.error().where + " " + file.error().what);
   if (!std::ifstream(path, std::ios::binary)) return nothing(path.string() + " cannot be read");
   // An OBJ is text without a mark of its own: its name has to say it.
-  const std::string extension = extension_of(path);
+  const std::string extension = lower_extension(path);
   const DroppedKind content = extension == ".obj" ? DroppedKind::model : kind_by_content(first_bytes(path));
   const DroppedKind kind = content != DroppedKind::nothing ? content : kind_by_extension(extension);
   if (kind == DroppedKind::nothing)

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "editor/document/field_edits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <type_traits>
 #include <utility>
+
+#include "base/text.h"
 
 namespace sigs::editor {
 
@@ -30,13 +33,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kNames{{
     {"own_body.stable.least_moving_percent", "Min moving"},
     {"footage.calibration", "Calibration"},
 }};
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return small;
-}
 
 std::string with_spaces(std::string_view name) {
   std::string text(name);
@@ -65,7 +61,7 @@ struct Words {
   }
   std::string operator()(const std::string& value) const { return value.empty() ? "none" : value; }
   std::string operator()(const glm::dvec3& v) const {
-    return number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z, field.unit);
+    return fmt::format("{}, {}, {}", number_text(v.x), number_text(v.y), number_text(v.z, field.unit));
   }
   std::string operator()(const std::vector<std::string>& values) const {
     std::string text;
@@ -188,8 +184,8 @@ std::string label_of(std::string_view key) {
 }
 
 bool matches(const Field& field, std::string_view words) {
-  const std::string where = lower(field.key + " " + label_of(field.key) + " " + std::string(field.help));
-  const std::string wanted = lower(words);
+  const std::string where = lower_case(fmt::format("{} {} {}", field.key, label_of(field.key), field.help));
+  const std::string wanted = lower_case(words);
   for (std::size_t begin = 0; begin < wanted.size();) {
     const std::size_t end = std::min(wanted.find(' ', begin), wanted.size());
     if (where.find(wanted.substr(begin, end - begin)) == std::string::npos) return false;
@@ -201,9 +197,10 @@ bool matches(const Field& field, std::string_view words) {
 std::string range_text(const Field& field) {
   const bool low = std::isfinite(field.minimum);
   const bool high = std::isfinite(field.maximum);
-  if (low && high) return limit_text(field.minimum) + " to " + limit_text(field.maximum) + unit_text(field.unit);
-  if (low) return "at least " + limit_text(field.minimum) + unit_text(field.unit);
-  return high ? "at most " + limit_text(field.maximum) + unit_text(field.unit) : "";
+  if (low && high)
+    return fmt::format("{} to {}{}", limit_text(field.minimum), limit_text(field.maximum), unit_text(field.unit));
+  if (low) return fmt::format("at least {}{}", limit_text(field.minimum), unit_text(field.unit));
+  return high ? fmt::format("at most {}{}", limit_text(field.maximum), unit_text(field.unit)) : "";
 }
 
 std::string word_for_zero(std::string_view key) {
@@ -234,7 +231,7 @@ std::string number_format(double value, std::string_view unit) {
   const int before_point = magnitude >= 1 ? static_cast<int>(std::floor(std::log10(magnitude))) + 1 : 1;
   const int digits = std::clamp(before_point + 2, 6, 15);
   const std::string beside = unit == "%" ? " %%" : unit_text(unit);
-  return "%." + std::to_string(digits) + "g" + beside;
+  return fmt::format("%.{}g{}", digits, beside);
 }
 
 std::string number_text(double value, std::string_view unit) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/document/recovery.h"
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -28,8 +29,7 @@ constexpr int kFormat = 1;
 
 std::string stamp_of_this_editor() {
   const auto start = std::chrono::system_clock::now().time_since_epoch();
-  return "editor-" + std::to_string(::getpid()) + "-" +
-         std::to_string(std::chrono::duration_cast<std::chrono::nanoseconds>(start).count());
+  return fmt::format("editor-{}-{}", ::getpid(), std::chrono::duration_cast<std::chrono::nanoseconds>(start).count());
 }
 
 // Files of an editor: its project, the mask beside it, its lock.
@@ -162,7 +162,7 @@ Result<void> Recovery::hold_lock() {
   std::error_code code;
   fs::create_directories(folder_, code);
   if (code)
-    return fail(folder_.string(), "cannot be created: " + code.message() + "; unsaved changes are not kept",
+    return fail(folder_.string(), fmt::format("cannot be created: {}; unsaved changes are not kept", code.message()),
                 ErrorKind::cannot_create);
   Descriptor lock = open_for_lock(lock_of(file_), LockFile::made_where_missing);
   if (!lock.is_open())

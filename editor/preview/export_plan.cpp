@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/export_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -73,8 +75,7 @@ std::vector<fs::path> outputs_there(const Project& project, const fs::path& fold
 std::string export_command(const ExportRequest& request) {
   const fs::path& file = request.project.file;
   std::string text = "sigs export " + (file.empty() ? std::string("PROJECT.json") : quoted(file.string()));
-  if (request.frames)
-    text += " --frames " + std::to_string(request.frames->first) + "-" + std::to_string(request.frames->last);
+  if (request.frames) text += fmt::format(" --frames {}-{}", request.frames->first, request.frames->last);
   text += " --out " + quoted(request.folder.string());
   if (request.overwrite) text += " --force";
   return text;

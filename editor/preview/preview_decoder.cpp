@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/preview_decoder.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -28,10 +30,7 @@ void open_in_background(const std::shared_ptr<PreviewState>& preview_state, cons
     });
     static_cast<void>(done);  // where not even that can be said, the footage stays "being opened"
   };
-  if (Result<std::thread> thread = started_thread(open))
-    thread->detach();
-  else
-    open();  // what is wanted meanwhile waits
+  run_in_background(open);
 }
 
 DecodedFrame grey_with_problem(const VideoInfo& video, int frame, std::string problem) {
@@ -40,7 +39,7 @@ DecodedFrame grey_with_problem(const VideoInfo& video, int frame, std::string pr
 
 DecodedFrame decoded_frame(FrameSource& source, int number) {
   Result<Frame> frame = guarded([&] { return source.read(number); });
-  const std::string where = source.info().path.string() + ": frame " + std::to_string(number);
+  const std::string where = fmt::format("{}: frame {}", source.info().path.string(), number);
   if (frame && frame->damaged)
     return {std::move(*frame), where + " is damaged; another frame of the footage replaces it"};
   if (frame) return {std::move(*frame), ""};

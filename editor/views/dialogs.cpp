@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/dialogs.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -45,16 +46,6 @@ void draw_help_group(std::span<const HelpLine> lines, std::size_t& i) {
     ImGui::EndTable();
   }
   ImGui::Dummy({0, scaled(6)});
-}
-
-void setting_label(const char* name, const char* help) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  tooltip_for_item(help);
-  ImGui::TableNextColumn();
-  ImGui::SetNextItemWidth(-1);
 }
 
 }  // namespace
@@ -130,7 +121,8 @@ bool SettingsDialog::draw(Settings& settings, UiProbe& ui_probe) {
   if (ImGui::BeginTable("settings", 2)) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.2F);
-    setting_label("Size of the text", "Everything else follows it");
+    begin_setting("Size of the text", "Everything else follows it");
+    ImGui::SetNextItemWidth(-1);
     auto font_px = static_cast<int>(font_px_ > 0 ? font_px_ : settings.font_px);
     if (ImGui::SliderInt("##font", &font_px, static_cast<int>(kMinFont_px), static_cast<int>(kMaxFont_px), "%d px",
                          ImGuiSliderFlags_AlwaysClamp))
@@ -138,14 +130,15 @@ bool SettingsDialog::draw(Settings& settings, UiProbe& ui_probe) {
     ui_probe.note_item("settings/font");
     if (ImGui::IsItemDeactivatedAfterEdit() && font_px_ > 0) settings.font_px = font_px_;
     if (!ImGui::IsItemActive()) font_px_ = 0;
-    setting_label("Keep unsaved changes after",
+    begin_setting("Keep unsaved changes after",
                   "Seconds after a change until it is kept on disk for the case of a crash");
+    ImGui::SetNextItemWidth(-1);
     auto autosave_s = static_cast<float>(settings.autosave_s);
     if (ImGui::SliderFloat("##autosave", &autosave_s, 1, 300, "%.0f s",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
       settings.autosave_s = autosave_s;
     ui_probe.note_item("settings/autosave");
-    setting_label("Playing starts again at the end", "Loop over the range between in and out");
+    begin_setting("Playing starts again at the end", "Loop over the range between in and out");
     ImGui::Checkbox("##loop", &settings.loop);
     ui_probe.note_item("settings/loop");
     ImGui::EndTable();
@@ -182,7 +175,7 @@ void RelinkDialog::found(const MissingFile& missing, const fs::path& place) {
 
 void RelinkDialog::browse(const ViewContext& context, const MissingFile& missing) {
   const std::string extension = missing.place.extension().string();
-  context.edits.ask(AskForFile{.title = "Where is " + missing.place.filename().string() + "?",
+  context.edits.ask(AskForFile{.title = fmt::format("Where is {}?", missing.place.filename().string()),
                                .extensions = extension.empty() ? std::vector<std::string>() : std::vector{extension},
                                .start = missing.place.parent_path(),
                                .chosen = [this, missing](const fs::path& place) { found(missing, place); }});

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/text.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -207,7 +208,7 @@ std::string progress_text(const ExportState& state) {
   std::string text = fmt::format("{} of {} frames", state.done, state.total);
   if (state.done == state.total) return text + ", finishing the files...";
   if (state.rate_hz) text += fmt::format(", {:.1f} frames/s", *state.rate_hz);
-  if (state.left_s) text += ", " + clock_text(*state.left_s) + " left";
+  if (state.left_s) text += fmt::format(", {} left", clock_text(*state.left_s));
   return text;
 }
 

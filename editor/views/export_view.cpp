@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/export_view.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -18,14 +19,6 @@ namespace sigs::editor {
 namespace {
 
 namespace fs = std::filesystem;
-
-void label(const char* name) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  ImGui::TableNextColumn();
-}
 
 bool marks_range(const Document& document) {
   return document.in().has_value() || document.out().has_value();
@@ -70,7 +63,7 @@ void ExportView::draw(const ViewContext& context, ExportJob& job) {
 }
 
 void ExportView::draw_folder(const ViewContext& context) {
-  label("Folder");
+  begin_setting("Folder");
   const float browse = dialog_button_width("Browse...");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
   if (text_input("##folder", folder_)) overwrite_asked_ = false;
@@ -85,13 +78,11 @@ void ExportView::draw_folder(const ViewContext& context) {
 
 void ExportView::draw_range(const ViewContext& context) {
   const Document& document = context.document;
-  label("Frames");
-  const std::string whole =
-      "whole project (" + std::to_string(document.first_frame()) + " to " + std::to_string(document.last_frame()) + ")";
+  begin_setting("Frames");
+  const std::string whole = fmt::format("whole project ({} to {})", document.first_frame(), document.last_frame());
   if (ImGui::RadioButton(whole.c_str(), !only_range_ || !marks_range(document))) only_range_ = false;
   context.ui_probe.note_item("export/whole");
-  const std::string part = "in to out (" + std::to_string(document.range_first()) + " to " +
-                           std::to_string(document.range_last()) + ")###range";
+  const std::string part = fmt::format("in to out ({} to {})###range", document.range_first(), document.range_last());
   ImGui::BeginDisabled(!marks_range(document));
   if (ImGui::RadioButton(marks_range(document) ? part.c_str() : "in to out (not marked)###range",
                          only_range_ && marks_range(document)))
@@ -103,15 +94,15 @@ void ExportView::draw_range(const ViewContext& context) {
 void ExportView::draw_choices(const ViewContext& context) {
   draw_folder(context);
   draw_range(context);
-  label("Video");
+  begin_setting("Video");
   draw_video_choices(context);
-  label("Masks");
+  begin_setting("Masks");
   draw_mask_choice(context);
-  label("Labels");
+  begin_setting("Labels");
   draw_label_choice(context);
-  label("Threads");
+  begin_setting("Threads");
   ImGui::SetNextItemWidth(scaled(150));
-  const std::string automatic = "automatic (" + std::to_string(usual_jobs()) + ")";
+  const std::string automatic = fmt::format("automatic ({})", usual_jobs());
   ImGui::SliderInt("##jobs", &jobs_, 0, std::max(2, usual_jobs() + 1), jobs_ == 0 ? automatic.c_str() : "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   tooltip_for_item("Frames that are made side by side; the result does not depend on it");
@@ -152,7 +143,7 @@ void ExportView::draw_notes(const ViewContext& context) {
   if (overwrite_asked_ && !there_.empty()) {
     std::string names;
     for (const fs::path& path : there_) names += (names.empty() ? "" : ", ") + path.filename().string();
-    note_line(Icon::warning, color::kPartly, "Already there: " + names + ". Replace?");
+    note_line(Icon::warning, color::kPartly, fmt::format("Already there: {}. Replace?", names));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/first_steps.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -82,8 +83,8 @@ Steps with_problems(Steps steps, const PreviewOutput& shown) {
 std::string horizon_text(const CameraSettings& camera) {
   if (!knows_horizon(camera)) return "";
   if (!camera.attitude_file.empty()) return camera.attitude_file;
-  return "roll " + number_text(camera.roll_deg.value_or(0), "deg") + ", pitch " +
-         number_text(camera.pitch_deg.value_or(0), "deg");
+  return fmt::format("roll {}, pitch {}", number_text(camera.roll_deg.value_or(0), "deg"),
+                     number_text(camera.pitch_deg.value_or(0), "deg"));
 }
 
 Steps steps_of(const ViewContext& context) {

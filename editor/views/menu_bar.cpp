@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 
+#include "base/text.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
@@ -64,8 +65,8 @@ void draw_file_menu(const ViewContext& context, bool has_project) {
 void draw_edit_menu(const ViewContext& context, bool has_project) {
   if (!begin_menu(context, "Edit")) return;
   const Document& document = context.document;
-  const std::string undo = "Undo " + document.undo_name() + "###Undo";
-  const std::string redo = "Redo " + document.redo_name() + "###Redo";
+  const std::string undo = fmt::format("Undo {}###Undo", document.undo_name());
+  const std::string redo = fmt::format("Redo {}###Redo", document.redo_name());
   if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) context.edits.undo();
   context.ui_probe.note_item("menu/Undo");
   if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) context.edits.redo();
@@ -136,10 +137,9 @@ class RightSide {
 
   void show_problems(const std::vector<Problem>& problems) {
     if (problems.empty()) return;
-    const std::size_t count = problems.size();
     const bool is_missing = std::any_of(problems.begin(), problems.end(),
                                         [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
-    const std::string text = std::to_string(count) + (count == 1 ? " problem" : " problems");
+    const std::string text = count_text(std::ssize(problems), "problem");
     const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(24);
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();

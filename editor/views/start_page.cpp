@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/start_page.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "editor/document/dropped_file.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
@@ -27,9 +29,7 @@ constexpr float kImageShape = float(kImageHeight_px) / kImageWidth_px;
 std::string time_ago(std::int64_t unix_s) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::int64_t minutes = (std::chrono::duration_cast<std::chrono::seconds>(now).count() - unix_s) / 60;
-  const auto text = [](std::int64_t count, const char* unit) {
-    return std::to_string(count) + " " + unit + (count == 1 ? " ago" : "s ago");
-  };
+  const auto text = [](std::int64_t count, const char* unit) { return count_text(count, unit) + " ago"; };
   if (minutes < 1) return "just now";
   if (minutes < 60) return text(minutes, "minute");
   return minutes < 2880 ? text(minutes / 60, "hour") : text(minutes / 1440, "day");
@@ -37,8 +37,8 @@ std::string time_ago(std::int64_t unix_s) {
 
 std::string text_of(const AbandonedProject& project) {
   const std::string where = project.project_file.empty() ? "never saved" : project.project_file.string();
-  return shortened(project.name, 60) + "  -  " + time_ago(project.written_unix_s) + ", " + where +
-         (project.has_mask ? ", with an own-body mask" : "");
+  return fmt::format("{}  -  {}, {}{}", shortened(project.name, 60), time_ago(project.written_unix_s), where,
+                     project.has_mask ? ", with an own-body mask" : "");
 }
 
 void heading(const char* text) {
@@ -121,7 +121,8 @@ void StartPage::draw_head(const ViewContext& context, const StartPageContent& co
   if (content.loading.empty()) return;
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  quiet_text(elided("Reading " + content.loading.filename().string() + "...", ImGui::GetContentRegionAvail().x));
+  quiet_text(
+      elided(fmt::format("Reading {}...", content.loading.filename().string()), ImGui::GetContentRegionAvail().x));
 }
 
 void StartPage::draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice) {
@@ -133,11 +134,11 @@ void StartPage::draw_abandoned(const ViewContext& context, const StartPageConten
     ImGui::PushID(static_cast<int>(i));
     if (is_readable) {
       if (dialog_button("Open##recover", true)) choice.recover = project;
-      context.ui_probe.note_item("start/recover." + std::to_string(i));
+      context.ui_probe.note_item(fmt::format("start/recover.{}", i));
       ImGui::SameLine();
     }
     if (dialog_button("Discard##recover")) choice.discard = project;
-    context.ui_probe.note_item("start/discard." + std::to_string(i));
+    context.ui_probe.note_item(fmt::format("start/discard.{}", i));
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     const std::string text = is_readable ? text_of(project) : "Cannot be read: " + project.recovery_file.string();
@@ -213,7 +214,7 @@ void StartPage::draw_recent(const ViewContext& context, float width) {
     if (ImGui::Selectable("##recent", false, is_there ? 0 : ImGuiSelectableFlags_Disabled, {width, height}))
       context.edits.ask(OpenProject{file});
     ImGui::PopID();
-    context.ui_probe.note_item("start/recent." + std::to_string(i));
+    context.ui_probe.note_item(fmt::format("start/recent.{}", i));
     tooltip_for_item(is_there ? file.c_str() : (file.string() + " is not there").c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 main = is_there ? color::kText : faded(color::kQuiet, 0.6);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/toasts.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -85,12 +86,11 @@ void Toasts::draw(UiProbe& ui_probe, double now_s, ImVec2 foot, float width_px) 
   std::size_t clicked = toasts_.size();
   for (std::size_t i = toasts_.size(); i-- > 0;) {
     Toast& toast = toasts_[i];
-    const std::string text =
-        toast.times > 1 ? toast.text + "  (" + std::to_string(toast.times) + " times)" : toast.text;
+    const std::string text = toast.times > 1 ? fmt::format("{}  ({} times)", toast.text, toast.times) : toast.text;
     const Plate plate = drawn(std::to_string(i), text, toast.is_error, {foot.x, y}, maximum_width);
     if (plate.hovered) toast.until_s = std::max(toast.until_s, now_s + 1);
     if (plate.clicked) clicked = i;
-    ui_probe.note("toast/" + std::to_string(i), plate.rect);
+    ui_probe.note(fmt::format("toast/{}", i), plate.rect);
     y = static_cast<float>(plate.rect.low.y) - scaled(8);
   }
   if (clicked < toasts_.size()) toasts_.erase(toasts_.begin() + static_cast<std::ptrdiff_t>(clicked));

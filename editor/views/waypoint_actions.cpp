@@ -174,7 +174,7 @@ IntruderSettings new_intruder(const ViewContext& context) {
   const Project& now = context.project();
   IntruderSettings intruder;
   if (!now.intruders.empty()) intruder.model = now.intruders.back().model;
-  intruder.name = "intruder " + std::to_string(now.intruders.size() + 1);
+  intruder.name = fmt::format("intruder {}", now.intruders.size() + 1);
   const int first = context.document.range_first();
   const int last = std::max(first + 1, context.document.range_last());
   intruder.trajectory.waypoints = {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
 
@@ -64,6 +65,15 @@ bool dialog_button(const char* label, bool is_main, bool enabled) {
   if (is_main) ImGui::PopStyleColor(2);
   ImGui::EndDisabled();
   return clicked && enabled;
+}
+
+void begin_setting(const char* label, const char* help) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  tooltip_for_item(help);
+  ImGui::TableNextColumn();
 }
 
 bool any_popup_open() {

@@ -19,6 +19,9 @@ void align_buttons_right(const char* const* labels, int count);
 [[nodiscard]] bool dialog_button(const char* label, bool is_main = false, bool enabled = true);
 [[nodiscard]] float dialog_button_width(const char* label);
 
+// Begins a row of a table of two columns: a label with its tooltip in the first; the setting comes into the second.
+void begin_setting(const char* label, const char* help = "");
+
 // Whether a menu, a list or a dialog is open: keys are meant for it.
 [[nodiscard]] bool any_popup_open();
 

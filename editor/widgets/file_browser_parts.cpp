@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -178,7 +179,7 @@ void FileBrowser::draw_list(float height) {
   const bool with_size = width > scaled(330);
   const bool with_time = width > scaled(460);
   const int columns = 1 + with_size + with_time;
-  const std::string id = "entries" + std::to_string(columns);
+  const std::string id = fmt::format("entries{}", columns);
   const bool drawn = ImGui::BeginTable(
       id.c_str(), columns,
       ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,

@@ -11,9 +11,10 @@
 #include <ctime>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
+#include "base/paths.h"
+#include "base/text.h"
 #include "base/threads.h"
 
 namespace sigs::editor {
@@ -28,11 +29,6 @@ bool is_digit(char c) {
 
 char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), lower);
-  return text;
 }
 
 // The digits from a place on, without leading zeros; moves the place behind them.
@@ -50,9 +46,9 @@ int sign_of(const Value& a, const Value& b) {
 
 bool has_extension(const std::string& name, const std::vector<std::string>& extensions) {
   if (extensions.empty()) return true;
-  const std::string extension = lowered(fs::path(name).extension().string());
+  const std::string extension = lower_extension(name);
   return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const std::string& wanted) { return lowered(wanted) == extension; });
+                     [&](const std::string& wanted) { return lower_case(wanted) == extension; });
 }
 
 int compared(const FolderEntry& a, const FolderEntry& b, SortBy by) {
@@ -148,10 +144,7 @@ void FolderReader::read(const fs::path& folder) {
         listing ? std::move(*listing) : FolderListing{.folder = folder, .problem = listing.error().text()};
     pending->done.notify_all();
   };
-  if (Result<std::thread> thread = started_thread(read_it))
-    thread->detach();
-  else
-    read_it();  // the window waits
+  run_in_background(read_it);
   std::unique_lock lock(pending_->mutex);
   pending_->done.wait_for(lock, std::chrono::milliseconds(40), [this] { return pending_->listing.has_value(); });
 }

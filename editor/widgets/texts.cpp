@@ -83,12 +83,6 @@ std::string pixels_text(double value_px) {
   return fmt::format("{:.{}f} px", value_px, size >= 100 ? 0 : size >= 10 ? 1 : 2);
 }
 
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(std::lround(std::clamp(seconds, 0.0, 1e7)));
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
-
 std::string frame_text(double frame) {
   return std::abs(frame - std::round(frame)) < 0.05 ? fmt::format("{:.0f}", frame) : fmt::format("{:.1f}", frame);
 }

@@ -27,8 +27,6 @@ constexpr std::size_t kMaxShownText = 2000;
 // "0.42 px", "3.2 px", "210 px"; "-" for what is not finite.
 [[nodiscard]] std::string pixels_text(double value_px);
 
-// "0:05", "1:02:03".
-[[nodiscard]] std::string clock_text(double seconds);
 // A moment in frames: "120", or "120.5" where it is no whole frame.
 [[nodiscard]] std::string frame_text(double frame);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/theme.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,8 +77,8 @@ std::filesystem::path first_of(const std::vector<std::filesystem::path>& paths) 
 // The text font of Debian's fonts-inter, or of the packages most desktops have.
 std::filesystem::path font_file(const std::string& weight) {
   const std::string roboto = weight == "SemiBold" ? "Medium" : "Regular";
-  return first_of({"/usr/share/fonts/opentype/inter/Inter-" + weight + ".otf",
-                   "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-" + roboto + ".ttf",
+  return first_of({fmt::format("/usr/share/fonts/opentype/inter/Inter-{}.otf", weight),
+                   fmt::format("/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-{}.ttf", roboto),
                    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"});
 }
 

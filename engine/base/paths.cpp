@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "base/paths.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include "base/text.h"
 
 namespace sigs {
 
@@ -42,12 +44,12 @@ const fs::path* named_in(const fs::path& folder, const std::map<Identity, const 
 }
 
 Result<void> input_refused(const fs::path& output, const std::string& what, std::string_view reader) {
-  return fail(output.string(), what + "is read by this " + std::string(reader) + "; choose another name",
+  return fail(output.string(), fmt::format("{}is read by this {}; choose another name", what, reader),
               ErrorKind::cannot_create);
 }
 
 std::string holding(const fs::path& input) {
-  return "holds " + input.string() + ", which ";
+  return fmt::format("holds {}, which ", input.string());
 }
 
 Result<void> check_kept(const fs::path& output, const std::vector<fs::path>& inputs,
@@ -57,7 +59,8 @@ Result<void> check_kept(const fs::path& output, const std::vector<fs::path>& inp
   if (identity && identities.contains(*identity)) {
     const fs::path& input = *identities.at(*identity);
     return input_refused(
-        output, canonical_name(input) == canonical_name(output) ? "" : "is " + input.string() + ", which ", reader);
+        output, canonical_name(input) == canonical_name(output) ? "" : fmt::format("is {}, which ", input.string()),
+        reader);
   }
   const fs::path name = canonical_name(output);
   const fs::path target = canonical_path(output);
@@ -88,10 +91,7 @@ std::string wrong_with_file_name(const std::string& name) {
 }
 
 std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 Result<std::vector<fs::path>> folder_contents(const fs::path& folder) {

@@ -2,6 +2,7 @@
 #include "base/staged_outputs.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -192,7 +193,8 @@ Error StagedOutputs::undo_all(Error error) {
       code = replace_with_backup(output.backup(), output.final_path, output.staged());
     if (code && output.placed == Placed::instead) {
       output.staging->leave_on_disk();
-      error.what += "; the older " + output.final_path.filename().string() + " lies at " + output.backup().string();
+      error.what +=
+          fmt::format("; the older {} lies at {}", output.final_path.filename().string(), output.backup().string());
     }
     output.placed = Placed::no;
   }

@@ -57,6 +57,13 @@ std::size_t columns_of(std::string_view line) {
       std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& letter : lower)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return lower;
+}
+
 std::string text_position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
@@ -99,6 +106,20 @@ std::string short_number_text(double number) {
   text.erase(exponent + 1, text.find_first_not_of("+0", exponent + 1) - exponent - 1);  // 1e+08
   if (text[exponent + 1] == '-') text.erase(exponent + 2, text.find_first_not_of('0', exponent + 2) - exponent - 2);
   return text;
+}
+
+std::string count_text(std::int64_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+std::string image_size_text(cv::Size size_px, std::string_view between) {
+  return fmt::format("{}{}{}", size_px.width, between, size_px.height);
+}
+
+std::string clock_text(double seconds) {
+  const long whole = std::lround(std::min(std::max(0.0, seconds), 1e7));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 }  // namespace sigs

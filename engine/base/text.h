@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace sigs {
 
-// Texts cut into pieces, and numbers and lists as text. Nothing here depends on the locale: a point always separates
-// the decimals.
+// Texts cut into pieces, and numbers, quantities and lists as text. Nothing here depends on the locale: a point always
+// separates the decimals.
 
 // --- Reading. White space is blank, tab and carriage return.
 
@@ -26,6 +28,9 @@ namespace sigs {
 
 // Number of columns that a line of UTF-8 takes on a terminal: one for each code point.
 [[nodiscard]] std::size_t columns_of(std::string_view line);
+
+// The text with the letters A to Z in lower case; all other bytes, those of UTF-8 among them, stay.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 // "line 3, column 5": the position of a byte, which is counted from 1 as parsers do. Lines and columns (in bytes) are
 // counted from 1 too, as editors do. Bytes beyond the end count as the end.
@@ -52,6 +57,17 @@ namespace sigs {
 
 // Six significant digits, with an exponent where that is shorter: 98.7654, 1e8, 3e-7 (not 1e+08, 3e-07).
 [[nodiscard]] std::string short_number_text(double number);
+
+// --- Quantities, for people.
+
+// "1 frame", "12 frames": how many of a thing there are. `thing` is one of them.
+[[nodiscard]] std::string count_text(std::int64_t count, std::string_view thing);
+
+// "1280x960": the size of an image, as command lines take it. People read it more easily with " x " between.
+[[nodiscard]] std::string image_size_text(cv::Size size_px, std::string_view between = "x");
+
+// "0:05", "1:02:03": a duration, rounded to seconds. 0 for negative ones and NaN; longer ones than 1e7 s count as that.
+[[nodiscard]] std::string clock_text(double seconds);
 
 // --- Lists.
 

@@ -27,6 +27,18 @@ Error error_of_exception(const std::string& where) {
   }
 }
 
+template <class Body>
+Result<std::thread> started(Body body) {
+  const char* why = "out of memory";
+  try {
+    return std::thread(std::move(body));
+  } catch (const std::system_error&) {
+    why = "the system's limit of threads or memory is reached";
+  } catch (const std::bad_alloc&) {
+  }
+  return fail("", std::string("no more threads can be started: ") + why, ErrorKind::unavailable);
+}
+
 }  // namespace
 
 bool is_out_of_memory() {
@@ -50,14 +62,24 @@ Error thrown_error(const std::string& where) {
 }
 
 Result<std::thread> started_thread(std::function<void()> body) {
-  const char* why = "out of memory";
-  try {
-    return std::thread(std::move(body));
-  } catch (const std::system_error&) {
-    why = "the system's limit of threads or memory is reached";
-  } catch (const std::bad_alloc&) {
-  }
-  return fail("", std::string("no more threads can be started: ") + why, ErrorKind::unavailable);
+  return started(std::move(body));
+}
+
+Result<std::thread> started_thread(std::function<void()> body, std::function<void(const Error&)> on_error) {
+  return started([body = std::move(body), on_error = std::move(on_error)] {
+    const Result<void> done = guarded([&]() -> Result<void> {
+      body();
+      return {};
+    });
+    if (!done) on_error(done.error());
+  });
+}
+
+void run_in_background(const std::function<void()>& body) {
+  if (Result<std::thread> thread = started_thread(body))
+    thread->detach();
+  else
+    body();
 }
 
 }  // namespace sigs

@@ -37,6 +37,14 @@ template <class Job>
 // grants no more threads, or no memory for one; then nothing was started.
 [[nodiscard]] Result<std::thread> started_thread(std::function<void()> body);
 
+// The same for a body that may throw: on_error is called, on the thread, with what it throws (see thrown_error()).
+[[nodiscard]] Result<std::thread> started_thread(std::function<void()> body,
+                                                 std::function<void(const Error&)> on_error);
+
+// Runs the body on a thread that nobody joins, or here where the system grants no more threads. The body must not
+// throw.
+void run_in_background(const std::function<void()>& body);
+
 // Calls work(i) once for each i with 0 <= i < count, on up to `threads` threads, this one included, and returns when
 // all calls have returned. Uses fewer threads where the system grants no more. When a call throws, no further call
 // begins, and the first exception is thrown again here once the calls that had begun have returned.

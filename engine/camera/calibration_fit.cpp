@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/pose.h"
+#include "base/text.h"
 
 namespace sigs::calibration {
 namespace {
@@ -20,10 +21,6 @@ constexpr double kFarFromMiddle = 0.1;      // of the image's side; real lenses 
 constexpr double kWidestPinhole_rad = 2.9;  // 166 degrees; the image is then 16 focal lengths wide
 constexpr double kNarrowest_rad = 1 * std::numbers::pi / 180;
 constexpr double kWidestFisheye_rad = 2 * std::numbers::pi;
-
-std::string size_text(cv::Size size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
 
 std::string degrees_text(double angle_rad) {
   const double angle_deg = deg_of_rad(angle_rad);
@@ -92,7 +89,7 @@ Warning squeezed(cv::Size from_px, cv::Size to_px, double x, double y, const std
       file_name,
       fmt::format("made for {}, the footage is {}, {:.2f} % off its shape: scaled by {:.5f} across and {:.5f} down; if "
                   "the camera cut the image instead, its edges are {:.1f} px off",
-                  size_text(from_px), size_text(to_px), 100 * std::abs(x / y - 1), x, y, cut_px)};
+                  image_size_text(from_px), image_size_text(to_px), 100 * std::abs(x / y - 1), x, y, cut_px)};
 }
 
 }  // namespace
@@ -107,18 +104,18 @@ AssumedModel assumed_model(std::span<const double> coefficients) {
 
 std::string why_not_made_for(const LensParameters& lens, cv::Size size_px) {
   if (!is_outside(lens, size_px)) return "";
-  return principal_point(lens) + " lies outside the footage's " + size_text(size_px) + likely_size(lens) +
-         state_the_size();
+  return fmt::format("{} lies outside the footage's {}{}{}", principal_point(lens), image_size_text(size_px),
+                     likely_size(lens), state_the_size());
 }
 
 std::vector<std::string> matrix_warnings(const LensParameters& lens, cv::Size size_px, bool size_is_stated) {
   std::vector<std::string> warnings;
   const bool is_far = is_far_from_middle(lens.cx, size_px.width) || is_far_from_middle(lens.cy, size_px.height);
   if (is_outside(lens, size_px))
-    warnings.push_back(principal_point(lens) + " lies outside the image of " + size_text(size_px));
+    warnings.push_back(fmt::format("{} lies outside the image of {}", principal_point(lens), image_size_text(size_px)));
   else if (is_far && !size_is_stated)
-    warnings.push_back(principal_point(lens) + " lies far from the middle of the footage's " + size_text(size_px) +
-                       likely_size(lens) + state_the_size());
+    warnings.push_back(fmt::format("{} lies far from the middle of the footage's {}{}{}", principal_point(lens),
+                                   image_size_text(size_px), likely_size(lens), state_the_size()));
   for (const std::string& warning : {focal_length_warning(lens, lens.fx, size_px.width, "fx"),
                                      focal_length_warning(lens, lens.fy, size_px.height, "fy")})
     if (!warning.empty()) warnings.push_back(warning);
@@ -128,7 +125,8 @@ std::vector<std::string> matrix_warnings(const LensParameters& lens, cv::Size si
 Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px, cv::Size to_px,
                                           const cv::Point2d& stretch, const std::string& file_name,
                                           std::vector<Warning>& warnings) {
-  if (to_px.width < 1 || to_px.height < 1) return fail(file_name, "cannot be scaled to footage of " + size_text(to_px));
+  if (to_px.width < 1 || to_px.height < 1)
+    return fail(file_name, "cannot be scaled to footage of " + image_size_text(to_px));
   // As the footage would be without the stretch.
   const cv::Size shape_px(cvRound(from_px.width / stretch.x), cvRound(from_px.height / stretch.y));
   if (shape_px.empty()) return fail(file_name, "is stretched too far");
@@ -137,8 +135,8 @@ Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px,
   const double shape_y = static_cast<double>(to_px.height) / shape_px.height;
   if (!is_rounded(shape_px, to_px)) {
     if (std::abs(shape_x / shape_y - 1) > kSameShape)
-      return fail(file_name,
-                  "made for " + size_text(shape_px) + ", which is not the shape of the footage, " + size_text(to_px));
+      return fail(file_name, fmt::format("made for {}, which is not the shape of the footage, {}",
+                                         image_size_text(shape_px), image_size_text(to_px)));
     warnings.push_back(squeezed(shape_px, to_px, shape_x, shape_y, file_name));
   }
   // Pixel centres are whole numbers, so the image's left edge is at -0.5 and stays there: with the scale s,

@@ -220,10 +220,11 @@ bool is_unset_or(const Json& profile, const char* key, std::string_view word) {
 
 Result<void> check_model(const Json& profile, const std::string& file) {
   if (!is_unset_or(profile, "distortion_model", "opencv_fisheye"))
-    return fail(file + ": distortion_model",
-                "Gyroflow's model " + profile["distortion_model"].dump() + " is not supported; opencv_fisheye is");
+    return fail(file + ": distortion_model", fmt::format("Gyroflow's model {} is not supported; opencv_fisheye is",
+                                                         profile["distortion_model"].dump()));
   if (!is_unset_or(profile, "digital_lens", ""))
-    return fail(file + ": digital_lens", "the digital lens " + profile["digital_lens"].dump() + " is not supported");
+    return fail(file + ": digital_lens",
+                fmt::format("the digital lens {} is not supported", profile["digital_lens"].dump()));
   return {};
 }
 

@@ -68,7 +68,7 @@ struct Reader {
 };
 
 Result<void> Reader::check_numbers(const Field& field) const {
-  if (field.not_a_number) return fail(where(field), "'" + *field.not_a_number + "' is not a number");
+  if (field.not_a_number) return fail(where(field), fmt::format("'{}' is not a number", *field.not_a_number));
   if (field.stated_count && *field.stated_count != field.numbers.size())
     return fail(where(field),
                 fmt::format("rows and cols say {} numbers, found {}", *field.stated_count, field.numbers.size()));

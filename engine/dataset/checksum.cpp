@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/checksum.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -93,7 +95,7 @@ std::string checksum_line(const std::string& checksum, const std::string& path) 
     else
       name += c;
   }
-  return (name == path ? "" : "\\") + checksum + "  " + name + "\n";
+  return fmt::format("{}{}  {}\n", name == path ? "" : "\\", checksum, name);
 }
 
 Result<std::string> InputChecksums::of(const fs::path& file) {
@@ -135,7 +137,7 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
     }
     written = file.filename().string();
   }
-  return checksum_of_text(program + "\n" + list + text_of(pathless));
+  return checksum_of_text(fmt::format("{}\n{}{}", program, list, text_of(pathless)));
 }
 
 }  // namespace sigs

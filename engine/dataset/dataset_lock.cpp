@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/dataset_lock.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -32,7 +33,7 @@ constexpr const char* kStagingName = ".part";
 constexpr const char* kExtension = ".lock";
 
 std::string name_of(const Shard& shard) {
-  return std::to_string(shard.part) + "-of-" + std::to_string(shard.parts) + kExtension;
+  return fmt::format("{}-of-{}{}", shard.part, shard.parts, kExtension);
 }
 
 std::optional<Shard> shard_of(const std::string& name) {
@@ -44,10 +45,10 @@ std::optional<Shard> shard_of(const std::string& name) {
 }
 
 Error already_locked(const fs::path& dataset, const Shard& shard) {
-  const std::string what = shard.parts == 1
-                               ? std::string("it")
-                               : "part " + std::to_string(shard.part) + " of " + std::to_string(shard.parts) + " of it";
-  return {dataset.string(), "another run is making " + what + "; wait until it has ended", ErrorKind::cannot_create};
+  const std::string what =
+      shard.parts == 1 ? std::string("it") : fmt::format("part {} of {} of it", shard.part, shard.parts);
+  return {dataset.string(), fmt::format("another run is making {}; wait until it has ended", what),
+          ErrorKind::cannot_create};
 }
 
 Error not_made(const fs::path& path) {

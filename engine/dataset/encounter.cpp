@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/encounter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/ensure.h"
-#include "dataset/short_text.h"
+#include "base/text.h"
 
 namespace sigs {
 
@@ -40,14 +42,14 @@ View view_along(double bearing_deg, double elevation_deg) {
 }
 
 std::string metres(double value_m) {
-  return short_text(value_m) + " m";
+  return short_number_text(value_m) + " m";
 }
 
 // The length of the relative path from the first frame to the CPA: Pythagoras.
 tl::expected<double, std::string> path_length_m(double range_m, double miss_m) {
   if (range_m < miss_m)
-    return tl::unexpected("range_m: the intruder starts " + metres(range_m) +
-                          " away, nearer than the miss distance of " + metres(miss_m));
+    return tl::unexpected(fmt::format("range_m: the intruder starts {} away, nearer than the miss distance of {}",
+                                      metres(range_m), metres(miss_m)));
   return std::sqrt((range_m - miss_m) * (range_m + miss_m));
 }
 
@@ -78,9 +80,9 @@ tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const 
   encounter.closing_speed_mps = timing.closing_speed_mps.value_or(0);
   encounter.time_of_closest_approach_s = timing.time_of_closest_approach_s.value_or(0);
   if (timing.closing_speed_mps && *timing.closing_speed_mps <= 0)
-    return tl::unexpected("closing_speed_mps: " + short_text(*timing.closing_speed_mps) +
-                          " m/s cannot meet the miss distance of " + metres(encounter.miss_distance_m) +
-                          ": the intruder never comes nearer");
+    return tl::unexpected(
+        fmt::format("closing_speed_mps: {} m/s cannot meet the miss distance of {}: the intruder never comes nearer",
+                    short_number_text(*timing.closing_speed_mps), metres(encounter.miss_distance_m)));
   if (!timing.range_m) return encounter;
   const tl::expected<double, std::string> path = path_length_m(*timing.range_m, encounter.miss_distance_m);
   if (!path) return tl::unexpected(path.error());
@@ -90,9 +92,9 @@ tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const 
   }
   encounter.closing_speed_mps = *path / std::abs(*timing.time_of_closest_approach_s);
   if (*path == 0 || !std::isfinite(encounter.closing_speed_mps))
-    return tl::unexpected("range_m: no closing speed leads from " + metres(*timing.range_m) +
-                          " to the miss distance of " + metres(encounter.miss_distance_m) + " in " +
-                          short_text(*timing.time_of_closest_approach_s) + " s");
+    return tl::unexpected(fmt::format("range_m: no closing speed leads from {} to the miss distance of {} in {} s",
+                                      metres(*timing.range_m), metres(encounter.miss_distance_m),
+                                      short_number_text(*timing.time_of_closest_approach_s)));
   return encounter;
 }
 

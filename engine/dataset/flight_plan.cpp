@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/flight_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/ensure.h"
 #include "base/pose.h"
+#include "base/text.h"
 #include "dataset/encounter.h"
-#include "dataset/short_text.h"
 
 namespace sigs {
 
@@ -64,8 +66,9 @@ Possible<void> check_values(FlightKind kind, const Values& values) {
     const auto found = values.find(std::string(quantity.name));
     if (found == values.end()) continue;
     if (found->second >= quantity.low && found->second <= quantity.high) continue;
-    return tl::unexpected(std::string(quantity.name) + ": is " + short_text(found->second) + "; it must lie between " +
-                          short_text(quantity.low) + " and " + short_text(quantity.high));
+    return tl::unexpected(fmt::format("{}: is {}; it must lie between {} and {}", quantity.name,
+                                      short_number_text(found->second), short_number_text(quantity.low),
+                                      short_number_text(quantity.high)));
   }
   return {};
 }
@@ -135,19 +138,21 @@ std::string ways_out(FlightKind kind, const Values& values) {
 Possible<void> check_speed(FlightKind kind, const Values& values, double speed_mps, const FlightContext& context) {
   const std::optional<Span>& limits = context.speed_limits_mps;
   if (!limits || (speed_mps >= limits->low && speed_mps <= limits->high)) return {};
-  return tl::unexpected("speed_mps: the intruder would have to fly " + short_text(speed_mps) +
-                        " m/s; its aircraft flies " + short_text(limits->low) + " to " + short_text(limits->high) +
-                        "; change " + ways_out(kind, values) + ", or the aircraft's speed_limits_mps");
+  return tl::unexpected(
+      fmt::format("speed_mps: the intruder would have to fly {} m/s; its aircraft flies {} to {}; change {}, or the "
+                  "aircraft's speed_limits_mps",
+                  short_number_text(speed_mps), short_number_text(limits->low), short_number_text(limits->high),
+                  ways_out(kind, values)));
 }
 
 Possible<void> check_waypoint(FlightKind kind, const WaypointSettings& waypoint) {
   const glm::dvec3& p_m = waypoint.position_m;
   const char* const height =
       kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
-  const std::string frame = " in frame " + std::to_string(std::lround(*waypoint.frame));
+  const std::string frame = fmt::format(" in frame {}", std::lround(*waypoint.frame));
   if (p_m.z > kRounding_m)
-    return tl::unexpected(height + std::string(": the intruder is underground") + frame + ", " + short_text(p_m.z) +
-                          " m below z = 0");
+    return tl::unexpected(
+        fmt::format("{}: the intruder is underground{}, {} m below z = 0", height, frame, short_number_text(p_m.z)));
   if (glm::max(glm::max(std::abs(p_m.x), std::abs(p_m.y)), std::abs(p_m.z)) > kMaxCoordinate_m)
     return tl::unexpected("the intruder is farther than 1e8 m from the world's origin" + frame);
   return {};
@@ -230,9 +235,9 @@ tl::expected<RelativeMotion, std::string> motion_at_speed(const RelativePath& pa
       camera_along_mps * camera_along_mps + (speed_mps - camera_speed_mps) * (speed_mps + camera_speed_mps);
   const double relative_mps = root >= 0 ? std::sqrt(root) - camera_along_mps : 0;
   if (!(relative_mps > 0))
-    return tl::unexpected("speed_mps: at " + short_text(speed_mps) +
-                          " m/s the intruder cannot fly along that line before a camera" + " that flies " +
-                          short_text(camera_speed_mps) + " m/s itself");
+    return tl::unexpected(fmt::format(
+        "speed_mps: at {} m/s the intruder cannot fly along that line before a camera that flies {} m/s itself",
+        short_number_text(speed_mps), short_number_text(camera_speed_mps)));
   const glm::dvec3 velocity_mps = along * relative_mps;
   const glm::dvec3 fixed_m = path.from_m + fixed_share * (path.to_m - path.from_m);
   return RelativeMotion{.start_m = fixed_m - fixed_share * length_s * velocity_mps, .velocity_mps = velocity_mps};

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/footage_cache.h"
 
+#include <fmt/format.h>
+
 #include <map>
 
 #include "export/export_project.h"
+#include "scene/opened_project.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
-#include "scene/opened_project.h"
 
 namespace sigs {
 
@@ -54,13 +56,13 @@ class BackgroundOpener {
     const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};
     if (frames.last > last || frames.first > frames.last)
       return fail(where + (frames.last > last ? "last_frame" : "first_frame"),
-                  "the footage has frames 0 to " + std::to_string(last));
+                  fmt::format("the footage has frames 0 to {}", last));
     return OpenedBackground{shape, *std::move(lens), frames};
   }
 
  private:
   [[nodiscard]] std::string key_of(std::size_t i) const {
-    return recipe_.file.string() + ": backgrounds[" + std::to_string(i) + "].";
+    return fmt::format("{}: backgrounds[{}].", recipe_.file.string(), i);
   }
 
   Result<FootageShape> shape_of_file(const std::string& path) {

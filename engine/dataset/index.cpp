@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/index.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -198,7 +200,7 @@ Json index_of(const Plan& plan, const DatasetSource& source, const std::vector<F
   for (const FinishedVideo& one : videos) {
     Json video = described(*one.video);
     video["frames"] = one.entry.frames;
-    video["project"] = one.video->name + "/" + one.video->name + ".json";
+    video["project"] = fmt::format("{}/{}.json", one.video->name, one.video->name);
     video["planned"] = one.entry.planned;
     video["files"] = described(one.entry.files, one.video->name + "/");
     json["videos"].push_back(std::move(video));

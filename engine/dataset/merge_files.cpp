@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <utility>
 
@@ -107,8 +109,8 @@ class CocoMerge {
     for (const Json& video : videos)
       if (step) step = list.put(video);
     if (!step) return step;
-    return out_.put("\n],\n\"categories\": " + text_of(categories) + ",\n\"tracks\": " + text_of(tracks) +
-                    ",\n\"annotations\": [");
+    return out_.put(fmt::format("\n],\n\"categories\": {},\n\"tracks\": {},\n\"annotations\": [", text_of(categories),
+                                text_of(tracks)));
   }
 
   Result<void> put_annotations() {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "base/paths.h"
@@ -128,7 +130,7 @@ Result<void> merge_yolo(const std::vector<SplitLabels>& splits, const fs::path& 
   for (const char* const name : {"train", "val"}) {
     const SplitLabels& labels = substitute_split(splits, name);
     if (labels.split != name)
-      text += "# There is no split of this name: " + yaml_text(labels.split) + " stands for it.\n";
+      text += fmt::format("# There is no split of this name: {} stands for it.\n", yaml_text(labels.split));
     if (const Result<void> step = add(name, labels); !step) return step;
   }
   for (const SplitLabels& labels : splits)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/merge_labels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
 #include <string_view>
 #include <system_error>
 
+#include "base/text.h"
 #include "dataset/video_name.h"
 #include "labels/label_text.h"
 #include "labels/labels.h"
@@ -24,7 +27,7 @@ bool has_labels(const PlannedVideo& video, std::string_view format) {
 
 std::string category_list(const Project& project) {
   const std::vector<std::string> categories = categories_of(project);
-  return categories.empty() ? "none" : comma_separated(categories);
+  return categories.empty() ? "none" : listed(categories);
 }
 
 Result<void> check_categories(const Plan& plan) {
@@ -35,9 +38,10 @@ Result<void> check_categories(const Plan& plan) {
     if (std::none_of(kCounting.begin(), kCounting.end(), counts)) continue;
     if (first == nullptr) first = &video;
     if (categories_of(video.project) != categories_of(first->project))
-      return fail("video \"" + video.name + "\"",
-                  "counts other categories (" + category_list(video.project) + ") than \"" + first->name + "\" (" +
-                      category_list(first->project) + "); give all of them the same export.categories");
+      return fail(
+          fmt::format("video \"{}\"", video.name),
+          fmt::format("counts other categories ({}) than \"{}\" ({}); give all of them the same export.categories",
+                      category_list(video.project), first->name, category_list(first->project)));
   }
   return {};
 }
@@ -54,9 +58,9 @@ Result<void> check_sequence_names(const Plan& plan) {
       if (!has_labels(video, format)) continue;
       const auto [other, is_new] = taken.emplace(name_in(format, video.name), &video);
       if (!is_new)
-        return fail("video \"" + video.name + "\"", "is called " + other->first + " in " + std::string(format) +
-                                                        " labels, and so is \"" + other->second->name +
-                                                        "\"; call it otherwise");
+        return fail(fmt::format("video \"{}\"", video.name),
+                    fmt::format("is called {} in {} labels, and so is \"{}\"; call it otherwise", other->first, format,
+                                other->second->name));
     }
   }
   return {};

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "dataset/footage_cache.h"
 #include "dataset/splits.h"
 #include "dataset/video_name.h"
@@ -38,11 +41,11 @@ Result<std::vector<VideoSpec>> all_specs(const Recipe& recipe) {
   std::vector<VideoSpec> specs;
   std::map<std::string, std::size_t> group_of_name;
   for (std::size_t i = 0; i < recipe.groups.size(); ++i) {
-    const std::string key = recipe.file.string() + ": videos[" + std::to_string(i) + "].name";
+    const std::string key = fmt::format("{}: videos[{}].name", recipe.file.string(), i);
     for (VideoSpec& spec : specs_of(recipe, i)) {
       if (const std::string wrong = wrong_with_video_name(spec.name); !wrong.empty())
-        return fail(key, "gives \"" + spec.name + "\", which " + wrong);
-      const auto [place, is_new] = group_of_name.emplace(case_folded(spec.name), i);
+        return fail(key, fmt::format("gives \"{}\", which {}", spec.name, wrong));
+      const auto [place, is_new] = group_of_name.emplace(lower_case(spec.name), i);
       if (!is_new)
         return fail(key, "gives \"" + spec.name + "\", which videos[" + std::to_string(place->second) +
                              "] gives already; names must differ in more than case, as by {number}");
@@ -55,7 +58,7 @@ Result<std::vector<VideoSpec>> all_specs(const Recipe& recipe) {
 Result<void> check_projects(const Recipe& recipe, const Plan& plan) {
   for (const PlannedVideo& video : plan.videos)
     for (const Problem& problem : validate(video.project))
-      return fail(recipe.file.string() + ": video " + video.name + ": " + problem.field, problem.what,
+      return fail(fmt::format("{}: video {}: {}", recipe.file.string(), video.name, problem.field), problem.what,
                   problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
   return {};
 }
@@ -66,7 +69,7 @@ Result<void> split_up(const Recipe& recipe, Plan& plan) {
   for (const PlannedVideo& video : plan.videos) {
     const auto unit = video.tags.find(recipe.keep_together);
     if (unit == video.tags.end() && !recipe.keep_together.empty())
-      return fail(key, "video " + video.name + " has no tag \"" + recipe.keep_together + "\"");
+      return fail(key, fmt::format("video {} has no tag \"{}\"", video.name, recipe.keep_together));
     candidates.push_back({video.name, video.split, unit == video.tags.end() ? "" : unit->second});
   }
   const Result<std::vector<std::string>> splits = splits_of(candidates, recipe.splits, recipe.seed);
@@ -132,9 +135,10 @@ void Planner::add(const VideoSpec& spec, Plan& plan) {
     ++failed[condition_of(why)];
   }
   if (resamples)
-    why = "none of " + std::to_string(*resamples + 1) + " samples can be used: " + resamples_text(failed) +
-          "; change what is sampled from, or raise videos[" + std::to_string(spec.group) +
-          "].redraws; the last one: " + why;
+    why = fmt::format(
+        "none of {} samples can be used: {}; change what is sampled from, or raise videos[{}].redraws; the last one: "
+        "{}",
+        *resamples + 1, resamples_text(failed), spec.group, why);
   plan.impossible.push_back({spec.name, why});
 }
 
@@ -172,7 +176,7 @@ std::string resamples_text(const std::map<std::string, int>& resamples) {
     if (!text.empty()) text += "; ";
     text += condition;
     text += count == 1 ? " once" : " ";
-    if (count > 1) text += std::to_string(count) + " times";
+    if (count > 1) text += fmt::format("{} times", count);
   }
   return text;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/recipe.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -160,7 +162,7 @@ Result<void> check_version(const Json& json, const std::string& file) {
   const auto version = json.find("sigs_dataset");
   if (version == json.end()) return fail(key, "missing; a recipe begins with \"sigs_dataset\": 1");
   if (!version->is_number_integer() || *version != kRecipeVersion)
-    return fail(key, "version " + shown(*version) + " is not known; this program reads version 1");
+    return fail(key, fmt::format("version {} is not known; this program reads version 1", shown(*version)));
   return {};
 }
 
@@ -178,7 +180,7 @@ void check_names(const std::vector<Named>& all, const std::string& key, RecipeLo
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (all[i].name == all[j].name)
-        log.wrong(key + "[" + std::to_string(i) + "].name", "stands there twice: \"" + all[i].name + "\"");
+        log.wrong(fmt::format("{}[{}].name", key, i), fmt::format("stands there twice: \"{}\"", all[i].name));
 }
 
 Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/recipe_reading.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -69,8 +71,7 @@ std::optional<int> RecipeNode::whole(std::string_view name, int low, int high) {
   if (json == nullptr) return std::nullopt;
   const double number = json->is_number() ? json->get<double>() : std::nan("");
   if (number == std::floor(number) && number >= low && number <= high) return static_cast<int>(number);
-  log_->wrong(key_of(name),
-              "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) + found(*json));
+  log_->wrong(key_of(name), fmt::format("expected a whole number from {} to {}{}", low, high, found(*json)));
   return std::nullopt;
 }
 
@@ -107,7 +108,7 @@ std::vector<RecipeNode> RecipeNode::nodes(std::string_view name) {
     return list;
   }
   for (std::size_t i = 0; i < json->size(); ++i)
-    list.emplace_back(json->at(i), key_of(name) + "[" + std::to_string(i) + "]", *log_);
+    list.emplace_back(json->at(i), fmt::format("{}[{}]", key_of(name), i), *log_);
   return list;
 }
 

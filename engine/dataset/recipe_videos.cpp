@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,9 +9,9 @@
 #include <vector>
 
 #include "base/paths.h"
+#include "base/text.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/short_text.h"
 #include "dataset/video_name.h"
 #include "project/fields.h"
 
@@ -45,8 +47,9 @@ void read_number(const Json& json, const std::string& where, const LightField& f
   const Span span = span_of(*quantity);
   const Span limits = limits_of(field.key);
   if (span.low < limits.low || span.high > limits.high)
-    return log.wrong(where, "must lie between " + short_text(limits.low) + " and " + short_text(limits.high) +
-                                "; a normal quantity needs \"low\" and \"high\" for that");
+    return log.wrong(where,
+                     fmt::format("must lie between {} and {}; a normal quantity needs \"low\" and \"high\" for that",
+                                 short_number_text(limits.low), short_number_text(limits.high)));
   light.quantities[field.names[part]] = *quantity;
 }
 
@@ -58,7 +61,7 @@ void read_field(RecipeNode& node, const LightField& field, LightPlan& light) {
   if (!json->is_array() || json->size() != field.names.size())
     return node.log().wrong(where, "expected a list of three quantities");
   for (std::size_t i = 0; i < json->size(); ++i)
-    read_number(json->at(i), where + "[" + std::to_string(i) + "]", field, i, light, node.log());
+    read_number(json->at(i), fmt::format("{}[{}]", where, i), field, i, light, node.log());
 }
 
 bool is_set(const std::vector<std::string>& settings, const char* key) {
@@ -118,11 +121,11 @@ std::vector<std::string> picked(RecipeNode& group, const char* key, const std::v
   std::vector<std::string> names = group.texts(key);
   if (names.empty()) return there;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string where = group.key_of(key) + "[" + std::to_string(i) + "]";
+    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
     if (!has(there, names[i]))
-      group.log().wrong(where, "no such name: \"" + names[i] + "\"; there are " + comma_separated(there));
+      group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
     if (std::count(names.begin(), names.end(), names[i]) > 1)
-      group.log().wrong(where, "stands there twice: \"" + names[i] + "\"");
+      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
   }
   return names;
 }
@@ -130,7 +133,7 @@ std::vector<std::string> picked(RecipeNode& group, const char* key, const std::v
 std::string kinds() {
   std::vector<std::string> names;
   for (const FlightKind kind : all_flight_kinds()) names.emplace_back(name_of(kind));
-  return comma_separated(names);
+  return listed(names);
 }
 
 std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name) {
@@ -158,7 +161,7 @@ FlightPlan read_flight(RecipeNode node) {
   const std::string kind_name = node.needed_text("kind");
   const std::optional<FlightKind> kind = flight_kind_of(kind_name);
   if (!kind) {
-    node.log().wrong(node.key_of("kind"), "is \"" + kind_name + "\"; there are " + kinds());
+    node.log().wrong(node.key_of("kind"), fmt::format("is \"{}\"; there are {}", kind_name, kinds()));
     return flight;
   }
   flight.kind = *kind;
@@ -186,7 +189,7 @@ std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_sampled) {
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Json& item = list->at(i);
-    const std::string key = group.key_of("flights") + "[" + std::to_string(i) + "]";
+    const std::string key = fmt::format("{}[{}]", group.key_of("flights"), i);
     const Json named{{"kind", item}};
     flights.push_back(read_flight(RecipeNode(item.is_string() ? named : item, key, group.log())));
   }
@@ -198,7 +201,7 @@ void check_split(const std::string& split, RecipeNode& group, const Recipe& reci
   if (const std::string wrong = wrong_with_file_name(split); !split.empty() && !wrong.empty())
     group.log().wrong(group.key_of("split"), wrong);
   if (!split.empty() && !there.empty() && !has(there, split))
-    group.log().wrong(group.key_of("split"), "no such split: \"" + split + "\"; there are " + comma_separated(there));
+    group.log().wrong(group.key_of("split"), fmt::format("no such split: \"{}\"; there are {}", split, listed(there)));
 }
 
 // How many videos, of each combination or in all.
@@ -276,7 +279,7 @@ std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recip
   }
   if (videos > kMaxVideos)
     recipe_node.log().wrong("videos",
-                            "make " + short_text(videos) + " videos; a recipe may have " + std::to_string(kMaxVideos));
+                            fmt::format("make {} videos; a recipe may have {}", short_number_text(videos), kMaxVideos));
   return groups;
 }
 
@@ -296,7 +299,8 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe) {
       recipe.splits.push_back({name, share});
       sum += share;
     }
-  if (std::abs(sum - 1) > 1e-6) node.log().wrong("splits", "have shares that add up to " + short_text(sum) + ", not 1");
+  if (std::abs(sum - 1) > 1e-6)
+    node.log().wrong("splits", fmt::format("have shares that add up to {}, not 1", short_number_text(sum)));
 }
 
 LightSettings with_sampled_light(LightSettings light, const std::map<std::string, double>& sampled) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -94,9 +96,7 @@ class DatasetRun {
 
 Error DatasetRun::interrupted() const {
   const auto complete = std::count_if(tasks_.begin(), tasks_.end(), [](const Task& task) { return task.entry; });
-  return {"",
-          "interrupted; " + std::to_string(complete) + " of " + std::to_string(tasks_.size()) +
-              " videos are complete, resuming goes on",
+  return {"", fmt::format("interrupted; {} of {} videos are complete, resuming goes on", complete, tasks_.size()),
           ErrorKind::interrupted};
 }
 
@@ -148,14 +148,15 @@ Result<void> DatasetRun::check_all_there() const {
   missing += static_cast<int>(plan_.unopened.size());
   if (missing == 0) return {};
   std::string list;
-  for (const auto& [reason, names] : names_of_reason) list += (list.empty() ? "" : "; ") + names + ": " + reason;
+  for (const auto& [reason, names] : names_of_reason)
+    list += fmt::format("{}{}: {}", list.empty() ? "" : "; ", names, reason);
   for (const UnopenedVideo& video : plan_.unopened) {
     if (list.size() > kMaxListBytes) break;
-    list += (list.empty() ? "" : "; ") + video.name + ": " + video.error.text();
+    list += fmt::format("{}{}: {}", list.empty() ? "" : "; ", video.name, video.error.text());
   }
   return fail(dataset_.string(),
-              "of " + std::to_string(tasks_.size() + plan_.unopened.size()) + " videos " + std::to_string(missing) +
-                  " cannot go into the index; resuming makes them: " + list + (missing > kListed ? "; ..." : ""));
+              fmt::format("of {} videos {} cannot go into the index; resuming makes them: {}{}",
+                          tasks_.size() + plan_.unopened.size(), missing, list, missing > kListed ? "; ..." : ""));
 }
 
 void DatasetRun::advance(Task& task, int done) {
@@ -270,14 +271,14 @@ Result<DatasetReport> DatasetRun::all() {
 
 Result<void> check_names(const Plan& plan) {
   if (const std::string wrong = wrong_with_file_name(plan.name); !wrong.empty())
-    return fail("dataset \"" + plan.name + "\"", wrong);
+    return fail(fmt::format("dataset \"{}\"", plan.name), wrong);
   std::set<std::string> names;
   for (const PlannedVideo& video : plan.videos) {
     if (const std::string wrong = wrong_with_video_name(video.name); !wrong.empty())
-      return fail("video \"" + video.name + "\"", wrong);
-    if (!names.insert(video.name).second) return fail("video \"" + video.name + "\"", "is planned twice");
+      return fail(fmt::format("video \"{}\"", video.name), wrong);
+    if (!names.insert(video.name).second) return fail(fmt::format("video \"{}\"", video.name), "is planned twice");
     if (const std::string wrong = wrong_with_file_name(split_of(video)); !wrong.empty())
-      return fail("split \"" + video.split + "\"", wrong);
+      return fail(fmt::format("split \"{}\"", video.split), wrong);
   }
   return {};
 }
@@ -315,15 +316,16 @@ Result<void> check_free(const Plan& plan, const DatasetRequest& request, const f
     return fail(dataset.string(), "holds a dataset; resuming goes on with it, or choose another folder for the dataset",
                 ErrorKind::cannot_create);
   if (!goes_on && video)
-    return fail(dataset.string(),
-                "holds " + *video + " already; resuming goes on with it, or choose another folder for the dataset",
-                ErrorKind::cannot_create);
+    return fail(
+        dataset.string(),
+        fmt::format("holds {} already; resuming goes on with it, or choose another folder for the dataset", *video),
+        ErrorKind::cannot_create);
   if (!has_index(dataset) && !video && !request.shard) {
     for (const char* const name : kSharedFolders) {
       std::error_code code;
       if (fs::is_empty(dataset / name, code))
         return fail(dataset.string(),
-                    std::string("holds ") + name + ", but no dataset; choose another folder for the dataset",
+                    fmt::format("holds {}, but no dataset; choose another folder for the dataset", name),
                     ErrorKind::cannot_create);
     }
   }

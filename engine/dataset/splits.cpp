@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/splits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -33,8 +35,8 @@ Result<std::vector<Unit>> units_of(std::span<const SplitCandidate> candidates, s
     unit.rank = random_bits({seed, name, "split"});
     if (candidate.fixed.empty() || candidate.fixed == unit.split) continue;
     if (!unit.split.empty())
-      return fail("", "\"" + candidate.unit + "\" is in " + unit.split + " and in " + candidate.fixed +
-                          ", but keep_together keeps it in one split");
+      return fail("", fmt::format("\"{}\" is in {} and in {}, but keep_together keeps it in one split", candidate.unit,
+                                  unit.split, candidate.fixed));
     unit.split = candidate.fixed;
   }
   std::vector<Unit> list;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/video_folder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <system_error>
@@ -85,7 +87,7 @@ std::string not_ours(const fs::path& place, const PlannedVideo& video) {
     return "is there and no video that sigs dataset made; move it away or choose another folder for the dataset";
   const std::optional<std::string> unlisted_file = unlisted_file_in(place, *entry, uncounted(video));
   if (unlisted_file)
-    return "is made anew, but holds " + *unlisted_file + ", which sigs dataset did not write; move that away";
+    return fmt::format("is made anew, but holds {}, which sigs dataset did not write; move that away", *unlisted_file);
   return "";
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/paths.h"
+#include "base/text.h"
 
 namespace sigs {
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kParts{"background", "aircraft", "flight", "number"};
 constexpr std::array<std::string_view, 5> kOwnNames{"labels", "splits", "index.json", "sha256sums",
-                                                    "entry"};  // case_folded
+                                                    "entry"};  // in lower case
 
 std::string numbered(int number) {
   const std::string digits = std::to_string(number);
@@ -56,22 +57,9 @@ std::string wrong_with_pattern(const std::string& pattern) {
 }
 
 std::string wrong_with_video_name(const std::string& name) {
-  if (std::find(kOwnNames.begin(), kOwnNames.end(), case_folded(name)) != kOwnNames.end())
+  if (std::find(kOwnNames.begin(), kOwnNames.end(), lower_case(name)) != kOwnNames.end())
     return "is kept for what the dataset has beside its videos; choose another name";
   return wrong_with_file_name(name);
-}
-
-std::string case_folded(const std::string& name) {
-  std::string lower = name;
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
-std::string comma_separated(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 }  // namespace sigs

@@ -25,10 +25,4 @@ struct NameParts {
 // name belongs to a file of the dataset itself. Empty: nothing.
 [[nodiscard]] std::string wrong_with_video_name(const std::string& name);
 
-// The name with ASCII letters in lower case: equal for names that some file systems do not distinguish.
-[[nodiscard]] std::string case_folded(const std::string& name);
-
-// Names in a message: "a, b, c"; empty where there are none.
-[[nodiscard]] std::string comma_separated(const std::vector<std::string>& names);
-
 }  // namespace sigs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/video_sample.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,7 +17,7 @@ namespace {
 class Sampler {
  public:
   Sampler(std::uint64_t seed, std::string video, int again)
-      : seed_(seed), video_(std::move(video)), ending_(again > 0 ? " again " + std::to_string(again) : "") {}
+      : seed_(seed), video_(std::move(video)), ending_(again > 0 ? fmt::format(" again {}", again) : "") {}
 
   [[nodiscard]] double number(const Quantity& quantity, const std::string& name) const {
     return sampled(quantity, {seed_, video_, name + ending_});
@@ -62,10 +64,9 @@ tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const S
   const double first = there.first + skipped;
   const double last = group.frames ? first + *group.frames - 1 : there.last;
   if (first <= last && last <= there.last) return FrameRange{static_cast<int>(first), static_cast<int>(last)};
-  return tl::unexpected(std::string(group.frames ? "frames" : "first_frame") + ": the background has " +
-                        std::to_string(there.last - there.first + 1) + " frames, too few for " +
-                        (group.frames ? std::to_string(*group.frames) + " " : "any ") + "from its frame " +
-                        std::to_string(std::llround(skipped)) + " on");
+  return tl::unexpected(fmt::format("{}: the background has {} frames, too few for {}from its frame {} on",
+                                    group.frames ? "frames" : "first_frame", there.last - there.first + 1,
+                                    group.frames ? fmt::format("{} ", *group.frames) : "any ", std::llround(skipped)));
 }
 
 std::map<std::string, double> light_of(const VideoGroup& group, const Sampler& sampler) {

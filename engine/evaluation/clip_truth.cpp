@@ -18,10 +18,6 @@ namespace sigs {
 
 namespace {
 
-std::string count_of_intruders(std::size_t count) {
-  return fmt::format("{} {}", count, count == 1 ? "intruder" : "intruders");
-}
-
 // The first frame defines the targets.
 Result<void> add_targets(ClipTruth& clip, const std::vector<TargetInFrame>& targets) {
   for (const TargetInFrame& target : targets) {
@@ -38,8 +34,8 @@ Result<void> add_targets(ClipTruth& clip, const std::vector<TargetInFrame>& targ
 
 Result<void> check_targets(const ClipTruth& clip, int index, const std::vector<TargetInFrame>& targets) {
   if (targets.size() != clip.targets.size())
-    return fail("", fmt::format("frame {} has {}, the frames before it {}", index, count_of_intruders(targets.size()),
-                                clip.targets.size()));
+    return fail("", fmt::format("frame {} has {}, the frames before it {}", index,
+                                count_text(std::ssize(targets), "intruder"), clip.targets.size()));
   for (std::size_t i = 0; i < targets.size(); ++i)
     if (targets[i].id != clip.targets[i].id)
       return fail("", fmt::format("frame {} has intruder {} where the frames before it have {}", index, targets[i].id,
@@ -94,12 +90,12 @@ class AttributeReader {
   void wrong(pugi::xml_node node, const std::string& what) {
     if (error_) return;
     const int line = line_at(text_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)));
-    error_ = Error{path_.string() + ": line " + std::to_string(line), what};
+    error_ = Error{fmt::format("{}: line {}", path_.string(), line), what};
   }
 
   std::string_view text(pugi::xml_node node, const char* name) {
     const pugi::xml_attribute attribute = node.attribute(name);
-    if (!attribute) wrong(node, std::string(node.name()) + " has no attribute " + name);
+    if (!attribute) wrong(node, fmt::format("{} has no attribute {}", node.name(), name));
     return attribute.value();
   }
 
@@ -107,7 +103,7 @@ class AttributeReader {
     const std::string_view value = text(node, name);
     const std::optional<double> number = number_of(trimmed(value));
     if (!number || !std::isfinite(*number))
-      wrong(node, std::string(node.name()) + " " + name + ": " + in_quotes(value) + " is no number");
+      wrong(node, fmt::format("{} {}: {} is no number", node.name(), name, in_quotes(value)));
     return number.value_or(0);
   }
 
@@ -115,9 +111,8 @@ class AttributeReader {
     const std::string_view value = text(node, name);
     const std::optional<int> number = integer_of(trimmed(value));
     if (!number || *number < min || *number > max)
-      wrong(node, std::string(node.name()) + " " + name + ": " + in_quotes(value) + " is no whole number from " +
-                      std::to_string(min) +
-                      (max == std::numeric_limits<int>::max() ? " on" : " to " + std::to_string(max)));
+      wrong(node, fmt::format("{} {}: {} is no whole number from {}{}", node.name(), name, in_quotes(value), min,
+                              max == std::numeric_limits<int>::max() ? " on" : fmt::format(" to {}", max)));
     return number.value_or(min);
   }
 
@@ -136,7 +131,7 @@ HorizonSide parsed_horizon(AttributeReader& reader, pugi::xml_node intruder) {
   const std::string_view name = reader.text(intruder, "horizon");
   for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above, HorizonSide::unknown})
     if (name == name_of(side)) return side;
-  reader.wrong(intruder, "intruder horizon: " + in_quotes(name) + " is not above, on or below, nor unknown");
+  reader.wrong(intruder, fmt::format("intruder horizon: {} is not above, on or below, nor unknown", in_quotes(name)));
   return HorizonSide::unknown;
 }
 
@@ -178,7 +173,7 @@ void read_rate(AttributeReader& reader, pugi::xml_node node, FootageTruth& foota
   const std::optional<int> num = integer_of(rate.substr(0, slash));
   const std::optional<int> den = slash == std::string_view::npos ? 1 : integer_of(rate.substr(slash + 1));
   if (!num || !den || *num <= 0 || *den <= 0)
-    return reader.wrong(node, "footage frame_rate: " + in_quotes(rate) + " is no ratio such as 25/1");
+    return reader.wrong(node, fmt::format("footage frame_rate: {} is no ratio such as 25/1", in_quotes(rate)));
   footage.frame_rate_num = *num;
   footage.frame_rate_den = *den;
 }
@@ -201,8 +196,8 @@ void read_frame(AttributeReader& reader, pugi::xml_node node, ClipTruth& clip) {
   for (const pugi::xml_node intruder : node.children("intruder")) targets.push_back(target_of(reader, intruder));
   if (reader.failed()) return;
   if (index > clip.footage.last_frame)
-    return reader.wrong(node, "frame " + std::to_string(index) + " is past the footage's last_frame, " +
-                                  std::to_string(clip.footage.last_frame));
+    return reader.wrong(node,
+                        fmt::format("frame {} is past the footage's last_frame, {}", index, clip.footage.last_frame));
   const Result<void> added = add_frame(clip, index, time_s, targets);
   if (!added) reader.wrong(node, added.error().what);
 }
@@ -219,9 +214,9 @@ ClipTruth clip_of(AttributeReader& reader, const pugi::xml_document& document) {
   }
   const int next = clip.footage.first_frame + clip.frames();
   if (!reader.failed() && next <= clip.footage.last_frame)
-    reader.wrong(clip.frames() > 0 ? root.last_child() : footage, "ends before frame " + std::to_string(next) +
-                                                                      ", but its footage element says last_frame " +
-                                                                      std::to_string(clip.footage.last_frame));
+    reader.wrong(
+        clip.frames() > 0 ? root.last_child() : footage,
+        fmt::format("ends before frame {}, but its footage element says last_frame {}", next, clip.footage.last_frame));
   return clip;
 }
 
@@ -234,7 +229,7 @@ Result<ClipTruth> read_truth(const std::filesystem::path& path) {
   // The parser works on a copy, so that the text keeps its lines.
   const pugi::xml_parse_result parsed = document.load_buffer(text->data(), text->size());
   if (!parsed)
-    return fail(path.string() + ": line " + std::to_string(line_at(*text, static_cast<std::size_t>(parsed.offset))),
+    return fail(fmt::format("{}: line {}", path.string(), line_at(*text, static_cast<std::size_t>(parsed.offset))),
                 std::string("is not XML from here on: ") + parsed.description());
   const pugi::xml_node root = document.child("sigs");
   if (!root || std::string_view(root.attribute("version").value()) != "1")

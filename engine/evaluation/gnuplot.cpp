@@ -44,23 +44,24 @@ std::string range_text(const PlotSpan& range) {
 
 std::string terminal(const Plot& plot, PlotFormat kind) {
   if (kind == PlotFormat::svg)
-    return "set terminal svg noenhanced size 960,500 font 'DejaVu Sans,Verdana,Arial,sans-serif,13' background "
-           "'#ffffff' name " +
-           quoted(plot.name) + "\n";
+    return fmt::format(
+        "set terminal svg noenhanced size 960,500 font 'DejaVu Sans,Verdana,Arial,sans-serif,13' background '#ffffff' "
+        "name {}\n",
+        quoted(plot.name));
   return "if (strstrt(GPVAL_TERMINALS, 'pngcairo')) { set terminal pngcairo noenhanced size 1440,750 fontscale 1.2 "
          "linewidth 1.5 background '#ffffff' } else { set terminal png noenhanced size 1440,750 }\n";
 }
 
 std::string blocks(const PlotSeries& series, std::size_t number) {
-  std::string lines = "$runs" + std::to_string(number) + " << END\n";
-  std::string lone = "$lone" + std::to_string(number) + " << END\n";
+  std::string lines = fmt::format("$runs{} << END\n", number);
+  std::string lone = fmt::format("$lone{} << END\n", number);
   for (const std::vector<PlotPoint>& run : series.runs) {
     const bool is_isolated = series.is_scatter || run.size() == 1;  // a line needs two
     for (const PlotPoint& point : run)
-      (is_isolated ? lone : lines) += exact_text(point.x) + " " + exact_text(point.y) + "\n";
+      (is_isolated ? lone : lines) += fmt::format("{} {}\n", exact_text(point.x), exact_text(point.y));
     if (!is_isolated) lines += "\n";
   }
-  return lines + "END\n" + lone + "END\n";
+  return fmt::format("{}END\n{}END\n", lines, lone);
 }
 
 bool has_lines(const PlotSeries& series) {
@@ -75,16 +76,17 @@ bool has_isolated_points(const PlotSeries& series) {
 
 // A series and its entry in the key, which it has even where it has no points.
 std::string plot_entries(const PlotSeries& series, std::size_t number) {
-  const std::string color = " linecolor rgb '" + std::string(kColors[number % kColors.size()]) + "'";
+  const std::string color = fmt::format(" linecolor rgb '{}'", kColors[number % kColors.size()]);
   const std::size_t dash = (number + number / kColors.size()) % kDashes.size();
-  const std::string line = " with lines linewidth 2 dashtype " + std::string(kDashes[dash]) + color;
+  const std::string line = fmt::format(" with lines linewidth 2 dashtype {}{}", kDashes[dash], color);
   const int mark = kMarks[(number + number / kColors.size()) % kMarks.size()];
-  const std::string points = " with points pointsize " + std::string(series.is_scatter ? "1.4" : "0.4") +
-                             " pointtype " + std::to_string(series.is_scatter ? mark : 7) + " linewidth 2" + color;
-  std::string text = ", \\\n  keyentry" + (series.is_scatter ? points : line) + " title " + quoted(series.title);
+  const std::string points = fmt::format(" with points pointsize {} pointtype {} linewidth 2{}",
+                                         series.is_scatter ? "1.4" : "0.4", series.is_scatter ? mark : 7, color);
+  std::string text =
+      fmt::format(", \\\n  keyentry{} title {}", series.is_scatter ? points : line, quoted(series.title));
   const std::string n = std::to_string(number);
-  if (has_lines(series)) text += ", \\\n  $runs" + n + " using 1:2" + line + " notitle";
-  if (has_isolated_points(series)) text += ", \\\n  $lone" + n + " using 1:2" + points + " notitle";
+  if (has_lines(series)) text += fmt::format(", \\\n  $runs{} using 1:2{} notitle", n, line);
+  if (has_isolated_points(series)) text += fmt::format(", \\\n  $lone{} using 1:2{} notitle", n, points);
   return text;
 }
 
@@ -105,9 +107,9 @@ std::vector<double> symlog_ticks(const PlotSpan& range) {
 }
 
 std::string axes(const Plot& plot) {
-  std::string text = "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
-                     quoted(plot.y_label) + "\nset xrange " + range_text(plot.x_range) + "\nset yrange " +
-                     range_text(plot.y_range) + "\n";
+  std::string text =
+      fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset xrange {}\nset yrange {}\n", quoted(plot.title),
+                  quoted(plot.x_label), quoted(plot.y_label), range_text(plot.x_range), range_text(plot.y_range));
   if (plot.y_scale == PlotScale::symlog) {
     text += "set nonlinear y via asinh(y/10.) inverse 10.*sinh(y)\nset ytics (0";
     for (const double tick : symlog_ticks(plot.y_range)) text.append(",").append(exact_text(tick));
@@ -125,9 +127,11 @@ std::string axes(const Plot& plot) {
 }  // namespace
 
 std::string gnuplot_program(const Plot& plot, PlotFormat kind) {
-  std::string text = "set encoding utf8\n" + terminal(plot, kind) + axes(plot) +
-                     "set grid linecolor rgb '#d0d0d0' linewidth 1 dashtype solid\nset border linecolor rgb '#404040'\n"
-                     "set key below left Left reverse samplen 4 width 2 spacing 1.2\nset tics nomirror\n";
+  std::string text = fmt::format(
+      "set encoding utf8\n{}{}"
+      "set grid linecolor rgb '#d0d0d0' linewidth 1 dashtype solid\nset border linecolor rgb '#404040'\n"
+      "set key below left Left reverse samplen 4 width 2 spacing 1.2\nset tics nomirror\n",
+      terminal(plot, kind), axes(plot));
   for (std::size_t i = 0; i < plot.series.size(); ++i) text += blocks(plot.series[i], i);
   text += "plot NaN notitle";
   for (std::size_t i = 0; i < plot.series.size(); ++i) text += plot_entries(plot.series[i], i);

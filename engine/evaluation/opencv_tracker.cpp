@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/opencv_tracker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +17,7 @@
 
 #include "base/ensure.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 
 namespace sigs {
 
@@ -130,7 +133,7 @@ std::string one_line(const std::exception& thrown) {
 }
 
 std::string frame_text(int frame) {
-  return "frame " + std::to_string(frame);
+  return fmt::format("frame {}", frame);
 }
 
 }  // namespace
@@ -148,7 +151,7 @@ struct OpenCvTracker::Impl {
       seed(frame);
       return call();
     } catch (const std::exception& thrown) {
-      return fail(where, std::string("OpenCV cannot ") + what + " it: " + one_line(thrown));
+      return fail(where, fmt::format("OpenCV cannot {} it: {}", what, one_line(thrown)));
     }
   }
 };
@@ -178,9 +181,9 @@ Result<void> OpenCvTracker::start(int frame, const cv::Mat& image, const Box& bo
     return fail(in.results.name + ": " + frame_text(frame), "cannot be started with a box outside the image");
   const cv::Rect pixels = pixels_of(box, image.size());
   if (!is_large_enough(in.results.name, pixels))
-    return fail(in.results.name + ": " + frame_text(frame),
-                "cannot be started with a box of " + std::to_string(pixels.width) + "x" +
-                    std::to_string(pixels.height) + " px: it takes 8x4 or more");
+    return fail(
+        in.results.name + ": " + frame_text(frame),
+        fmt::format("cannot be started with a box of {} px: it takes 8x4 or more", image_size_text(pixels.size())));
   return in.guarded(frame, "start on", [&]() -> Result<void> {
     std::unique_ptr<TrackerAdapter> tracker = new_tracker(in.results.name);
     if (!tracker->init(image, pixels))

@@ -103,7 +103,7 @@ namespace {
 
 std::string min_visible_text(const TrackPolicy& policy) {
   if (policy.min_visible_fraction <= 0) return "";
-  return " and of which at least " + exact_text(100 * policy.min_visible_fraction) + " % can be seen";
+  return fmt::format(" and of which at least {} % can be seen", exact_text(100 * policy.min_visible_fraction));
 }
 
 std::string not_counted(int encounters) {
@@ -118,14 +118,14 @@ std::vector<std::string> uncounted_in(const DetectionReport& report) {
   const DetectionPolicy& policy = report.policy;
   const DetectionScore& score = report.scores.front();  // the truth is the same for all
   if (score.encounters_too_short > 0)
-    reasons.push_back(not_counted(score.encounters_too_short) + "shorter than " + exact_text(policy.min_encounter_s) +
-                      " s (--min-encounter)");
+    reasons.push_back(fmt::format("{}shorter than {} s (--min-encounter)", not_counted(score.encounters_too_short),
+                                  exact_text(policy.min_encounter_s)));
   if (score.encounters_too_far > 0)
-    reasons.push_back(not_counted(score.encounters_too_far) + "the intruder comes no nearer than " +
-                      exact_text(policy.max_closest_range_m) + " m (--max-closest-range)");
+    reasons.push_back(fmt::format("{}the intruder comes no nearer than {} m (--max-closest-range)",
+                                  not_counted(score.encounters_too_far), exact_text(policy.max_closest_range_m)));
   if (score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
-    reasons.push_back("there is no encounter: no intruder is seen within " + exact_text(policy.max_range_m) +
-                      " m (--max-range)");
+    reasons.push_back(fmt::format("there is no encounter: no intruder is seen within {} m (--max-range)",
+                                  exact_text(policy.max_range_m)));
   return reasons;
 }
 
@@ -137,10 +137,10 @@ std::vector<std::string> policies_of(const TrackReport& report) {
           (is_visible ? "the intruder's visible pixels." : "the whole intruder, hidden or not."),
       "Centre: the middle of a box's edges. Errors are reported less true centre, x to the right, y down; CLE is the "
       "length of (X, Y). The middles x + w/2 and x + (w-1)/2 differ alike in both and give the same errors.",
-      "Scored: frames from " + std::to_string(policy.from_frame) + " to " + std::to_string(report.footage.last_frame) +
-          " in which the intruder has such a box" + min_visible_text(policy) +
-          ". OpenCV's trackers are given the true box in whole pixels in the first of them, which counts too. "
-          "Frames in which a result file marks its tracker as started anew do not count for it.",
+      fmt::format("Scored: frames from {} to {} in which the intruder has such a box{}. OpenCV's trackers are given "
+                  "the true box in whole pixels in the first of them, which counts too. Frames in which a result file "
+                  "marks its tracker as started anew do not count for it.",
+                  policy.from_frame, report.footage.last_frame, min_visible_text(policy)),
       "Nothing reported in a scored frame: lost, and past every threshold of precision, success and normalised "
       "precision. CLE, X and Y are over the frames with a report alone.",
       "Lost: nothing reported, or no overlap with the truth.",
@@ -155,19 +155,21 @@ std::vector<std::string> policies_of(const TrackReport& report) {
 std::vector<std::string> policies_of(const DetectionReport& report) {
   const DetectionPolicy& policy = report.policy;
   return {
-      "Match: extended overlap of at least " + exact_text(policy.match_overlap) +
-          ". Where the true box is smaller than " + exact_text(policy.min_area_px2) +
-          " square pixels, it and the reported one are grown to that area about their middles first.",
-      "False alarm: a report with an extended overlap below " + exact_text(policy.false_overlap) +
-          " with every true box; between the two it is neither.",
-      "Reports with a score below " + exact_text(policy.min_score) + " are left out.",
-      "Encounter: at least " + exact_text(policy.min_encounter_s) + " s in which an intruder is within " +
-          exact_text(policy.max_range_m) + " m, with gaps of at most " + exact_text(policy.max_gap_s) +
-          " s; it counts where it comes within " + exact_text(policy.max_closest_range_m) + " m.",
-      "Detected (EDR): by one track in at least " + exact_text(100 * policy.min_window_share) +
-          " % of the frames of some " + exact_text(policy.window_s) +
-          " s before the intruder first comes nearer than " + exact_text(policy.detect_range_m) +
-          " m, or in the encounter's first " + exact_text(policy.window_s) + " s.",
+      fmt::format("Match: extended overlap of at least {}. Where the true box is smaller than {} square pixels, it and "
+                  "the reported one are grown to that area about their middles first.",
+                  exact_text(policy.match_overlap), exact_text(policy.min_area_px2)),
+      fmt::format(
+          "False alarm: a report with an extended overlap below {} with every true box; between the two it is neither.",
+          exact_text(policy.false_overlap)),
+      fmt::format("Reports with a score below {} are left out.", exact_text(policy.min_score)),
+      fmt::format("Encounter: at least {} s in which an intruder is within {} m, with gaps of at most {} s; it counts "
+                  "where it comes within {} m.",
+                  exact_text(policy.min_encounter_s), exact_text(policy.max_range_m), exact_text(policy.max_gap_s),
+                  exact_text(policy.max_closest_range_m)),
+      fmt::format("Detected (EDR): by one track in at least {} % of the frames of some {} s before the intruder first "
+                  "comes nearer than {} m, or in the encounter's first {} s.",
+                  exact_text(100 * policy.min_window_share), exact_text(policy.window_s),
+                  exact_text(policy.detect_range_m), exact_text(policy.window_s)),
       "HFAR: the reporter's tracks that hold a false alarm, for each hour of film. FPPI: false alarms for each frame. "
       "AFDR: matched among all pairs of a frame and an intruder within range."};
 }

@@ -40,7 +40,7 @@ std::string element(const std::string& name, const std::string& text) {
 std::string table_html(const std::vector<TableColumn>& columns) {
   std::string text = "<div class=\"table\"><table>\n<thead><tr>";
   for (const TableColumn& column : columns)
-    text += "<th scope=\"col\">" + html(column.title) + "<small>" + html(column.unit) + "</small></th>";
+    text += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", html(column.title), html(column.unit));
   text += "</tr></thead>\n<tbody>\n";
   for (std::size_t row = 0; row < columns.front().cells.size(); ++row) {
     text += "<tr>";
@@ -68,7 +68,7 @@ std::string inlined(const ReportPlot& image) {
   const std::string own = image.name + "-";
   for (const std::string_view before : {" id='", " id=\"", "href='#", "href=\"#", "url(#"})
     svg = replaced(std::move(svg), before, std::string(before) + own);
-  return "<figure>\n<svg role=\"img\" aria-label=\"" + html(image.title) + "\"" + svg.substr(4) + "</figure>\n";
+  return fmt::format("<figure>\n<svg role=\"img\" aria-label=\"{}\"{}</figure>\n", html(image.title), svg.substr(4));
 }
 
 std::string list_of(const std::vector<std::string>& lines) {
@@ -85,18 +85,19 @@ std::string plots_html(const std::vector<ReportPlot>& images) {
 }
 
 std::string page(const std::string& title, const std::string& body) {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
-         element("title", title) + "\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n<main>\n" +
-         element("h1", title) + "\n" + body +
-         "<footer>Written by SIGS. Its page docs/evaluation.md defines every "
-         "figure.</footer>\n</main>\n</body>\n</html>\n";
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "{}\n<style>{}</style>\n</head>\n<body>\n<main>\n{}\n{}"
+      "<footer>Written by SIGS. Its page docs/evaluation.md defines every figure.</footer>\n"
+      "</main>\n</body>\n</html>\n",
+      element("title", title), kStyle, element("h1", title), body);
 }
 
 std::string clip_text(const TrackReport& report) {
   const FootageTruth& footage = report.footage;
-  return fmt::format("{}, {} x {} pixels, frames {} to {}, {} frames/s. Followed: {}, from frame {}.", footage.video,
-                     footage.size_px.width, footage.size_px.height, footage.first_frame, footage.last_frame,
+  return fmt::format("{}, {} pixels, frames {} to {}, {} frames/s. Followed: {}, from frame {}.", footage.video,
+                     image_size_text(footage.size_px, " x "), footage.first_frame, footage.last_frame,
                      fixed_text(rate_hz(footage), 2), report.target, report.policy.from_frame);
 }
 
@@ -116,7 +117,7 @@ std::string report_html(const TrackReport& report, const std::vector<ReportPlot>
 }
 
 std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
-  const std::string clips = report.clips.size() == 1 ? "1 film" : std::to_string(report.clips.size()) + " films";
+  const std::string clips = count_text(std::ssize(report.clips), "film");
   std::string body = table_html(table_of(report));
   for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())

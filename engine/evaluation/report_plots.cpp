@@ -112,7 +112,8 @@ Plot curve_plot(const TrackReport& report, const CurvePlot& kind) {
     std::vector<PlotPoint> run;
     for (std::size_t i = 0; i < shares.size() && score.scored > 0; ++i)
       run.push_back({kind.last_threshold * double(i) / double(shares.size() - 1), shares[i]});
-    plot.series.push_back({score.name + ", " + kind.in_key + " " + fixed_text(score.*kind.figure, 3), {run}});
+    plot.series.push_back(
+        {fmt::format("{}, {} {}", score.name, kind.in_key, fixed_text(score.*kind.figure, 3)), {run}});
   }
   return plot;
 }
@@ -132,7 +133,7 @@ PlotSeries first_ranges(const DetectionScore& score, double max_range_m) {
   }
   run.push_back({0, share});
   const std::string mean = fixed_text(score.mean_first_range_m, 0);
-  return {score.name + ", mean " + mean + " m", {run}};
+  return {fmt::format("{}, mean {} m", score.name, mean), {run}};
 }
 
 Plot first_range_plot(const DetectionReport& report) {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "base/csv.h"
 #include "base/input_file.h"
+#include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_parsing.h"
@@ -19,12 +19,6 @@ namespace sigs {
 namespace {
 
 constexpr std::array<std::string_view, 7> kFormatNames = {"auto", "otb", "vot", "mot", "csv", "aot", "coco"};
-
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 // First line that is not empty.
 std::optional<TextLine> first_line(const std::string& text) {
@@ -49,8 +43,7 @@ Result<void> check_text(const ResultsFile& file) {
 
 Result<ResultsFormat> detected_format(const ResultsFile& file) {
   const TextLine first = *first_line(file.text);  // check_text() has found that there is one
-  if (lower_case(file.path.extension().string()) == ".json" || first.text.starts_with('[') ||
-      first.text.starts_with('{'))
+  if (lower_extension(file.path) == ".json" || first.text.starts_with('[') || first.text.starts_with('{'))
     return json_format(file);
   const std::vector<std::string_view> columns = csv_fields(first.text);
   if (std::ranges::find(columns, "frame") != columns.end()) return ResultsFormat::csv;
@@ -58,16 +51,20 @@ Result<ResultsFormat> detected_format(const ResultsFile& file) {
   const auto is_number = [](std::string_view field) { return number_of(field).has_value(); };
   const auto wrong = std::ranges::find_if_not(fields, is_number);
   if (wrong != fields.end())
-    return file.wrong(first.number, "is of no known layout: " + in_quotes(*wrong) +
-                                        " is neither a number nor the name of a csv column (frame,x,y,width,height)");
+    return file.wrong(
+        first.number,
+        fmt::format(
+            "is of no known layout: {} is neither a number nor the name of a csv column (frame,x,y,width,height)",
+            in_quotes(*wrong)));
   if (number_of(fields.front()) != number_of(fields.front())) return ResultsFormat::vot;  // nan
   if (fields.size() == 1 || fields.size() == 8) return ResultsFormat::vot;
   if (fields.size() == 4)
     return lower_case(file.path.filename().string()) == "groundtruth.txt" ? ResultsFormat::vot : ResultsFormat::otb;
   if (fields.size() >= 6) return ResultsFormat::mot;
-  return file.wrong(first.number, "is of no known layout: " + std::to_string(fields.size()) +
-                                      " numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot; "
-                                      "csv begins with the line frame,x,y,width,height, aot and coco with [");
+  return file.wrong(first.number,
+                    fmt::format("is of no known layout: {} numbers; 4 are otb or vot, 1 or 8 vot, 6, 7 and more mot; "
+                                "csv begins with the line frame,x,y,width,height, aot and coco with [",
+                                fields.size()));
 }
 
 Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {

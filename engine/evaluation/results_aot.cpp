@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -60,9 +62,9 @@ class AotReader : public JsonListReader {
 // ", [17].detections[0]"
 std::string AotReader::place_in_list() const {
   if (images_ == 0 || state_ == State::list || state_ == State::outside) return "";
-  const std::string image = ", [" + std::to_string(images_ - 1) + "]";
+  const std::string image = fmt::format(", [{}]", images_ - 1);
   const int detection = image_.checked.value_or(static_cast<int>(image_.detections.size()) - 1);
-  return detection < 0 ? image : image + ".detections[" + std::to_string(detection) + "]";
+  return detection < 0 ? image : fmt::format("{}.detections[{}]", image, detection);
 }
 
 std::optional<AotField> AotReader::field() const {
@@ -87,10 +89,10 @@ bool AotReader::on_text(const std::string& text) {
 }
 
 bool AotReader::unexpected_value(const char* what) {
-  if (field()) return fails(line(), key() + " is " + what + ", not a number");
+  if (field()) return fails(line(), fmt::format("{} is {}, not a number", key(), what));
   if (state_ == State::image && key() == "img_name") return fails(line(), std::string("img_name is ") + what);
   if (state_ == State::image && key() == "detections")
-    return fails(line(), std::string("detections is ") + what + ", not a list");
+    return fails(line(), fmt::format("detections is {}, not a list", what));
   if (state_ == State::image || state_ == State::detection) return true;
   return fails(line(),
                std::string("is ") + what +
@@ -135,12 +137,11 @@ bool AotReader::add_image() {
   if (!image_.name) return fails(image_.line, "has no img_name");
   const std::optional<int> frame = frame_of_image(*image_.name);
   if (!frame)
-    return fails(image_.line,
-                 "img_name " + in_quotes(*image_.name) + " does not end with a frame number, as frame_000123.png does");
+    return fails(image_.line, fmt::format("img_name {} does not end with a frame number, as frame_000123.png does",
+                                          in_quotes(*image_.name)));
   const auto [there, is_first] = line_of_frame_.emplace(*frame, image_.line);
   if (!is_first)
-    return fails(image_.line,
-                 "frame " + std::to_string(*frame) + " a second time, first in line " + std::to_string(there->second));
+    return fails(image_.line, fmt::format("frame {} a second time, first in line {}", *frame, there->second));
   set_clip_of_image(*image_.name);
   for (std::size_t i = 0; i < image_.detections.size(); ++i) {
     image_.checked = static_cast<int>(i);

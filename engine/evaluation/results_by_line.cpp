@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/csv.h"
+#include "base/text.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_parsing.h"
 #include "labels/label_text.h"
@@ -77,7 +78,7 @@ Result<void> add_vot_line(const ResultsFile& file, const TextLine& line, const s
                                .line = line.number});
   if (count < 6 || count % 2 != 0)
     return file.wrong(line.number,
-                      "expected 4 numbers (rectangle), 8 (polygon) or one (0, 1, 2), found " + std::to_string(count));
+                      fmt::format("expected 4 numbers (rectangle), 8 (polygon) or one (0, 1, 2), found {}", count));
   double low[2] = {numbers[0], numbers[1]};
   double high[2] = {numbers[0], numbers[1]};
   for (std::size_t i = 0; i < count; ++i) {
@@ -92,7 +93,7 @@ Result<void> add_vot_line(const ResultsFile& file, const TextLine& line, const s
 Result<void> add_otb_line(const ResultsFile& file, const TextLine& line, const std::vector<double>& numbers, int frame,
                           ResultsBuilder& builder) {
   if (numbers.size() != 4)
-    return file.wrong(line.number, "expected 4 numbers x, y, width, height, found " + std::to_string(numbers.size()));
+    return file.wrong(line.number, fmt::format("expected 4 numbers x, y, width, height, found {}", numbers.size()));
   return builder.add(
       frame, {.box = {numbers[0] - kEdgeFrom1, numbers[1] - kEdgeFrom1, numbers[2], numbers[3]}, .line = line.number});
 }
@@ -142,8 +143,8 @@ Result<void> add_mot_line(const ResultsFile& file, const TextLine& line, std::sp
   const std::optional<int> frame = integer_of(numbers[0]);
   const std::optional<int> id = integer_of(numbers[1]);
   if (!frame || *frame < 1)
-    return file.wrong(line.number, "frame " + in_quotes(fields[0]) + " is no whole number from 1");
-  if (!id) return file.wrong(line.number, "id " + in_quotes(fields[1]) + " is no whole number");
+    return file.wrong(line.number, fmt::format("frame {} is no whole number from 1", in_quotes(fields[0])));
+  if (!id) return file.wrong(line.number, fmt::format("id {} is no whole number", in_quotes(fields[1])));
   const FootageTruth& clip = file.clip;
   if (*frame > frame_count(clip))
     return file.wrong(line.number,
@@ -171,8 +172,8 @@ Result<Results> read_mot(const ResultsFile& file) {
       first_line = line->number;
     }
     if (fields.size() < kMinFields)
-      return file.wrong(line->number, fmt::format("expected frame, id, left, top, width, height and on, found {} {}",
-                                                  fields.size(), fields.size() == 1 ? "field" : "fields"));
+      return file.wrong(line->number, fmt::format("expected frame, id, left, top, width, height and on, found {}",
+                                                  count_text(std::ssize(fields), "field")));
     if (fields.size() != expected)
       return file.wrong(line->number,
                         fmt::format("has {} fields, line {} has {}", fields.size(), first_line, expected));
@@ -203,11 +204,13 @@ Result<CsvHeader> header_of(const ResultsFile& file, const TextLine& line) {
   for (std::size_t i = 0; i < kColumns; ++i) {
     const auto found = std::ranges::find(fields, kColumnNames[i]);
     if (found == fields.end() && i < kRequiredColumns)
-      return file.wrong(line.number, "has no column " + std::string(kColumnNames[i]) +
-                                         "; the first line names the columns: frame,x,y,width,height[,score][,track]");
+      return file.wrong(
+          line.number,
+          fmt::format("has no column {}; the first line names the columns: frame,x,y,width,height[,score][,track]",
+                      kColumnNames[i]));
     if (found == fields.end()) continue;
     if (std::find(found + 1, fields.end(), kColumnNames[i]) != fields.end())
-      return file.wrong(line.number, "has column " + std::string(kColumnNames[i]) + " twice");
+      return file.wrong(line.number, fmt::format("has column {} twice", kColumnNames[i]));
     header.place[i] = static_cast<std::size_t>(found - fields.begin());
   }
   return header;
@@ -222,16 +225,17 @@ Result<void> add_csv_line(const ResultsFile& file, const CsvHeader& header, cons
     if (header.place[i] == kNoColumn) continue;
     const std::string_view field = fields[header.place[i]];
     const std::optional<double> number = number_of(field);
-    if (!number)
-      return file.wrong(line.number, std::string(kColumnNames[i]) + " " + in_quotes(field) + " is no number");
+    if (!number) return file.wrong(line.number, fmt::format("{} {} is no number", kColumnNames[i], in_quotes(field)));
     values[i] = *number;
   }
   const std::optional<int> frame = integer_of(values[frame_column]);
   if (!frame)
-    return file.wrong(line.number, "frame " + in_quotes(fields[header.place[frame_column]]) + " is no whole number");
+    return file.wrong(line.number,
+                      fmt::format("frame {} is no whole number", in_quotes(fields[header.place[frame_column]])));
   const std::optional<int> track = integer_of(values[track_column]);
   if (!track)
-    return file.wrong(line.number, "track " + in_quotes(fields[header.place[track_column]]) + " is no whole number");
+    return file.wrong(line.number,
+                      fmt::format("track {} is no whole number", in_quotes(fields[header.place[track_column]])));
   return builder.add(*frame, {.box = {values[x_column] - kEdgeFrom0, values[y_column] - kEdgeFrom0,
                                       values[width_column], values[height_column]},
                               .score = values[score_column],

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <climits>
 #include <cstdint>
@@ -41,7 +43,7 @@ class CocoReader : public JsonListReader {
   [[nodiscard]] bool skips_object() const override { return state_ == State::entry && !is_read(); }
   bool unexpected_value(const char* what) override;
   [[nodiscard]] std::string place_in_list() const override {
-    return entries_ > 0 ? ", [" + std::to_string(entries_ - 1) + "]" : "";
+    return entries_ > 0 ? fmt::format(", [{}]", entries_ - 1) : "";
   }
 
   [[nodiscard]] bool is_read() const {
@@ -74,10 +76,11 @@ bool CocoReader::on_text(const std::string& text) {
 }
 
 bool CocoReader::unexpected_value(const char* what) {
-  if (state_ == State::box) return fails(line(), std::string("bbox holds ") + what + ", not a number");
+  if (state_ == State::box) return fails(line(), fmt::format("bbox holds {}, not a number", what));
   if (state_ == State::entry) {
     if (!is_read()) return true;
-    return fails(line(), key() + " is " + what + (key() == "bbox" ? ", not a list of 4 numbers" : ", not a number"));
+    return fails(line(), fmt::format("{} is {}{}", key(), what,
+                                     key() == "bbox" ? ", not a list of 4 numbers" : ", not a number"));
   }
   return fails(line(), std::string("is ") + what +
                            "; coco results are [{\"image_id\": ..., \"bbox\": [x, y, w, h], \"score\": ...}, ...]");
@@ -112,8 +115,9 @@ std::optional<int> CocoReader::frame_of_entry() {
   if (entry_.image_name) {
     const std::optional<int> frame = frame_of_image(*entry_.image_name);
     if (!frame)
-      fails(entry_.line, "image_id " + in_quotes(*entry_.image_name) +
-                             " is neither a number nor an image's name that ends with one, as frame_000123");
+      fails(entry_.line,
+            fmt::format("image_id {} is neither a number nor an image's name that ends with one, as frame_000123",
+                        in_quotes(*entry_.image_name)));
     set_clip_of_image(*entry_.image_name);
     return frame;
   }
@@ -124,8 +128,7 @@ std::optional<int> CocoReader::frame_of_entry() {
   }
   const ResultsOptions& options = file().options;
   if (options.last_image_id && *id > *options.last_image_id) {
-    fails(entry_.line,
-          "image_id " + std::to_string(*id) + " is past the last one, " + std::to_string(*options.last_image_id));
+    fails(entry_.line, fmt::format("image_id {} is past the last one, {}", *id, *options.last_image_id));
     return std::nullopt;
   }
   const std::int64_t frame = std::int64_t{file().clip.first_frame} + *id - options.first_image_id;

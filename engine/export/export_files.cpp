@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "export/export_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "base/text.h"
 #include "export/frame_stream.h"
 #include "scene/opened_project.h"
 
@@ -41,7 +44,7 @@ Result<void> check_label_folder(const fs::path& folder, const LabelFormat& forma
     const std::string path = it->path().lexically_relative(folder).generic_string();
     const auto is_written = [&path](std::string_view pattern) { return fits(path, pattern); };
     if (std::none_of(format.files.begin(), format.files.end(), is_written))
-      return fail(folder.string(), "holds " + path + ", which no export wrote; choose another folder",
+      return fail(folder.string(), fmt::format("holds {}, which no export wrote; choose another folder", path),
                   ErrorKind::cannot_create);
   }
   if (code && code != std::errc::no_such_file_or_directory)
@@ -161,7 +164,7 @@ Result<void> check_image_folder(const fs::path& folder) {
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const std::string name = it->path().filename().string();
     if (!name.starts_with("frame_") || it->path().extension() != ".png")
-      return fail(folder.string(), "holds " + name + ", which no export wrote; choose another folder",
+      return fail(folder.string(), fmt::format("holds {}, which no export wrote; choose another folder", name),
                   ErrorKind::cannot_create);
   }
   if (code && code != std::errc::no_such_file_or_directory)
@@ -214,8 +217,8 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
   const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
   if (project.output.codec == CodecChoice::h264 && odd && shares_chroma)
     return fail(project.file.string() + ": export.video.codec",
-                "h264 needs an even width and height, the footage is " + std::to_string(size.width) + "x" +
-                    std::to_string(size.height) + "; use ffv1, mjpeg or png",
+                fmt::format("h264 needs an even width and height, the footage is {}; use ffv1, mjpeg or png",
+                            image_size_text(size)),
                 ErrorKind::bad_project);
   return {};
 }

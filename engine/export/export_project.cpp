@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "export/export_project.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -38,7 +40,7 @@ void count(const ComposedFrame& frame, ExportReport& report) {
 }
 
 std::string damaged_text(const ExportReport& report, int total) {
-  return std::to_string(report.damaged_frames) + " of " + std::to_string(total) + " frames of the footage are damaged";
+  return fmt::format("{} of {} frames of the footage are damaged", report.damaged_frames, total);
 }
 
 // As soon as there are too many: the remaining frames cannot change that.
@@ -47,9 +49,9 @@ Result<void> check_substituted(const ExportReport& report, int total, const Open
   std::ostringstream limit;
   limit << max_percent;
   return fail(opened.source.info().path.string(),
-              "at least " + damaged_text(report, total) + ", more than footage.max_substituted_percent, " +
-                  limit.str() + ", allows; nothing was written. Repair or cut the footage, or raise the limit: " +
-                  "footage.max_substituted_percent=100");
+              fmt::format("at least {}, more than footage.max_substituted_percent, {}, allows; nothing was written. "
+                          "Repair or cut the footage, or raise the limit: footage.max_substituted_percent=100",
+                          damaged_text(report, total), limit.str()));
 }
 
 Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, const OpenedProject& opened,
@@ -80,9 +82,9 @@ void warn_of_missing_images(const ExportSettings& output, const ExportControl& c
     if (label_format(label)->names_images) names.append(names.empty() ? "" : ", ").append(label);
   if (!names.empty())
     say(control, report,
-        {"", "labels " + names +
-                 " name images (frame_000000.png ...) that are not written beside a video; set export.video.codec to "
-                 "png, or make them with FFmpeg as docs/label-formats.md says"});
+        {"", fmt::format("labels {} name images (frame_000000.png ...) that are not written beside a video; set "
+                         "export.video.codec to png, or make them with FFmpeg as docs/label-formats.md says",
+                         names)});
 }
 
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {

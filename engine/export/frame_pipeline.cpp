@@ -31,13 +31,8 @@ FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const Fram
 
 // Fewer composing threads than requested do the same work, more slowly; without any it ends in an error.
 void FramePipeline::start(void (FramePipeline::*work)()) {
-  Result<std::thread> thread = started_thread([this, work] {
-    const Result<void> done = guarded([&]() -> Result<void> {
-      (this->*work)();
-      return {};
-    });
-    if (!done) give_up(done.error());
-  });
+  Result<std::thread> thread =
+      started_thread([this, work] { (this->*work)(); }, [this](const Error& error) { give_up(error); });
   if (thread)
     threads_.push_back(std::move(*thread));
   else if (threads_.size() < 2)

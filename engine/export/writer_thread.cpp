@@ -10,13 +10,7 @@
 namespace sigs {
 
 WriterThread::WriterThread(VideoWriter writer) : writer_(std::move(writer)) {
-  Result<std::thread> thread = started_thread([this] {
-    const Result<void> done = guarded([this]() -> Result<void> {
-      write_all();
-      return {};
-    });
-    if (!done) give_up(done.error());
-  });
+  Result<std::thread> thread = started_thread([this] { write_all(); }, [this](const Error& error) { give_up(error); });
   if (thread)
     thread_ = std::move(*thread);
   else

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame/composite.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -55,7 +57,7 @@ cv::Mat shown(const Layer& layer, const ColorInfo& footage, cv::Size image_size_
 
 // "1_bent" for the intruder with id 1; plain "bent" where there is only one.
 std::string stage_name(const std::string& name, const IntruderLayers& layers, const Scene& scene) {
-  return scene.intruders.size() == 1 ? name : std::to_string(layers.placed.id) + "_" + name;
+  return scene.intruders.size() == 1 ? name : fmt::format("{}_{}", layers.placed.id, name);
 }
 
 void composite_direct(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers) {

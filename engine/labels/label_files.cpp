@@ -59,7 +59,8 @@ Result<void> link_or_copy(const fs::path& from, const fs::path& to) {
   // too.
   fs::copy_file(from, to, fs::copy_options::none, code);
   if (code)
-    return fail(to.string(), "could not be made of " + from.string() + ": " + code.message(), ErrorKind::write_failed);
+    return fail(to.string(), fmt::format("could not be made of {}: {}", from.string(), code.message()),
+                ErrorKind::write_failed);
   return {};
 }
 

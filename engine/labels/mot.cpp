@@ -94,7 +94,8 @@ Result<std::unique_ptr<LabelWriter>> open_mot(const fs::path& path, const LabelS
   const std::string name = line_name(sequence.name);
   for (const fs::path& folder : {path / "seqmaps", path / name / "gt"})
     if (const Result<void> created = make_inner_folder(folder); !created) return fail(created.error());
-  const Result<void> map = write_text(path / "seqmaps" / (name + ".txt"), "name\n" + csv_field(name) + "\n", false);
+  const Result<void> map =
+      write_text(path / "seqmaps" / (name + ".txt"), fmt::format("name\n{}\n", csv_field(name)), false);
   if (!map) return fail(map.error());
   const Result<void> info = write_text(path / name / "seqinfo.ini", seqinfo(sequence, name), false);
   if (!info) return fail(info.error());

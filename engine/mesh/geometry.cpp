@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/geometry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,7 +28,7 @@ std::optional<glm::dvec3> axis_of(std::string_view text) {
 }
 
 tl::unexpected<Error> fail_axis(const char* setting, const std::string& text) {
-  return fail(setting, "expected one of +x -x +y -y +z -z, found \"" + text + "\"", ErrorKind::bad_project);
+  return fail(setting, fmt::format("expected one of +x -x +y -y +z -z, found \"{}\"", text), ErrorKind::bad_project);
 }
 
 constexpr double kCosOfCrease = 0.5;  // 60 degrees
@@ -88,7 +90,7 @@ Result<glm::dmat3> body_from_model(const ModelAxes& axes) {
   const auto up = axis_of(axes.up);
   if (!up) return fail_axis("up", axes.up);
   if (glm::dot(*forward, *up) != 0)
-    return fail("up", "lies along forward (" + axes.forward + ")", ErrorKind::bad_project);
+    return fail("up", fmt::format("lies along forward ({})", axes.forward), ErrorKind::bad_project);
   if (!std::isfinite(axes.scale) || axes.scale <= 0)
     return fail("scale", "must be a positive number", ErrorKind::bad_project);
   if (!std::isfinite(axes.length_m) || axes.length_m < 0)

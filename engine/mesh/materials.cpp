@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/materials.h"
 
+#include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
@@ -143,7 +144,7 @@ class MaterialReader {
       reported_.push_back(written);
       const std::string wrong = path.empty() ? "is missing" : texture_problem(path);
       warnings_.push_back(
-          {obj_name_, "texture " + written + " " + (wrong.empty() ? "cannot be read" : wrong) + "; drawn grey"});
+          {obj_name_, fmt::format("texture {} {}; drawn grey", written, wrong.empty() ? "cannot be read" : wrong)});
     }
     return texture;
   }
@@ -196,7 +197,7 @@ MaterialSet read_materials(const std::vector<std::string>& names, const std::vec
       continue;
     }
     if (has_library && !name.empty())
-      set.warnings.push_back({obj_path.filename().string(), "material " + name + " is in no MTL; drawn grey"});
+      set.warnings.push_back({obj_path.filename().string(), fmt::format("material {} is in no MTL; drawn grey", name)});
     set.materials.push_back({.name = name});
     set.placements.emplace_back();
   }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -23,12 +22,6 @@ namespace sigs {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 fs::path any_case(const fs::path& path) {
   std::error_code code;
@@ -98,7 +91,7 @@ std::string texture_problem(const fs::path& path) {
   const bool is_large =
       std::max(size->width, size->height) > kMaxSide_px || std::int64_t{size->width} * size->height > kMaxPixels;
   if (!is_large) return "";
-  return fmt::format("is {}x{}; at most 8192x8192 pixels are read, and 16384 a side", size->width, size->height);
+  return fmt::format("is {}; at most 8192x8192 pixels are read, and 16384 a side", image_size_text(*size));
 }
 
 cv::Mat TextureCache::texture(const fs::path& path) {

@@ -118,7 +118,7 @@ class Detection {
   [[nodiscard]] Error undecided(const std::string& reason) const {
     constexpr int kFew = 9;  // fewer than half a second of any footage
     const std::string few = used_ <= kFew ? fmt::format("{} frames are too few to tell: ", used_) : "";
-    return {path_, few + reason + "; take a longer part of the flight, with turns"};
+    return {path_, fmt::format("{}{}; take a longer part of the flight, with turns", few, reason)};
   }
 
   // Of a frame that cannot be decoded or is of another size than those before.

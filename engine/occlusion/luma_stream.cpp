@@ -34,13 +34,8 @@ cv::Mat luma_of(const Frame& frame) {
 }
 
 LumaStream::LumaStream(FrameSource& footage, const FrameSteps& steps) : ahead_(kFramesAhead) {
-  Result<std::thread> thread = started_thread([this, &footage, steps] {
-    const Result<void> done = guarded([&]() -> Result<void> {
-      decode(footage, steps);
-      return {};
-    });
-    if (!done) give_up(done.error());
-  });
+  Result<std::thread> thread = started_thread([this, &footage, steps] { decode(footage, steps); },
+                                              [this](const Error& error) { give_up(error); });
   if (thread)
     thread_ = std::move(*thread);
   else

@@ -54,7 +54,7 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
     const Json& intruder = json.at("intruders").at(i);
     if (!intruder.is_object()) return fail(file + ": " + key, "expected { ... }", ErrorKind::bad_project);
     const Result<std::size_t> waypoints =
-        list_size(intruder, "/trajectory/waypoints", file + ": " + key + ".trajectory.waypoints");
+        list_size(intruder, "/trajectory/waypoints", fmt::format("{}: {}.trajectory.waypoints", file, key));
     if (!waypoints) return fail(waypoints.error());
     if (const Result<void> places = check_positions(intruder, *waypoints, file + ": " + key); !places) return places;
     project.intruders[i].trajectory.waypoints.resize(*waypoints);
@@ -161,7 +161,7 @@ Result<void> check_version(const Json& json, const std::string& file) {
   if (version == json.end())
     return fail(file + ": sigs", "missing; a project begins with \"sigs\": 1", ErrorKind::bad_project);
   if (!version->is_number_integer() || *version != kProjectVersion)
-    return fail(file + ": sigs", "version " + version->dump() + " is not known; this program reads version 1",
+    return fail(file + ": sigs", fmt::format("version {} is not known; this program reads version 1", version->dump()),
                 ErrorKind::bad_project);
   return {};
 }

@@ -64,7 +64,8 @@ bool is_axis(std::string_view text) {
 
 void check_axes(const ModelSettings& model, const std::string& key, Problems& problems) {
   for (const auto& [name, axis] : {std::pair{".forward", model.forward}, std::pair{".up", model.up}})
-    if (!is_axis(axis)) problems.push_back({key + name, "is \"" + axis + "\"; it must be one of +x -x +y -y +z -z"});
+    if (!is_axis(axis))
+      problems.push_back({key + name, fmt::format("is \"{}\"; it must be one of +x -x +y -y +z -z", axis)});
   if (is_axis(model.forward) && is_axis(model.up) && model.forward[1] == model.up[1])
     problems.push_back({key + ".up", "lies along forward; up must be another axis"});
 }
@@ -108,7 +109,7 @@ void check_labels(const ExportSettings& output, Problems& problems) {
       problems.push_back(
           {"export.labels", fmt::format("knows no format \"{}\"; there are {}", label, listed(kLabelNames))});
     if (is_twice(output.labels, label))
-      return problems.push_back({"export.labels", "has \"" + label + "\" twice; leave one out"});
+      return problems.push_back({"export.labels", fmt::format("has \"{}\" twice; leave one out", label)});
   }
 }
 
@@ -116,7 +117,8 @@ void check_categories(const Project& project, Problems& problems) {
   const std::vector<std::string>& categories = project.output.categories;
   for (const std::string& category : categories)
     if (category.empty() || is_twice(categories, category))
-      return problems.push_back({"export.categories", "has \"" + category + "\" twice or empty; leave one out"});
+      return problems.push_back(
+          {"export.categories", fmt::format("has \"{}\" twice or empty; leave one out", category)});
   if (categories.empty()) return;
   for (std::size_t i = 0; i < project.intruders.size(); ++i)
     if (std::find(categories.begin(), categories.end(), project.intruders[i].category) == categories.end())

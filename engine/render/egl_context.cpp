@@ -39,10 +39,10 @@ Result<void> check_library(std::initializer_list<const char*> names, std::initia
       if (library != nullptr && missing == nullptr && dlsym(library, function) == nullptr) missing = function;
     if (library != nullptr && missing == nullptr) return {};
     const char* const said = library == nullptr ? dlerror() : nullptr;
-    why += (why.empty() ? "" : "; ") +
-           (missing != nullptr ? std::string(name) + " has no " + missing : std::string(said != nullptr ? said : name));
+    why += (why.empty() ? "" : "; ") + (missing != nullptr ? fmt::format("{} has no {}", name, missing)
+                                                           : std::string(said != nullptr ? said : name));
   }
-  return fail("OpenGL", "cannot be loaded (" + why + "); " + how_to_get_opengl(), ErrorKind::unavailable);
+  return fail("OpenGL", fmt::format("cannot be loaded ({}); {}", why, how_to_get_opengl()), ErrorKind::unavailable);
 }
 
 // Checks that the libraries of EGL and OpenGL can be loaded and have the functions that are called. libepoxy looks for
@@ -200,7 +200,7 @@ Result<EglContext> EglContext::create() {
     tried += (tried.empty() ? "" : "; ") + context.error().text();
   }
   if (tried.empty()) tried = "EGL offers neither the surfaceless platform nor devices";
-  return fail("OpenGL", "cannot be had without a display: " + tried + "; " + how_to_get_opengl(),
+  return fail("OpenGL", fmt::format("cannot be had without a display: {}; {}", tried, how_to_get_opengl()),
               ErrorKind::unavailable);
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "render/shaders.h"
 
 namespace sigs {
@@ -134,7 +135,7 @@ Result<Target::Buffers> Target::make(const cv::Size& size, int samples, bool wit
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && glGetError() == GL_NO_ERROR)
     return buffers;
   release(buffers);
-  return fail("OpenGL", fmt::format("cannot draw to floating-point buffers of {} x {} pixels", size.width, size.height),
+  return fail("OpenGL", fmt::format("cannot draw to floating-point buffers of {} pixels", image_size_text(size, " x ")),
               ErrorKind::unavailable);
 }
 

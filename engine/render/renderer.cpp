@@ -18,6 +18,7 @@
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "base/result.h"
+#include "base/text.h"
 #include "base/transfer.h"
 #include "camera/virtual_camera.h"
 #include "render/draw_list.h"
@@ -283,8 +284,8 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   ensure_sane(view_from_body, light, view);
   if (view.size_px.empty()) return Layer{};
   if (std::max(view.size_px.width, view.size_px.height) > kLargestView_px)
-    return fail("view", fmt::format("of {} x {} pixels is larger than {}", view.size_px.width, view.size_px.height,
-                                    kLargestView_px));
+    return fail("view",
+                fmt::format("of {} pixels is larger than {}", image_size_text(view.size_px, " x "), kLargestView_px));
   if (!state_->context.make_current())
     return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
 

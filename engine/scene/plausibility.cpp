@@ -74,7 +74,7 @@ void check_model(const ModelSettings& settings, const Model& model, const std::s
   if (settings.length_m > 0) return issues.push_back({key + ".length_m", what});
   const std::string units = likely_units(settings, size_m.x);
   issues.push_back({key + ".scale", what + (units.empty() ? "; set it, or length_m, to what the model measures"
-                                                          : "; is the file " + units + "?")});
+                                                          : fmt::format("; is the file {}?", units))});
 }
 
 struct Extremes {

@@ -19,12 +19,12 @@
 #include <tuple>
 #include <utility>
 
-#include "base/pose.h"
-#include "base/threads.h"
 #include "base/image.h"
 #include "base/input_file.h"
+#include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "base/threads.h"
 
 namespace sigs {
 
@@ -222,8 +222,8 @@ Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size f
     return fail(path.string(), "is not an image that can be read (png, jpeg, bmp, tiff, ...)");
   const cv::Size size_px = is_other_size ? *stated_px : image.size();
   if (size_px != footage_size_px)
-    return fail(path.string(), fmt::format("is {}x{}, the footage is {}x{}; they must agree", size_px.width,
-                                           size_px.height, footage_size_px.width, footage_size_px.height));
+    return fail(path.string(), fmt::format("is {}, the footage is {}; they must agree", image_size_text(size_px),
+                                           image_size_text(footage_size_px)));
   if (image.depth() != CV_8U && image.depth() != CV_16U)
     return fail(path.string(), "has neither 8 nor 16 bits a sample");
   cv::Mat mask;

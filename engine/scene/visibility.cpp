@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "scene/scene_parts.h"
 
 namespace sigs {
@@ -22,7 +23,7 @@ std::string pixels_text(double size_px) {
 
 std::string frames_text(const Visibility& visibility) {
   const int checked = visibility.frames_checked;
-  const std::string text = fmt::format("{} {}", checked, checked == 1 ? "frame" : "frames");
+  const std::string text = count_text(checked, "frame");
   return checked >= visibility.frames ? text : fmt::format("{} looked at (of {})", text, visibility.frames);
 }
 

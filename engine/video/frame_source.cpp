@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "video/frame_seeker.h"
 #include "video/libav/planes.h"
@@ -139,8 +140,8 @@ Result<Frame> FrameSource::State::read(int n) {
   const AVFrame& image = *found->image->frame;
   const cv::Size size = libav::oriented(cv::Size(image.width, image.height), orientation);
   if (size != info.size_px)
-    return fail(where, fmt::format("the image's size changes from {} to {}", libav::size_text(info.size_px),
-                                   libav::size_text(size)));
+    return fail(where, fmt::format("the image's size changes from {} to {}", image_size_text(info.size_px),
+                                   image_size_text(size)));
   Result<Frame> frame = libav::frame_of(image, info.layout, info.color);
   if (!frame) return fail(where, frame.error().what);
   if (!(orientation == libav::Orientation{})) frame = libav::oriented(*frame, orientation);

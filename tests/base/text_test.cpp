@@ -96,13 +96,41 @@ TEST_CASE("the exact text is the shortest that reads back, and empty for NaN and
   CHECK(exact_text(std::optional<double>()).empty());
 }
 
-TEST_CASE("fixed and short texts have the digits that tables and messages need") {
+TEST_CASE("fixed texts have the digits that tables need") {
   CHECK(fixed_text(3.5, 2) == "3.50");
   CHECK(fixed_text(-0.001, 2) == "0.00");
   CHECK(fixed_text(std::numeric_limits<double>::quiet_NaN(), 2) == "-");
+}
+
+TEST_CASE("numbers are written as people write them") {
+  CHECK(short_number_text(0) == "0");
+  CHECK(short_number_text(-12.5) == "-12.5");
   CHECK(short_number_text(98.76543) == "98.7654");
+  CHECK(short_number_text(10000) == "10000");
   CHECK(short_number_text(1e8) == "1e8");
+  CHECK(short_number_text(-1.25e120) == "-1.25e120");
   CHECK(short_number_text(-3e-7) == "-3e-7");
+  CHECK(short_number_text(1.5e-30) == "1.5e-30");
+}
+
+TEST_CASE("only the letters A to Z change their case") {
+  CHECK(lower_case("AbZ-19 Ñ") == "abz-19 Ñ");
+  CHECK(lower_case("").empty());
+}
+
+TEST_CASE("quantities are written as people say them") {
+  CHECK(count_text(0, "frame") == "0 frames");
+  CHECK(count_text(1, "frame") == "1 frame");
+  CHECK(count_text(12, "frame") == "12 frames");
+  CHECK(image_size_text({1280, 960}) == "1280x960");
+  CHECK(image_size_text({1280, 960}, " x ") == "1280 x 960");
+  CHECK(clock_text(0) == "0:00");
+  CHECK(clock_text(5.4) == "0:05");
+  CHECK(clock_text(65) == "1:05");
+  CHECK(clock_text(3723) == "1:02:03");
+  CHECK(clock_text(-3) == "0:00");
+  CHECK(clock_text(1e300) == "2777:46:40");
+  CHECK(clock_text(std::numeric_limits<double>::quiet_NaN()) == "0:00");
 }
 
 TEST_CASE("lists are joined and the byte order mark is skipped") {

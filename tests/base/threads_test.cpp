@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 
 #include <doctest/doctest.h>
+#include <future>
+#include <memory>
 #include <new>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -55,4 +57,23 @@ TEST_CASE("a started thread runs its function") {
   REQUIRE(thread);
   thread->join();
   CHECK(done == 5);
+}
+
+TEST_CASE("what a thread's body throws is handed over as an error") {
+  for (const bool throws : {false, true}) {
+    std::string told;
+    const auto body = [&] {
+      if (throws) throw std::runtime_error("is odd");
+    };
+    Result<std::thread> thread = started_thread(body, [&](const Error& error) { told = error.text(); });
+    REQUIRE(thread);
+    thread->join();
+    CHECK(told == (throws ? "is odd" : ""));
+  }
+}
+
+TEST_CASE("work in the background is done although nobody joins its thread") {
+  const auto done = std::make_shared<std::promise<int>>();
+  run_in_background([done] { done->set_value(5); });
+  CHECK(done->get_future().get() == 5);
 }

@@ -46,7 +46,7 @@ TEST_CASE("a missing project exits with status 66") {
 
 TEST_CASE("a project that is not JSON exits with status 78 and names the line") {
   const TinyProject tiny;
-  put_text(tiny.project(), "{\n \"sigs\": 1,\n");
+  write_file(tiny.project(), "{\n \"sigs\": 1,\n");
   check_refused(tiny, 78, "p.json: is not JSON");
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("a missing video is named by its field") {
 
 TEST_CASE("a file that is not a video is reported by its field") {
   const TinyProject tiny;
-  put_text(tiny.file("clip.mkv"), "this is no video");
+  write_file(tiny.file("clip.mkv"), "this is no video");
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out());
   CHECK((run.status == 65 || run.status == 66));
   CHECK_MESSAGE(has(run.err, "p.json: footage.video: "), run.err);
@@ -80,19 +80,19 @@ TEST_CASE("a calibration with too few numbers or NaN is named by file and key") 
   const std::string lens = read_text(tiny.file("lens.xml")).value();
   std::string few = lens;
   few.replace(few.find("23.5 0. 0. 1."), 13, "23.5");
-  put_text(tiny.file("lens.xml"), few);
+  write_file(tiny.file("lens.xml"), few);
   check_refused(tiny, 65, "p.json: footage.calibration: ");
   std::string nan = lens;
   nan.replace(nan.find("-0.1 0.01"), 9, ".Nan 0.01");
-  put_text(tiny.file("lens.xml"), nan);
+  write_file(tiny.file("lens.xml"), nan);
   check_refused(tiny, 65, "lens.xml: distortion_coefficients");
 }
 
 TEST_CASE("an OBJ without faces or with indices out of range is named by its field") {
   const TinyProject tiny;
-  put_text(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  write_file(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   check_refused(tiny, 65, "p.json: intruders[0].model.file: ");
-  put_text(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  write_file(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   check_refused(tiny, 65, "p.json: intruders[0].model.file: ");
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("a missing MTL or texture is drawn grey with a warning") {
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(has(run.err, "warning: "), run.err);
   CHECK_MESSAGE(has(run.err, "cube.mtl"), run.err);
-  put_text(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd gone.png\n");
+  write_file(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd gone.png\n");
   const Run textured = run_sigs("export " + tiny.project() + " --force --out " + tiny.out());
   CHECK_MESSAGE(textured.status == 0, textured.err);
   CHECK_MESSAGE(has(textured.err, "gone.png"), textured.err);
@@ -147,7 +147,7 @@ TEST_CASE("frames beyond the footage exit with status 64, a project's range beyo
 
 TEST_CASE("a folder that cannot be created exits with status 73") {
   const TinyProject tiny;
-  put_text(tiny.file("blocked"), "a file where a folder is wanted");
+  write_file(tiny.file("blocked"), "a file where a folder is wanted");
   const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.file("blocked/out").string());
   CHECK(run.status == 73);
   CHECK_MESSAGE(has(run.err, "blocked/out"), run.err);

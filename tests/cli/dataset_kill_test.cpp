@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "cli/tiny_recipe.h"
+#include "support/files.h"
 
 using namespace sigs::test;
 

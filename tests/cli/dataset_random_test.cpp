@@ -6,6 +6,8 @@
 
 #include "base/staged_outputs.h"
 #include "cli/tiny_recipe.h"
+#include "support/files.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -39,7 +41,7 @@ int sum_of(const Json& redraws) {
 
 TEST_CASE("the requested number of random videos is made, and repeated samples are reported everywhere") {
   const TinyRecipe recipe;
-  put_text(recipe.file("recipe.json"), kRandom);
+  write_file(recipe.file("recipe.json"), kRandom);
   const Run dry = recipe.run("out", "--dry-run");
   CHECK_MESSAGE(dry.status == 0, dry.err);
   CHECK_MESSAGE(has(dry.out, "6 videos, 36 frames, about "), dry.out);
@@ -50,13 +52,13 @@ TEST_CASE("the requested number of random videos is made, and repeated samples a
   CHECK_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(has(run.err, "sampled again: "), run.err);
   CHECK_FALSE(has(run.err, "never in the picture in "));
-  const Json index = Json::parse(read_text(recipe.out("out") + "/index.json").value());
+  const Json index = json_of(recipe.out("out") + "/index.json");
   CHECK(index.at("videos").size() == 6);
   int sum = 0;
   for (const Json& video : index.at("videos")) {
     sum += video.contains("redraws") ? sum_of(video.at("redraws")) : 0;
     const std::string name = video.at("name");
-    CHECK(Json::parse(read_text(recipe.out("out") + "/" + name + "/entry.json").value()).value("redraws", Json()) ==
+    CHECK(json_of(recipe.out("out") + "/" + name + "/entry.json").value("redraws", Json()) ==
           video.value("redraws", Json()));
   }
   CHECK(sum > 0);
@@ -66,7 +68,7 @@ TEST_CASE("the requested number of random videos is made, and repeated samples a
 
 TEST_CASE("random videos are the same to the byte with any jobs, shards, resumption and by name") {
   const TinyRecipe recipe;
-  put_text(recipe.file("recipe.json"), kRandom);
+  write_file(recipe.file("recipe.json"), kRandom);
   CHECK(recipe.run("one", "--jobs 1").status == 0);
   const auto whole = contents_of(recipe.out("one"));
   CHECK(recipe.run("jobs", "--jobs 3").status == 0);
@@ -86,7 +88,7 @@ TEST_CASE("random videos are the same to the byte with any jobs, shards, resumpt
 
 TEST_CASE("random videos without a usable sample exit with status 65 and name the reasons") {
   const TinyRecipe recipe;
-  put_text(recipe.file("recipe.json"), kRandom);
+  write_file(recipe.file("recipe.json"), kRandom);
   recipe.change("\"videos\": 6,", "\"videos\": 6, \"redraws\": 9,");
   recipe.change("[-150, 200]", "[-150, -140]");
   recipe.change("[-250, 100]", "[-250, -140]");

@@ -9,6 +9,8 @@
 
 #include "base/staged_outputs.h"
 #include "cli/tiny_recipe.h"
+#include "support/files.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -120,7 +122,7 @@ TEST_CASE("an intruder that is never in the image is reported, before a run and 
 
 TEST_CASE("a clip that cannot be opened makes only its own videos fail") {
   const TinyRecipe recipe;
-  put_text(recipe.file("cut.mkv"), "no clip");
+  write_file(recipe.file("cut.mkv"), "no clip");
   recipe.change("\"backgrounds\": [",
                 "\"backgrounds\": [{\"name\": \"cut\", \"footage\": {\"video\": \"cut.mkv\", "
                 "\"calibration\": \"lens.xml\"}}, ");
@@ -136,7 +138,7 @@ TEST_CASE("a clip that cannot be opened makes only its own videos fail") {
 
 TEST_CASE("a mask of another size than the clip is one error of the recipe, before anything starts") {
   const TinyRecipe recipe;
-  put_text(recipe.file("mask.pgm"), "P5\n3 2\n255\naaaaaa");
+  write_file(recipe.file("mask.pgm"), "P5\n3 2\n255\naaaaaa");
   recipe.change("\"calibration\": \"lens.xml\"", "\"calibration\": \"lens.xml\", \"own_body_mask\": \"mask.pgm\"");
   for (const char* const more : {"--dry-run", ""}) {
     const Run run = recipe.run("out", more);
@@ -198,7 +200,7 @@ TEST_CASE("impossible videos are named, the others are made, and the exit status
 
 TEST_CASE("a video that fails is listed with its reason, the others are made") {
   const TinyRecipe recipe;
-  put_text(recipe.file("other.obj"), "v 0 0 0\nf 1 2 3\n");
+  write_file(recipe.file("other.obj"), "v 0 0 0\nf 1 2 3\n");
   recipe.change("\"cube.obj\", \"scale\"", "\"other.obj\", \"scale\"");
   const Run run = recipe.run("out");
   CHECK(run.status == 65);
@@ -217,7 +219,7 @@ TEST_CASE("a full disk and a folder that cannot be created are reported as such"
   CHECK(WEXITSTATUS(status) == 74);
   CHECK_MESSAGE(has(read_text(recipe.out("err")).value(), "6 videos failed"), read_text(recipe.out("err")).value());
   CHECK_FALSE(fs::exists(recipe.out("out") + "/.part"));
-  put_text(recipe.file("file"), "");
+  write_file(recipe.file("file"), "");
   CHECK(recipe.run("file").status == 73);
   CHECK(recipe.run("file/deeper").status == 73);
   CHECK(run_sigs("dataset " + recipe.out("recipe.json") + " --out /proc/none").status == 73);
@@ -238,16 +240,16 @@ TEST_CASE("one file of COCO results, numbered as a split's coco labels, is score
   REQUIRE(recipe.run("out").status == 0);
   // The labels themselves as results: every box is correct, so every frame with a label is matched and there is no
   // false alarm.
-  const auto labels = nlohmann::json::parse(read_text(recipe.file("out/labels/coco/test.json")).value());
+  const auto labels = json_of(recipe.file("out/labels/coco/test.json"));
   nlohmann::json results = nlohmann::json::array();
   for (const nlohmann::json& box : labels["annotations"])
     results.push_back({{"image_id", box["image_id"]}, {"category_id", 1}, {"bbox", box["bbox"]}, {"score", 0.5}});
-  put_text(recipe.file("found.json"), results.dump());
+  write_file(recipe.file("found.json"), results.dump());
   const std::string report = recipe.out("report");
   const std::string detect = "evaluate detect " + recipe.out("out") + " --results " + recipe.out("found.json");
   const Run run = run_sigs(detect + " --split test --max-range 1e6 --out " + report);
   REQUIRE_MESSAGE(run.status == 0, run.err);
-  const auto scores = nlohmann::json::parse(read_text(fs::path(report) / "evaluation.json").value())["detectors"][0];
+  const auto scores = json_of(fs::path(report) / "evaluation.json")["detectors"][0];
   CHECK(scores["name"] == "found");
   CHECK(scores["frames"] == labels["images"].size());
   CHECK(scores["frame_detection_rate"] == 1.0);

@@ -9,6 +9,8 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/files.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
@@ -36,7 +38,7 @@ struct Fixture {
   [[nodiscard]] std::string labels(const std::string& name) const { return dataset + "/" + name + "/" + name + ".xml"; }
   std::string put(const std::string& name, const std::string& text) const {
     fs::create_directories(tiny.file(name).parent_path());
-    put_text(tiny.file(name), text);
+    write_file(tiny.file(name), text);
     return tiny.file(name).string();
   }
   // Every true box of a clip, with a false one beside it in the first frame where asked for.
@@ -62,9 +64,7 @@ struct Fixture {
   [[nodiscard]] Run detect(const std::string& arguments) const {
     return run_sigs("evaluate detect " + arguments + kPolicy);
   }
-  [[nodiscard]] nlohmann::json report() const {
-    return nlohmann::json::parse(read_text(tiny.file("report/evaluation.json")).value());
-  }
+  [[nodiscard]] nlohmann::json report() const { return json_of(tiny.file("report/evaluation.json")); }
   [[nodiscard]] std::string out() const { return " --force --out " + tiny.file("report").string(); }
 };
 

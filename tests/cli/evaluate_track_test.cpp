@@ -13,6 +13,7 @@
 #include "export/frame_stream.h"
 #include "labels/sigs_xml.h"
 #include "project/json.h"
+#include "support/test_data.h"
 #include "video/frame_source.h"
 
 namespace sigs::test {
@@ -34,7 +35,7 @@ struct TrackFixture {
   }
   [[nodiscard]] std::string text(const std::string& name) const { return read_text(tiny.file(name)).value(); }
   [[nodiscard]] std::string put(const std::string& name, const std::string& text) const {
-    put_text(tiny.file(name), text);
+    write_file(tiny.file(name), text);
     return tiny.file(name).string();
   }
   void check_refused(const std::string& input, const std::string& options, int status,
@@ -147,7 +148,7 @@ TEST_CASE("an evaluation is written whole or not at all, and replaces only an ea
   CHECK(refused.status == 73);
   CHECK(refused.err == "error: " + fixture.report + ": exists already; --force overwrites it\n");
   CHECK(fixture.track(fixture.labels, options + "/ --force").status == 0);
-  put_text(fixture.report + "/thesis.txt", "mine");
+  write_file(fixture.report + "/thesis.txt", "mine");
   const Run strange = fixture.track(fixture.labels, options + " --force");
   CHECK(strange.status == 73);
   CHECK(strange.err ==
@@ -209,7 +210,7 @@ TEST_CASE("images that are not those of the labels are refused with both numbers
                         "clip.mkv: has 12 frames, the labels have 10");
   fixture.check_refused(fixture.labels, "--tracker kcf --video " + larger.file("clip.mkv").string(), 65,
                         "clip.mkv: is 80x48, the labels are of 64x48");
-  put_text(fixture.tiny.file("out/tiny.avi"), "");
+  write_file(fixture.tiny.file("out/tiny.avi"), "");
   fixture.check_refused(fixture.labels, "--tracker kcf", 66,
                         "has both tiny.mkv and tiny.avi beside it; choose with --video");
   fs::remove(fixture.tiny.file("out/tiny.avi"));

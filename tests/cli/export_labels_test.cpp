@@ -11,6 +11,7 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -83,7 +84,7 @@ TEST_CASE("folders of labels are replaced with --force, unless they contain a fo
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000005.png")));
   for (const char* folder : {"tiny.yolo", "tiny.voc", "tiny.mot", "tiny.kitti", "tiny.vot"}) {
     const fs::path own = tiny.file("out") / folder / "notes.md";
-    put_text(own, "mine");
+    write_file(own, "mine");
     const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --force " + labels);
     CHECK_MESSAGE(run.status == 73, folder);
     CHECK_MESSAGE(run.err.find("notes.md") != std::string::npos, run.err);

@@ -7,6 +7,7 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
@@ -62,7 +63,7 @@ TEST_CASE("an attitude set in the file or on the command line determines the sid
 
 TEST_CASE("an attitude file determines the side of the horizon") {
   TinyProject tiny;
-  put_text(tiny.file("turns.csv"), "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n9,1,1,0\n");
+  write_file(tiny.file("turns.csv"), "frame,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n9,1,1,0\n");
   tiny.change(R"("intruders")", R"("camera": {"attitude_file": "turns.csv"}, "intruders")");
   const Labels labels = labels_of(tiny);
   CHECK(has(labels.xml, "horizon=\"on\""));

@@ -13,6 +13,7 @@
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "occlusion/synthetic_clip.h"
+#include "support/test_data.h"
 #include "video/clips.h"
 
 namespace sigs::test {
@@ -60,7 +61,7 @@ TEST_CASE("a mask's video that is missing, a folder or not a video is named") {
   const Folder in;
   in.check_refused("gone.mkv", 66, "gone.mkv: no such file");
   in.check_refused(in.folder.path().string(), 66, in.folder.path().string());
-  put_text(in.video, "this is no video");
+  write_file(in.video, "this is no video");
   const Run run = run_sigs("mask " + in.video + " --out " + in.out() + "/m.png");
   CHECK((run.status == 65 || run.status == 66));
   CHECK_MESSAGE(run.err.starts_with("error: " + in.video + ": "), run.err);
@@ -117,7 +118,7 @@ TEST_CASE("an invalid number or method for a mask is a command-line error, for a
   const Folder in;
   write_flight(in.video, 10);
   const std::string project = (in.folder / "p.json").string();
-  put_text(project, R"({"sigs": 1, "footage": {"video": "clip.mkv"}})");
+  write_file(project, R"({"sigs": 1, "footage": {"video": "clip.mkv"}})");
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"--frames 0", "--frames: is 0, must be 2 or more"},
       {"--frames 1", "--frames: is 1, must be 2 or more"},
@@ -169,13 +170,13 @@ TEST_CASE("an invalid project exits with status 78 and names the field") {
   const Folder in;
   write_flight(in.video, 10);
   const std::string project = (in.folder / "p.json").string();
-  put_text(project, R"({"sigs": 1, "footage": {"video": "clip.mkv", "last_frame": 12}})");
+  write_file(project, R"({"sigs": 1, "footage": {"video": "clip.mkv", "last_frame": 12}})");
   in.check_refused(project, 78, "p.json: footage.last_frame: the footage has 10 frames, 0 to 9");
-  put_text(project, R"({"sigs": 1, "footage": {"video": "clip.mkv"}, "own_body": {"every": -2}})");
+  write_file(project, R"({"sigs": 1, "footage": {"video": "clip.mkv"}, "own_body": {"every": -2}})");
   in.check_refused(project, 78, "p.json: own_body.every: is -2; ");
-  put_text(project, R"({"sigs": 1, "footage": {"video": "gone.mkv"}})");
+  write_file(project, R"({"sigs": 1, "footage": {"video": "gone.mkv"}})");
   in.check_refused(project, 66, "p.json: footage.video: no such file: ");
-  put_text(project, R"({"sigs": 1})");
+  write_file(project, R"({"sigs": 1})");
   in.check_refused(project, 78, "p.json: footage.video: is missing");
 }
 
@@ -183,7 +184,7 @@ TEST_CASE("an existing stage is found before the work begins") {
   const Folder in;
   write_flight(in.video, 10);
   fs::create_directories(in.out());
-  put_text(in.out() + "/00_frame.png", "mine");
+  write_file(in.out() + "/00_frame.png", "mine");
   const Run run = run_sigs("mask " + in.video + " --method paper --out " + in.out() + "/m.png --stages " + in.out());
   CHECK(run.status == 73);
   CHECK_MESSAGE(run.err.find("00_frame.png: exists already; --force") != std::string::npos, run.err);
@@ -194,7 +195,7 @@ TEST_CASE("an existing stage is found before the work begins") {
 TEST_CASE("a mask's folder that cannot be created exits with status 73") {
   const Folder in;
   write_flight(in.video, 10);
-  put_text(in.folder / "blocked", "a file where a folder is wanted");
+  write_file(in.folder / "blocked", "a file where a folder is wanted");
   const Run run = run_sigs("mask " + in.video + " --out " + (in.folder / "blocked/m.png").string());
   CHECK(run.status == 73);
   CHECK_MESSAGE(run.err.find("blocked") != std::string::npos, run.err);

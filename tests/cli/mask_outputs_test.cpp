@@ -9,6 +9,7 @@
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "occlusion/synthetic_clip.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
@@ -57,7 +58,7 @@ TEST_CASE("a detection that fails takes away the folders that it made and no oth
 
 TEST_CASE("an existing output that is refused leaves no new folder either") {
   const Fixture fixture;
-  put_text(fixture.at("there.png"), "mine");
+  write_file(fixture.at("there.png"), "mine");
   const std::set<std::string> before = fixture.names();
   const Run run = fixture.run("--out " + fixture.at("new/deep/m.png") + " --confidence " + fixture.at("there.png"));
   CHECK(run.status == 73);
@@ -109,14 +110,14 @@ TEST_CASE("stages of an earlier run, of either method, are refused, and removed 
   const Fixture fixture;
   const std::string command = "--out " + fixture.at("m.png") + " --stages " + fixture.at("out");
   fs::create_directories(fixture.at("out"));
-  put_text(fixture.at("out/07_labels.png"), "of the other method");
+  write_file(fixture.at("out/07_labels.png"), "of the other method");
   const Run refused = fixture.run(command);
   CHECK(refused.status == 73);
   CHECK_MESSAGE(refused.err.find("07_labels.png: exists already; --force") != std::string::npos, refused.err);
   for (const char* const mine : {"out/07_mine.png", "out/labels.png", "out/07_labels.jpg", "out/m.png"})
-    put_text(fixture.at(mine), "mine");
+    write_file(fixture.at(mine), "mine");
   for (const char* const old : {"out/11_overlay.png", "out/12_closed.png", "out/01_frame.png"})
-    put_text(fixture.at(old), "of a run with other steps");
+    write_file(fixture.at(old), "of a run with other steps");
   REQUIRE(fixture.run(command + " --force").status == 0);
   const std::set<std::string> names = fixture.names();
   for (const char* const old : {"out/07_labels.png", "out/11_overlay.png", "out/12_closed.png", "out/01_frame.png"})
@@ -129,7 +130,7 @@ TEST_CASE("stages of an earlier run, of either method, are refused, and removed 
 TEST_CASE("stages of another run stay where a detection fails") {
   const Fixture fixture(1);
   fs::create_directories(fixture.at("out"));
-  put_text(fixture.at("out/07_labels.png"), "of another run");
+  write_file(fixture.at("out/07_labels.png"), "of another run");
   const std::set<std::string> before = fixture.names();
   CHECK(fixture.run("--force --out " + fixture.at("m.png") + " --stages " + fixture.at("out")).status == 65);
   CHECK(fixture.names() == before);

@@ -19,6 +19,7 @@
 #include "cli/tiny_project.h"
 #include "occlusion/detect.h"
 #include "occlusion/synthetic_clip.h"
+#include "support/test_data.h"
 #include "video/frame_source.h"
 
 namespace sigs::test {
@@ -143,7 +144,7 @@ TEST_CASE("stages are numbered from the frame to the tinted mask") {
 TEST_CASE("of a project the footage, range and settings are used, and other missing files do not matter") {
   const Clip clip;
   const std::string project = (clip.folder / "p.json").string();
-  put_text(project, R"({"sigs": 1, "footage": {"video": "flight.mkv", "calibration": "gone.xml", "first_frame": 4,
+  write_file(project, R"({"sigs": 1, "footage": {"video": "flight.mkv", "calibration": "gone.xml", "first_frame": 4,
     "last_frame": 29, "own_body_mask": "gone.png"}, "own_body": {"method": "paper", "soft_edge_px": 5, "every": 2}})");
   const Run run = run_sigs("mask " + project + " --out " + clip.mask());
   CHECK_MESSAGE(run.status == 0, run.err);

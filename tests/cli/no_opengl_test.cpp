@@ -33,7 +33,7 @@ void check_unavailable(const std::string& libraries) {
 
 TEST_CASE("a broken libEGL exits with status 69 and names what to install") {
   const TemporaryFolder folder;
-  put_text(folder / "libEGL.so.1", "");
+  write_file(folder / "libEGL.so.1", "");
   check_unavailable(folder.path().string());
 }
 

@@ -13,6 +13,8 @@
 #include "cli/tiny_project.h"
 #include "cli/tiny_recipe.h"
 #include "occlusion/synthetic_clip.h"
+#include "support/files.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
@@ -20,10 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPatience = "timeout 120";  // a FIFO that is opened would block for ever
-
-std::string bytes_of(const fs::path& file) {
-  return read_text(file).value();
-}
 
 // An image of the footage's size, for masks and textures; black occludes nothing.
 void write_image(const fs::path& file, cv::Size size_px = {64, 48}) {
@@ -55,12 +53,12 @@ struct ExistingImages {
 TEST_CASE("footage named like a temporary file is preserved") {
   const TinyProject tiny;
   fs::rename(tiny.file("clip.mkv"), tiny.file("clip.part.mkv"));
-  const std::string footage = bytes_of(tiny.file("clip.part.mkv"));
+  const std::string footage = text_of(tiny.file("clip.part.mkv"));
   const Run run = run_sigs("export " + tiny.project() + " --set name=clip --set footage.video=clip.part.mkv --out " +
                            tiny.file("").string());
   CHECK_MESSAGE(run.status == 0, run.err);
   REQUIRE(fs::exists(tiny.file("clip.part.mkv")));
-  CHECK(bytes_of(tiny.file("clip.part.mkv")) == footage);
+  CHECK(text_of(tiny.file("clip.part.mkv")) == footage);
   CHECK(fs::exists(tiny.file("clip.masks.mkv")));
 }
 
@@ -69,11 +67,11 @@ TEST_CASE("files, folders, links and FIFOs of any names beside the outputs are p
   const fs::path out = tiny.out();
   fs::create_directories(out / "tiny.part");
   fs::create_directories(tiny.file("elsewhere"));
-  put_text(out / "tiny.part/mine.txt", "mine");
-  put_text(out / "tiny.part.xml", "mine");
-  put_text(out / "frame_3.part.png", "mine");
-  put_text(tiny.file("target"), "mine");
-  put_text(tiny.file("elsewhere/mine.txt"), "mine");
+  write_file(out / "tiny.part/mine.txt", "mine");
+  write_file(out / "tiny.part.xml", "mine");
+  write_file(out / "frame_3.part.png", "mine");
+  write_file(tiny.file("target"), "mine");
+  write_file(tiny.file("elsewhere/mine.txt"), "mine");
   fs::create_symlink(tiny.file("target"), out / "tiny.coco.part.json");
   fs::create_directory_symlink(tiny.file("elsewhere"), out / "tiny.masks.part");
   REQUIRE(mkfifo((out / "tiny.part.csv").c_str(), 0600) == 0);
@@ -85,7 +83,7 @@ TEST_CASE("files, folders, links and FIFOs of any names beside the outputs are p
   for (const fs::path& file : {out / "tiny.part/mine.txt", out / "tiny.part.xml", out / "frame_3.part.png",
                                tiny.file("target"), tiny.file("elsewhere/mine.txt")}) {
     REQUIRE_MESSAGE(fs::exists(file), file);
-    CHECK_MESSAGE(bytes_of(file) == "mine", file);
+    CHECK_MESSAGE(text_of(file) == "mine", file);
   }
   CHECK(fs::is_symlink(out / "tiny.coco.part.json"));
   CHECK(fs::is_symlink(out / "tiny.masks.part"));
@@ -98,19 +96,19 @@ TEST_CASE("a mask's footage may be named like the mask's temporary file") {
   const TemporaryFolder folder;
   write_flight(folder / "vv.mkv", 10);
   fs::rename(folder / "vv.mkv", folder / "vv.part.png");
-  const std::string footage = bytes_of(folder / "vv.part.png");
+  const std::string footage = text_of(folder / "vv.part.png");
   const Run run =
       run_sigs("mask " + (folder / "vv.part.png").string() + " --method paper --out " + (folder / "vv.png").string());
   CHECK_MESSAGE(run.status == 0, run.err);
   REQUIRE(fs::exists(folder / "vv.part.png"));
-  CHECK(bytes_of(folder / "vv.part.png") == footage);
+  CHECK(text_of(folder / "vv.part.png") == footage);
 }
 
 TEST_CASE("a dataset preserves a .part file of another program") {
   const TinyRecipe recipe;
   const fs::path out = recipe.out("out");
   fs::create_directories(out / ".part/labels");
-  put_text(out / ".part/labels/mine.txt", "mine");
+  write_file(out / ".part/labels/mine.txt", "mine");
   const Run run = recipe.run("out");
   CHECK_MESSAGE(run.status == 73, run.err);
   CHECK_MESSAGE(has(run.err, "which no dataset made"), run.err);
@@ -120,15 +118,15 @@ TEST_CASE("a dataset preserves a .part file of another program") {
   fs::create_directory_symlink(out / ".part", linked / ".part");
   CHECK(recipe.run("linked").status == 73);
   CHECK(fs::is_symlink(linked / ".part"));
-  CHECK(bytes_of(out / ".part/labels/mine.txt") == "mine");
+  CHECK(text_of(out / ".part/labels/mine.txt") == "mine");
 }
 
 TEST_CASE("a dataset whose staging folder a killed run has left goes on") {
   const TinyRecipe recipe;
   const fs::path part = fs::path(recipe.out("out")) / ".part";
   fs::create_directories(part / "new/red LR");
-  put_text(part / "new/red LR/half.mkv", "half");
-  put_text(part / "1-of-1.lock", "");
+  write_file(part / "new/red LR/half.mkv", "half");
+  write_file(part / "1-of-1.lock", "");
   CHECK(recipe.run("out").status == 0);
   CHECK_FALSE(fs::exists(part));
 }
@@ -151,12 +149,12 @@ TEST_CASE("an own-body mask among the images to be replaced is refused, by any o
 TEST_CASE("textures, MTL files and footage among the images to be replaced are refused") {
   const ExistingImages there;
   write_image(there.image("frame_000098.png"));
-  put_text(there.tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd out/tiny/frame_000098.png\n");
+  write_file(there.tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd out/tiny/frame_000098.png\n");
   there.check_refused("frame_000098.png");
   fs::remove(there.image("frame_000098.png"));
   fs::rename(there.tiny.file("cube.mtl"), there.image("frame_000098.png"));
-  std::string obj = bytes_of(there.tiny.file("cube.obj"));
-  put_text(there.tiny.file("cube.obj"), obj.replace(obj.find("cube.mtl"), 8, "out/tiny/frame_000098.png"));
+  std::string obj = text_of(there.tiny.file("cube.obj"));
+  write_file(there.tiny.file("cube.obj"), obj.replace(obj.find("cube.mtl"), 8, "out/tiny/frame_000098.png"));
   there.check_refused("frame_000098.png");
   fs::copy_file(there.tiny.file("clip.mkv"), there.image("frame_000097.png"));
   there.check_refused("frame_000097.png", "--set footage.video=" + there.image("frame_000097.png"));
@@ -165,12 +163,12 @@ TEST_CASE("textures, MTL files and footage among the images to be replaced are r
 TEST_CASE("a frame does not replace what its project reads") {
   const TinyProject tiny;
   write_image(tiny.file("frame_3.png"));
-  const std::string mask = bytes_of(tiny.file("frame_3.png"));
+  const std::string mask = text_of(tiny.file("frame_3.png"));
   const Run run = run_sigs("frame " + tiny.project() + " --frame 3 --force --set footage.own_body_mask=frame_3.png" +
                            " --out " + tiny.file("").string());
   CHECK_MESSAGE(run.status == 73, run.err);
   CHECK_MESSAGE(has(run.err, "is read by this command"), run.err);
-  CHECK(bytes_of(tiny.file("frame_3.png")) == mask);
+  CHECK(text_of(tiny.file("frame_3.png")) == mask);
 }
 
 TEST_CASE("a mask's steps do not replace its footage, whatever it is called") {
@@ -179,24 +177,24 @@ TEST_CASE("a mask's steps do not replace its footage, whatever it is called") {
   write_flight(folder / "clip.mkv", 10);
   fs::rename(folder / "clip.mkv", folder / "steps/07_labels.png");
   fs::create_hard_link(folder / "steps/07_labels.png", folder / "second.mkv");
-  const std::string footage = bytes_of(folder / "second.mkv");
+  const std::string footage = text_of(folder / "second.mkv");
   for (const char* const video : {"steps/07_labels.png", "second.mkv"}) {
     const Run run = run_sigs("mask " + (folder / video).string() + " --method paper --force --out " +
                              (folder / "m.png").string() + " --stages " + (folder / "steps").string());
     CHECK_MESSAGE(run.status == 73, run.err);
     CHECK_MESSAGE(has(run.err, "is read by this command"), run.err);
     REQUIRE(fs::exists(folder / "steps/07_labels.png"));
-    CHECK(bytes_of(folder / "steps/07_labels.png") == footage);
+    CHECK(text_of(folder / "steps/07_labels.png") == footage);
   }
 }
 
 TEST_CASE("a file is not replaced by a folder of its name, nor a folder or a FIFO by a file") {
   const TinyProject tiny;
   fs::create_directories(tiny.out());
-  put_text(tiny.out() + "/tiny", "mine");
+  write_file(tiny.out() + "/tiny", "mine");
   const Run folder = run_sigs("export " + tiny.project() + " --codec png --masks none --force --out " + tiny.out());
   CHECK_MESSAGE(folder.status == 73, folder.err);
-  CHECK(bytes_of(tiny.out() + "/tiny") == "mine");
+  CHECK(text_of(tiny.out() + "/tiny") == "mine");
   REQUIRE(mkfifo((tiny.out() + "/tiny.xml").c_str(), 0600) == 0);
   const Run fifo = run_sigs_after(kPatience, "export " + tiny.project() + " --force --out " + tiny.out());
   CHECK_MESSAGE(fifo.status == 73, fifo.err);

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/program.h"
 
-#include <sys/wait.h>
-
-#include <cstdlib>
-
-#include "base/staged_outputs.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -20,13 +15,7 @@ Run run_sigs_with_fault(const std::string& fault, const std::string& arguments) 
 }
 
 Run run_sigs_after(const std::string& before, const std::string& arguments) {
-  const TemporaryFolder folder;
-  const std::string command = before + " " + (build_dir() / "sigs").string() + " " + arguments + " >" +
-                              (folder / "out").string() + " 2>" + (folder / "err").string();
-  const int status = std::system(command.c_str());
-  return {.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          .out = read_text(folder / "out").value(),
-          .err = read_text(folder / "err").value()};
+  return run_command(before + " " + (build_dir() / "sigs").string() + " " + arguments);
 }
 
 }  // namespace sigs::test

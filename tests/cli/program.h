@@ -3,13 +3,9 @@
 
 #include <string>
 
-namespace sigs::test {
+#include "support/process.h"
 
-struct Run {
-  int status = -1;  // exit status; 128 + n where signal n ended it
-  std::string out;
-  std::string err;
-};
+namespace sigs::test {
 
 // Runs `sigs` with arguments as a shell would take them.
 [[nodiscard]] Run run_sigs(const std::string& arguments);

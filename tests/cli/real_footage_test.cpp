@@ -10,6 +10,7 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 #include "video/frame_source.h"
 
 using namespace sigs;
@@ -87,8 +88,8 @@ TEST_CASE("every kind of real clip exports with every real model in turn") {
     const RealModel& model = kModels[i % kModels.size()];
     const TemporaryFolder folder;
     const FrameSource source = FrameSource::open(clip).value();
-    put_text(folder / "lens.yaml", lens_for(source.info().size_px));
-    put_text(folder / "p.json", project_of(clip, model));
+    write_file(folder / "lens.yaml", lens_for(source.info().size_px));
+    write_file(folder / "p.json", project_of(clip, model));
     const int middle = source.info().frame_count() / 2;
     const std::string range = std::to_string(middle) + "-" + std::to_string(middle + 4);
     const Run run = run_sigs("export " + (folder / "p.json").string() + " --out " + folder.path().string() +
@@ -108,8 +109,8 @@ TEST_CASE("the untouched drone clip exports with all its 362 frames") {
   if (!has_real_data()) return;
   const TemporaryFolder folder;
   const fs::path clip = real_data() / "video/air_karma_gopro_coast.mp4";
-  put_text(folder / "lens.yaml", lens_for({854, 480}));
-  put_text(folder / "p.json", project_of(clip, kModels[0]));
+  write_file(folder / "lens.yaml", lens_for({854, 480}));
+  write_file(folder / "p.json", project_of(clip, kModels[0]));
   const Run run = run_sigs("export " + (folder / "p.json").string() + " --out " + folder.path().string() +
                            " --codec h264 --crf 30 --masks none");
   CHECK_MESSAGE(run.status == 0, run.err);

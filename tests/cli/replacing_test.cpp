@@ -11,6 +11,7 @@
 #include "cli/tiny_project.h"
 #include "cli/tiny_recipe.h"
 #include "occlusion/synthetic_clip.h"
+#include "support/files.h"
 
 namespace sigs::test {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "cli/shell.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -87,7 +88,7 @@ TEST_CASE("a device, a pipe or a folder is refused as labels, results and images
 TEST_CASE("a texture or a library of materials that is a pipe is left out with a warning") {
   const TinyProject tiny;
   REQUIRE(mkfifo(tiny.file("paint.png").c_str(), 0600) == 0);
-  put_text(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd paint.png\n");
+  write_file(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd paint.png\n");
   const Run textured = run_limited("export " + tiny.project() + " --out " + tiny.out());
   CHECK_MESSAGE(textured.status == 0, textured.err);
   CHECK_MESSAGE(has(textured.err, "paint.png"), textured.err);
@@ -120,14 +121,15 @@ TEST_CASE("a calibration above the size limit is refused before it is read") {
 TEST_CASE("playlists are refused, those that never end too") {
   const TinyProject tiny;
   const std::string clip = tiny.file("clip.mkv").string();
-  put_text(tiny.file("live.m3u8"),
-           "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:2\n#EXT-X-MEDIA-SEQUENCE:0\n#EXTINF:2.0,\n" + clip + "\n");
-  put_text(tiny.file("plain.m3u"), "#EXTM3U\n" + clip + "\n");
-  put_text(tiny.file("list.ffconcat"), "ffconcat version 1.0\nfile '" + clip + "'\n");
-  put_text(tiny.file("clip.mpd"),
-           "<?xml version=\"1.0\"?>\n<MPD xmlns=\"urn:mpeg:dash:schema:mpd:2011\" type=\"dynamic\">"
-           "<Period><AdaptationSet><Representation><BaseURL>" +
-               clip + "</BaseURL></Representation></AdaptationSet></Period></MPD>\n");
+  write_file(
+      tiny.file("live.m3u8"),
+      "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:2\n#EXT-X-MEDIA-SEQUENCE:0\n#EXTINF:2.0,\n" + clip + "\n");
+  write_file(tiny.file("plain.m3u"), "#EXTM3U\n" + clip + "\n");
+  write_file(tiny.file("list.ffconcat"), "ffconcat version 1.0\nfile '" + clip + "'\n");
+  write_file(tiny.file("clip.mpd"),
+             "<?xml version=\"1.0\"?>\n<MPD xmlns=\"urn:mpeg:dash:schema:mpd:2011\" type=\"dynamic\">"
+             "<Period><AdaptationSet><Representation><BaseURL>" +
+                 clip + "</BaseURL></Representation></AdaptationSet></Period></MPD>\n");
   for (const char* const name : {"live.m3u8", "plain.m3u", "list.ffconcat", "clip.mpd"}) {
     const Run run = run_limited("info " + tiny.file(name).string());
     CHECK_MESSAGE(run.status == 66, run.err);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "base/staged_outputs.h"
+#include "support/test_data.h"
 #include "video/video_writer.h"
 
 namespace sigs::test {
@@ -72,23 +73,19 @@ void write_clip(const std::filesystem::path& path, int frames, cv::Size size_px)
 
 }  // namespace
 
-void put_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
-
 TinyProject::TinyProject(int frames, cv::Size size_px) {
   write_clip(file("clip.mkv"), frames, size_px);
-  put_text(file("p.json"), kProject);
-  put_text(file("lens.xml"), lens_of(size_px));
-  put_text(file("cube.obj"), kCube);
-  put_text(file("cube.mtl"), "newmtl paint\nKd 0.8 0.2 0.2\n");
+  write_file(file("p.json"), kProject);
+  write_file(file("lens.xml"), lens_of(size_px));
+  write_file(file("cube.obj"), kCube);
+  write_file(file("cube.mtl"), "newmtl paint\nKd 0.8 0.2 0.2\n");
 }
 
 void TinyProject::change(const std::string& from, const std::string& to) {
   std::string text = read_text(file("p.json")).value();
   const std::size_t place = text.find(from);
   if (place == std::string::npos) throw std::runtime_error("not in the project: " + from);
-  put_text(file("p.json"), text.replace(place, from.size(), to));
+  write_file(file("p.json"), text.replace(place, from.size(), to));
 }
 
 int TinyProject::files_out() const {

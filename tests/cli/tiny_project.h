@@ -28,6 +28,4 @@ class TinyProject {
   TemporaryFolder folder_;
 };
 
-void put_text(const std::filesystem::path& path, const std::string& text);
-
 }  // namespace sigs::test

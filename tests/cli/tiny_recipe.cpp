@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/staged_outputs.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 
@@ -27,7 +28,7 @@ constexpr const char* kRecipe = R"({
 }  // namespace
 
 TinyRecipe::TinyRecipe(int frames) : tiny_(frames) {
-  put_text(file("recipe.json"), kRecipe);
+  write_file(file("recipe.json"), kRecipe);
 }
 
 std::string TinyRecipe::arguments(const std::string& out_name, const std::string& more) const {
@@ -42,15 +43,7 @@ void TinyRecipe::change(const std::string& from, const std::string& to) const {
   std::string text = read_text(file("recipe.json")).value();
   const std::size_t place = text.find(from);
   if (place == std::string::npos) throw std::runtime_error("not in the recipe: " + from);
-  put_text(file("recipe.json"), text.replace(place, from.size(), to));
-}
-
-std::map<std::string, std::string> contents_of(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const fs::directory_entry& found : fs::recursive_directory_iterator(folder))
-    if (found.is_regular_file())
-      contents[found.path().lexically_relative(folder).string()] = read_text(found.path()).value();
-  return contents;
+  write_file(file("recipe.json"), text.replace(place, from.size(), to));
 }
 
 }  // namespace sigs::test

@@ -29,7 +29,4 @@ class TinyRecipe {
   TinyProject tiny_;
 };
 
-// Every file under a folder and what it holds.
-[[nodiscard]] std::map<std::string, std::string> contents_of(const std::filesystem::path& folder);
-
 }  // namespace sigs::test

@@ -13,6 +13,7 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -119,7 +120,7 @@ TEST_CASE("a folder of images is replaced with force unless it contains a foreig
   REQUIRE(run_sigs(command).status == 0);
   REQUIRE(run_sigs(command + " --frames 0-1").status == 0);
   CHECK_FALSE(std::filesystem::exists(tiny.out() + "/tiny/frame_000005.png"));
-  put_text(tiny.out() + "/tiny/notes.txt", "mine");
+  write_file(tiny.out() + "/tiny/notes.txt", "mine");
   const Run refused = run_sigs(command);
   CHECK(refused.status == 73);
   CHECK_MESSAGE(has(refused.err, "notes.txt"), refused.err);

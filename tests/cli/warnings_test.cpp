@@ -12,6 +12,7 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
@@ -55,7 +56,7 @@ std::vector<std::string> all_three(const TinyProject& tiny) {
 void change_lens(const TinyProject& tiny, const std::string& from, const std::string& to) {
   std::string text = read_text(tiny.file("lens.xml")).value();
   REQUIRE(has(text, from));
-  put_text(tiny.file("lens.xml"), text.replace(text.find(from), from.size(), to));
+  write_file(tiny.file("lens.xml"), text.replace(text.find(from), from.size(), to));
 }
 
 void put_at(TinyProject& tiny, const std::string& first_m, const std::string& last_m) {
@@ -156,7 +157,7 @@ TEST_CASE("four coefficients without a model are reported, with the assumption a
 
 TEST_CASE("a model of implausible size is reported, with the unit that it may be in") {
   TinyProject tiny;
-  put_text(tiny.file("cube.obj"), "v -1450 -100 -100\nv 1450 100 -100\nv 0 0 100\nf 1 2 3\nf 3 2 1\n");
+  write_file(tiny.file("cube.obj"), "v -1450 -100 -100\nv 1450 100 -100\nv 0 0 100\nf 1 2 3\nf 3 2 1\n");
   check_warned(tiny, "intruders[0].model.scale", {"2.9 km long", "millimetres (scale 0.001: 2.9 m"});
   TinyProject small_model;
   small_model.change(R"("file": "cube.obj")", R"("file": "cube.obj", "scale": 0.01)");

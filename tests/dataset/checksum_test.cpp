@@ -23,7 +23,7 @@ TEST_CASE("a file's checksum is that of its text, over any number of pieces") {
   const TemporaryFolder folder;
   for (const std::size_t bytes : {0UL, 1UL, (1UL << 20U) - 1, 1UL << 20U, (1UL << 20U) + 1, 3000000UL}) {
     const std::string text(bytes, 'x');
-    put_text(folder / "file", text);
+    write_file(folder / "file", text);
     CHECK(checksum_of_file(folder / "file").value() == checksum_of_text(text));
   }
 }
@@ -32,7 +32,7 @@ TEST_CASE("a file that cannot be read is named, and a cancellation ends the work
   const TemporaryFolder folder;
   CHECK(checksum_of_file(folder / "none").error().kind == ErrorKind::cannot_read);
   CHECK(checksum_of_file(folder.path()).error().kind == ErrorKind::cannot_read);
-  put_text(folder / "file", "text");
+  write_file(folder / "file", "text");
   const std::atomic<bool> stop{true};
   CHECK(checksum_of_file(folder / "file", &stop).error().kind == ErrorKind::interrupted);
 }

@@ -49,8 +49,8 @@ TEST_CASE("of two runs that would make the same video the second is refused, oth
 TEST_CASE("the remains of a killed run block no other run") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(staging_folder_of(folder.path()));
-  put_text(staging_folder_of(folder.path()) / "2-of-3.lock", "");
-  put_text(staging_folder_of(folder.path()) / "1-of-1.lock", "");
+  write_file(staging_folder_of(folder.path()) / "2-of-3.lock", "");
+  write_file(staging_folder_of(folder.path()) / "1-of-1.lock", "");
   CHECK(DatasetLock::acquire(folder.path(), {2, 3}));
   CHECK(DatasetLock::acquire(folder.path(), {1, 1}));
 }

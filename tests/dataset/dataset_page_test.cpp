@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "dataset/flight_quantities.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_folder.h"
-#include "dataset/short_text.h"
 #include "docs/markdown.h"
 
 namespace sigs::test {
@@ -22,8 +22,9 @@ using Rows = std::vector<std::vector<std::string>>;
 Rows rows_in_code(FlightKind kind) {
   Rows rows;
   for (const FlightQuantity& quantity : quantities_of(kind))
-    rows.push_back({std::string(quantity.name), short_text(quantity.low) + " to " + short_text(quantity.high),
-                    quantity.standard   ? short_text(*quantity.standard)
+    rows.push_back({std::string(quantity.name),
+                    short_number_text(quantity.low) + " to " + short_number_text(quantity.high),
+                    quantity.standard   ? short_number_text(*quantity.standard)
                     : quantity.required ? "needed"
                                         : "none",
                     std::string(quantity.help)});

@@ -33,10 +33,10 @@ TEST_CASE("whatever an export depends on changes the fingerprint") {
   const std::vector<std::function<void(TinyProject&)>> changes{
       [](TinyProject& tiny) { tiny.change("[20, 3, -150]", "[20, 3.001, -150]"); },
       [](TinyProject& tiny) { tiny.change("\"name\": \"tiny\"", "\"name\": \"small\""); },
-      [](TinyProject& tiny) { put_text(tiny.file("cube.mtl"), "newmtl paint\nKd 0.8 0.2 0.3\n"); },
-      [](TinyProject& tiny) { put_text(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"); },
-      [](TinyProject& tiny) { put_text(tiny.file("lens.xml"), "another"); },
-      [](TinyProject& tiny) { put_text(tiny.file("clip.mkv"), "another"); },
+      [](TinyProject& tiny) { write_file(tiny.file("cube.mtl"), "newmtl paint\nKd 0.8 0.2 0.3\n"); },
+      [](TinyProject& tiny) { write_file(tiny.file("cube.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"); },
+      [](TinyProject& tiny) { write_file(tiny.file("lens.xml"), "another"); },
+      [](TinyProject& tiny) { write_file(tiny.file("clip.mkv"), "another"); },
       [](TinyProject& tiny) {
         std::filesystem::rename(tiny.file("clip.mkv"), tiny.file("film.mkv"));
         tiny.change("clip.mkv", "film.mkv");
@@ -58,14 +58,14 @@ TEST_CASE("images of a model's materials count, however their names are written"
                                  "map_Kd C:\\art\\skin of it.png", "map_d skin.png", "bump -bm 1 skin.png"}) {
     CAPTURE(line);
     const TinyProject tiny;
-    put_text(tiny.file("cube.mtl"), std::string("newmtl paint\n") + line + "\n");
+    write_file(tiny.file("cube.mtl"), std::string("newmtl paint\n") + line + "\n");
     const char* const name =
         std::string(line).find("of") == std::string::npos && std::string(line).find("OF") == std::string::npos
             ? "skin.png"
             : "skin of it.png";
-    put_text(tiny.file(name), "one");
+    write_file(tiny.file(name), "one");
     const std::string before = fingerprint(tiny);
-    put_text(tiny.file(name), "two");
+    write_file(tiny.file(name), "two");
     CHECK(fingerprint(tiny) != before);
   }
 }

@@ -8,6 +8,7 @@
 #include "base/staged_outputs.h"
 #include "dataset/merge_labels.h"
 #include "dataset/tiny_plan.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -16,10 +17,6 @@ using namespace sigs::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string text_of(const fs::path& file) {
-  return read_text(file).value();
-}
 
 // v0, v1, v3 in train, v2 in test; every image a file, so that labels can point at it.
 class Labelled {
@@ -203,7 +200,7 @@ TEST_CASE("labels that differ from the program's own format are reported, with t
     wrong.resize(wrong.size() / 2);
     std::error_code code;
     fs::remove_all(made.tiny.out() / "labels", code);
-    put_text(path, wrong);
+    write_file(path, wrong);
     // As if the entry did not list it: the merge itself checks what it reads.
     const SplitLabels labels{.dataset = "tiny", .split = "train", .videos = {{"v1", path}}};
     const fs::path into = made.tiny.inputs().file("merged");
@@ -212,7 +209,7 @@ TEST_CASE("labels that differ from the program's own format are reported, with t
     REQUIRE_FALSE(merged);
     CHECK_MESSAGE(merged.error().where.starts_with(path.string()), merged.error().text());
     CHECK_MESSAGE(merged.error().text().find("line ") != std::string::npos, merged.error().text());
-    put_text(path, text);
+    write_file(path, text);
   }
 }
 

@@ -13,6 +13,8 @@
 #include "dataset/tiny_plan.h"
 #include "project/json.h"
 #include "project/validate.h"
+#include "support/files.h"
+#include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -140,7 +142,7 @@ TEST_CASE("resuming makes missing, damaged and changed videos, and keeps the res
   tiny.plan.videos[3].project.intruders[0].trajectory.waypoints[1].position_m.y = 1;
   CHECK(made(tiny.plan, resumed(tiny.out())).exported == 1);
   CHECK(contents_of(tiny.out() / "v3") != contents_of(tiny.out() / "v2"));
-  put_text(tiny.inputs().file("cube.mtl"), "newmtl paint\nKd 0.1 0.9 0.2\n");
+  write_file(tiny.inputs().file("cube.mtl"), "newmtl paint\nKd 0.1 0.9 0.2\n");
   CHECK(made(tiny.plan, resumed(tiny.out())).exported == 4);
   DatasetRequest later = resumed(tiny.out());
   later.source = synthetic_source("test 2");
@@ -209,7 +211,7 @@ TEST_CASE("shards made separately and merged are the dataset that one run makes"
 TEST_CASE("files of another program are not removed") {
   TinyPlan tiny(2, 3);
   fs::create_directories(tiny.out() / "v1");
-  put_text(tiny.out() / "v1/mine.txt", "mine");
+  write_file(tiny.out() / "v1/mine.txt", "mine");
   CHECK(make_dataset(tiny.plan, into(tiny.out()), {}).error().kind == ErrorKind::cannot_create);
   const DatasetReport report = made(tiny.plan, resumed(tiny.out()));
   CHECK(report.exported == 1);
@@ -218,7 +220,7 @@ TEST_CASE("files of another program are not removed") {
   fs::remove_all(tiny.out() / "v1");
   CHECK(made(tiny.plan, resumed(tiny.out())).exported == 1);
 
-  put_text(tiny.out() / "v1/results.csv", "mine");
+  write_file(tiny.out() / "v1/results.csv", "mine");
   CHECK(made(tiny.plan, resumed(tiny.out())).kept == 2);
   tiny.plan.videos[1].project.camera.speed_mps = 1;
   CHECK(made(tiny.plan, resumed(tiny.out())).failures.size() == 1);
@@ -238,7 +240,7 @@ TEST_CASE("foreign files among splits, labels and index are named and kept, and 
   for (const char* const mine : {"splits/fold1.txt", "labels/mine/a", "labels/coco/b", "index.json", "SHA256SUMS"}) {
     CAPTURE(mine);
     fs::create_directories((tiny.out() / mine).parent_path());
-    put_text(tiny.out() / mine, R"({"foo":1})");
+    write_file(tiny.out() / mine, R"({"foo":1})");
     if (std::string(mine) == "SHA256SUMS") fs::remove(tiny.out() / "index.json");
     for (const DatasetRequest& request : {resumed(tiny.out()), merge}) {
       const Result<DatasetReport> report = make_dataset(tiny.plan, request, {});

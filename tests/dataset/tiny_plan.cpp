@@ -40,16 +40,4 @@ DatasetReport made(const Plan& plan, const DatasetRequest& request) {
   return std::move(*report);
 }
 
-nlohmann::json json_of(const std::filesystem::path& file) {
-  return nlohmann::json::parse(read_text(file).value());
-}
-
-std::map<std::string, std::string> contents_of(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder))
-    if (file.is_regular_file())
-      contents[file.path().lexically_relative(folder).string()] = read_text(file.path()).value();
-  return contents;
-}
-
 }  // namespace sigs::test

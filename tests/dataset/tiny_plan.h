@@ -31,9 +31,4 @@ class TinyPlan {
 // Runs it; throws an error as std::runtime_error.
 [[nodiscard]] DatasetReport made(const Plan& plan, const DatasetRequest& request);
 
-[[nodiscard]] nlohmann::json json_of(const std::filesystem::path& file);
-
-// Every file under a folder and what it holds.
-[[nodiscard]] std::map<std::string, std::string> contents_of(const std::filesystem::path& folder);
-
 }  // namespace sigs::test

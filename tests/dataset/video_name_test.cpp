@@ -51,7 +51,3 @@ TEST_CASE("a video cannot have the name of another entry of the dataset") {
     CHECK_MESSAGE(!wrong_with_video_name(name).empty(), name);
   CHECK(wrong_with_video_name("labels2").empty());
 }
-
-TEST_CASE("case folding applies to ASCII letters alone") {
-  CHECK(case_folded("AbZ-19 Ñ") == "abz-19 Ñ");
-}

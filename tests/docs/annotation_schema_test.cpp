@@ -7,35 +7,35 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "docs/markdown.h"
-#include "docs/process.h"
 #include "labels/sigs_xml.h"
+#include "support/process.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
 namespace {
 
 bool has_xmllint() {
-  static const bool there = run("xmllint --version").status == 0;
+  static const bool there = run_together("xmllint --version").status == 0;
   if (!there) say_skipped("xmllint (libxml2-utils) is absent");
   return there;
 }
 
-Finished checked(const std::string& xml) {
+Run checked(const std::string& xml) {
   const TemporaryFolder folder;
   REQUIRE(write_text(folder / "truth.xml", xml, false).has_value());
-  return run("xmllint --noout --nonet --schema '" + (source_dir() / "docs/sigs-annotations.xsd").string() + "' '" +
-             (folder / "truth.xml").string() + "'");
+  return run_together("xmllint --noout --nonet --schema '" + (source_dir() / "docs/sigs-annotations.xsd").string() +
+                      "' '" + (folder / "truth.xml").string() + "'");
 }
 
 void check_valid(const std::string& xml) {
-  const Finished finished = checked(xml);
-  CHECK_MESSAGE(finished.status == 0, finished.output);
+  const Run finished = checked(xml);
+  CHECK_MESSAGE(finished.status == 0, finished.out);
 }
 
 // Exit status 3 is "does not validate"; anything else would mean that the schema or the XML itself is broken.
 void check_invalid(const std::string& xml, const std::string& why) {
-  const Finished finished = checked(xml);
-  CHECK_MESSAGE(finished.status == 3, why << " gives " << finished.status << "\n" << finished.output);
+  const Run finished = checked(xml);
+  CHECK_MESSAGE(finished.status == 3, why << " gives " << finished.status << "\n" << finished.out);
 }
 
 IntruderTruth visible_intruder(int id) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "docs/markdown.h"
-#include "docs/process.h"
+#include "support/process.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -19,9 +19,9 @@ const std::string& help_of(const std::string& verb) {
   if (const auto found = known.find(verb); found != known.end()) return found->second;
   std::string command = "'";
   command.append(build_dir() / "sigs").append("' ").append(verb).append(" --help");
-  const Finished finished = run(command);
-  REQUIRE_MESSAGE(finished.status == 0, finished.output);
-  return known[verb] = finished.output;
+  const Run finished = run_together(command);
+  REQUIRE_MESSAGE(finished.status == 0, finished.out);
+  return known[verb] = finished.out;
 }
 
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {

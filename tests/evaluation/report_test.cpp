@@ -15,6 +15,7 @@
 
 #include "base/staged_outputs.h"
 #include "evaluation/synthetic_report.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -60,13 +61,8 @@ struct Written {
     REQUIRE_MESSAGE(written.has_value(), written.error().text());
     report = std::move(*written);
   }
-  [[nodiscard]] std::string text(const std::string& name) const { return read_text(folder / name).value(); }
-  [[nodiscard]] std::map<std::string, std::string> all() const {
-    std::map<std::string, std::string> texts;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path()))
-      texts[entry.path().lexically_relative(folder.path()).string()] = read_text(entry.path()).value();
-    return texts;
-  }
+  [[nodiscard]] std::string text(const std::string& name) const { return text_of(folder / name); }
+  [[nodiscard]] std::map<std::string, std::string> all() const { return contents_of(folder.path()); }
 };
 
 bool has_gnuplot() {

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
@@ -14,6 +13,7 @@
 #include "export/export_project.h"
 #include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"
+#include "support/files.h"
 
 namespace sigs::test {
 namespace {
@@ -22,17 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr int kFrames = 6;
 constexpr MethodChoice kMethods[] = {MethodChoice::direct, MethodChoice::classic, MethodChoice::plain};
-
-// Every file below a folder with its bytes.
-std::map<std::string, std::string> bytes_below(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream in(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(in), {}};
-  }
-  return files;
-}
 
 // A clip of six small frames through a distorting lens, with two aircraft, blur and an own body.
 void prepare(Scenario& scenario, PixelLayout layout = PixelLayout::yuv420) {
@@ -81,12 +70,12 @@ TEST_CASE("an export gives the same bytes on one thread and on several and every
       const ExportReport report = exported(scenario, name + "a", 1);
       exported(scenario, name + "b", 2);
       exported(scenario, name + "c", 1);
-      const auto files = bytes_below(scenario.path(name + "a"));
+      const auto files = contents_of(scenario.path(name + "a"));
       CHECK(files.size() == (codec == CodecChoice::png ? 2 * kFrames + 1 : 3));
       CHECK(report.written.size() == 3);
       CHECK(report.frames == kFrames);
-      CHECK(files == bytes_below(scenario.path(name + "b")));
-      CHECK(files == bytes_below(scenario.path(name + "c")));
+      CHECK(files == contents_of(scenario.path(name + "b")));
+      CHECK(files == contents_of(scenario.path(name + "c")));
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "export/export_project.h"
 #include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"
+#include "support/files.h"
 
 namespace sigs::test {
 namespace {
@@ -27,13 +27,8 @@ void prepare_one_aircraft(Scenario& scenario) {
   scenario.add("aircraft.obj", {60, 0, -150});
 }
 
-std::string text_in(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// Files below a folder, also those with names of parts.
-std::vector<std::string> files_below(const fs::path& folder) {
+// Files and folders below a folder, also those with names of parts; none where there is no such folder.
+std::vector<std::string> everything_below(const fs::path& folder) {
   std::vector<std::string> files;
   if (!fs::exists(folder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -103,7 +98,7 @@ TEST_CASE("a cancelled export returns this error and leaves no file") {
             export_project({.project = scenario.project, .folder = scenario.path("out"), .jobs = jobs}, control);
         REQUIRE(!report.has_value());
         CHECK(report.error().kind == ErrorKind::interrupted);
-        CHECK(files_below(scenario.path("out")).empty());
+        CHECK(everything_below(scenario.path("out")).empty());
       }
 }
 
@@ -111,15 +106,15 @@ TEST_CASE("a cancelled export leaves the results of the one before") {
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
   REQUIRE(export_project({.project = scenario.project, .folder = scenario.path("out")}, {}).has_value());
-  const std::string before = text_in(scenario.path("out/lot.mkv"));
-  const std::vector<std::string> files = files_below(scenario.path("out"));
+  const std::string before = text_of(scenario.path("out/lot.mkv"));
+  const std::vector<std::string> files = everything_below(scenario.path("out"));
   std::atomic<bool> cancel{false};
   const ExportControl control{.progress = [&](int n, int) { cancel = n >= 3; }, .cancel = &cancel};
   scenario.project.light.ambient = 1;
   REQUIRE(!export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, control)
                .has_value());
-  CHECK(text_in(scenario.path("out/lot.mkv")) == before);
-  CHECK(files_below(scenario.path("out")) == files);
+  CHECK(text_of(scenario.path("out/lot.mkv")) == before);
+  CHECK(everything_below(scenario.path("out")) == files);
 }
 
 TEST_CASE("an existing output is not overwritten unless requested and no other file appears") {
@@ -127,14 +122,14 @@ TEST_CASE("an existing output is not overwritten unless requested and no other f
     CAPTURE(name);
     Scenario scenario(kClipSize, kClipFrames);
     prepare_one_aircraft(scenario);
-    write_file_and_folder(scenario.path("out") / name, "mine");
+    write_file_and_folders(scenario.path("out") / name, "mine");
     const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
     const Result<ExportReport> report = export_project(request, {});
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::cannot_create);
     CHECK(report.error().text().find(name) != std::string::npos);
-    CHECK(text_in(scenario.path("out") / name) == "mine");
-    CHECK(files_below(scenario.path("out")) == std::vector<std::string>{name});
+    CHECK(text_of(scenario.path("out") / name) == "mine");
+    CHECK(everything_below(scenario.path("out")) == std::vector<std::string>{name});
   }
 }
 
@@ -146,14 +141,14 @@ TEST_CASE("an existing output is overwritten when requested") {
     set_codec(scenario.project, codec);
     ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
     REQUIRE(export_project(request, {}).has_value());
-    const std::vector<std::string> files = files_below(scenario.path("out"));
+    const std::vector<std::string> files = everything_below(scenario.path("out"));
     CHECK(!export_project(request, {}).has_value());
     request.overwrite = true;
     request.frames = FrameRange{0, 3};
     const Result<ExportReport> again = export_project(request, {});
     if (!again) FAIL(again.error().text());
     // Images of the longer export do not stay among those of the shorter one.
-    CHECK(files_below(scenario.path("out")).size() ==
+    CHECK(everything_below(scenario.path("out")).size() ==
           files.size() - (codec == CodecChoice::png ? 2 * (kClipFrames - 4) : 0));
   }
 }
@@ -162,30 +157,30 @@ TEST_CASE("an export never replaces a folder that holds anything but its own ima
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
   set_codec(scenario.project, CodecChoice::png);
-  write_file_and_folder(scenario.path("out/lot/diary.txt"), "mine");
+  write_file_and_folders(scenario.path("out/lot/diary.txt"), "mine");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, {});
   REQUIRE(!report.has_value());
   CHECK(report.error().kind == ErrorKind::cannot_create);
-  CHECK(text_in(scenario.path("out/lot/diary.txt")) == "mine");
+  CHECK(text_of(scenario.path("out/lot/diary.txt")) == "mine");
 }
 
 TEST_CASE("an export never overwrites what it reads") {
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
-  const std::string footage = text_in(scenario.path("footage.mkv"));
+  const std::string footage = text_of(scenario.path("footage.mkv"));
   scenario.project.name = "footage";
   const Result<ExportReport> over_footage =
       export_project({.project = scenario.project, .folder = scenario.path("."), .overwrite = true}, {});
   REQUIRE(!over_footage.has_value());
   CHECK(over_footage.error().kind == ErrorKind::cannot_create);
-  CHECK(text_in(scenario.path("footage.mkv")) == footage);
+  CHECK(text_of(scenario.path("footage.mkv")) == footage);
 
-  const std::string lens = text_in(scenario.path("pinhole.xml"));
+  const std::string lens = text_of(scenario.path("pinhole.xml"));
   scenario.project.name = "pinhole";
   CHECK(
       !export_project({.project = scenario.project, .folder = scenario.path("."), .overwrite = true}, {}).has_value());
-  CHECK(text_in(scenario.path("pinhole.xml")) == lens);
+  CHECK(text_of(scenario.path("pinhole.xml")) == lens);
 }
 
 TEST_CASE("a full disk is reported and no file is left behind") {
@@ -202,7 +197,7 @@ TEST_CASE("a full disk is reported and no file is left behind") {
     }
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::write_failed);
-    CHECK(files_below(scenario.path("out")).empty());
+    CHECK(everything_below(scenario.path("out")).empty());
   }
 }
 
@@ -221,7 +216,7 @@ TEST_CASE("labels that cannot be written to their end fail the export") {
   }
   REQUIRE(!report.has_value());
   CHECK(report.error().kind == ErrorKind::write_failed);
-  CHECK(files_below(scenario.path("out")).empty());
+  CHECK(everything_below(scenario.path("out")).empty());
 }
 
 TEST_CASE("frames that the project does not have are a usage error and write nothing") {
@@ -239,7 +234,7 @@ TEST_CASE("frames that the project does not have are a usage error and write not
 TEST_CASE("a folder that cannot be created is an error") {
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
-  write_file_and_folder(scenario.path("wall"), "a file");
+  write_file_and_folders(scenario.path("wall"), "a file");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("wall/out")}, {});
   REQUIRE(!report.has_value());

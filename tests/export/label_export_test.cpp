@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <pugixml.hpp>
@@ -14,6 +13,7 @@
 #include "export/export_project.h"
 #include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"
+#include "support/files.h"
 #include "truth/measure.h"
 
 namespace sigs::test {
@@ -76,7 +76,7 @@ std::vector<std::vector<int>> boxes_in_voc(const Scenario& scenario, const std::
 }
 
 std::size_t lines_in(const fs::path& path) {
-  const std::string text = *read_text(path);
+  const std::string text = text_of(path);
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("labels of an export have the same truth in every format, and images b
   prepare_two_aircraft(scenario);
   const Result<ExportReport> report = export_project(request_of(scenario), {});
   REQUIRE_MESSAGE(report.has_value(), (report ? "" : report.error().text()));
-  const Json coco = Json::parse(*read_text(scenario.path("out/lot.coco.json")));
+  const Json coco = json_of(scenario.path("out/lot.coco.json"));
   REQUIRE(coco["images"].size() == 3);
   for (const Json& image : coco["images"]) {
     const std::vector<std::vector<int>> boxes = boxes_in_xml(scenario, image["footage_frame"].get<int>());
@@ -121,7 +121,7 @@ TEST_CASE("a video's labels have no images and name the video") {
   prepare_two_aircraft(scenario);
   scenario.project.output.codec = CodecChoice::ffv1;
   REQUIRE(export_project(request_of(scenario), {}).has_value());
-  CHECK(Json::parse(*read_text(scenario.path("out/lot.coco.json")))["videos"][0]["file_name"] == "lot.mkv");
+  CHECK(json_of(scenario.path("out/lot.coco.json"))["videos"][0]["file_name"] == "lot.mkv");
   CHECK_FALSE(fs::exists(scenario.path("out/lot.yolo/images")));
   CHECK_FALSE(fs::exists(scenario.path("out/lot.voc/JPEGImages")));
   CHECK(fs::exists(scenario.path("out/lot.yolo/labels/lot/frame_000002.txt")));
@@ -132,7 +132,7 @@ TEST_CASE("a folder of labels is replaced as a whole by a later export") {
   prepare_two_aircraft(scenario);
   REQUIRE(export_project(request_of(scenario), {}).has_value());
   CHECK_FALSE(export_project(request_of(scenario), {}).has_value());
-  write_file_and_folder(scenario.path("out/lot.yolo/labels/lot.cache"), "what a reader leaves there");
+  write_file_and_folders(scenario.path("out/lot.yolo/labels/lot.cache"), "what a reader leaves there");
   const Result<ExportReport> again = export_project(request_of(scenario, true, 4, 5), {});
   REQUIRE_MESSAGE(again.has_value(), (again ? "" : again.error().text()));
   CHECK_FALSE(fs::exists(scenario.path("out/lot.yolo/labels/lot/frame_000002.txt")));
@@ -146,14 +146,14 @@ TEST_CASE("a folder of labels with a foreign file is never replaced") {
     CAPTURE(name);
     Scenario scenario(kLabelledSize, kLabelledFrames);
     prepare_two_aircraft(scenario);
-    write_file_and_folder(scenario.path("out") / name, "mine");
+    write_file_and_folders(scenario.path("out") / name, "mine");
     const Result<ExportReport> report = export_project(request_of(scenario, true), {});
     REQUIRE(!report.has_value());
     CHECK(report.error().kind == ErrorKind::cannot_create);
     CHECK(report.error().where ==
           scenario.path("out").string() + "/" + std::string(name).substr(0, std::string(name).find('/')));
     CHECK(report.error().what.find(std::string(name).substr(std::string(name).find('/') + 1)) != std::string::npos);
-    CHECK(*read_text(scenario.path("out") / name) == "mine");
+    CHECK(text_of(scenario.path("out") / name) == "mine");
     CHECK_FALSE(fs::exists(scenario.path("out/lot.xml")));
   }
 }
@@ -170,7 +170,7 @@ TEST_CASE("every file of every folder of labels is recognized by a later export"
       REQUIRE(export_project(request_of(scenario), {}).has_value());
       const Result<ExportReport> again = export_project(request_of(scenario, true), {});
       CHECK_MESSAGE(again.has_value(), (again ? "" : again.error().text()));
-      write_file_and_folder(scenario.path("out") / ("lot" + std::string(format.suffix)) / "mine", "mine");
+      write_file_and_folders(scenario.path("out") / ("lot" + std::string(format.suffix)) / "mine", "mine");
       CHECK_FALSE(export_project(request_of(scenario, true), {}).has_value());
     }
   }

@@ -9,8 +9,6 @@ extern "C" {
 
 #include <doctest/doctest.h>
 
-#include "support/test_data.h"
-
 namespace sigs::test {
 
 namespace {
@@ -81,11 +79,6 @@ RawVideo raw_video(const std::filesystem::path& path, int max_images) {
   avcodec_free_context(&decoder);
   avformat_close_input(&input);
   return video;
-}
-
-void write_file_and_folder(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::create_directories(path.parent_path());
-  write_file(path, text);
 }
 
 }  // namespace sigs::test

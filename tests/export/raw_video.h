@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <string>
 #include <vector>
 
 namespace sigs::test {
@@ -26,8 +25,5 @@ struct RawVideo {
 
 // The first `most` images. Only planar 8-bit formats. A failure fails the test.
 [[nodiscard]] RawVideo raw_video(const std::filesystem::path& path, int max_images);
-
-// Writes a text into a file, whose folder is made where it does not exist.
-void write_file_and_folder(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace sigs::test

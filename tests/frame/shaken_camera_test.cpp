@@ -13,6 +13,7 @@
 #include "export/export_project.h"
 #include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"
+#include "support/files.h"
 
 namespace sigs::test {
 namespace {
@@ -145,9 +146,8 @@ TEST_CASE("an attitude file of zeros changes no byte of an export") {
   export_of(scenario);
   for (const char* const end : {".mkv", ".masks.mkv", ".xml"}) {
     const std::string file = end;
-    std::ifstream with(scenario.path("out/lot" + file), std::ios::binary), without(scenario.path("out/level" + file));
-    const std::string bytes((std::istreambuf_iterator<char>(with)), {});
-    CHECK_MESSAGE(bytes == std::string((std::istreambuf_iterator<char>(without)), {}), end);
+    const std::string bytes = text_of(scenario.path("out/lot" + file));
+    CHECK_MESSAGE(bytes == text_of(scenario.path("out/level" + file)), end);
     CHECK(bytes.size() > 500);
   }
 }

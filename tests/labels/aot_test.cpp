@@ -9,6 +9,7 @@
 
 #include "labels/label_writing.h"
 #include "support/comma_locale.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -15,6 +15,7 @@
 #include "base/pose.h"
 #include "labels/label_writing.h"
 #include "support/comma_locale.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "labels/label_writing.h"
+#include "support/files.h"
 
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 namespace sigs::test::labels {
 
@@ -71,14 +71,6 @@ void write_synthetic_images(const fs::path& folder, const LabelSequence& clip) {
     std::ofstream(folder / image_name(frame)) << frame;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  REQUIRE_MESSAGE(in.good(), path.string());
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 std::vector<std::string> lines_of(const fs::path& path) {
   std::vector<std::string> lines = parts_of(text_of(path), '\n');
   REQUIRE_MESSAGE(lines.back().empty(), path.string());
@@ -95,14 +87,6 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
       parts.back() += c;
   }
   return parts;
-}
-
-std::vector<std::string> files_below(const fs::path& folder) {
-  std::vector<std::string> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder).string());
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 LabelSequence label_sequence(int last) {

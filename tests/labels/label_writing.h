@@ -29,17 +29,11 @@ void write_labels(const std::string& format, const std::filesystem::path& path, 
 // Makes a folder with an image of each frame of the clip, called as an export calls them. Each holds its number.
 void write_synthetic_images(const std::filesystem::path& folder, const LabelSequence& clip);
 
-// The whole of a file, which must be there.
-[[nodiscard]] std::string text_of(const std::filesystem::path& path);
-
-// Its lines, without their ends; the last must have one.
+// The lines of a file, without their ends; the last must have one.
 [[nodiscard]] std::vector<std::string> lines_of(const std::filesystem::path& path);
 
 // The parts between separators, as many as there are plus one.
 [[nodiscard]] std::vector<std::string> parts_of(const std::string& text, char separator);
-
-// Every file below a folder, by its path from there, in order.
-[[nodiscard]] std::vector<std::string> files_below(const std::filesystem::path& folder);
 
 // A sequence of images of 64 x 48 px, frames 100 to `last` at 30000/1001 a second, called "crossing", with two
 // intruders: 0, an "airplane", and 1, a "glider".

@@ -10,6 +10,7 @@
 #include "base/staged_outputs.h"
 #include "labels/label_writing.h"
 #include "support/comma_locale.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 namespace sigs::test::labels {

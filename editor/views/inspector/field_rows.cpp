@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/field_rows.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -120,7 +121,7 @@ void FieldRows::draw_side_buttons(const Field& field, float top_y) {
   ImGui::SetCursorScreenPos({right - icon_button_width(), top_y});
   if (field.is_path) {
     if (icon_button("browse", Icon::folder, "Choose a file")) browse(field);
-    context_.ui_probe.note_item(place_ + field.key + "/browse");
+    context_.ui_probe.note_item(fmt::format("{}{}/browse", place_, field.key));
   } else {
     const std::string text = "Back to " + value_text(field, sheet_.default_of(field));
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));

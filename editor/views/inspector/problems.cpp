@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/problems.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/views/inspector/trajectory.h"
 #include "editor/widgets/icons.h"
@@ -34,7 +36,7 @@ std::optional<std::string> draw_list(const ViewContext& context, const ProblemsB
                                      const std::string& name, ImU32 shade) {
   if (problems.empty()) return std::nullopt;
   const std::size_t count = problems.size();
-  const std::string title = std::to_string(count) + " " + name + (count == 1 ? "" : "s");
+  const std::string title = count_text(static_cast<std::int64_t>(count), name);
   std::optional<std::string> clicked;
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
   const std::string id = name + "s";
@@ -49,11 +51,11 @@ std::optional<std::string> draw_list(const ViewContext& context, const ProblemsB
     ImGui::PushID(shown);
     const std::string line = elided(text, ImGui::GetContentRegionAvail().x);
     if (ImGui::Selectable(line.empty() ? "..." : line.c_str())) clicked = field;
-    context.ui_probe.note_item("inspector/" + name + "/" + field);
+    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, field));
     tooltip_for_item(text.c_str());
     ImGui::PopID();
   }
-  if (count > kMaxShown) note(std::to_string(count - kMaxShown) + " more", true);
+  if (count > kMaxShown) note(fmt::format("{} more", count - kMaxShown), true);
   ImGui::TreePop();
   return clicked;
 }
@@ -76,7 +78,7 @@ std::vector<Problem> warnings_of_files(const OpenedScene& opened) {
     const Model* const model = opened.draft.scene.intruders[static_cast<std::size_t>(numbers[i])].model;
     if (model == nullptr || !reported.insert(model).second) continue;
     for (const Warning& warning : model->mesh.warnings)
-      found.push_back(in_field("intruders[" + std::to_string(i) + "].model.file", warning));
+      found.push_back(in_field(fmt::format("intruders[{}].model.file", i), warning));
   }
   return found;
 }
@@ -109,9 +111,9 @@ std::string place_of(const Project& project, std::string_view key) {
   const std::optional<std::size_t> intruder = index_in(key, "intruders[");
   if (!intruder) return block_of(key).empty() ? label_of(key) : block_of(key) + ", " + label_of(key);
   std::string place = *intruder < project.intruders.size() ? project.intruders[*intruder].name : "";
-  if (place.empty()) place = "intruder " + std::to_string(*intruder);
+  if (place.empty()) place = fmt::format("intruder {}", *intruder);
   if (const std::optional<std::size_t> waypoint = index_in(key, "waypoints["))
-    return place + ", waypoint " + std::to_string(*waypoint);
+    return fmt::format("{}, waypoint {}", place, *waypoint);
   return place + ", " + label_of(key);
 }
 

@@ -10,9 +10,13 @@
 #include <optional>
 
 #include "base/pose.h"
+#include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/preview/thumbnails.h"
 #include "editor/views/inspector/scene_blocks.h"
+
+#include <fmt/format.h>
+
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
@@ -129,18 +133,14 @@ void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
 
 namespace {
 
-std::string size_text(cv::Size size_px) {
-  return std::to_string(size_px.width) + " x " + std::to_string(size_px.height);
-}
-
 std::string video_text(const VideoInfo& video) {
   const double rate_hz = video.frame_rate_den > 0 ? double(video.frame_rate_num) / video.frame_rate_den : 0;
   const double length_s = video.times_s.empty() ? 0 : video.times_s.back() + (rate_hz > 0 ? 1 / rate_hz : 0);
-  std::string text = size_text(video.size_px) + ", " + (video.variable_frame_rate ? "about " : "") +
-                     number_text(std::round(rate_hz * 1000) / 1000, "frames/s") + ", " + video.codec + "\n" +
-                     std::to_string(video.frame_count()) + " frames, " +
-                     number_text(std::round(length_s * 100) / 100, "s");
-  if (!video.conversion.empty()) text += "\n" + video.pixel_format + ": " + video.conversion;
+  std::string text =
+      fmt::format("{}, {}{}, {}\n{} frames, {}", image_size_text(video.size_px, " x "),
+                  video.variable_frame_rate ? "about " : "", number_text(std::round(rate_hz * 1000) / 1000, "frames/s"),
+                  video.codec, video.frame_count(), number_text(std::round(length_s * 100) / 100, "s"));
+  if (!video.conversion.empty()) text += fmt::format("\n{}: {}", video.pixel_format, video.conversion);
   return text;
 }
 
@@ -157,11 +157,12 @@ std::string lens_text(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
   const std::string model = lens.model == LensModel::brown_conrady ? "Brown-Conrady" : "Kannala-Brandt (fisheye)";
   const std::string distortion =
-      camera.lens.is_pinhole() ? "no distortion" : std::to_string(lens.coefficients.size()) + " coefficients";
+      camera.lens.is_pinhole() ? "no distortion" : fmt::format("{} coefficients", lens.coefficients.size());
   const double valid_deg = std::min(180.0, deg_of_rad(camera.lens.valid_angle_rad()));
-  return size_text(camera.size_px) + ", " + model + ", " + distortion + "\nfocal length " +
-         number_text(std::round(lens.fx * 10) / 10) + " x " + number_text(std::round(lens.fy * 10) / 10) +
-         " px\nvalid to " + number_text(std::round(valid_deg * 10) / 10, "deg") + " from the axis";
+  return fmt::format("{}, {}, {}\nfocal length {} x {} px\nvalid to {} from the axis",
+                     image_size_text(camera.size_px, " x "), model, distortion,
+                     number_text(std::round(lens.fx * 10) / 10), number_text(std::round(lens.fy * 10) / 10),
+                     number_text(std::round(valid_deg * 10) / 10, "deg"));
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ constexpr double kMaxPreviewWidth = 300;  // where the text is 15 px high
 constexpr double kTurnAPixel_rad = 0.01;  // a drag across the preview is about half a turn
 
 std::string key_of(int intruder) {
-  return "intruders[" + std::to_string(intruder) + "]";
+  return fmt::format("intruders[{}]", intruder);
 }
 
 bool has_problem(const ProblemsByField& problems, int intruder) {
@@ -322,8 +323,8 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
   context.ui_probe.note_item("inspector/model image");
   draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");
   draw_axis(list, low, size, {0, 0, -1}, turn_rad_, color::kText, "top");
-  note(decimetres(model->size_m.x) + " m long, " + decimetres(model->size_m.y) + " m span, " +
-       decimetres(model->size_m.z) + " m high");
+  note(fmt::format("{} m long, {} m span, {} m high", decimetres(model->size_m.x), decimetres(model->size_m.y),
+                   decimetres(model->size_m.z)));
 }
 
 void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {

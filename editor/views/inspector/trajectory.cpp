@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/trajectory.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -45,7 +46,7 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
     note("No intruder yet. Add one above.");
     return;
   }
-  const std::string key = "intruders[" + std::to_string(*intruder) + "].trajectory.";
+  const std::string key = fmt::format("intruders[{}].trajectory.", *intruder);
   const bool is_level =
       context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory.bank == BankChoice::level;
   rows.rows(key, [&](const Field& field) {
@@ -83,8 +84,7 @@ void note_row(FieldRows& rows, const char* label, const std::string& text, const
 std::string frames_text(const FlightFlag& flag) {
   const long first = std::lround(flag.first_frame);
   const long last = std::lround(flag.last_frame);
-  return first == last ? "frame " + std::to_string(first)
-                       : "frames " + std::to_string(first) + " to " + std::to_string(last);
+  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
 }
 
 // Wrapped text that is clicked to go to a frame.
@@ -136,22 +136,23 @@ void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intrud
   }
   const Survey& survey = *surveys[index];
   measure(surveys[index]);
-  note_row(rows, "Speed", tenths(speed_mps_.minimum) + " to " + tenths(speed_mps_.maximum) + " m/s",
+  note_row(rows, "Speed", fmt::format("{} to {} m/s", tenths(speed_mps_.minimum), tenths(speed_mps_.maximum)),
            "Minimum and maximum");
-  note_row(rows, "Load factor", tenths(load_.minimum, 0.01) + " to " + tenths(load_.maximum, 0.01) + " g",
+  note_row(rows, "Load factor", fmt::format("{} to {} g", tenths(load_.minimum, 0.01), tenths(load_.maximum, 0.01)),
            "Lift by weight; 1 in level flight");
-  note_row(rows, "Climb", tenths(climb_mps_.minimum) + " to " + tenths(climb_mps_.maximum) + " m/s", "Up is positive");
+  note_row(rows, "Climb", fmt::format("{} to {} m/s", tenths(climb_mps_.minimum), tenths(climb_mps_.maximum)),
+           "Up is positive");
   note_row(rows, "Seen", visibility_, "Estimated without drawing; size: the longer side of its silhouette");
   (void)rows.begin_row("Closest");
-  frame_link(context, tenths(survey.closest.distance_m) + " m, frame " + tenths(survey.closest.frame),
+  frame_link(context, fmt::format("{} m, frame {}", tenths(survey.closest.distance_m), tenths(survey.closest.frame)),
              survey.closest.frame, color::kAccent);
   for (std::size_t i = 0; i < std::min(survey.flags.size(), kMaxFlags); ++i) {
     const FlightFlag& flag = survey.flags[i];
-    std::string text = flag.text() + " (" + frames_text(flag) + ")";
+    std::string text = fmt::format("{} ({})", flag.text(), frames_text(flag));
     text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     frame_link(context, text, flag.first_frame, color::kPartly);
   }
-  if (survey.flags.size() > kMaxFlags) note(std::to_string(survey.flags.size() - kMaxFlags) + " more", true);
+  if (survey.flags.size() > kMaxFlags) note(fmt::format("{} more", survey.flags.size() - kMaxFlags), true);
 }
 
 }  // namespace sigs::editor

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/waypoint_table.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::optional<int> selected_waypoint(const ViewContext& context, int intruder) {
 }
 
 std::string waypoint_key(int intruder, int waypoint) {
-  return "intruders[" + std::to_string(intruder) + "].trajectory.waypoints[" + std::to_string(waypoint) + "]";
+  return fmt::format("intruders[{}].trajectory.waypoints[{}]", intruder, waypoint);
 }
 
 bool has_problem(const ProblemsByField& problems, const std::string& key) {
@@ -134,7 +135,7 @@ void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypo
   tooltip_for_item("Click selects, double click goes to its frame");
   ImGui::TableSetColumnIndex(1);
   draw_frame(context, intruder, waypoint);
-  context.ui_probe.note_item("inspector/waypoint " + number + "/frame");
+  context.ui_probe.note_item(fmt::format("inspector/waypoint {}/frame", number));
   draw_position(context, intruder, waypoint);
 }
 

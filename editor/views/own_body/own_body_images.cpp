@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -27,10 +28,6 @@ const cv::Vec3d kBody(230, 110, 225);
 cv::Vec3b color_of_confidence(double confidence) {
   const double side = 2 * confidence - 1;
   return cv::Vec3b(kUnknown + std::abs(side) * ((side < 0 ? kWorld : kBody) - kUnknown));
-}
-
-std::string frames_text(int frames) {
-  return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
 }
 
 }  // namespace
@@ -56,7 +53,7 @@ std::vector<StageTile> stage_tiles(const OwnBody& found) {
   std::vector<StageTile> tiles;
   for (const DetectionStage& stage : found.stages)
     if (!stage.image.empty())
-      tiles.push_back({std::to_string(tiles.size() + 1) + "  " + stage.title, stage.name, stage.image});
+      tiles.push_back({fmt::format("{}  {}", tiles.size() + 1, stage.title), stage.name, stage.image});
   return tiles;
 }
 
@@ -65,7 +62,7 @@ std::string share_text(double share) {
 }
 
 std::string result_text(const OwnBody& found) {
-  const std::string frames = frames_text(found.frames_used) + (found.converged ? ", converged early" : "");
+  const std::string frames = count_text(found.frames_used, "frame") + (found.converged ? ", converged early" : "");
   return (found.share > 0 ? "Found in " : "No own body in ") + frames;
 }
 
@@ -85,15 +82,14 @@ std::vector<std::string> cautions_about(const OwnBody& found, double seconds) {
 std::string progress_text(const DetectionState& state) {
   if (state.is_stopping) return "stopping...";
   if (state.total <= 0) return "opening the footage...";
-  std::string text = std::to_string(state.done) + " of " + frames_text(state.total);
-  if (state.left_s) text += ", " + clock_text(*state.left_s) + " left";
+  std::string text = fmt::format("{} of {}", state.done, count_text(state.total, "frame"));
+  if (state.left_s) text += fmt::format(", {} left", clock_text(*state.left_s));
   return text;
 }
 
 namespace {
 
 constexpr int kTile_px = 512;
-constexpr double kTint = 0.5;  // how much of the footage the mask covers where it is white
 
 bool is_same(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size()) return false;
@@ -125,14 +121,12 @@ void draw_tile(const ImageCanvas& canvas, Textures& textures, const cv::Rect& pl
 
 }  // namespace
 
-cv::Mat tinted(const cv::Mat& mask) {
+cv::Mat tinted(const cv::Mat& mask, double opacity) {
   const ImVec4 tone = ImGui::ColorConvertU32ToFloat4(color::kOwnBody);
-  const auto part = [](float value) { return cv::saturate_cast<uchar>(255.0F * value); };
-  cv::Mat tint(mask.size(), CV_8UC4);
-  for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x)
-      tint.at<cv::Vec4b>(y, x) = {part(tone.x), part(tone.y), part(tone.z),
-                                  cv::saturate_cast<uchar>(kTint * mask.at<uchar>(y, x))};
+  cv::Mat alpha;
+  mask.convertTo(alpha, CV_8U, mask.depth() == CV_8U ? opacity : 255 * opacity);
+  cv::Mat tint(mask.size(), CV_8UC4, 255 * cv::Scalar(tone.x, tone.y, tone.z));
+  cv::insertChannel(alpha, tint, 3);
   return tint;
 }
 
@@ -148,7 +142,7 @@ void MaskTiles::refresh(Tile& tile, const cv::Mat& mask, int divisor, MaskStyle 
 void MaskTiles::draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& mask, MaskStyle look) {
   if (mask.size() != size_px_) tiles_.clear();
   size_px_ = mask.size();
-  const int divisor = std::max(1, static_cast<int>(std::floor(1 / canvas.view.zoom + 1e-9)));
+  const int divisor = divisor_at(canvas.view.zoom);
   const cv::Rect in_sight = pixels_in_sight(canvas.view, mask.size(), canvas.rect);
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
   for (int y = 0; y < mask.rows; y += kTile_px)

@@ -54,6 +54,8 @@ class MaskTiles {
 };
 
 // The own body's colour, as opaque as the mask says: CV_8UC4, RGBA.
-[[nodiscard]] cv::Mat tinted(const cv::Mat& mask);
+//   mask     CV_8UC1 from 0 to 255, or CV_32FC1 from 0 to 1
+//   opacity  how much of the footage is covered where the mask is full
+[[nodiscard]] cv::Mat tinted(const cv::Mat& mask, double opacity = 0.5);
 
 }  // namespace sigs::editor

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/own_body/own_body_panel.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -51,8 +52,8 @@ std::string frames_text(const ViewContext& context) {
   const int passed = std::min(settings.frames, there - first);
   if (passed < 1) return "";
   const int used = (passed - 1) / std::max(1, settings.every) + 1;
-  std::string text = "Frames " + std::to_string(first) + " to " + std::to_string(first + passed - 1);
-  if (used != passed) text += ", " + std::to_string(used) + " of them used";
+  std::string text = fmt::format("Frames {} to {}", first, first + passed - 1);
+  if (used != passed) text += fmt::format(", {} of them used", used);
   return text;
 }
 
@@ -174,8 +175,8 @@ void OwnBodyPanel::draw_replacing(const ViewContext& context, OwnBodySession& se
   const bool is_elsewhere =
       folder != std::filesystem::absolute(context.project().file).lexically_normal().parent_path();
   note_line(Icon::warning, color::kPartly,
-            "The project uses " + name + (is_elsewhere ? ", which lies elsewhere: other projects may use it too" : "") +
-                ". Replace it, or take a new name?");
+            fmt::format("The project uses {}{}. Replace it, or take a new name?", name,
+                        is_elsewhere ? ", which lies elsewhere: other projects may use it too" : ""));
   ButtonFlow flow;
   if (flow.button("New name...", "The old mask stays as it is")) {
     session.ask_save_and_use(context.project());

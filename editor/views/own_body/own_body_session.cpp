@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/own_body/own_body_session.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <utility>
 
+#include "base/paths.h"
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
 #include "occlusion/mask_geometry.h"
@@ -34,10 +33,7 @@ cv::Mat hard(const cv::Mat& mask) {
 }
 
 bool is_png(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension == ".png";
+  return lower_extension(path) == ".png";
 }
 
 // What was found with one edge, with another.

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "base/text.h"
 #include "editor/views/own_body/own_body_images.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
@@ -153,7 +154,7 @@ void OwnBodyCanvas::draw_readout(const OwnBodySession& session) const {
       left += fmt::format("   confidence {:3.0f}%", found->confidence.at<ushort>(*pixel_) / 655.35);
   }
   draw.AddText(&mono, mono.FontSize, {low.x + scaled(10), y}, color::kText, left.c_str());
-  const std::string right = fmt::format("{:.0f}%   {} x {}", look_.zoom() * 100, mask.cols, mask.rows);
+  const std::string right = fmt::format("{:.0f}%   {}", look_.zoom() * 100, image_size_text(mask.size(), " x "));
   const float width = mono.CalcTextSizeA(mono.FontSize, 1e6F, 0, right.c_str()).x;
   const float used = mono.CalcTextSizeA(mono.FontSize, 1e6F, 0, left.c_str()).x + scaled(30);
   if (used + width < size.x)

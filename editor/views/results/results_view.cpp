@@ -62,14 +62,13 @@ std::string moment_text(const ScoredTracker& tracker, int first_frame, int frame
 std::string truth_text(const Scored& scored) {
   if (scored.target.empty()) return "There is no intruder to measure by.";
   if (scored.truth == TruthKind::measured)
-    return "By the visible pixels of " + scored.target + " in every frame; as sigs evaluate track has it.";
+    return fmt::format("By the visible pixels of {} in every frame; as sigs evaluate track has it.", scored.target);
   if (!scored.truth_problem.empty())
-    return "About, by the outline of " + scored.target + ": it cannot be measured. " + scored.truth_problem;
+    return fmt::format("About, by the outline of {}: it cannot be measured. {}", scored.target, scored.truth_problem);
   std::string text = scored.truth == TruthKind::outlines
-                         ? "About, by the outline of " + scored.target + "; being measured"
+                         ? fmt::format("About, by the outline of {}; being measured", scored.target)
                          : "Measuring " + scored.target;
-  if (scored.truth_total > 0)
-    text += ": " + std::to_string(scored.truth_done) + " of " + std::to_string(scored.truth_total) + " frames";
+  if (scored.truth_total > 0) text += fmt::format(": {} of {} frames", scored.truth_done, scored.truth_total);
   return text;
 }
 
@@ -263,12 +262,12 @@ std::string counts_text(const ScoredTracker& tracker) {
   std::string text = tracker.file.path.string();
   if (!tracker.score) return text;
   const TrackScore& score = *tracker.score;
-  text += "\n" + std::to_string(score.reported) + " of " + std::to_string(score.scored) + " scored frames reported, " +
-          std::to_string(score.lost) + " lost";
+  text += fmt::format("\n{} of {} scored frames reported, {} lost", score.reported, score.scored, score.lost);
   if (score.reported_absent > 0)
-    text += "; reported in " + std::to_string(score.reported_absent) + " frames in which there is nothing";
-  text += "\nmean dx " + signed_text(score.mean_dx_px) + " px, dy " + signed_text(score.mean_dy_px) + " px; median " +
-          pixels_text(score.median_center_error_px) + ", 95 % below " + pixels_text(score.p95_center_error_px);
+    text += fmt::format("; reported in {} frames in which there is nothing", score.reported_absent);
+  text += fmt::format("\nmean dx {} px, dy {} px; median {}, 95 % below {}", signed_text(score.mean_dx_px),
+                      signed_text(score.mean_dy_px), pixels_text(score.median_center_error_px),
+                      pixels_text(score.p95_center_error_px));
   return text;
 }
 

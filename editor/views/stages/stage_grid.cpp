@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/text.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
@@ -221,7 +222,7 @@ void StageGrid::draw_head(const StageTile& tile, bool linked, const ScreenRect& 
   double room = rect.size().x - 2 * scaled(6);
   std::string value;
   if (linked && pixel_) value = (tile.image.channels() == 1 ? "value " : "RGB ") + pixel_text(tile.image, *pixel_);
-  if (!linked) value = std::to_string(tile.image.cols) + " x " + std::to_string(tile.image.rows);
+  if (!linked) value = image_size_text(tile.image.size(), " x ");
   ImGui::PushFont(font(Font::small));
   const float label_width = ImGui::CalcTextSize(tile.label.c_str()).x;
   ImGui::PopFont();

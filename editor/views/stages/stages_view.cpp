@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/stages/stages_view.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -34,11 +35,11 @@ std::string method_name(MethodChoice method) {
 std::string name_of_intruder(const ViewContext& context, int in_scene) {
   const std::optional<int> intruder = project_intruder(context, in_scene);
   return intruder ? shortened(context.project().intruders[static_cast<std::size_t>(*intruder)].name, 60)
-                  : "intruder " + std::to_string(in_scene);
+                  : fmt::format("intruder {}", in_scene);
 }
 
 std::string gain_text(double gain) {
-  return " x" + std::to_string(std::lround(gain));
+  return fmt::format(" x{}", std::lround(gain));
 }
 
 // For the longest of its texts and its arrow.

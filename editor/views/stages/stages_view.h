@@ -18,7 +18,7 @@ class StagesView {
  public:
   // Into what is left of the current ImGui window.
   void draw(const ViewContext& context);
-  // To be called while it is not drawn: lets go of images, as a frame's stages are a dozen frames.
+  // To be called while it is not drawn: releases its images, as a frame's stages are a dozen frames.
   void forget();
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/timeline/keys.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -17,9 +18,9 @@
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
+#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
-#include "editor/widgets/screen_vec.h"
 
 namespace sigs::editor {
 
@@ -190,7 +191,7 @@ void add_on_curve(const ViewContext& context, int intruder, double frame) {
 }
 
 std::string gesture_of(int intruder, int waypoint) {
-  return "time " + std::to_string(intruder) + " " + std::to_string(waypoint);
+  return fmt::format("time {} {}", intruder, waypoint);
 }
 
 // Whole frames; with Alt any moment.
@@ -241,12 +242,12 @@ float KeyRows::row_height() {
 
 void KeyRows::probe_places(const ViewContext& context, const Row& row) {
   if (!context.ui_probe.wanted()) return;
-  const std::string name = "timeline/row/" + std::to_string(row.intruder);
+  const std::string name = fmt::format("timeline/row/{}", row.intruder);
   context.ui_probe.note_item(name);
   const double reach = scaled(5);
   for (std::size_t i = 0; i < row.frames.size(); ++i) {
     const glm::dvec2 center{row.strip.moment_x(row.frames[i]), row.top_y + row_height() / 2};
-    context.ui_probe.note(name + "/key/" + std::to_string(i), {center - reach, center + reach});
+    context.ui_probe.note(fmt::format("{}/key/{}", name, i), {center - reach, center + reach});
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/timeline/lanes.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -216,7 +217,7 @@ void draw_hover(ImDrawList& list, const LaneMarks& marks, int frame) {
   const float x = std::floor(marks.strip.moment_x(frame));
   list.AddRectFilled({x, marks.top_y}, {x + 1, marks.top_y + marks.height}, faded(color::kText, 0.5));
   draw_value_dot(list, marks, frame);
-  draw_label(list, marks, x, marks.top_y + marks.height / 2, color::kText, text + " at " + std::to_string(frame));
+  draw_label(list, marks, x, marks.top_y + marks.height / 2, color::kText, fmt::format("{} at {}", text, frame));
 }
 
 // Once the mouse has rested: over the lane of visibility all that is known of a frame, over curves why it is flagged.

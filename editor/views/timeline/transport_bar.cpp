@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "editor/views/timeline/ruler.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
@@ -177,7 +178,7 @@ void add_waypoint_buttons(Bar& bar, const ViewContext& context) {
 
 std::string range_tooltip(const ViewContext& context) {
   const int count = context.document.range_last() - context.document.range_first() + 1;
-  return "what is played and exported: " + std::to_string(count) + (count == 1 ? " frame" : " frames");
+  return "what is played and exported: " + count_text(count, "frame");
 }
 
 void add_marks(Bar& bar, const ViewContext& context) {

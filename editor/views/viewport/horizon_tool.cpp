@@ -91,7 +91,7 @@ bool HorizonTool::press(const ToolContext& tool) {
                  .start = tilt_of(tool.context.project()),
                  .pivot_px = grip->middle_px,
                  .offset_px = grip->on_line_px - tool.canvas.view.image_of(tool.mouse),
-                 .gesture = drag_gesture_at(tool.context, tool.mouse, "horizon " + std::to_string(++gestures_))};
+                 .gesture = drag_gesture_at(tool.context, tool.mouse, fmt::format("horizon {}", ++gestures_))};
   return true;
 }
 

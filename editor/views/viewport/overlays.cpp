@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/overlays.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <string>
 
 #include "editor/geometry/screen_marks.h"
+#include "editor/views/own_body/own_body_images.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -133,12 +136,8 @@ void OwnBodyTint::draw(const ImageCanvas& canvas, Textures& textures, const cv::
   if (own_body.empty() || own_body.type() != CV_32FC1) return;
   if (made_for_.data != own_body.data) {
     made_for_ = own_body;
-    tint_ = cv::Mat(own_body.size(), CV_8UC4);  // other memory: textures know images by it
-    const ImVec4 tone = ImGui::ColorConvertU32ToFloat4(color::kOwnBody);
-    own_body.forEach<float>([&](float share, const int* at) {
-      const auto part = [](float value) { return cv::saturate_cast<uchar>(255.0F * value); };
-      tint_.at<cv::Vec4b>(at[0], at[1]) = {part(tone.x), part(tone.y), part(tone.z), part(tone.w * share)};
-    });
+    // Other memory: textures know images by it.
+    tint_ = tinted(own_body, ImGui::ColorConvertU32ToFloat4(color::kOwnBody).w);
   }
   draw_image(canvas.draw, textures, tint_, canvas.view, canvas.rect);
 }
@@ -189,7 +188,7 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
     if (!ScreenRect{canvas.rect.low - radius, canvas.rect.high + radius}.contains(at)) continue;
     const bool is_selected = selection == Selection{Selected::waypoint, mark.intruder, mark.waypoint};
     if (thinning.leaves_out(at) && !is_selected) continue;
-    context.ui_probe.note("viewport/waypoint/" + std::to_string(mark.intruder) + "/" + std::to_string(mark.waypoint),
+    context.ui_probe.note(fmt::format("viewport/waypoint/{}/{}", mark.intruder, mark.waypoint),
                           {at - radius, at + radius});
     const MarkStyle style{
         .selected = is_selected, .worked_on = current == mark.intruder, .here = std::abs(mark.frame - eye.frame) < 0.5};

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -64,7 +65,7 @@ void add_image(std::vector<Part>& parts, const ViewContext& context, const Viewp
                    "memory 0000 of 0000 MiB", 5});
   const PreviewImage& image = *context.shown.image;
   parts.push_back({fmt::format("{:.0f}%", readout.zoom * 100), "0000%", 0, color::kText});
-  parts.push_back({fmt::format("{} x {}", image.bgr.cols, image.bgr.rows), "0000 x 0000", 3});
+  parts.push_back({image_size_text(image.bgr.size(), " x "), "0000 x 0000", 3});
   parts.push_back({fmt::format("{:.1f} ms", context.shown.compose_ms), "0000.0 ms", 4});
 }
 
@@ -152,10 +153,6 @@ float icon_side() {
   return ImGui::GetFontSize();
 }
 
-std::string problem_count_text(std::size_t count) {
-  return count == 1 ? "1 problem" : std::to_string(count) + " problems";
-}
-
 }  // namespace
 
 std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image) {
@@ -183,12 +180,11 @@ void ProblemBanner::lay_out(const ScreenRect& rect) {
   const float maximum_width = std::min(static_cast<float>(rect.size().x) - 2 * margin, scaled(640));
   const float indent = 2 * padding() + icon_side();
   const float room = std::max(scaled(60), maximum_width - indent - padding());
-  std::vector<std::string> texts{problem_count_text(problems_.size())};
+  std::vector<std::string> texts{count_text(std::ssize(problems_), "problem")};
   if (!folded_) {
     texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMaxShown, problems_.size())));
     if (problems_.size() > kMaxShown)
-      texts.push_back("and " + std::to_string(problems_.size() - kMaxShown) +
-                      " more, at their fields in the inspector");
+      texts.push_back(fmt::format("and {} more, at their fields in the inspector", problems_.size() - kMaxShown));
   }
   glm::dvec2 size(0, 2 * padding() - scaled(3));
   for (const std::string& text : texts) {

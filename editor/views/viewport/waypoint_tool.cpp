@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/waypoint_tool.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -171,7 +173,7 @@ bool WaypointTool::begin(const ToolContext& tool) {
                                                       : waypoint_position(tool.context, taken.intruder, taken.waypoint);
   if (!start_m) return false;
   if (!makes_one && !is_under_press(tool, *start_m)) return false;
-  taken.gesture.name = "over the footage " + std::to_string(++gestures_);
+  taken.gesture.name = fmt::format("over the footage {}", ++gestures_);
   // Where a waypoint stands within a frame of this one, that is the one it gets.
   if (makes_one)
     taken.waypoint = put_in_gesture(tool.context, taken.intruder, tool.eye.frame, *start_m, taken.gesture.name);
@@ -230,8 +232,8 @@ void WaypointTool::draw(const ToolContext& tool) const {
   const glm::dvec3 moved_m = taken_->now_m - taken_->first_m;
   const std::string how = taken_->along ? "along the line of sight" : "across";
   draw_label(tool.canvas, tool.mouse + glm::dvec2(scaled(16), scaled(54)),
-             distance_text(tool.eye.distance_m(taken_->now_m)) + "   moved " + distance_text(glm::length(moved_m)) +
-                 "   " + how,
+             fmt::format("{}   moved {}   {}", distance_text(tool.eye.distance_m(taken_->now_m)),
+                         distance_text(glm::length(moved_m)), how),
              color::kText);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/world/picks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -94,7 +96,7 @@ WorldPick curve_at(const WorldCanvas& canvas, const WorldContext& world, const g
 std::string waypoint_title(const ViewContext& context, const Selection& what) {
   const std::vector<double> frames = frames_of_waypoints(context, what.intruder);
   const long frame = std::lround(frames[static_cast<std::size_t>(what.waypoint)]);
-  return "Waypoint at frame " + std::to_string(frame);
+  return fmt::format("Waypoint at frame {}", frame);
 }
 
 const WaypointSettings* waypoint_of(const Project& project, const Selection& what) {

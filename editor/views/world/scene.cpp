@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/world/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -246,7 +248,7 @@ void draw_waypoints(WorldCanvas& canvas, const WorldContext& world, const Select
       const bool highlighted = selection == self || hovered == self;
       if (thinning.leaves_out(*at) && !highlighted) continue;
       const float radius = scaled(highlighted ? 5 : current ? 4 : 3);
-      context.ui_probe.note("world/waypoint/" + std::to_string(i) + "/" + std::to_string(w),
+      context.ui_probe.note(fmt::format("world/waypoint/{}/{}", i, w),
                             {*at - glm::dvec2(radius), *at + glm::dvec2(radius)});
       canvas.list().AddCircleFilled(im(*at), radius + scaled(1.5), IM_COL32(0, 0, 0, 150), 12);
       canvas.list().AddCircleFilled(im(*at), radius,

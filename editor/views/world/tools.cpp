@@ -282,7 +282,7 @@ void WorldTools::draw_readout(WorldCanvas& canvas, const Movable& moved, double 
   const glm::dvec3 at_m = moved_to_.value_or(moved.at_m);
   std::vector<std::string> lines{coordinates(at_m, snap_m) + "   m",
                                  "moved  " + coordinates(at_m - handle_.start_m(), snap_m)};
-  lines.push_back(snap_m > 0 ? "steps of " + round_distance_text(snap_m) + " - Esc puts it back"
+  lines.push_back(snap_m > 0 ? fmt::format("steps of {} - Esc puts it back", round_distance_text(snap_m))
                              : std::string("Ctrl for round steps - Esc puts it back"));
   draw_plate(canvas, lines);
 }

@@ -12,6 +12,7 @@ extern "C" {
 }
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "video/chroma.h"
 #include "video/libav/color_tags.h"
 
@@ -44,17 +45,17 @@ constexpr int kSmallestFfv1_px = 4;
 // H.264's 4:2:0 and 4:2:2 images are whole chroma samples wide and high.
 Result<void> check_size(const VideoFormat& format, const Encoding& encoding) {
   if (format.size_px.width <= 0 || format.size_px.height <= 0)
-    return fail("", "the image is empty: " + size_text(format.size_px), ErrorKind::usage);
+    return fail("", "the image is empty: " + image_size_text(format.size_px), ErrorKind::usage);
   if (format.codec == VideoCodec::ffv1 && std::min(format.size_px.width, format.size_px.height) < kSmallestFfv1_px)
-    return fail("",
-                fmt::format("ffv1 cannot hold an image as small as {}; 4x4 is the least", size_text(format.size_px)),
-                ErrorKind::usage);
+    return fail(
+        "", fmt::format("ffv1 cannot hold an image as small as {}; 4x4 is the least", image_size_text(format.size_px)),
+        ErrorKind::usage);
   if (format.codec != VideoCodec::h264) return {};
   const cv::Size step = chroma_step(encoding.layout);
   if (format.size_px.width % step.width == 0 && format.size_px.height % step.height == 0) return {};
   return fail("",
               fmt::format("{} needs an even width and height, the image is {}; ffv1, mjpeg and png take any size",
-                          name_of(format.codec), size_text(format.size_px)),
+                          name_of(format.codec), image_size_text(format.size_px)),
               ErrorKind::usage);
 }
 

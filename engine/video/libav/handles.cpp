@@ -78,10 +78,6 @@ Error named(Error error, const std::filesystem::path& path) {
   return error;
 }
 
-std::string size_text(cv::Size size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
-
 std::string url_of(const std::filesystem::path& path) {
   return "file:" + path.string();
 }

@@ -51,9 +51,6 @@ void check_memory(int error);
 // The error with the file's path where it names no place yet. An interruption is not about a file.
 [[nodiscard]] Error named(Error error, const std::filesystem::path& path);
 
-// "640x480"
-[[nodiscard]] std::string size_text(cv::Size size);
-
 // The URL by which FFmpeg takes a path literally: "a:b.mkv" is a file, not a protocol.
 [[nodiscard]] std::string url_of(const std::filesystem::path& path);
 

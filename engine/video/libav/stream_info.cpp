@@ -87,8 +87,10 @@ void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& ta
   if (order.times_are_nominal)
     warn("the container tells no usable times; frames are spaced evenly at the nominal rate");
   if (is_image(demuxer) && info.frame_count() == 1)
-    warn("is one image, so the footage has one frame; of a sequence make a video first: ffmpeg -framerate 25 -i " +
-         sequence_pattern(info.path.filename()) + " -c:v ffv1 sequence.mkv");
+    warn(
+        fmt::format("is one image, so the footage has one frame; of a sequence make a video first: ffmpeg -framerate "
+                    "25 -i {} -c:v ffv1 sequence.mkv",
+                    sequence_pattern(info.path.filename())));
 }
 
 void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation) {

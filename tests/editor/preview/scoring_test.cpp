@@ -18,6 +18,7 @@
 #include "preview_client.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
+#include "support/test_data.h"
 
 namespace sigs::test {
 
@@ -79,7 +80,7 @@ void write_results(const fs::path& path, const ClipTruth& clip) {
             std::to_string(box->y + 0.5 - away_px / 2) + "," + std::to_string(box->width) + "," +
             std::to_string(box->height) + "\n";
   }
-  put_text(path, text);
+  write_file(path, text);
 }
 
 TrackScore score_of_file(const fs::path& file, const ClipTruth& clip) {
@@ -196,7 +197,7 @@ TEST_CASE("a wrong line is named with its file, and a file that is repaired is r
   const TinyProject tiny;
   const Project project = read(tiny);
   const fs::path file = tiny.file("bad.csv");
-  put_text(file, "frame,x,y,width,height\n0,1,2,3,4\n1,1,2,nan,4\n");
+  write_file(file, "frame,x,y,width,height\n0,1,2,3,4\n1,1,2,nan,4\n");
   const Scene scene = opened(project);
   std::atomic<int> wakes = 0;
   Scoring scoring([&] { ++wakes; });
@@ -207,7 +208,7 @@ TEST_CASE("a wrong line is named with its file, and a file that is repaired is r
   CHECK(problem.find('3') != std::string::npos);
   CHECK(problem.find('\n') == std::string::npos);
   CHECK_FALSE(scoring.scored()->trackers[0].score);
-  put_text(file, "frame,x,y,width,height\n0,1,2,3,4\n");
+  write_file(file, "frame,x,y,width,height\n0,1,2,3,4\n");
   REQUIRE(comes_true([&] { return scoring.scored()->trackers[0].score != nullptr; }));
   CHECK(scoring.scored()->trackers[0].problem.empty());
   CHECK(wakes > 1);
@@ -217,7 +218,7 @@ TEST_CASE("nothing is composed while no results are loaded, and nothing is shown
   const TinyProject tiny;
   const Project project = read(tiny);
   const fs::path file = tiny.file("t.csv");
-  put_text(file, "frame,x,y,width,height\n0,1,2,3,4\n");
+  write_file(file, "frame,x,y,width,height\n0,1,2,3,4\n");
   const Scene scene = opened(project);
   std::atomic<int> shows = 0;
   const auto stream = [&](const Project&, int, const TruthBuilder::OnFrame&) -> Result<void> {

@@ -5,8 +5,9 @@
 #include <set>
 #include <sstream>
 
-#include "docs/process.h"
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
+#include "support/process.h"
 
 namespace sigs::test {
 
@@ -199,13 +200,6 @@ void look_at_stages(UiTest& ui_test) {
   (void)editor.place("viewport");
 }
 
-std::set<fs::path> files_below(const fs::path& folder) {
-  std::set<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder));
-  return files;
-}
-
 void export_both_ways(UiTest& ui_test, const fs::path& project) {
   EditorDriver& editor = ui_test.editor();
   const fs::path here = ui_test.folder() / "from editor";
@@ -224,14 +218,14 @@ void export_both_ways(UiTest& ui_test, const fs::path& project) {
   std::ostringstream command;  // paths come quoted
   command << build_dir() / "sigs"
           << " export " << project << " --out " << there << " --progress none";
-  const Finished finished = run(command.str());
-  REQUIRE_MESSAGE(finished.status == 0, finished.output);
-  REQUIRE(files_below(here) == std::set<fs::path>{"head-on.masks.mkv", "head-on.mkv", "head-on.xml"});
+  const Run finished = run_together(command.str());
+  REQUIRE_MESSAGE(finished.status == 0, finished.out);
+  REQUIRE(files_below(here) == std::vector<std::string>{"head-on.masks.mkv", "head-on.mkv", "head-on.xml"});
   REQUIRE(files_below(there) == files_below(here));
-  for (const fs::path& file : files_below(here)) {
-    const std::string bytes = bytes_of(here / file);
+  for (const std::string& file : files_below(here)) {
+    const std::string bytes = text_of(here / file);
     CHECK(bytes.size() > 1000);
-    CHECK_MESSAGE(bytes == bytes_of(there / file), file << " differs");
+    CHECK_MESSAGE(bytes == text_of(there / file), file << " differs");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
 
 namespace sigs::test {
 

@@ -7,8 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "docs/process.h"
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
+#include "support/process.h"
 
 namespace sigs::test {
 
@@ -57,9 +58,9 @@ std::string side_in_labels(const fs::path& project, const fs::path& out) {
   std::ostringstream command;
   command << build_dir() / "sigs"
           << " export " << project << " --frames 150-150 --progress none --force --out " << out;
-  const Finished finished = run(command.str());
-  REQUIRE_MESSAGE(finished.status == 0, finished.output);
-  const std::string labels = bytes_of(out / "head-on.xml");
+  const Run finished = run_together(command.str());
+  REQUIRE_MESSAGE(finished.status == 0, finished.out);
+  const std::string labels = text_of(out / "head-on.xml");
   const std::string key = "horizon=\"";
   const std::size_t at = labels.find(key);
   REQUIRE(at != std::string::npos);

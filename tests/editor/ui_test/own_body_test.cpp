@@ -8,6 +8,7 @@
 #include <string>
 
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
 
 namespace sigs::test {
 
@@ -78,7 +79,7 @@ TEST_CASE("unsaved strokes are recovered after a crash") {
   UiTest ui_test("own-body-crash", {{"autosave_s", 1}});
   EditorDriver& editor = ui_test.editor();
   const fs::path project = open_without_mask(ui_test);
-  const std::string original = bytes_of(project);
+  const std::string original = text_of(project);
   const glm::dvec2 from = on_screen(ui_test, 200, 200);
   editor.hold(from.x, from.y);
   editor.settle();
@@ -91,7 +92,7 @@ TEST_CASE("unsaved strokes are recovered after a crash") {
   ui_test.wait_for_place("own body/unsaved");
   editor.wait_for("the recovery files", [&](const Json&) { return keeps_mask(ui_test.folder()); });
   editor.kill();
-  CHECK(bytes_of(project) == original);
+  CHECK(text_of(project) == original);
 
   editor.start({});
   (void)editor.place("start/recover.0");

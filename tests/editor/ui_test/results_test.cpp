@@ -4,8 +4,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "docs/process.h"
 #include "editor/ui_test/ui_test.h"
+#include "support/process.h"
 
 namespace sigs::test {
 
@@ -19,8 +19,8 @@ fs::path results_of_trackers(const fs::path& project, const fs::path& folder) {
   std::ostringstream command;  // paths come quoted
   command << build_dir() / "sigs"
           << " evaluate track " << project << " --tracker csrt,medianflow,kcf --out " << folder;
-  const Finished finished = run(command.str());
-  REQUIRE_MESSAGE(finished.status == 0, finished.output);
+  const Run finished = run_together(command.str());
+  REQUIRE_MESSAGE(finished.status == 0, finished.out);
   return folder / "results";
 }
 

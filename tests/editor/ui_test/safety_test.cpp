@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
 
 namespace sigs::test {
 
@@ -56,13 +57,13 @@ TEST_CASE("unsaved work is recovered after a crash") {
   UiTest ui_test("crash", {{"autosave_s", 1}});
   EditorDriver& editor = ui_test.editor();
   const fs::path project = put(sample_project("head-on"), ui_test.folder() / "mine.json");
-  const std::string original = bytes_of(project);
+  const std::string original = text_of(project);
   open(ui_test, project);
   ui_test.scrub_to(75);
   add_waypoint(ui_test);
   editor.wait_for("the recovery file", [&](const Json&) { return keeps_something(ui_test.folder()); });
   editor.kill();
-  CHECK(bytes_of(project) == original);
+  CHECK(text_of(project) == original);
 
   editor.start({});
   (void)editor.place("start/recover.0");
@@ -79,7 +80,7 @@ TEST_CASE("no unsaved work is discarded without a question") {
   UiTest ui_test("guard");
   EditorDriver& editor = ui_test.editor();
   const fs::path project = put(sample_project("head-on"), ui_test.folder() / "mine.json");
-  const std::string original = bytes_of(project);
+  const std::string original = text_of(project);
   open(ui_test, project);
   ui_test.scrub_to(75);
   add_waypoint(ui_test);
@@ -95,7 +96,7 @@ TEST_CASE("no unsaved work is discarded without a question") {
   editor.key("ctrl+q");
   editor.click("question/Don't save");
   CHECK(editor.exit_status() == 0);
-  CHECK(bytes_of(project) == original);
+  CHECK(text_of(project) == original);
   CHECK_FALSE(keeps_something(ui_test.folder()));
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
 
 #include <exception>
 #include <fstream>
-#include <sstream>
 
 namespace sigs::test {
 
@@ -87,17 +87,6 @@ void UiTest::fill_in(const std::string& place, const std::string& text) {
   editor_.settle();
   editor_.key("ctrl+a");
   editor_.type(text);
-}
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-Json json_of(const fs::path& file) {
-  return Json::parse(bytes_of(file));
 }
 
 Json sample_project(const std::string& name) {

@@ -44,9 +44,6 @@ class UiTest {
   EditorDriver editor_;
 };
 
-[[nodiscard]] nlohmann::json json_of(const std::filesystem::path& file);
-[[nodiscard]] std::string bytes_of(const std::filesystem::path& file);
-
 // A sample project with its files named absolutely, so that its copy can lie anywhere.
 [[nodiscard]] nlohmann::json sample_project(const std::string& name);
 // Written as PROJECT.json; the file's path.

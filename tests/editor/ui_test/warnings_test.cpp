@@ -5,8 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include "docs/process.h"
+#include "base/text.h"
 #include "editor/ui_test/ui_test.h"
+#include "support/process.h"
 
 namespace sigs::test {
 
@@ -30,10 +31,10 @@ std::set<std::string> warned_of_by_check(const fs::path& project) {
   std::ostringstream command;
   command << build_dir() / "sigs"
           << " check " << project << " 2>&1";
-  const Finished finished = run(command.str());
+  const Run finished = run_together(command.str());
   CHECK(finished.status == 0);
   std::set<std::string> fields;
-  std::istringstream lines(finished.output);
+  std::istringstream lines(finished.out);
   const std::string head = project.string() + ": ";
   for (std::string line; std::getline(lines, line);) {
     const std::size_t at = line.find(head);
@@ -41,7 +42,7 @@ std::set<std::string> warned_of_by_check(const fs::path& project) {
     const std::string rest = line.substr(at + head.size());
     fields.insert(rest.substr(0, rest.find(": ")));
   }
-  INFO(finished.output);
+  INFO(finished.out);
   CHECK(fields.size() >= 3);
   return fields;
 }

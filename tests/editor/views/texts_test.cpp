@@ -34,7 +34,6 @@ TEST_CASE("a text is never cut between the bytes of one character") {
   }
 }
 
-using sigs::editor::clock_text;
 using sigs::editor::distance_text;
 
 TEST_CASE("distances have three digits or four, and the unit that suits them") {
@@ -52,13 +51,4 @@ TEST_CASE("distances have three digits or four, and the unit that suits them") {
 TEST_CASE("a distance that is not finite is a dash") {
   CHECK(distance_text(std::numeric_limits<double>::infinity()) == "-");
   CHECK(distance_text(std::numeric_limits<double>::quiet_NaN()) == "-");
-}
-
-TEST_CASE("durations are written as a clock shows them") {
-  CHECK(clock_text(0) == "0:00");
-  CHECK(clock_text(5.4) == "0:05");
-  CHECK(clock_text(65) == "1:05");
-  CHECK(clock_text(3723) == "1:02:03");
-  CHECK(clock_text(-3) == "0:00");
-  CHECK(clock_text(1e300) == "2777:46:40");
 }
