@@ -154,7 +154,8 @@ TEST_CASE("labels are the last part of a key, in words and without its unit") {
   CHECK(label_of("footage.own_body_mask") == "Own body mask");
   CHECK(label_of("intruders[3].trajectory.bank_limit_deg") == "Bank limit");
   CHECK(label_of("intruders[0].model.length_m") == "Length");
-  CHECK(label_of("own_body.stable.least_area_percent") == "Least area");
+  CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
+  CHECK(label_of("own_body.stable.least_area_percent") == "Min area");
   CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
   CHECK(label_of("name") == "Name");
   CHECK(label_of("").empty());
