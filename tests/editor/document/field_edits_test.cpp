@@ -156,7 +156,6 @@ TEST_CASE("labels are the last part of a key, in words and without its unit") {
   CHECK(label_of("intruders[0].model.length_m") == "Length");
   CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
   CHECK(label_of("own_body.stable.least_area_percent") == "Min area");
-  CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
   CHECK(label_of("name") == "Name");
   CHECK(label_of("").empty());
 }
