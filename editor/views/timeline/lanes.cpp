@@ -282,9 +282,14 @@ bool LaneRows::shows_errors(const ViewContext& context) const {
 
 void LaneRows::draw_chooser(const ViewContext& context) {
   if (icon_button("lanes", Icon::settings, "choose the lanes below")) ImGui::OpenPopup("choose lanes");
+  context.ui_probe.note_item("timeline/lanes");
   if (!ImGui::BeginPopup("choose lanes")) return;
-  if (ErrorLane::has_any(context)) ImGui::Checkbox(ErrorLane::kTitle, &shows_errors_);
-  for (LaneState& lane : lanes_) ImGui::Checkbox(lane.style.title, &lane.is_shown);
+  const auto draw_choice = [&](const char* title, bool& is_shown) {
+    ImGui::Checkbox(title, &is_shown);
+    context.ui_probe.note_item(fmt::format("timeline/lanes/{}", title));
+  };
+  if (ErrorLane::has_any(context)) draw_choice(ErrorLane::kTitle, shows_errors_);
+  for (LaneState& lane : lanes_) draw_choice(lane.style.title, lane.is_shown);
   ImGui::EndPopup();
 }
 
