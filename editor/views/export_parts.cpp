@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -76,7 +75,7 @@ bool choose(const ViewContext& context, const char* id, const std::array<const c
   ImGui::SetNextItemWidth(width);
   auto index = static_cast<int>(value);
   const bool changed = ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), static_cast<int>(N));
-  context.ui_probe.note_item(std::string("export/") + id);
+  context.ui_probe.note_item(fmt::format("export/{}", id));
   if (changed) value = static_cast<Choice>(index);
   return changed;
 }
@@ -205,9 +204,16 @@ void draw_label_choice(const ViewContext& context) {
 std::string progress_text(const ExportState& state) {
   if (state.is_stopping) return "Stopping...";
   if (state.total == 0) return "Opening footage and models...";
-  std::string text = fmt::format("{} of {} frames", state.done, state.total);
+  std::string text = fmt::format("{} of {}", state.done, count_text(state.total, "frame"));
   if (state.done == state.total) return text + ", finishing the files...";
   if (state.rate_hz) text += fmt::format(", {:.1f} frames/s", *state.rate_hz);
+  if (state.left_s) text += fmt::format(", {} left", clock_text(*state.left_s));
+  return text;
+}
+
+std::string short_progress_text(const ExportState& state) {
+  if (state.total == 0) return "Export begins";
+  std::string text = fmt::format("Export {} %", 100 * state.done / state.total);
   if (state.left_s) text += fmt::format(", {} left", clock_text(*state.left_s));
   return text;
 }
@@ -223,10 +229,10 @@ void draw_result(const ViewContext& context, const ExportState& state) {
     return;
   }
   const double wall_s = state.value->times.wall_s;
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%d frames in %s, %.1f frames/s", state.value->frames,
-                clock_text(wall_s).c_str(), state.value->frames / std::max(wall_s, 1e-3));
-  note_line(Icon::check, color::kGood, text.data());
+  const int frames = state.value->frames;
+  note_line(Icon::check, color::kGood,
+            fmt::format("{} in {}, {:.1f} frames/s", count_text(frames, "frame"), clock_text(wall_s),
+                        frames / std::max(wall_s, 1e-3)));
   draw_written(context, state);
   if (!can_open_with_desktop()) return;
   if (dialog_button("Open folder") && !open_with_desktop(state.request.folder))

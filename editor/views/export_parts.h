@@ -18,6 +18,8 @@ void draw_label_choice(const ViewContext& context);
 
 // "120 of 322 frames, 41.2 frames/s, 0:05 left"
 [[nodiscard]] std::string progress_text(const ExportState& state);
+// "Export 37 %, 0:05 left", for the menu bar.
+[[nodiscard]] std::string short_progress_text(const ExportState& state);
 
 // What was written, with ways to it; or why nothing was.
 void draw_result(const ViewContext& context, const ExportState& state);

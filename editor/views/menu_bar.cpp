@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "base/text.h"
+#include "editor/views/export_parts.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
@@ -100,14 +101,6 @@ void draw_help_menu(const ViewContext& context) {
   ImGui::EndMenu();
 }
 
-std::string export_text(const ExportState& state) {
-  if (state.total == 0) return "Export begins";
-  const std::string done = fmt::format("Export {} %", 100 * state.done / std::max(1, state.total));
-  if (!state.left_s) return done;
-  const int left_s = static_cast<int>(*state.left_s);
-  return fmt::format("{}, {}:{:02} left", done, left_s / 60, left_s % 60);
-}
-
 // From right to left; each takes its room.
 class RightSide {
  public:
@@ -116,7 +109,7 @@ class RightSide {
 
   void show_export(const ExportState& state) {
     if (!state.is_running()) return;
-    const std::string text = export_text(state);
+    const std::string text = short_progress_text(state);
     const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(20);
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();

@@ -136,10 +136,10 @@ namespace {
 std::string video_text(const VideoInfo& video) {
   const double rate_hz = video.frame_rate_den > 0 ? double(video.frame_rate_num) / video.frame_rate_den : 0;
   const double length_s = video.times_s.empty() ? 0 : video.times_s.back() + (rate_hz > 0 ? 1 / rate_hz : 0);
-  std::string text =
-      fmt::format("{}, {}{}, {}\n{} frames, {}", image_size_text(video.size_px, " x "),
-                  video.variable_frame_rate ? "about " : "", number_text(std::round(rate_hz * 1000) / 1000, "frames/s"),
-                  video.codec, video.frame_count(), number_text(std::round(length_s * 100) / 100, "s"));
+  std::string text = fmt::format(
+      "{}, {}{}, {}\n{}, {}", image_size_text(video.size_px, " x "), video.variable_frame_rate ? "about " : "",
+      number_text(std::round(rate_hz * 1000) / 1000, "frames/s"), video.codec, count_text(video.frame_count(), "frame"),
+      number_text(std::round(length_s * 100) / 100, "s"));
   if (!video.conversion.empty()) text += fmt::format("\n{}: {}", video.pixel_format, video.conversion);
   return text;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "editor/views/results/results_view.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/screen_vec.h"
@@ -68,7 +69,8 @@ std::string truth_text(const Scored& scored) {
   std::string text = scored.truth == TruthKind::outlines
                          ? fmt::format("About, by the outline of {}; being measured", scored.target)
                          : "Measuring " + scored.target;
-  if (scored.truth_total > 0) text += fmt::format(": {} of {} frames", scored.truth_done, scored.truth_total);
+  if (scored.truth_total > 0)
+    text += fmt::format(": {} of {}", scored.truth_done, count_text(scored.truth_total, "frame"));
   return text;
 }
 
@@ -264,7 +266,7 @@ std::string counts_text(const ScoredTracker& tracker) {
   const TrackScore& score = *tracker.score;
   text += fmt::format("\n{} of {} scored frames reported, {} lost", score.reported, score.scored, score.lost);
   if (score.reported_absent > 0)
-    text += fmt::format("; reported in {} frames in which there is nothing", score.reported_absent);
+    text += fmt::format("; reported in {} in which there is nothing", count_text(score.reported_absent, "frame"));
   text += fmt::format("\nmean dx {} px, dy {} px; median {}, 95 % below {}", signed_text(score.mean_dx_px),
                       signed_text(score.mean_dy_px), pixels_text(score.median_center_error_px),
                       pixels_text(score.p95_center_error_px));

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/ensure.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
@@ -116,25 +117,91 @@ std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, 
 
 namespace {
 
+// From the top to the bottom.
+constexpr std::array kLaneStyles{
+    LaneStyle{.lane = Lane::visibility,
+              .kind = LaneKind::strip,
+              .shown_by_default = true,
+              .title = "Visibility",
+              .help = "what the camera sees of it"},
+    LaneStyle{.lane = Lane::distance,
+              .kind = LaneKind::curve,
+              .shown_by_default = true,
+              .title = "Distance",
+              .help = "from the camera",
+              .color = IM_COL32(120, 200, 255, 255)},
+    LaneStyle{.lane = Lane::size,
+              .kind = LaneKind::curve,
+              .shown_by_default = true,
+              .title = "Size",
+              .help = "longer side of its outline, where the image shows some of it",
+              .color = color::kBox,
+              .scaling = Scaling::logarithmic},
+    LaneStyle{.lane = Lane::speed,
+              .kind = LaneKind::curve,
+              .shown_by_default = true,
+              .title = "Speed",
+              .help = "over ground",
+              .color = IM_COL32(170, 220, 110, 255),
+              .min_span = 2},
+    LaneStyle{.lane = Lane::load,
+              .kind = LaneKind::curve,
+              .shown_by_default = false,
+              .title = "Load factor",
+              .help = "1 in level flight; felt along the aircraft's own up axis",
+              .color = IM_COL32(240, 150, 205, 255),
+              .min_span = 0.2,
+              .reference = 1.0},
+    LaneStyle{.lane = Lane::climb,
+              .kind = LaneKind::curve,
+              .shown_by_default = false,
+              .title = "Climb rate",
+              .help = "up is positive",
+              .color = IM_COL32(160, 160, 255, 255),
+              .min_span = 2,
+              .reference = 0.0},
+};
+
+constexpr bool has_one_style(Lane lane) {
+  return std::count_if(kLaneStyles.begin(), kLaneStyles.end(),
+                       [&](const LaneStyle& style) { return style.lane == lane; }) == 1;
+}
+
+// No lane is listed twice or left out, in whatever order. The last one of the enum is not missed here if it has no
+// style; it is not shown then.
+constexpr bool each_lane_has_one_style() {
+  for (std::size_t i = 0; i < kLaneStyles.size(); ++i)
+    if (!has_one_style(static_cast<Lane>(i))) return false;
+  return true;
+}
+static_assert(each_lane_has_one_style());
+
+// How many frames of a lane are known.
 std::size_t count_of(const Survey& survey, Lane lane) {
-  if (lane == Lane::visibility_state) return 0;
-  return lane == Lane::distance || lane == Lane::size ? survey.estimates.size() : survey.flight.size();
+  switch (lane) {
+    case Lane::visibility:
+    case Lane::distance:
+    case Lane::size:
+      return survey.estimates.size();
+    case Lane::speed:
+    case Lane::load:
+    case Lane::climb:
+      return survey.flight.size();
+  }
+  return 0;
 }
 
 }  // namespace
 
+std::span<const LaneStyle> lane_styles() {
+  return kLaneStyles;
+}
+
 const LaneStyle& style_of(Lane lane) {
-  static const std::array<LaneStyle, kLanes> kStyles{{
-      {"Visibility", "what the camera sees of it", color::kGood, 1, Scaling::linear, std::nullopt},
-      {"Distance", "from the camera", IM_COL32(120, 200, 255, 255), 1, Scaling::linear, std::nullopt},
-      {"Size", "longer side of its outline, where the image shows some of it", color::kBox, 1, Scaling::logarithmic,
-       std::nullopt},
-      {"Speed", "over ground", IM_COL32(170, 220, 110, 255), 2, Scaling::linear, std::nullopt},
-      {"Load factor", "1 in level flight; felt along the aircraft's own up axis", IM_COL32(240, 150, 205, 255), 0.2,
-       Scaling::linear, 1.0},
-      {"Climb rate", "up is positive", IM_COL32(160, 160, 255, 255), 2, Scaling::linear, 0.0},
-  }};
-  return kStyles[static_cast<std::size_t>(lane)];
+  const auto* const style = std::find_if(kLaneStyles.begin(), kLaneStyles.end(),
+                                         [&](const LaneStyle& candidate) { return candidate.lane == lane; });
+  ENSURE(style != kLaneStyles.end());
+  return *style;
 }
 
 double value_in(const Survey& survey, Lane lane, std::size_t i) {
@@ -152,7 +219,7 @@ double value_in(const Survey& survey, Lane lane, std::size_t i) {
       return survey.flight[i].load_factor;
     case Lane::climb:
       return survey.flight[i].climb_rate_mps;
-    case Lane::visibility_state:
+    case Lane::visibility:
       break;
   }
   return 0;
@@ -160,8 +227,10 @@ double value_in(const Survey& survey, Lane lane, std::size_t i) {
 
 LaneValues values_of(const Survey& survey, Lane lane) {
   LaneValues result;
+  const LaneStyle& style = style_of(lane);
+  if (style.kind == LaneKind::strip) return result;
   for (std::size_t i = 0; i < count_of(survey, lane); ++i) result.values.push_back(value_in(survey, lane, i));
-  result.scale = scale_for(result.values, style_of(lane).min_span, style_of(lane).scaling);
+  result.scale = scale_for(result.values, style.min_span, style.scaling);
   bool is_first = true;
   for (const double value : result.values) {
     if (!std::isfinite(value)) continue;
@@ -187,10 +256,16 @@ std::string value_text(Lane lane, double value) {
       return fmt::format("{:.{}f} g", value, size >= 100 ? 0 : 2);
     case Lane::climb:
       return fmt::format("{:+.{}f} m/s", size < 0.05 ? 0.0 : value, size >= 100 ? 0 : 1);
-    case Lane::visibility_state:
+    case Lane::visibility:
       break;
   }
   return {};
+}
+
+std::string text_in(const Survey& survey, Lane lane, std::size_t i) {
+  if (i >= count_of(survey, lane)) return "-";
+  if (lane == Lane::visibility) return name_of(survey.estimates[i].visibility_state);
+  return value_text(lane, value_in(survey, lane, i));
 }
 
 bool belongs_to(FlightFault fault, Lane lane) {
@@ -219,20 +294,6 @@ const char* name_of(VisibilityState visibility_state) {
       return "out of view";
   }
   return "";
-}
-
-ImU32 color_of(VisibilityState visibility_state) {
-  switch (visibility_state) {
-    case VisibilityState::in_view:
-      return color::kGood;
-    case VisibilityState::partly_occluded:
-      return color::kPartly;
-    case VisibilityState::occluded:
-      return faded(color::kOwnBody, 1);
-    case VisibilityState::out_of_view:
-      return IM_COL32(84, 88, 98, 255);
-  }
-  return color::kQuiet;
 }
 
 }  // namespace sigs::editor

@@ -44,26 +44,35 @@ using Polyline = std::vector<glm::vec2>;
 [[nodiscard]] std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, const TimeRuler& ruler,
                                              const LaneScale& scale, const LaneBox& box);
 
-// What the timeline shows of the current intruder from frame to frame. distance in metres, size in pixels, speed and
-// climb in m/s, load in g.
-enum class Lane { visibility_state, distance, size, speed, load, climb };
-inline constexpr int kLanes = 6;
+// What the timeline shows of the current intruder from frame to frame. visibility has a VisibilityState a frame;
+// distance is in metres, size in pixels, speed and climb in m/s, load in g.
+enum class Lane { visibility, distance, size, speed, load, climb };
+
+// strip: coloured stretches of frames, in a row of a line's height; each strip is drawn by a file of its own
+// (visibility_strip.h). curve: numbers on a scale; curves share the room that strips leave.
+enum class LaneKind { strip, curve };
 
 // Words, colours and limits of a lane. The texts are literals.
 struct LaneStyle {
+  Lane lane;
+  LaneKind kind;
+  // False: it is hidden until a person ticks it in the list of lanes.
+  bool shown_by_default;
   const char* title;
   const char* help;
-  ImU32 color;
-  // Of the scale, in the lane's unit: what varies less looks level.
-  double min_span;
-  Scaling scaling;
+  // Of a curve; strips have a colour for each state.
+  ImU32 color = 0;
+  // Of a curve's scale, in the lane's unit: what varies less looks level.
+  double min_span = 1;
+  Scaling scaling = Scaling::linear;
   // A line at a value that means something: level flight, no climb.
-  std::optional<double> reference;
+  std::optional<double> reference = std::nullopt;
 };
+// One for each lane, in the order in which the timeline and the list of lanes show them.
+[[nodiscard]] std::span<const LaneStyle> lane_styles();
 [[nodiscard]] const LaneStyle& style_of(Lane lane);
 
-// Values of all frames of a survey, and how they are shown. Without values for Lane::visibility_state, whose states are
-// no numbers.
+// Values of all frames of a survey, and how they are shown. Without values for strips, whose states are no numbers.
 struct LaneValues {
   std::vector<double> values;
   LaneScale scale;
@@ -71,19 +80,21 @@ struct LaneValues {
   double minimum = 0;
   double maximum = 0;
 };
-// Not for Lane::visibility_state; i is an index of the survey's frames. NaN: nothing of it is in the image, so it has
-// no size.
+// Of a curve; i is an index of the survey's frames. NaN: nothing of it is in the image, so it has no size.
 [[nodiscard]] double value_in(const Survey& survey, Lane lane, std::size_t i);
 [[nodiscard]] LaneValues values_of(const Survey& survey, Lane lane);
 
-// "933 m", "13.4 px", "+2.1 m/s"; "-" for what is not finite.
+// Of a curve: "933 m", "13.4 px", "+2.1 m/s"; "-" for what is not finite.
 [[nodiscard]] std::string value_text(Lane lane, double value);
+
+// What a lane of either kind says of a frame: "933 m", "in view". i is an index of the survey's frames; "-" where the
+// survey has no such frame.
+[[nodiscard]] std::string text_in(const Survey& survey, Lane lane, std::size_t i);
 
 // Whether a fault of the flight is marked in this lane.
 [[nodiscard]] bool belongs_to(FlightFault fault, Lane lane);
 
-// "in view", "partly hidden", ... as the views write it, and its colour.
+// "in view", "partly hidden", "hidden", "out of view".
 [[nodiscard]] const char* name_of(VisibilityState visibility_state);
-[[nodiscard]] ImU32 color_of(VisibilityState visibility_state);
 
 }  // namespace sigs::editor

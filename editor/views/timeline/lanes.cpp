@@ -13,6 +13,7 @@
 
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/ruler.h"
+#include "editor/views/timeline/visibility_strip.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
@@ -25,9 +26,9 @@ namespace {
 // What is drawn in a lane.
 struct LaneMarks {
   const TimelineStrip& strip;
-  Lane lane = Lane::visibility_state;
-  const Survey* survey = nullptr;  // null: not known yet
+  const LaneStyle& style;
   const LaneValues& values;
+  const Survey* survey = nullptr;  // null: not known yet
   float top_y = 0;
   float height = 0;
 };
@@ -68,28 +69,8 @@ void draw_label(ImDrawList& list, const LaneMarks& marks, float x, float y, ImU3
   ImGui::PopFont();
 }
 
-void draw_visibility_states(ImDrawList& list, const LaneMarks& marks) {
-  const std::vector<VisibilityEstimate>& estimates = marks.survey->estimates;
-  const TimeRuler& ruler = marks.strip.ruler;
-  const auto size = static_cast<double>(estimates.size());
-  const double first = marks.survey->first_frame;
-  const auto from = static_cast<std::size_t>(std::clamp(std::floor(ruler.first) - first, 0.0, size));
-  const auto to = static_cast<std::size_t>(std::clamp(std::ceil(ruler.first + ruler.count) - first, 0.0, size));
-  const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(ruler.count / std::max(1.0, ruler.width))));
-  const float inset = scaled(4);
-  for (std::size_t i = from; i < to;) {
-    std::size_t end = i + stride;
-    while (end < to && estimates[end].visibility_state == estimates[i].visibility_state) end += stride;
-    end = std::min(end, to);
-    list.AddRectFilled({marks.strip.edge_x(first + static_cast<double>(i)), marks.top_y + inset},
-                       {marks.strip.edge_x(first + static_cast<double>(end)), marks.top_y + marks.height - inset},
-                       faded(color_of(estimates[i].visibility_state), 0.85));
-    i = end;
-  }
-}
-
 void draw_curve(ImDrawList& list, const LaneMarks& marks) {
-  const LaneStyle& style = style_of(marks.lane);
+  const LaneStyle& style = marks.style;
   const LaneScale& scale = marks.values.scale;
   if (style.reference && *style.reference > scale.low && *style.reference < scale.high) {
     const float y = std::floor(y_of(marks, *style.reference));
@@ -109,7 +90,7 @@ void draw_curve(ImDrawList& list, const LaneMarks& marks) {
 
 void draw_flags(ImDrawList& list, const LaneMarks& marks) {
   for (const FlightFlag& flag : marks.survey->flags) {
-    if (!belongs_to(flag.fault, marks.lane)) continue;
+    if (!belongs_to(flag.fault, marks.style.lane)) continue;
     const float low = std::max(marks.strip.left(), marks.strip.moment_x(flag.first_frame));
     const float high = std::min(marks.strip.right(), std::max(low + scaled(2), marks.strip.moment_x(flag.last_frame)));
     if (high <= low) continue;
@@ -135,61 +116,53 @@ void draw_closest(ImDrawList& list, const LaneMarks& marks) {
   draw_label(list, marks, x, marks.top_y + marks.height * 0.3F, color::kText, text.data());
 }
 
+// What all lanes say of a frame.
 void list_values(const Survey& survey, std::size_t i) {
   ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit);
-  for (int number = 0; number < kLanes; ++number) {
-    const auto lane = static_cast<Lane>(number);
-    if (lane != Lane::visibility_state && i >= survey.flight.size()) continue;
+  for (const LaneStyle& style : lane_styles()) {
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", style_of(lane).title);
+    ImGui::TextDisabled("%s", style.title);
     ImGui::TableNextColumn();
-    const std::string text = lane == Lane::visibility_state ? name_of(survey.estimates[i].visibility_state)
-                                                            : value_text(lane, value_in(survey, lane, i));
-    ImGui::TextUnformatted(text.c_str());
+    ImGui::TextUnformatted(text_in(survey, style.lane, i).c_str());
   }
   ImGui::EndTable();
 }
 
+// Over a strip all that is wrong with the flight there, over a curve what belongs to it.
 std::string flags_at(const LaneMarks& marks, int frame) {
   std::string text;
   for (const FlightFlag& flag : marks.survey->flags) {
-    const bool is_reported_here = marks.lane == Lane::visibility_state || belongs_to(flag.fault, marks.lane);
+    const bool is_reported_here = marks.style.kind == LaneKind::strip || belongs_to(flag.fault, marks.style.lane);
     if (is_reported_here && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
       text.append(text.empty() ? "" : "\n").append(flag.text());
   }
   return text;
 }
 
-void list_colors() {
-  ImGui::Separator();
-  for (const VisibilityState visibility_state : {VisibilityState::in_view, VisibilityState::partly_occluded,
-                                                 VisibilityState::occluded, VisibilityState::out_of_view}) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = ImGui::GetFontSize();
-    ImGui::Dummy({side, side});
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F},
-                                              color_of(visibility_state));
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s",
-                        visibility_state == VisibilityState::in_view || visibility_state == VisibilityState::out_of_view
-                            ? name_of(visibility_state)
-                            : (std::string(name_of(visibility_state)) + " by the own body").c_str());
-  }
+// The coloured stretches of a strip.
+void draw_strip(ImDrawList& list, const LaneMarks& marks) {
+  if (marks.style.lane == Lane::visibility)
+    draw_visibility_strip(list, marks.strip, *marks.survey, marks.top_y, marks.height);
 }
 
-// The curve or the coloured stretches, the closest approach, and in red what no such aircraft could fly.
+// What the colours of a strip mean.
+void list_colors(Lane lane) {
+  if (lane == Lane::visibility) list_visibility_colors();
+}
+
+// The strip or the curve; with a curve the closest approach, and in red what no such aircraft could fly.
 void draw_lane_marks(ImDrawList& list, const LaneMarks& marks) {
   if (marks.survey == nullptr) {
     draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
     return;
   }
-  if (marks.lane == Lane::visibility_state) {
-    draw_visibility_states(list, marks);
+  if (marks.style.kind == LaneKind::strip) {
+    draw_strip(list, marks);
     return;
   }
   draw_flags(list, marks);
   draw_curve(list, marks);
-  if (marks.lane == Lane::distance) draw_closest(list, marks);
+  if (marks.style.lane == Lane::distance) draw_closest(list, marks);
 }
 
 void draw_value_dot(ImDrawList& list, const LaneMarks& marks, int frame) {
@@ -197,17 +170,13 @@ void draw_value_dot(ImDrawList& list, const LaneMarks& marks, int frame) {
   if (!value) return;
   const ImVec2 center{marks.strip.moment_x(frame), y_of(marks, *value)};
   list.AddCircleFilled(center, scaled(3.5), color::kPanel, 10);
-  list.AddCircleFilled(center, scaled(2.5), style_of(marks.lane).color, 10);
+  list.AddCircleFilled(center, scaled(2.5), marks.style.color, 10);
 }
 
 // The lane's value in words: "933 m", "in view"; "-" where it is not known.
 std::string lane_text_at(const LaneMarks& marks, int frame) {
-  if (marks.lane == Lane::visibility_state) {
-    const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
-    return index ? name_of(marks.survey->estimates[*index].visibility_state) : "-";
-  }
-  const std::optional<double> value = value_at(marks, frame);
-  return value ? value_text(marks.lane, *value) : "-";
+  if (marks.survey == nullptr || frame < marks.survey->first_frame) return "-";
+  return text_in(*marks.survey, marks.style.lane, static_cast<std::size_t>(frame - marks.survey->first_frame));
 }
 
 // A hair line at the frame below the mouse, with its value.
@@ -220,20 +189,25 @@ void draw_hover(ImDrawList& list, const LaneMarks& marks, int frame) {
   draw_label(list, marks, x, marks.top_y + marks.height / 2, color::kText, fmt::format("{} at {}", text, frame));
 }
 
-// Once the mouse has rested: over the lane of visibility all that is known of a frame, over curves why it is flagged.
+// Once the mouse has rested: over a strip all that is known of a frame and what the colours mean, over a curve why it
+// is flagged.
 void tooltip_for_lanes(const ViewContext& context, const LaneMarks& marks, int frame) {
   const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
   if (!index || !item_wants_tooltip()) return;
   const std::string flags = flags_at(marks, frame);
+  const bool is_strip = marks.style.kind == LaneKind::strip;
   // Over a curve its value stands beside the mouse already.
-  if (marks.lane != Lane::visibility_state && flags.empty()) return;
+  if (!is_strip && flags.empty()) return;
   ImGui::BeginTooltip();
-  if (marks.lane == Lane::visibility_state) {
+  if (is_strip) {
     ImGui::Text("frame %d   %s", frame, time_text_of(context, frame).c_str());
     list_values(*marks.survey, *index);
   }
   if (!flags.empty()) ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color::kBad), "%s", flags.c_str());
-  if (marks.lane == Lane::visibility_state) list_colors();
+  if (is_strip) {
+    ImGui::Separator();
+    list_colors(marks.style.lane);
+  }
   ImGui::EndTooltip();
 }
 
@@ -242,7 +216,7 @@ void tooltip_for_lanes(const ViewContext& context, const LaneMarks& marks, int f
 // One lane on the screen.
 struct LaneRows::Row {
   const TimelineStrip& strip;
-  Lane lane = Lane::visibility_state;
+  const LaneState& lane;
   float top_y = 0;
   float height = 0;
 };
@@ -262,7 +236,7 @@ float strip_height() {
 }
 
 // Title and value in one line; below, where there is room, what the values come to.
-void draw_lane_names(const TimelineStrip& strip, Lane lane, ImVec2 low, float height, const std::string& value,
+void draw_lane_names(const TimelineStrip& strip, const char* title, ImVec2 low, float height, const std::string& value,
                      const std::string& extent) {
   ImGui::PushFont(font(Font::small));
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -271,8 +245,8 @@ void draw_lane_names(const TimelineStrip& strip, Lane lane, ImVec2 low, float he
   const float text_height = line_height() * (two_lines ? 2 : 1);
   const float y = std::floor(low.y + std::min((height - text_height) / 2, scaled(4)));
   const float value_width = ImGui::CalcTextSize(value.c_str()).x;
-  const std::string title = elided(style_of(lane).title, right - value_width - strip.names_x - scaled(8));
-  list.AddText({strip.names_x + scaled(2), y}, color::kQuiet, title.c_str());
+  const std::string shown_title = elided(title, right - value_width - strip.names_x - scaled(8));
+  list.AddText({strip.names_x + scaled(2), y}, color::kQuiet, shown_title.c_str());
   list.AddText({right - value_width, y}, color::kText, value.c_str());
   if (two_lines) {
     const std::string shown = elided(extent, right - strip.names_x);
@@ -292,11 +266,14 @@ std::string extent_text(Lane lane, const LaneValues& values) {
 
 }  // namespace
 
+LaneRows::LaneRows() {
+  for (const LaneStyle& style : lane_styles()) lanes_.push_back({.style = style, .is_shown = style.shown_by_default});
+}
+
 void LaneRows::refresh(std::shared_ptr<const Survey> survey) {
   if (survey == survey_) return;
   survey_ = std::move(survey);
-  for (int lane = 0; lane < kLanes; ++lane)
-    values_[static_cast<std::size_t>(lane)] = survey_ ? values_of(*survey_, static_cast<Lane>(lane)) : LaneValues();
+  for (LaneState& lane : lanes_) lane.values = survey_ ? values_of(*survey_, lane.style.lane) : LaneValues();
 }
 
 bool LaneRows::shows_errors(const ViewContext& context) const {
@@ -305,17 +282,27 @@ bool LaneRows::shows_errors(const ViewContext& context) const {
 
 void LaneRows::draw_chooser(const ViewContext& context) {
   if (icon_button("lanes", Icon::settings, "choose the lanes below")) ImGui::OpenPopup("choose lanes");
+  context.ui_probe.note_item("timeline/lanes");
   if (!ImGui::BeginPopup("choose lanes")) return;
-  if (ErrorLane::has_any(context)) ImGui::Checkbox(ErrorLane::kTitle, &shows_errors_);
-  for (int lane = 0; lane < kLanes; ++lane)
-    ImGui::Checkbox(style_of(static_cast<Lane>(lane)).title, &shown_[static_cast<std::size_t>(lane)]);
+  const auto draw_choice = [&](const char* title, bool& is_shown) {
+    ImGui::Checkbox(title, &is_shown);
+    context.ui_probe.note_item(fmt::format("timeline/lanes/{}", title));
+  };
+  if (ErrorLane::has_any(context)) draw_choice(ErrorLane::kTitle, shows_errors_);
+  for (LaneState& lane : lanes_) draw_choice(lane.style.title, lane.is_shown);
   ImGui::EndPopup();
 }
 
 float LaneRows::curve_height(float room_px, bool with_errors) const {
-  const auto curves = static_cast<float>(std::count(shown_.begin() + 1, shown_.end(), true));
-  const float shares = curves + (with_errors ? kErrorsShare : 0);
-  const float for_curves = room_px - (shown_[0] ? strip_height() : 0);
+  float shares = with_errors ? kErrorsShare : 0;
+  float for_curves = room_px;
+  for (const LaneState& lane : lanes_) {
+    if (!lane.is_shown) continue;
+    if (lane.style.kind == LaneKind::strip)
+      for_curves -= strip_height();
+    else
+      shares += 1;
+  }
   if (shares == 0) return 0;
   return std::floor(std::clamp(for_curves / shares, scaled(kMinCurve_px), scaled(kMaxCurve_px)));
 }
@@ -323,25 +310,25 @@ float LaneRows::curve_height(float room_px, bool with_errors) const {
 void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const {
   const ImVec2 low{row.strip.left(), row.top_y};
   const ImVec2 high{row.strip.right(), row.top_y + row.height};
-  const LaneValues& values = values_[static_cast<std::size_t>(row.lane)];
+  const LaneStyle& style = row.lane.style;
   ImGui::SetCursorScreenPos({row.strip.names_x, row.top_y});
   ImGui::Dummy({row.strip.names_width, row.height});
-  tooltip_for_item(style_of(row.lane).help);
+  tooltip_for_item(style.help);
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("lane", {std::max(1.0F, high.x - low.x), row.height});
-  context.ui_probe.note_item(std::string("timeline/lane/") + style_of(row.lane).title);
+  context.ui_probe.note_item(fmt::format("timeline/lane/{}", style.title));
   ruler.scrub_on_item(context, row.strip);
   const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
 
   const LaneMarks marks{.strip = row.strip,
-                        .lane = row.lane,
+                        .style = style,
+                        .values = row.lane.values,
                         .survey = survey_.get(),
-                        .values = values,
                         .top_y = row.top_y,
                         .height = row.height - 1};
   const int playhead = context.document.playhead();
-  draw_lane_names(row.strip, row.lane, {row.strip.names_x, row.top_y}, row.height, lane_text_at(marks, playhead),
-                  extent_text(row.lane, values));
+  draw_lane_names(row.strip, style.title, {row.strip.names_x, row.top_y}, row.height, lane_text_at(marks, playhead),
+                  extent_text(style.lane, row.lane.values));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(low, high, true);
   draw_lane_marks(list, marks);
@@ -370,15 +357,13 @@ void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, floa
     errors_.draw(context, strip, y, height, ruler);
     y += height;
   }
-  for (int i = 0; i < kLanes; ++i) {
-    if (!shown_[static_cast<std::size_t>(i)]) continue;
-    const auto lane = static_cast<Lane>(i);
-    const Row row{
-        .strip = strip, .lane = lane, .top_y = y, .height = lane == Lane::visibility_state ? strip_height() : curve};
-    ImGui::PushID(i);
-    draw_lane(context, row, ruler);
+  for (const LaneState& lane : lanes_) {
+    if (!lane.is_shown) continue;
+    const float height = lane.style.kind == LaneKind::strip ? strip_height() : curve;
+    ImGui::PushID(lane.style.title);
+    draw_lane(context, {.strip = strip, .lane = lane, .top_y = y, .height = height}, ruler);
     ImGui::PopID();
-    y += row.height;
+    y += height;
   }
   ImGui::SetCursorScreenPos({start.x, y});
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <memory>
+#include <vector>
 
 #include "editor/views/timeline/error_lane.h"
 #include "editor/views/timeline/lane_values.h"
@@ -14,6 +14,9 @@ namespace sigs::editor {
 // well trackers follow it, where their results are loaded. Pressing or dragging on a lane moves the playhead.
 class LaneRows {
  public:
+  // Shows the lanes that are shown by default.
+  LaneRows();
+
   // A button at the cursor, with a popup in which lanes are switched on and off.
   void draw_chooser(const ViewContext& context);
 
@@ -22,6 +25,13 @@ class LaneRows {
   void draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler);
 
  private:
+  // What is kept of a lane from one update to the next.
+  struct LaneState {
+    LaneStyle style;
+    bool is_shown;
+    // Of survey_.
+    LaneValues values = {};
+  };
   struct Row;
 
   // Takes the values of another survey; null: none is known.
@@ -31,12 +41,10 @@ class LaneRows {
   [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
   void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const;
 
-  // By Lane.
-  std::array<bool, kLanes> shown_{true, true, true, true, false, false};
-  bool shows_errors_ = true;  // where there are any
+  std::vector<LaneState> lanes_;  // one for each of lane_styles(), in its order
+  bool shows_errors_ = true;      // where there are any
   ErrorLane errors_;
-  std::shared_ptr<const Survey> survey_;     // of the current intruder
-  std::array<LaneValues, kLanes> values_{};  // of that survey
+  std::shared_ptr<const Survey> survey_;  // of the current intruder
 };
 
 }  // namespace sigs::editor

@@ -39,7 +39,20 @@ TEST_CASE("an intruder that is never in view has an empty lane of sizes") {
   CHECK(values_of(Survey(), Lane::speed).values.empty());
 }
 
-using namespace sigs::editor;
+TEST_CASE("a strip has words instead of values, and a frame beyond the survey has neither") {
+  Survey survey;
+  survey.estimates = {{.distance_m = 933, .visibility_state = VisibilityState::in_view},
+                      {.distance_m = 12.3, .visibility_state = VisibilityState::partly_occluded}};
+  CHECK(values_of(survey, Lane::visibility).values.empty());
+  CHECK(text_in(survey, Lane::visibility, 1) == "partly hidden");
+  CHECK(text_in(survey, Lane::distance, 0) == "933 m");
+  CHECK(text_in(survey, Lane::distance, 1) == "12.3 m");
+  for (const LaneStyle& style : lane_styles()) CHECK(text_in(survey, style.lane, 2) == "-");
+}
+
+TEST_CASE("a lane is found by its name, wherever it stands in the list") {
+  for (const LaneStyle& style : lane_styles()) CHECK(style_of(style.lane).title == style.title);
+}
 
 namespace {
 
