@@ -42,6 +42,7 @@ struct SettingText {
   const char* key;
   const char* value;
   const char* help;
+  bool is_threshold = false;  // of labels
 };
 
 constexpr SettingText kSettings[] = {
@@ -50,10 +51,15 @@ constexpr SettingText kSettings[] = {
     {"--container", "export.video.container", "NAME", "mkv, mp4 or avi"},
     {"--method", "compositing.method", "NAME", "direct, classic or plain"},
     {"--masks", "export.masks", "NAME", "video, png or none"},
-    {"--min-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible; not for xml, csv"},
+    {"--min-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible", true},
     {"--min-visible", "export.label_least_visible_fraction", "F",
-     "no label where less of the intruder is visible, 0 to 1; not for xml, csv"},
+     "no label where less of the intruder is visible, 0 to 1", true},
 };
+
+std::string help_of(const SettingText& setting) {
+  if (!setting.is_threshold) return setting.help;
+  return fmt::format("{}; not for {}", setting.help, listed(names_without_thresholds()));
+}
 
 std::string label_names() {
   std::string names;
@@ -176,7 +182,7 @@ Command add_export_command(CLI::App& program) {
       ->check(output_path());
   command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
   for (const SettingText& setting : kSettings)
-    command->add_option(setting.option, options->settings[setting.key], setting.help)->option_text(setting.value);
+    command->add_option(setting.option, options->settings[setting.key], help_of(setting))->option_text(setting.value);
   command
       ->add_option("--labels", options->labels,
                    fmt::format("annotation formats, separated by commas: {}; none", label_names()))

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "base/text.h"
 #include "editor/widgets/dialog.h"
@@ -116,10 +117,16 @@ void draw_label_format(const ViewContext& context, const LabelFormat& format) {
   tooltip_for_item(std::string(format.help).c_str());
 }
 
-// xml and csv leave nothing out.
 bool has_thresholds(const ExportSettings& output) {
-  return std::any_of(output.labels.begin(), output.labels.end(),
-                     [](const std::string& label) { return label != "xml" && label != "csv"; });
+  return std::any_of(output.labels.begin(), output.labels.end(), [](const std::string& label) {
+    const LabelFormat* const format = label_format(label);
+    return format != nullptr && format->has_thresholds;
+  });
+}
+
+// Which labels a threshold leaves out, and which formats it does not apply to.
+std::string threshold_help(std::string_view left_out) {
+  return fmt::format("No label where {}; {} leave nothing out", left_out, listed(names_without_thresholds(), " and "));
 }
 
 void draw_thresholds(const ViewContext& context) {
@@ -132,7 +139,7 @@ void draw_thresholds(const ViewContext& context) {
         "export least pixels");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   context.ui_probe.note_item("export/least pixels");
-  tooltip_for_item("No label where fewer pixels show the intruder; xml and csv leave nothing out");
+  tooltip_for_item(threshold_help("fewer pixels show the intruder").c_str());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(scaled(150));
   auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
@@ -143,7 +150,7 @@ void draw_thresholds(const ViewContext& context) {
         "export least visible");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   context.ui_probe.note_item("export/least visible");
-  tooltip_for_item("No label where less of the intruder can be seen; xml and csv leave nothing out");
+  tooltip_for_item(threshold_help("less of the intruder can be seen").c_str());
 }
 
 }  // namespace

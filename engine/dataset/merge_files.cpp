@@ -7,6 +7,7 @@
 #include "base/staged_outputs.h"
 #include "dataset/merge_labels.h"
 #include "labels/label_files.h"
+#include "labels/label_text.h"
 #include "project/json_reading.h"
 
 // The formats that have one file for each split: COCO, AOT and CSV. All of them are put together from the label files
@@ -18,10 +19,6 @@ namespace sigs {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 constexpr const char* kUnreadableLabels = "cannot be put together: labels of a video are not as sigs writes them";
 
@@ -48,7 +45,7 @@ class List {
   Result<void> put(const Json& item) {
     const std::string before = is_first_ ? "\n" : ",\n";
     is_first_ = false;
-    return out_.put(before + text_of(item));
+    return out_.put(before + json_line(item));
   }
 
  private:
@@ -104,13 +101,13 @@ class CocoMerge {
               .image = next.image + static_cast<std::int64_t>(coco->at("images").size())};
     }
     info["description"] = labels_.dataset + " " + labels_.split;
-    Result<void> step = out_.put("{\n\"info\": " + text_of(info) + ",\n\"licenses\": [],\n\"videos\": [");
+    Result<void> step = out_.put("{\n\"info\": " + json_line(info) + ",\n\"licenses\": [],\n\"videos\": [");
     List list(out_);
     for (const Json& video : videos)
       if (step) step = list.put(video);
     if (!step) return step;
-    return out_.put(fmt::format("\n],\n\"categories\": {},\n\"tracks\": {},\n\"annotations\": [", text_of(categories),
-                                text_of(tracks)));
+    return out_.put(fmt::format("\n],\n\"categories\": {},\n\"tracks\": {},\n\"annotations\": [", json_line(categories),
+                                json_line(tracks)));
   }
 
   Result<void> put_annotations() {
@@ -158,9 +155,9 @@ Result<void> put_flights(const SplitLabels& labels, TextFile& out) {
     if (!aot) return fail(aot.error());
     for (const auto& [name, flight] : aot->at("samples").items()) {
       const std::string before =
-          is_first ? "{\"metadata\": " + text_of(aot->at("metadata")) + ",\n\"samples\": {" : ",\n";
+          is_first ? "{\"metadata\": " + json_line(aot->at("metadata")) + ",\n\"samples\": {" : ",\n";
       is_first = false;
-      Result<void> step = out.put(before + text_of(Json(name)) + ": {\"metadata\": " + text_of(flight.at("metadata")) +
+      Result<void> step = out.put(before + json_string(name) + ": {\"metadata\": " + json_line(flight.at("metadata")) +
                                   ",\n\"entities\": [");
       List entities(out);
       for (const Json& entity : flight.at("entities"))

@@ -45,8 +45,10 @@ struct SplitLabels {
   std::vector<VideoLabels> videos;  // in the plan's order, one at least
 };
 
-// One function for each format. Memory grows with the labels of one video, not with the number of videos. Errors:
-// bad_data where a file is not as this program writes it, cannot_read, cannot_create, write_failed.
+// One function for each format. Merged records of two videos differ by what the format has for that: ids numbered on
+// (coco), the name of the flight (aot) or sequence (csv), a file or folder with the video's name (mot, kitti, vot,
+// yolo). Memory grows with the labels of one video, not with the number of videos. Errors: bad_data where a file is not
+// as this program writes it, cannot_read, cannot_create, write_failed.
 
 // One file. Ids of videos, tracks, images and annotations are numbered on from video to video; file names of images
 // begin at the dataset's folder.

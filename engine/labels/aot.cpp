@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -16,11 +15,6 @@
 namespace sigs {
 
 namespace {
-
-// A text as a JSON string, with its quotes; bytes that are not UTF-8 become U+FFFD.
-std::string json_string(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 // "Airplane1": the category with a capital letter, as in the data set, and the intruder's number from 1, with an
 // underscore between them where the category ends in a digit.

@@ -20,11 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVideoId = 1;
 
-// On one line; bytes that are not UTF-8 become U+FFFD.
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 // To the digits of the other formats.
 double rounded(double number) {
   ENSURE(std::isfinite(number));
@@ -97,15 +92,15 @@ class CocoLabels : public LabelWriter {
   }
 
   Result<void> begin() {
-    return file_.put("{\n\"info\": " + dumped(info_of(sequence_)) + ",\n\"licenses\": [],\n\"videos\": [\n" +
-                     dumped(video_of(sequence_)) + "\n],\n\"categories\": " + dumped(categories_of(sequence_)) +
-                     ",\n\"tracks\": " + dumped(tracks()) + ",\n\"annotations\": [");
+    return file_.put("{\n\"info\": " + json_line(info_of(sequence_)) + ",\n\"licenses\": [],\n\"videos\": [\n" +
+                     json_line(video_of(sequence_)) + "\n],\n\"categories\": " + json_line(categories_of(sequence_)) +
+                     ",\n\"tracks\": " + json_line(tracks()) + ",\n\"annotations\": [");
   }
 
   Result<void> write(const FrameTruth& truth) override {
     const int frame = truth.index - sequence_.footage.first_frame;
     const int image_id = frame + 1;
-    images_ += (images_.empty() ? "\n" : ",\n") + dumped(image_of(truth, frame, image_id));
+    images_ += (images_.empty() ? "\n" : ",\n") + json_line(image_of(truth, frame, image_id));
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds))
         if (const Result<void> put = put_annotation(annotation_of(intruder, image_id)); !put) return put;
@@ -174,7 +169,7 @@ class CocoLabels : public LabelWriter {
   Result<void> put_annotation(const Json& annotation) {
     Json numbered{{"id", ++annotations_}};
     numbered.update(annotation);
-    return file_.put((annotations_ == 1 ? "\n" : ",\n") + dumped(numbered));
+    return file_.put((annotations_ == 1 ? "\n" : ",\n") + json_line(numbered));
   }
 
   TextFile file_;

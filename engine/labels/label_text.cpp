@@ -115,7 +115,7 @@ std::string escaped_text(std::string_view text, std::string_view also) {
 // A double-quoted scalar of YAML has JSON's escapes, except for surrogate pairs of \u, which YAML does not join. So
 // other characters are written as they are, except for those that YAML forbids: what XML forbids, DEL, the C1 controls.
 std::string yaml_text(std::string_view text) {
-  const std::string quoted = nlohmann::json(xml_text(text)).dump();
+  const std::string quoted = json_string(xml_text(text));
   std::string out;
   for (std::size_t i = 0; i < quoted.size(); ++i) {
     const auto byte = static_cast<unsigned char>(quoted[i]);
@@ -127,6 +127,14 @@ std::string yaml_text(std::string_view text) {
       out += quoted[i];
   }
   return out;
+}
+
+std::string json_string(std::string_view text) {
+  return json_line(nlohmann::ordered_json(text));
+}
+
+std::string json_line(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void add_element(pugi::xml_node node, const char* name, const std::string& text) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -47,6 +48,11 @@ inline constexpr int kLabelPixelDecimals = 4;
 // A text as a double-quoted scalar of YAML 1.2, with its quotes. Characters that XML forbids become U+FFFD, as in
 // xml_text.
 [[nodiscard]] std::string yaml_text(std::string_view text);
+
+// A text as a JSON string (RFC 8259), with its quotes, and a JSON value; both on one line. Bytes that are not UTF-8
+// become U+FFFD.
+[[nodiscard]] std::string json_string(std::string_view text);
+[[nodiscard]] std::string json_line(const nlohmann::ordered_json& json);
 
 // Appends <name>text</name> to the children of a node; the text goes through xml_text.
 void add_element(pugi::xml_node node, const char* name, const std::string& text);

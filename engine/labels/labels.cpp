@@ -12,18 +12,63 @@ namespace sigs {
 
 namespace {
 
+// engine/labels/README.md lists what else a format needs.
 constexpr LabelFormat kFormats[] = {
-    {"xml", ".xml", false, "SIGS annotations: everything, docs/annotation-format.md", open_sigs_xml, {}, false},
-    {"coco", ".coco.json", false,
-     "COCO instances JSON: run-length masks, video and track ids, own body as crowd region", open_coco},
-    {"yolo", ".yolo", true, "YOLO folder: one text file an image, data.yaml", open_yolo, kYoloFiles},
-    {"voc", ".voc", true, "Pascal VOC folder: one XML file an image", open_voc, kVocFiles},
-    {"mot", ".mot", true, "MOTChallenge folder: gt.txt, seqinfo.ini, seqmaps", open_mot, kMotFiles},
-    {"kitti", ".kitti", true, "KITTI tracking folder: label_02, calib", open_kitti, kKittiFiles},
-    {"cvat", ".cvat.xml", false, "CVAT for video XML 1.1: a track for each intruder", open_cvat, {}, false},
-    {"vot", ".vot", true, "VOT folder: sequence, groundtruth.txt, list.txt", open_vot, kVotFiles},
-    {"aot", ".aot.json", false, "Airborne Object Tracking ground truth JSON: range, side of the horizon", open_aot},
-    {"csv", ".csv", false, "one row for each intruder and frame", open_csv, {}, false},
+    {.name = "xml",
+     .suffix = ".xml",
+     .help = "SIGS annotations: everything, docs/annotation-format.md",
+     .open = open_sigs_xml,
+     .names_images = false,
+     .has_thresholds = false},
+    {.name = "coco",
+     .suffix = ".coco.json",
+     .help = "COCO instances JSON: run-length masks, video and track ids, own body as crowd region",
+     .open = open_coco},
+    {.name = "yolo",
+     .suffix = ".yolo",
+     .is_folder = true,
+     .help = "YOLO folder: one text file an image, data.yaml",
+     .open = open_yolo,
+     .files = kYoloFiles},
+    {.name = "voc",
+     .suffix = ".voc",
+     .is_folder = true,
+     .help = "Pascal VOC folder: one XML file an image",
+     .open = open_voc,
+     .files = kVocFiles},
+    {.name = "mot",
+     .suffix = ".mot",
+     .is_folder = true,
+     .help = "MOTChallenge folder: gt.txt, seqinfo.ini, seqmaps",
+     .open = open_mot,
+     .files = kMotFiles},
+    {.name = "kitti",
+     .suffix = ".kitti",
+     .is_folder = true,
+     .help = "KITTI tracking folder: label_02, calib",
+     .open = open_kitti,
+     .files = kKittiFiles},
+    {.name = "cvat",
+     .suffix = ".cvat.xml",
+     .help = "CVAT for video XML 1.1: a track for each intruder",
+     .open = open_cvat,
+     .names_images = false},
+    {.name = "vot",
+     .suffix = ".vot",
+     .is_folder = true,
+     .help = "VOT folder: sequence, groundtruth.txt, list.txt",
+     .open = open_vot,
+     .files = kVotFiles},
+    {.name = "aot",
+     .suffix = ".aot.json",
+     .help = "Airborne Object Tracking ground truth JSON: range, side of the horizon",
+     .open = open_aot},
+    {.name = "csv",
+     .suffix = ".csv",
+     .help = "one row for each intruder and frame",
+     .open = open_csv,
+     .names_images = false,
+     .has_thresholds = false},
 };
 
 }  // namespace
@@ -59,6 +104,13 @@ const LabelFormat* label_format(std::string_view name) {
   const auto found =
       std::find_if(std::begin(kFormats), std::end(kFormats), [&](const LabelFormat& f) { return f.name == name; });
   return found == std::end(kFormats) ? nullptr : found;
+}
+
+std::vector<std::string_view> names_without_thresholds() {
+  std::vector<std::string_view> names;
+  for (const LabelFormat& format : kFormats)
+    if (!format.has_thresholds) names.push_back(format.name);
+  return names;
 }
 
 }  // namespace sigs

@@ -18,7 +18,8 @@ namespace sigs {
 
 // Labels of all frames of an export, in formats that trackers, detectors and annotation tools read.
 
-// An intruder is left out of a frame's labels where less of it is visible. The formats xml and csv leave nothing out.
+// An intruder is left out of a frame's labels where less of it is visible. Formats without LabelFormat::has_thresholds
+// leave nothing out.
 struct LabelThresholds {
   int min_pixels = 1;               // IntruderTruth::visible_pixels
   double min_visible_fraction = 0;  // IntruderTruth::visible_fraction
@@ -88,7 +89,8 @@ struct LabelFormat {
   // with these files and refuses one with any other.
   std::span<const std::string_view> files{};
 
-  bool names_images = true;  // whether its readers look for numbered images, one for each frame
+  bool names_images = true;    // whether its readers look for numbered images, one for each frame
+  bool has_thresholds = true;  // whether it leaves intruders out (is_labelled); else it contains all of them
 };
 
 // All formats, in the order in which the help lists them.
@@ -96,5 +98,8 @@ struct LabelFormat {
 
 // The format of this name; nullptr: there is none.
 [[nodiscard]] const LabelFormat* label_format(std::string_view name);
+
+// The names of the formats that leave nothing out, in the same order, for texts about the thresholds.
+[[nodiscard]] std::vector<std::string_view> names_without_thresholds();
 
 }  // namespace sigs

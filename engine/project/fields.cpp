@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "project/json_reading.h"
 
 namespace sigs {
@@ -142,8 +143,9 @@ void add_output(FieldList list, ExportSettings& output) {
   list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
   list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "",
            "opacity of the intruders, as video or images");
-  list.add("labels", &output.labels, "",
-           "annotation formats to write: xml, coco, yolo, voc, mot, kitti, cvat, vot, aot, csv");
+  static const std::string label_help = "annotation formats to write: " + listed(kLabelNames);  // a Field keeps no copy
+  list.add("labels", &output.labels, "", label_help);
+  // Formats that leave nothing out are those without LabelFormat::has_thresholds (engine/labels/labels.h).
   list.number("label_least_pixels", &output.label_least_pixels, "px", 1, 1e9,
               "fewer visible pixels: no label; xml and csv leave nothing out");
   list.number("label_least_visible_fraction", &output.label_least_visible_fraction, "", 0, 1,

@@ -161,9 +161,10 @@ enum class CodecChoice { ffv1, h264, mjpeg, png };
 enum class ContainerChoice { automatic, mkv, mp4, avi };
 enum class MasksChoice { none, video, png };
 
-// The label formats that export.labels may contain.
-inline constexpr std::array<std::string_view, 10> kLabelNames{"xml",   "coco", "yolo", "voc", "mot",
-                                                              "kitti", "cvat", "vot",  "aot", "csv"};
+// The label formats that export.labels may contain: the names of the table in engine/labels/labels.cpp, in its order.
+// They are repeated because this module may not include labels; tests/labels/labels_test.cpp compares them.
+inline constexpr auto kLabelNames =
+    std::to_array<std::string_view>({"xml", "coco", "yolo", "voc", "mot", "kitti", "cvat", "vot", "aot", "csv"});
 
 // What an export writes. crf: quality of h264, 0 (lossless) to 51. The two thresholds leave out labels of intruders
 // with fewer visible pixels, or a smaller visible share.

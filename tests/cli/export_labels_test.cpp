@@ -3,14 +3,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "labels/labels.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -20,7 +26,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAll = "xml,coco,yolo,voc,mot,kitti,cvat,vot,aot,csv";
+bool always(const LabelFormat&) {
+  return true;
+}
+
+bool is_folder(const LabelFormat& format) {
+  return format.is_folder;
+}
+
+// The formats for which this is true, as --labels takes them: "xml,coco".
+std::string names_where(bool (*is_wanted)(const LabelFormat&), std::string_view separator = ",") {
+  std::vector<std::string_view> names;
+  for (const LabelFormat& format : label_formats())
+    if (is_wanted(format)) names.push_back(format.name);
+  return listed(names, separator);
+}
+
+std::string all_names() {
+  return names_where(always);
+}
+
+// The file or folder that an export of the tiny project writes in this format.
+std::string output_of(const LabelFormat& format) {
+  return std::string("tiny").append(format.suffix);
+}
 
 int lines_of(const fs::path& path) {
   const std::string text = read_text(path).value();
@@ -37,15 +66,16 @@ std::string sigs_export(const TinyProject& tiny, const std::string& options) {
 
 TEST_CASE("an export writes every format that is asked for and names what it wrote") {
   const TinyProject tiny;
-  const std::string out = sigs_export(tiny, std::string("--masks none --labels ") + kAll);
+  const std::string out = sigs_export(tiny, "--masks none --labels " + all_names());
   std::set<std::string> names;
   std::istringstream in(out);
   for (std::string line; std::getline(in, line);) {
     CHECK(fs::exists(line));
     names.insert(fs::path(line).filename());
   }
-  CHECK(names == std::set<std::string>{"tiny.mkv", "tiny.xml", "tiny.coco.json", "tiny.yolo", "tiny.voc", "tiny.mot",
-                                       "tiny.kitti", "tiny.cvat.xml", "tiny.vot", "tiny.aot.json", "tiny.csv"});
+  std::set<std::string> expected{"tiny.mkv"};
+  for (const LabelFormat& format : label_formats()) expected.insert(output_of(format));
+  CHECK(names == expected);
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1")));
 }
 
@@ -57,53 +87,66 @@ TEST_CASE("labels that name images which a video's export does not write give a 
     CHECK_MESSAGE(run.status == 0, run.err);
     return run.err;
   };
-  const std::string video = warning("--codec h264 --labels coco,xml,voc");
-  CHECK_MESSAGE(video.find("coco, voc") != std::string::npos, video);
+  const auto names_images = [](const LabelFormat& format) { return format.names_images; };
+  const auto names_no_images = [](const LabelFormat& format) { return !format.names_images; };
+  const std::string video = warning("--codec h264 --labels " + all_names());
+  CHECK_MESSAGE(video.find(names_where(names_images, ", ")) != std::string::npos, video);
   CHECK_MESSAGE(video.find("png") != std::string::npos, video);
-  CHECK(warning("--codec h264 --labels xml,csv,cvat").empty());
-  CHECK(warning("--codec png --labels coco,voc").empty());
+  CHECK(warning("--codec h264 --labels " + names_where(names_no_images)).empty());
+  CHECK(warning("--codec png --labels " + all_names()).empty());
 }
 
 TEST_CASE("numbered images are in the folders of labels as hard links to the same files") {
   const TinyProject tiny;
-  sigs_export(tiny, "--codec png --masks none --frames 4-6 --labels mot,kitti,vot,voc,yolo");
+  sigs_export(tiny, "--codec png --masks none --frames 4-6 --labels " + names_where(is_folder));
   const fs::path image = tiny.file("out/tiny/frame_000004.png");
-  for (const char* name :
-       {"tiny.mot/tiny/img1/000001.png", "tiny.kitti/image_02/tiny/000000.png", "tiny.vot/tiny/color/00000001.png",
-        "tiny.voc/JPEGImages/frame_000004.png", "tiny.yolo/images/tiny/frame_000004.png"})
-    CHECK_MESSAGE(fs::equivalent(image, tiny.file("out") / name), name);
+  const std::map<std::string_view, std::string> first_images{{"mot", "tiny/img1/000001.png"},
+                                                             {"kitti", "image_02/tiny/000000.png"},
+                                                             {"vot", "tiny/color/00000001.png"},
+                                                             {"voc", "JPEGImages/frame_000004.png"},
+                                                             {"yolo", "images/tiny/frame_000004.png"}};
+  for (const LabelFormat& format : label_formats()) {
+    if (!format.is_folder) continue;
+    REQUIRE_MESSAGE(first_images.contains(format.name), format.name << ": which is its first image?");
+    CHECK_MESSAGE(fs::equivalent(image, tiny.file("out") / output_of(format) / first_images.at(format.name)),
+                  format.name);
+  }
   CHECK(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000003.png")));
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000004.png")));
 }
 
 TEST_CASE("folders of labels are replaced with --force, unless they contain a foreign file") {
   const TinyProject tiny;
-  const std::string labels = "--codec png --masks none --labels yolo,voc,mot,kitti,vot";
+  const std::string labels = "--codec png --masks none --labels " + names_where(is_folder);
   sigs_export(tiny, labels);
   sigs_export(tiny, labels + " --force --frames 0-3");
   CHECK_FALSE(fs::exists(tiny.file("out/tiny.mot/tiny/img1/000005.png")));
-  for (const char* folder : {"tiny.yolo", "tiny.voc", "tiny.mot", "tiny.kitti", "tiny.vot"}) {
-    const fs::path own = tiny.file("out") / folder / "notes.md";
+  for (const LabelFormat& format : label_formats()) {
+    if (!format.is_folder) continue;
+    const fs::path own = tiny.file("out") / output_of(format) / "notes.md";
     write_file(own, "mine");
     const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --force " + labels);
-    CHECK_MESSAGE(run.status == 73, folder);
+    CHECK_MESSAGE(run.status == 73, format.name);
     CHECK_MESSAGE(run.err.find("notes.md") != std::string::npos, run.err);
     fs::remove(own);
   }
 }
 
-TEST_CASE("thresholds remove boxes from labels but not from xml or csv") {
+TEST_CASE("thresholds remove boxes from labels, except where a format has none") {
   const TinyProject tiny;
   const fs::path mot = tiny.file("out/tiny.mot/tiny/gt/gt.txt");
-  sigs_export(tiny, "--masks none --labels xml,csv,mot");
+  const std::string options = "--masks none --labels " + all_names();
+  sigs_export(tiny, options);
   const int all = lines_of(mot);
-  const int rows = lines_of(tiny.file("out/tiny.csv"));
-  const int xml = lines_of(tiny.file("out/tiny.xml"));
+  const auto before = contents_of(tiny.out());
   CHECK(all > 0);
-  sigs_export(tiny, "--masks none --labels xml,csv,mot --force --min-pixels 100000");
+  sigs_export(tiny, options + " --force --min-pixels 100000");
   CHECK(lines_of(mot) == 0);
-  CHECK(lines_of(tiny.file("out/tiny.csv")) == rows);
-  CHECK(lines_of(tiny.file("out/tiny.xml")) == xml);
+  const auto after = contents_of(tiny.out());
+  for (const LabelFormat& format : label_formats())
+    if (!format.is_folder)
+      CHECK_MESSAGE((after.at(output_of(format)) != before.at(output_of(format))) == format.has_thresholds,
+                    format.name);
   sigs_export(tiny, "--masks none --labels mot --force --min-visible 0");
   CHECK(lines_of(mot) == all);
 }
@@ -133,7 +176,7 @@ TEST_CASE("an unusual name of a project is kept in its labels") {
   const std::string name = "it's \\\"a\\\" & <b> \xC3\xBC, 100%";
   TinyProject odd(3);
   odd.change("\"name\": \"tiny\"", "\"name\": \"" + name + "\"");
-  sigs_export(odd, std::string("--codec png --masks none --labels ") + kAll);
+  sigs_export(odd, "--codec png --masks none --labels " + all_names());
   const std::string written = "it's \"a\" & <b> \xC3\xBC, 100%";
   CHECK(fs::exists(odd.file("out") / (written + ".mot") / written / "gt" / "gt.txt"));
   CHECK(fs::exists(odd.file("out") / (written + ".vot") / written / "color" / "00000003.png"));

@@ -34,6 +34,12 @@ class Labelled {
   TinyPlan tiny;
 };
 
+// The formats that are not merged over videos, and why.
+const std::map<std::string, std::string> kNotMerged{
+    {"xml", "its <footage> is one for the whole file"},
+    {"voc", "its images lie in one folder, and those of two videos have the same names"},
+    {"cvat", "its tracks are those of one video"}};
+
 }  // namespace
 
 TEST_CASE("COCO labels of a split have every image and annotation of its videos, with ids of their own") {
@@ -152,8 +158,24 @@ TEST_CASE("YOLO's data.yaml names folders of images that are there, each beside 
   CHECK(rest == "nc: 2");
 }
 
+TEST_CASE("every format has merged labels of each split, or a reason why not") {
+  const Labelled made({kLabelNames.begin(), kLabelNames.end()}, CodecChoice::png);
+  for (const std::string_view format : kLabelNames) {
+    const bool is_merged = fs::exists(made.labels() / format);
+    CHECK_MESSAGE(is_merged != kNotMerged.contains(std::string(format)),
+                  format << ": kMergers in engine/dataset/merge_labels.cpp, or kNotMerged here");
+    if (!is_merged) continue;
+    std::string files;
+    for (const auto& [file, text] : contents_of(made.labels() / format)) files.append(file).append(text);
+    for (const char* const split : {"train", "test"})
+      CHECK_MESSAGE(files.find(split) != std::string::npos, format << " " << split);
+  }
+}
+
 TEST_CASE("formats that do not span videos, and none at all, give no labels folder") {
-  CHECK_FALSE(fs::exists(Labelled({"xml", "voc", "cvat"}).labels()));
+  std::vector<std::string> names;
+  for (const auto& [format, reason] : kNotMerged) names.push_back(format);
+  CHECK_FALSE(fs::exists(Labelled(names).labels()));
 }
 
 TEST_CASE("merged labels are the same whoever merges them, and go with the formats") {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace sigs::test {
@@ -51,6 +52,24 @@ TEST_CASE("frame rates as ratios and as whole numbers above 0") {
 TEST_CASE("the number of frames of a range includes its last one") {
   CHECK(frame_count({.first_frame = 140, .last_frame = 142}) == 3);
   CHECK(rate_hz({.frame_rate_num = 25, .frame_rate_den = 2}) == 12.5);
+}
+
+TEST_CASE("a JSON string is one line of UTF-8 that reads back as the text") {
+  for (const std::string text : {"", "say \"hello\"", "two\nlines\r", "back\\slash", "M\xC3\xBCller", "\x01"}) {
+    const std::string json = json_string(text);
+    CHECK(json.find_first_of("\r\n") == std::string::npos);
+    CHECK(nlohmann::json::parse(json) == text);
+    CHECK(json_line(nlohmann::ordered_json(text)) == json);
+  }
+  CHECK(json_string("M\xC3\xBCller") == "\"M\xC3\xBCller\"");
+  CHECK(json_string("a\xFFz") == "\"a" + kReplacement + "z\"");
+}
+
+TEST_CASE("a JSON value is one line with its members in their order") {
+  nlohmann::ordered_json json{{"z", 1}, {"a", {1.5, nullptr}}};
+  CHECK(json_line(json) == R"({"z":1,"a":[1.5,null]})");
+  json["a"] = "\xFF";
+  CHECK(json_line(json) == R"({"z":1,"a":")" + kReplacement + R"("})");
 }
 
 TEST_CASE("markup is escaped, and what else the caller names") {

@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "labels/label_text.h"
 #include "labels/label_writing.h"
+#include "project/fields.h"
 #include "project/project.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -21,7 +25,9 @@ using namespace labels;
 TEST_CASE("the formats that a project may ask for are those that can be written, in one order") {
   std::vector<std::string_view> names;
   for (const LabelFormat& format : label_formats()) names.push_back(format.name);
-  CHECK(names == std::vector<std::string_view>(kLabelNames.begin(), kLabelNames.end()));
+  CHECK_MESSAGE(names == std::vector<std::string_view>(kLabelNames.begin(), kLabelNames.end()),
+                "kFormats of engine/labels/labels.cpp: "
+                    << listed(names) << "; kLabelNames of engine/project/project.h: " << listed(kLabelNames));
 }
 
 TEST_CASE("a format is found by its name alone") {
@@ -62,6 +68,34 @@ TEST_CASE("every format writes a clip without any intruder and one of a single f
     write_labels(std::string(format.name), folder / "one", synthetic_sequence(5, 5, {"airplane"}),
                  {frame_of(5, {invisible_intruder(0)})});
     CHECK(std::filesystem::exists(folder / "one"));
+  }
+}
+
+TEST_CASE("thresholds change a file exactly where its format says that it has them") {
+  const std::vector<FrameTruth> frames{frame_of(0, {visible_intruder(0, {1, 1, 3, 2})})};
+  const auto written = [&](const LabelFormat& format, const LabelThresholds& thresholds) {
+    const TemporaryFolder folder;
+    LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
+    clip.thresholds = thresholds;
+    write_labels(std::string(format.name), folder / "l", clip, frames);
+    return format.is_folder ? contents_of(folder / "l")
+                            : std::map<std::string, std::string>{{"l", text_of(folder / "l")}};
+  };
+  for (const LabelFormat& format : label_formats()) {
+    const bool differs = written(format, {}) != written(format, {.min_pixels = 7, .min_visible_fraction = 1});
+    CHECK_MESSAGE(differs == format.has_thresholds, format.name << " in engine/labels/labels.cpp");
+  }
+}
+
+TEST_CASE("the help of the thresholds' settings names the formats that have none") {
+  Project project;
+  for (const Field& field : fields_of(project)) {
+    if (!field.key.starts_with("export.label_least_")) continue;
+    const std::string_view formats = field.help.substr(field.help.find(';') + 1);
+    for (const LabelFormat& format : label_formats())
+      CHECK_MESSAGE((formats.find(format.name) == std::string_view::npos) == format.has_thresholds,
+                    format.name << ": has_thresholds in engine/labels/labels.cpp, " << field.key
+                                << " in engine/project/fields.cpp");
   }
 }
 
