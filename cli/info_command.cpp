@@ -99,8 +99,7 @@ void print_video(const VideoInfo& video) {
 
 void print_camera(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
-  std::printf("calibration: %s, %zu coefficients%s\n",
-              lens.model == LensModel::kannala_brandt ? "Kannala-Brandt fisheye" : "Brown-Conrady",
+  std::printf("calibration: %s%s, %zu coefficients%s\n", name_of(lens.model), is_fisheye(lens.model) ? " fisheye" : "",
               lens.coefficients.size(), camera.lens.is_pinhole() ? " (a plain pinhole)" : "");
   std::printf("size: %s\n", image_size_text(camera.size_px).c_str());
   std::printf("fx fy cx cy: %.6g %.6g %.6g %.6g px\n", lens.fx, lens.fy, lens.cx, lens.cy);

@@ -49,15 +49,21 @@ std::string state_the_size() {
   return "; state the size that it was made for (image_width, image_height) in the file";
 }
 
+// The angle that a side of the image sees without distortion, as far as the model's middle tells.
 double field_rad(const LensParameters& lens, double focal_px, int side_px) {
-  if (lens.model == LensModel::kannala_brandt) return side_px / focal_px;
-  return 2 * std::atan(side_px / (2 * focal_px));
+  switch (lens.model) {
+    case LensModel::brown_conrady:
+      return 2 * std::atan(side_px / (2 * focal_px));
+    case LensModel::kannala_brandt:
+      return side_px / focal_px;
+  }
+  return 0;
 }
 
 // For one side of the image; empty where the focal length is plausible.
 std::string focal_length_warning(const LensParameters& lens, double focal_px, int side_px, const char* name) {
   const double field_of_view_rad = field_rad(lens, focal_px, side_px);
-  const double widest_rad = lens.model == LensModel::kannala_brandt ? kWidestFisheye_rad : kWidestPinhole_rad;
+  const double widest_rad = is_fisheye(lens.model) ? kWidestFisheye_rad : kWidestPinhole_rad;
   if (field_of_view_rad >= kNarrowest_rad && field_of_view_rad <= widest_rad) return "";
   return fmt::format(
       "{} is {:.6g} px, with which {} px see {} degrees; a focal length is stated in pixels (millimetres times pixels "

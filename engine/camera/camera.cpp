@@ -50,6 +50,17 @@ const Field* found(const Fields& fields, Names names) {
   return nullptr;
 }
 
+// The model in warnings, by the words of calibration files and of footage.lens_model.
+const char* word_for(LensModel model) {
+  switch (model) {
+    case LensModel::brown_conrady:
+      return name_of(model);
+    case LensModel::kannala_brandt:
+      return "fisheye";
+  }
+  return "";
+}
+
 // Reads the fields by the keys that docs/calibration-files.md lists. Its messages name the file and, where one is at
 // fault, the field.
 struct Reader {
@@ -58,7 +69,7 @@ struct Reader {
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
   [[nodiscard]] Result<void> check_numbers(const Field& field) const;
-  [[nodiscard]] Result<std::optional<bool>> stated_fisheye() const;
+  [[nodiscard]] Result<std::optional<LensModel>> stated_model() const;
   [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
   [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
   [[nodiscard]] Result<void> choose_model(LensParameters& lens, std::optional<LensModel> wanted,
@@ -77,24 +88,25 @@ Result<void> Reader::check_numbers(const Field& field) const {
   return {};
 }
 
-// Whether the file states a fisheye: by OpenCV's flag, or by the name of a model as ROS and Kalibr write it. Nothing
-// where the file states neither.
-Result<std::optional<bool>> Reader::stated_fisheye() const {
+// The model that the file states: by OpenCV's flag, or by a name as ROS and Kalibr write it. Where they disagree the
+// flag is taken, except that a flag of 0 yields to a name. Nothing where the file states neither.
+Result<std::optional<LensModel>> Reader::stated_model() const {
   constexpr std::array<std::string_view, 6> kBrown{"plumb_bob", "rational_polynomial", "thin_prism",
                                                    "radtan",    "brown_conrady",       "none"};
   constexpr std::array<std::string_view, 5> kFisheye{"equidistant", "fisheye", "kannala_brandt", "kannala_brandt4",
                                                      "opencv_fisheye"};
   const Field* flag = found(fields, kFisheyeNames);
   if (flag != nullptr) {
-    if (flag->text == "true" || flag->text == "True") return true;
-    if (flag->text == "false" || flag->text == "False") return false;
+    if (flag->text == "true" || flag->text == "True") return LensModel::kannala_brandt;
+    if (flag->text == "false" || flag->text == "False") return LensModel::brown_conrady;
     if (flag->numbers.size() != 1 || flag->not_a_number) return fail(where(*flag), "expected 0 or 1");
-    if (flag->numbers.front() != 0) return true;
+    if (flag->numbers.front() != 0) return LensModel::kannala_brandt;
   }
   const Field* model = found(fields, kModelNames);
-  if (model == nullptr || model->text.empty()) return flag == nullptr ? std::nullopt : std::optional(false);
-  if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return true;
-  if (std::ranges::find(kBrown, model->text) != kBrown.end()) return false;
+  if (model == nullptr || model->text.empty())
+    return flag == nullptr ? std::nullopt : std::optional(LensModel::brown_conrady);
+  if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return LensModel::kannala_brandt;
+  if (std::ranges::find(kBrown, model->text) != kBrown.end()) return LensModel::brown_conrady;
   return fail(
       where(*model),
       fmt::format("distortion model '{}' is not supported; plumb_bob, rational_polynomial, equidistant and fisheye are",
@@ -133,16 +145,13 @@ Result<void> Reader::read_coefficients(LensParameters& lens) const {
 // The model that is wanted, else the one that the file states, else the one that its coefficients suggest.
 Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel> wanted,
                                   std::vector<Warning>& warnings) const {
-  const auto name_of = [](LensModel model) { return model == LensModel::kannala_brandt ? "fisheye" : "Brown-Conrady"; };
-  const Result<std::optional<bool>> fisheye = stated_fisheye();
-  if (!fisheye) return fail(fisheye.error());
-  std::optional<LensModel> stated;
-  if (*fisheye) stated = **fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
-  if (wanted || stated) {
-    lens.model = wanted ? *wanted : *stated;
-    if (wanted && stated && *wanted != *stated)
+  const Result<std::optional<LensModel>> stated = stated_model();
+  if (!stated) return fail(stated.error());
+  if (wanted || *stated) {
+    lens.model = wanted ? *wanted : **stated;
+    if (wanted && *stated && *wanted != **stated)
       warnings.push_back({file, fmt::format("says that it is of the {} model; it is read as {}, as asked for",
-                                            name_of(*stated), name_of(*wanted))});
+                                            word_for(**stated), word_for(*wanted))});
     return {};
   }
   const AssumedModel assumed = assumed_model(lens.coefficients);
@@ -153,7 +162,7 @@ Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel>
          fmt::format("four coefficients can be Brown-Conrady (k1 k2 p1 p2) or fisheye (k1 k2 k3 k4), and the file does "
                      "not say which; read as {}, since {}: set footage.lens_model to brown_conrady or fisheye, or "
                      "fisheye_model to 0 or 1 in the file",
-                     name_of(assumed.model), assumed.why)});
+                     word_for(assumed.model), assumed.why)});
   return {};
 }
 
@@ -233,8 +242,9 @@ Result<Camera> camera_from(const Fields& fields, const std::string& file_name, s
   Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, to_px, stretch, file_name, warnings);
   if (!scaled) return fail(scaled.error());
   Result<Lens> made = Lens::make(*std::move(scaled));
-  // The matrix is correct by now: only the coefficients can still be wrong.
-  if (!made) return fail(reader.where(*found(fields, kCoefficientNames)), made.error().what);
+  // The matrix was correct before it was scaled: the coefficients are wrong, or scaling made a number infinite.
+  const Field* coefficients = found(fields, kCoefficientNames);
+  if (!made) return fail(coefficients != nullptr ? reader.where(*coefficients) : matrix, made.error().what);
   for (const std::string& warning : matrix_warnings(made->parameters(), to_px, own_size_px->has_value()))
     warnings.push_back({matrix, warning});
   return Camera{.lens = *std::move(made), .size_px = to_px, .warnings = std::move(warnings)};

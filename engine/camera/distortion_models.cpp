@@ -134,6 +134,22 @@ glm::dvec2 BrownConrady::stretch(const glm::dvec2& p) {
   return {secant_squared, std::sqrt(secant_squared)};
 }
 
+std::optional<glm::dvec2> EquidistantPlane::plane_of(const glm::dvec3& p_optical) {
+  const double off_axis = std::hypot(p_optical.x, p_optical.y);
+  if (off_axis == 0) return p_optical.z > 0 ? std::optional(glm::dvec2{0, 0}) : std::nullopt;
+  const double theta_rad = std::atan2(off_axis, p_optical.z);
+  return glm::dvec2{p_optical.x / off_axis, p_optical.y / off_axis} * theta_rad;
+}
+
+glm::dvec3 EquidistantPlane::ray_of(const glm::dvec2& p) {
+  const double theta_rad = glm::length(p);
+  return {p * sine_over(theta_rad), std::cos(theta_rad)};
+}
+
+glm::dvec2 EquidistantPlane::stretch(const glm::dvec2& p) {
+  return {1, 1 / sine_over(glm::length(p))};
+}
+
 KannalaBrandt KannalaBrandt::of(std::span<const double> coefficients) {
   KannalaBrandt model;
   for (std::size_t i = 0; i < coefficients.size() && i < model.k.size(); ++i) model.k[i] = coefficients[i];
@@ -156,22 +172,6 @@ glm::dmat2 KannalaBrandt::jacobian(const glm::dvec2& p) const {
   const double factor = 1 + u * (k[0] + u * (k[1] + u * (k[2] + u * k[3])));
   const double slope = k[0] + u * (2 * k[1] + u * (3 * k[2] + u * 4 * k[3]));  // of the factor, by u
   return factor * glm::dmat2{1} + 2 * slope * glm::outerProduct(p, p);
-}
-
-std::optional<glm::dvec2> KannalaBrandt::plane_of(const glm::dvec3& p_optical) {
-  const double off_axis = std::hypot(p_optical.x, p_optical.y);
-  if (off_axis == 0) return p_optical.z > 0 ? std::optional(glm::dvec2{0, 0}) : std::nullopt;
-  const double theta_rad = std::atan2(off_axis, p_optical.z);
-  return glm::dvec2{p_optical.x / off_axis, p_optical.y / off_axis} * theta_rad;
-}
-
-glm::dvec3 KannalaBrandt::ray_of(const glm::dvec2& p) {
-  const double theta_rad = glm::length(p);
-  return {p * sine_over(theta_rad), std::cos(theta_rad)};
-}
-
-glm::dvec2 KannalaBrandt::stretch(const glm::dvec2& p) {
-  return {1, 1 / sine_over(glm::length(p))};
 }
 
 }  // namespace sigs::distortion

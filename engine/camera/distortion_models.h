@@ -10,10 +10,10 @@
 
 namespace sigs::distortion {
 
-// The formulas of the two lens models. Each maps points p of an undistorted plane to a distorted plane, from which
+// The formulas of the lens models. Each maps points p of an undistorted plane to a distorted plane, from which
 // focal length and principal point lead to pixels: pixel = focal * distorted(p) + center. The undistorted plane is the
 // model's own; plane_of() and ray_of() convert between it and directions in OpenCV's optical frame (x right, y down, z
-// forward). Neither model checks whether p lies in the field on which it is one to one: see valid_field.h.
+// forward). No model checks whether p lies in the field on which it is one to one: see valid_field.h.
 
 // The distortion model of OpenCV's calib3d (Brown 1966, Conrady 1919, with the rational, thin prism and tilted sensor
 // terms). Its plane is the image plane at distance 1: p = (x / z, y / z), so that |p| is the tangent of the angle from
@@ -59,11 +59,23 @@ struct BrownConrady {
   [[nodiscard]] static glm::dvec2 stretch(const glm::dvec2& p);
 };
 
-// The fisheye model of OpenCV (Kannala and Brandt 2006, equation 6 without the asymmetric terms). Its plane is the
-// equidistant one: p points from the axis towards the direction, and its length is the angle theta from the axis in
-// radians, so that directions beside and behind the camera have points too.
+// The undistorted plane of fisheye models, the equidistant one: p points from the axis towards the direction, and its
+// length is the angle theta from the axis in radians, so that directions beside and behind the camera have points too.
+struct EquidistantPlane {
+  // The plane's point of a direction (any length). Nothing for the zero vector and for the direction exactly backwards,
+  // whose image is a whole circle.
+  [[nodiscard]] static std::optional<glm::dvec2> plane_of(const glm::dvec3& p_optical);
+
+  // The unit direction of a point of the plane.
+  [[nodiscard]] static glm::dvec3 ray_of(const glm::dvec2& p);
+
+  // How fast p moves when the direction turns, per radian: along the radius (x) and perpendicular to it (y).
+  [[nodiscard]] static glm::dvec2 stretch(const glm::dvec2& p);
+};
+
+// The fisheye model of OpenCV (Kannala and Brandt 2006, equation 6 without the asymmetric terms).
 //   distorted = p (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)
-struct KannalaBrandt {
+struct KannalaBrandt : EquidistantPlane {
   std::array<double, 4> k{};
 
   // The model of coefficients k1 k2 k3 k4. Missing ones are zero.
@@ -75,16 +87,6 @@ struct KannalaBrandt {
   // The whole model, and its Jacobian (column i: the derivative by p[i]).
   [[nodiscard]] glm::dvec2 distorted(const glm::dvec2& p) const;
   [[nodiscard]] glm::dmat2 jacobian(const glm::dvec2& p) const;
-
-  // The plane's point of a direction (any length). Nothing for the zero vector and for the direction exactly backwards,
-  // whose image is a whole circle.
-  [[nodiscard]] static std::optional<glm::dvec2> plane_of(const glm::dvec3& p_optical);
-
-  // The unit direction of a point of the plane.
-  [[nodiscard]] static glm::dvec3 ray_of(const glm::dvec2& p);
-
-  // How fast p moves when the direction turns, per radian: along the radius (x) and perpendicular to it (y).
-  [[nodiscard]] static glm::dvec2 stretch(const glm::dvec2& p);
 };
 
 }  // namespace sigs::distortion

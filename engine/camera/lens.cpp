@@ -137,19 +137,31 @@ bool is_finite(const glm::dvec3& v) {
 }
 
 bool has_count(LensModel model, std::size_t count) {
-  constexpr std::array<std::size_t, 6> kCounts{0, 4, 5, 8, 12, 14};
-  if (model == LensModel::kannala_brandt) return count == 4;
-  return std::ranges::find(kCounts, count) != kCounts.end();
+  constexpr std::array<std::size_t, 6> kBrownConrady{0, 4, 5, 8, 12, 14};
+  switch (model) {
+    case LensModel::brown_conrady:
+      return std::ranges::find(kBrownConrady, count) != kBrownConrady.end();
+    case LensModel::kannala_brandt:
+      return count == 4;
+  }
+  return false;
+}
+
+// What has_count() accepts.
+const char* counts_text(LensModel model) {
+  switch (model) {
+    case LensModel::brown_conrady:
+      return "0, 4, 5, 8, 12 or 14 distortion";
+    case LensModel::kannala_brandt:
+      return "4 fisheye";
+  }
+  return "";
 }
 
 // What is wrong with the parameters; empty where they are valid.
 std::string fault(const LensParameters& p) {
   const std::size_t count = p.coefficients.size();
-  if (!has_count(p.model, count)) {
-    const bool fisheye = p.model == LensModel::kannala_brandt;
-    return fmt::format("expected {} coefficients, found {}", fisheye ? "4 fisheye" : "0, 4, 5, 8, 12 or 14 distortion",
-                       count);
-  }
+  if (!has_count(p.model, count)) return fmt::format("expected {} coefficients, found {}", counts_text(p.model), count);
   if (!is_finite({p.fx, p.fy}) || !is_finite({p.cx, p.cy})) return "focal length and principal point must be finite";
   if (!(p.fx > 0 && p.fy > 0)) return "the focal length must be positive";
   if (!std::ranges::all_of(p.coefficients, [](double c) { return std::isfinite(c); }))
@@ -162,6 +174,26 @@ std::string fault(const LensParameters& p) {
 
 }  // namespace
 
+const char* name_of(LensModel model) {
+  switch (model) {
+    case LensModel::brown_conrady:
+      return "Brown-Conrady";
+    case LensModel::kannala_brandt:
+      return "Kannala-Brandt";
+  }
+  return "";
+}
+
+bool is_fisheye(LensModel model) {
+  switch (model) {
+    case LensModel::brown_conrady:
+      return false;
+    case LensModel::kannala_brandt:
+      return true;
+  }
+  return false;
+}
+
 Lens::Lens(LensParameters parameters, Model model)
     : parameters_(std::move(parameters)),
       model_(std::move(model)),
@@ -169,10 +201,18 @@ Lens::Lens(LensParameters parameters, Model model)
 
 Result<Lens> Lens::make(LensParameters parameters) {
   if (std::string wrong = fault(parameters); !wrong.empty()) return fail("", std::move(wrong));
-  Model model = parameters.model == LensModel::kannala_brandt
-                    ? Model{distortion::KannalaBrandt::of(parameters.coefficients)}
-                    : Model{distortion::BrownConrady::of(parameters.coefficients)};
+  Model model = model_of(parameters);
   return Lens(std::move(parameters), std::move(model));
+}
+
+Lens::Model Lens::model_of(const LensParameters& parameters) {
+  switch (parameters.model) {
+    case LensModel::brown_conrady:
+      return distortion::BrownConrady::of(parameters.coefficients);
+    case LensModel::kannala_brandt:
+      return distortion::KannalaBrandt::of(parameters.coefficients);
+  }
+  return {};
 }
 
 // The direction's point on the model's undistorted plane, if it lies within the field.
@@ -240,12 +280,23 @@ double Lens::pixels_per_radian(const glm::dvec3& direction_in_camera) const {
 }
 
 double Lens::valid_angle_rad() const {
-  return std::holds_alternative<distortion::BrownConrady>(model_) ? std::atan(field_.radius) : field_.radius;
+  switch (parameters_.model) {
+    case LensModel::brown_conrady:
+      return std::atan(field_.radius);
+    case LensModel::kannala_brandt:
+      return field_.radius;
+  }
+  return 0;
 }
 
 bool Lens::is_pinhole() const {
-  return parameters_.model == LensModel::brown_conrady &&
-         std::ranges::all_of(parameters_.coefficients, [](double c) { return c == 0; });
+  switch (parameters_.model) {
+    case LensModel::brown_conrady:
+      return std::ranges::all_of(parameters_.coefficients, [](double c) { return c == 0; });
+    case LensModel::kannala_brandt:
+      return false;
+  }
+  return false;
 }
 
 }  // namespace sigs

@@ -17,6 +17,12 @@ enum class LensModel {
   kannala_brandt,  // OpenCV fisheye: 4 coefficients k1 k2 k3 k4
 };
 
+// The model's name for people, by its authors: "Brown-Conrady", "Kannala-Brandt".
+[[nodiscard]] const char* name_of(LensModel model);
+
+// Whether its images reach 90 degrees from the axis and beyond: those of a fisheye do, those of a pinhole do not.
+[[nodiscard]] bool is_fisheye(LensModel model);
+
 // The intrinsics of a camera. Pixels as in base/image.h: the centre of the first pixel is (0, 0).
 struct LensParameters {
   LensModel model = LensModel::brown_conrady;
@@ -57,6 +63,7 @@ class Lens {
 
  private:
   using Model = std::variant<distortion::BrownConrady, distortion::KannalaBrandt>;
+  [[nodiscard]] static Model model_of(const LensParameters& parameters);
   Lens(LensParameters parameters, Model model);
 
   [[nodiscard]] glm::dvec2 focal() const { return {parameters_.fx, parameters_.fy}; }

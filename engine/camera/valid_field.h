@@ -11,7 +11,7 @@ namespace sigs::distortion {
 
 // The disk of a model's undistorted plane on which the model is one to one.
 struct Field {
-  // |p| < radius: a tangent (Brown-Conrady) or an angle in radians (Kannala-Brandt), as in the model's plane.
+  // |p| < radius: a tangent (Brown-Conrady) or an angle in radians (on the equidistant plane), as in the model's plane.
   double radius = std::numeric_limits<double>::infinity();
   // Image of the disk's rim before the tilt: a closed polygon, its corners in order. Empty for models that keep
   // circles.

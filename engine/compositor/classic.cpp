@@ -46,12 +46,16 @@ FixedMap undistorting_map(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
   const cv::Matx33d matrix = matrix_of(lens);
   FixedMap map;
-  if (lens.model == LensModel::kannala_brandt)
-    cv::fisheye::initUndistortRectifyMap(matrix, lens.coefficients, cv::Matx33d::eye(), matrix, camera.size_px,
-                                         CV_16SC2, map.pixels, map.shares);
-  else
-    cv::initUndistortRectifyMap(matrix, lens.coefficients, cv::noArray(), matrix, camera.size_px, CV_16SC2, map.pixels,
-                                map.shares);
+  switch (lens.model) {
+    case LensModel::brown_conrady:
+      cv::initUndistortRectifyMap(matrix, lens.coefficients, cv::noArray(), matrix, camera.size_px, CV_16SC2,
+                                  map.pixels, map.shares);
+      break;
+    case LensModel::kannala_brandt:
+      cv::fisheye::initUndistortRectifyMap(matrix, lens.coefficients, cv::Matx33d::eye(), matrix, camera.size_px,
+                                           CV_16SC2, map.pixels, map.shares);
+      break;
+  }
   return map;
 }
 

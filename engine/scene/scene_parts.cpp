@@ -97,8 +97,15 @@ OrProblem<FrameRange> scene_range(const FootageSettings& settings, const Footage
 }
 
 std::optional<LensModel> lens_model_of(LensModelChoice choice) {
-  if (choice == LensModelChoice::automatic) return std::nullopt;
-  return choice == LensModelChoice::fisheye ? LensModel::kannala_brandt : LensModel::brown_conrady;
+  switch (choice) {
+    case LensModelChoice::automatic:
+      return std::nullopt;
+    case LensModelChoice::brown_conrady:
+      return LensModel::brown_conrady;
+    case LensModelChoice::fisheye:
+      return LensModel::kannala_brandt;
+  }
+  return std::nullopt;
 }
 
 OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {

@@ -155,12 +155,12 @@ void draw_video(const Footage& footage, const FieldRows& rows) {
 
 std::string lens_text(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
-  const std::string model = lens.model == LensModel::brown_conrady ? "Brown-Conrady" : "Kannala-Brandt (fisheye)";
+  const char* const kind = is_fisheye(lens.model) ? " (fisheye)" : "";
   const std::string distortion =
       camera.lens.is_pinhole() ? "no distortion" : fmt::format("{} coefficients", lens.coefficients.size());
   const double valid_deg = std::min(180.0, deg_of_rad(camera.lens.valid_angle_rad()));
-  return fmt::format("{}, {}, {}\nfocal length {} x {} px\nvalid to {} from the axis",
-                     image_size_text(camera.size_px, " x "), model, distortion,
+  return fmt::format("{}, {}{}, {}\nfocal length {} x {} px\nvalid to {} from the axis",
+                     image_size_text(camera.size_px, " x "), name_of(lens.model), kind, distortion,
                      number_text(std::round(lens.fx * 10) / 10), number_text(std::round(lens.fy * 10) / 10),
                      number_text(std::round(valid_deg * 10) / 10, "deg"));
 }
