@@ -3,12 +3,14 @@
 
 #include <imgui.h>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
-#include "base/staged_outputs.h"
 #include "editor/app/shortcuts.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
@@ -40,6 +42,18 @@ std::vector<HelpLine> help_lines() {
   std::vector<HelpLine> lines;
   for (const Shortcut& shortcut : shortcuts()) lines.push_back({shortcut.group, shortcut.keys, shortcut.what});
   return lines;
+}
+
+// Readers find the whole of the old or the new text. It need not be on the disk: nobody reads it after a crash, and
+// waiting for the disk in every update would slow down what is watched.
+bool replace_at_once(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::ofstream out(part, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code code;
+  if (out) std::filesystem::rename(part, file, code);
+  return out && !code;
 }
 
 }  // namespace
@@ -78,7 +92,7 @@ void ProbeWriter::write(const Document& document, const PreviewOutput& shown, co
   const std::string text = json.dump();
   if (text == last_) return;
   json["turn"] = update_;
-  if (write_text(file_, json.dump() + "\n", true)) last_ = text;
+  if (replace_at_once(file_, json.dump() + "\n")) last_ = text;
 }
 
 App::App(Window& window, Settings settings, ProbeWriter probe)
