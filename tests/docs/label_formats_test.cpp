@@ -15,12 +15,12 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-const char* const kHeader =
+const char* const kTableHeader =
     "| format | written | frames counted | pixel convention of boxes | track ids | class numbers | own body | left out "
     "|";
 
 std::vector<Row> rows() {
-  return table_rows(page("label-formats.md"), kHeader);
+  return table_rows(page("label-formats.md"), kTableHeader);
 }
 
 // What its row has in the column "written".
