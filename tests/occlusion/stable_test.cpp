@@ -88,11 +88,11 @@ TEST_CASE("an intermediate verdict changes nothing, nor does the number of threa
     if (n % 37 == 5) CHECK(method->verdict(KeepStages::no).own_body.size() == kSize);
   }
   cv::setNumThreads(1);
-  const Verdict frames_checked = method->verdict(KeepStages::no);
+  const Verdict checked = method->verdict(KeepStages::no);
   cv::setNumThreads(threads);
   const Verdict verdict = verdict_after(flight, kFrames);
-  CHECK(is_same(frames_checked.own_body, verdict.own_body));
-  CHECK(is_same(frames_checked.confidence, verdict.confidence));
+  CHECK(is_same(checked.own_body, verdict.own_body));
+  CHECK(is_same(checked.confidence, verdict.confidence));
 }
 
 TEST_CASE("confidence agrees with the mask, and the stages are images of the footage's size") {
