@@ -10,13 +10,13 @@ sigs_packages_programs=(
   g++ cmake ninja-build pkg-config
   libopencv-dev libopencv-contrib-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libglm-dev libtinyobjloader-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
-  nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev
+  nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev libeigen3-dev libgeographiclib-dev
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
 )
-# doctest; Embree for the reference renderer; FFmpeg's and libxml2's programs as independent checks; Xvfb and xdotool for the
+# doctest; Embree for the reference renderer; FFmpeg's, GeographicLib's and libxml2's programs as independent checks; Xvfb and xdotool for the
 # window; gnuplot for plots of reports; Slurm for a dataset made by an array job.
 sigs_packages_tests=(
-  doctest-dev libembree-dev ffmpeg libxml2-utils xvfb xdotool gnuplot-nox
+  doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool gnuplot-nox
   slurmctld slurmd slurm-client munge
 )
 

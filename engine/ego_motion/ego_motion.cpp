@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/ego_motion.h"

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "geo/geodetic.h"
+
+namespace sigs {
+
+// One quantity over time, as a log has it. Each channel has its own instants; an empty one is not in the log.
+template <class T>
+struct Channel {
+  std::string source;                // its name in the file: "GPMF GYRO", "vehicle_attitude", "F.PRY"; empty: not there
+  std::vector<double> times_s = {};  // on the track's time axis (Track), not falling
+  std::vector<T> values = {};        // one for each time; finite
+  std::vector<double> own_times_s = {};  // the stamps that the file has, in seconds of the channel's own clock, one for
+                                         // each value; empty: the file has none, times_s are derived (see `clock`)
+  std::string clock = {};  // what the times come from: "footage", "time since boot", "UTC", "frame number"
+
+  [[nodiscard]] bool empty() const { return values.empty(); }
+};
+
+// A flight as a log tells it, in neutral units and axes, whatever the format. NED: north, east, down, tangent to the
+// ellipsoid at the place. Camera and airframe axes: X forward (along the optical axis, out of the nose), Y right, Z
+// down (docs/frames-and-units.md).
+//
+// Time axis: of logs inside a video, and of subtitles, the footage's own: 0 is the presentation time of its frame 0.
+// Of all others seconds since the first stamp of the file.
+struct Track {
+  std::filesystem::path file;
+  std::string format;  // "GoPro GPMF", "DJI subtitles", "PX4 ULog", "ArduPilot dataflash", "MISB ST 0601", "CSV"
+  std::string device;  // as the file names it; empty: it does not
+  bool on_footage_time = false;              // the time axis is the footage's
+  std::optional<double> utc_at_zero_s = {};  // UTC of time 0, seconds since 1970 without leap seconds
+  bool heading_is_north = true;              // false: yaw 0 is an arbitrary heading, as that of a camera alone
+
+  Channel<GeodeticPosition> position = {};
+  bool height_above_ellipsoid = false;            // false: above the sea, above the start or not known; see warnings
+  Channel<glm::dvec3> local_position_ned_m = {};  // from an origin of the log's own
+  Channel<glm::dvec3> velocity_ned_mps = {};
+  Channel<glm::dquat> ned_from_airframe = {};       // attitude of the aircraft
+  Channel<glm::dquat> ned_from_camera = {};         // attitude of the gimbal or camera
+  Channel<glm::dvec3> camera_attitude_sd_rad = {};  // standard deviation of ned_from_camera: small turns about the
+                                                    // camera's X, Y and Z
+  Channel<glm::dquat> start_from_camera = {};       // camera against its own attitude at the start (GPMF CORI)
+  Channel<glm::dquat> camera_from_image = {};       // what in-camera stabilisation turned the image by (GPMF IORI)
+  Channel<glm::dvec3> camera_rate_radps = {};       // angular rate about the camera's axes
+  Channel<glm::dvec3> airframe_rate_radps = {};
+  Channel<glm::dvec3> camera_force_mps2 = {};  // specific force (what an accelerometer measures) along camera axes
+  Channel<glm::dvec3> airframe_force_mps2 = {};
+  Channel<glm::dvec3> camera_gravity = {};  // unit vector downwards in camera axes (GPMF GRAV)
+  Channel<double> exposure_s = {};
+  std::optional<double> readout_s = {};  // of the rolling shutter, first to last row
+
+  // What is wrong or doubtful, each with its channel and time: GPS without fix, places at 0/0, jumps of the clock,
+  // gaps, samples that were left out. Samples that a warning names as unsound are not in the channels unless the
+  // reading was told to keep them (ReadTrackOptions).
+  std::vector<Warning> warnings = {};
+  bool damaged = false;  // the file is cut off or broken: what stands before the damage is here
+};
+
+}  // namespace sigs

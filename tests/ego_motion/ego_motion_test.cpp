@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/ego_motion.h"
+
+#include <doctest/doctest.h>
