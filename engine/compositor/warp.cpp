@@ -51,7 +51,8 @@ int nearest_source(std::span<const Source> sources, const glm::dvec3& ray) {
 // One row of pixels after the other, with the corners' rays on both sides of it.
 class Warper {
  public:
-  Warper(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target) : lens_(lens), target_(target) {
+  Warper(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target, const TurnOfRow& turn_of_row)
+      : lens_(lens), target_(target), turn_of_row_(turn_of_row) {
     for (const RenderedView& drawn : views) sources_.push_back(source_of(drawn));
   }
 
@@ -71,6 +72,9 @@ class Warper {
   void find_lower_rays(int j) {
     const std::span<const glm::dvec3> rays = lens_.corner_rays(target_.x, target_.y + j, target_.width + 1);
     lower_.assign(rays.begin(), rays.end());
+    if (!turn_of_row_) return;
+    const RowMotion::Turn turn = turn_of_row_(target_.y + j - 0.5);
+    for (glm::dvec3& ray : lower_) ray = turn * ray;
   }
 
   // Pixels that ask the same source, one run after the other.
@@ -100,6 +104,7 @@ class Warper {
 
   LensTable& lens_;
   cv::Rect target_;
+  const TurnOfRow& turn_of_row_;
   std::vector<Source> sources_;
   std::vector<glm::dvec3> upper_;
   std::vector<glm::dvec3> lower_;
@@ -107,9 +112,10 @@ class Warper {
 
 }  // namespace
 
-Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target) {
+Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
+             const TurnOfRow& turn_of_row) {
   ENSURE(!views.empty());
-  return Warper(views, lens, target).layer();
+  return Warper(views, lens, target, turn_of_row).layer();
 }
 
 Layer warped(std::span<const RenderedView> views, const Camera& camera, const cv::Rect& target) {

@@ -7,6 +7,7 @@
 #include "base/image.h"
 #include "camera/camera.h"
 #include "camera/lens_table.h"
+#include "camera/row_motion.h"
 #include "camera/virtual_camera.h"
 
 namespace sigs {
@@ -22,7 +23,10 @@ struct RenderedView {
 // (compositor/area_mean.h). Pixels that have no ray stay empty. Several views (the faces of a cube around the camera)
 // must not overlap in direction; each pixel asks the one whose axis its upper left ray is nearest to. Energy is kept:
 // the sum over pixels is the sum over the view, times the ratio of their pixel areas.
-[[nodiscard]] Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target);
+//   turn_of_row  of a rolling shutter: where the rays of a row lead in the views; null: as they are. Rows count in
+//                pixels of target, so the upper edge of row y is y - 0.5
+[[nodiscard]] Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
+                           const TurnOfRow& turn_of_row = nullptr);
 
 // The same through a table that is made for this one layer.
 [[nodiscard]] Layer warped(std::span<const RenderedView> views, const Camera& camera, const cv::Rect& target);

@@ -50,6 +50,12 @@ std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vecto
   return all;
 }
 
+CameraTruth camera_truth(const Scene& scene, const SceneMoment& moment) {
+  return {.position_source = scene.motion.source.position,
+          .attitude_source = scene.motion.source.attitude,
+          .attitude_sd_rad = attitude_sd_at(scene.motion.deviations, moment.time_s)};
+}
+
 FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, const ComposedFrame& composed,
                     const std::vector<IntruderLayers>& far_to_near) {
   return {.index = frame,
@@ -57,8 +63,17 @@ FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, co
           .substituted = composed.image.damaged,
           .camera_position_m = moment.world_from_camera.translation_m,
           .camera_attitude = attitude_of(moment.world_from_camera.rotation),
+          .camera = camera_truth(scene, moment),
           .intruders = measured(measured_layers(scene, far_to_near), composed.mask,
                                 scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt)};
+}
+
+// Places of the camera and of the intruders on the Earth.
+void add_places(const Scene& scene, const SceneMoment& moment, FrameTruth& truth) {
+  if (!scene.earth) return;
+  truth.camera.place = scene.earth->place_of(moment.world_from_camera.translation_m);
+  for (IntruderTruth& intruder : truth.intruders)
+    intruder.place = scene.earth->place_of(moment.world_from_camera * intruder.position_m);
 }
 
 }  // namespace
@@ -67,7 +82,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
                                        ComposeContext& context, const ColorInfo& footage) {
   LensTable& lens = context.lens_of(compositing_camera(scene));
   const std::int64_t evaluations_before = lens.evaluations();
-  IntruderLayers layers = placed_layers(scene, placed, lens.camera());
+  IntruderLayers layers = placed_layers(scene, moment, placed, lens.camera());
   const RenderPlan plan = render_plan_for(layers, lens, scene, moment);
   if (!plan.views.empty()) {
     const Result<Renderer*> renderer = context.renderer();
@@ -75,7 +90,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     Result<std::vector<RenderedView>> views = rendered_views(plan.views, plan, scene, layers, **renderer);
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
-    layers.warped = warped(layers.views, lens, plan.warp_rect);
+    layers.warped = warped(layers.views, lens, plan.warp_rect, turn_of_row(layers));
     const cv::Rect image({0, 0}, scene.footage.size_px);
     if (is_visible_after_blur(layers.warped, layers.sigma_px, footage))
       layers.blurred = needs_blurred_layers(scene) ? blurred_within(layers.warped, layers.sigma_px, image)
@@ -105,6 +120,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   }
   ComposedFrame composed = composited(std::move(background), scene, far_to_near, context, stages);
   composed.truth = truth_of(scene, moment, frame, composed, far_to_near);
+  add_places(scene, moment, composed.truth);
   for (const IntruderLayers& layers : far_to_near) {
     composed.op_counts += layers.op_counts;
     composed.times.draw_s += layers.draw_s;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "camera/row_motion.h"
 #include "compositor/warp.h"
 #include "frame/composed_frame.h"
 #include "scene/scene_at.h"
@@ -15,6 +16,7 @@ namespace sigs {
 // One intruder of one frame on its way from the mesh to the image. Each member is filled by one stage, in this order.
 struct IntruderLayers {
   PlacedIntruder placed;
+  std::optional<RowMotion> row_motion;   // of a rolling shutter; none where all rows are read at once
   std::optional<Silhouette> silhouette;  // of the model's points through the lens
   double sigma_px = 0;                   // of the blur at this distance
   std::vector<RenderedView> views;       // empty where no part of it can be in the image

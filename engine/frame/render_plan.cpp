@@ -59,6 +59,14 @@ cv::Rect warp_rect_of(const std::optional<Box>& bounds, int blur_px, cv::Size im
   return bounds ? pixels_touched(*bounds, 1, grown) : grown;
 }
 
+// With the pixels that the rows of a rolling shutter look at beside.
+cv::Rect grown(const cv::Rect& rect, double shift_px) {
+  const int margin_px = static_cast<int>(std::ceil(std::min(shift_px, 1e4)));
+  return rect.empty() ? rect
+                      : cv::Rect(rect.x - margin_px, rect.y - margin_px, rect.width + 2 * margin_px,
+                                 rect.height + 2 * margin_px);
+}
+
 // The same lens with coarse pixels of step by step pixels: coarse pixel (i, j) covers the square [i, i + 1) x [j, j +
 // 1) times step, from the upper left corner of the image.
 Camera coarse_camera(const Camera& camera, double step) {
@@ -82,10 +90,23 @@ void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderC
 
 }  // namespace
 
-IntruderLayers placed_layers(const Scene& scene, const PlacedIntruder& placed, const Camera& camera) {
-  const Model& model = *scene.intruders[static_cast<std::size_t>(placed.id)].model;
+TurnOfRow turn_of_row(const IntruderLayers& layers, double step) {
+  if (!layers.row_motion) return nullptr;
+  return [&motion = *layers.row_motion, step](double row) { return motion.turn_of_row((row + 0.5) * step - 0.5); };
+}
+
+IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                             const Camera& camera) {
+  const auto id = static_cast<std::size_t>(placed.id);
+  const Model& model = *scene.intruders[id].model;
   IntruderLayers layers{.placed = placed};
-  layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
+  if (scene.motion.readout_s > 0) {
+    const auto pose_at = [&](double since_s) { return camera_from_body_at(scene, id, moment.time_s + since_s); };
+    layers.row_motion.emplace(pose_at, scene.footage.size_px.height, scene.motion.readout_s);
+    layers.silhouette = silhouette_of(model.points_m, *layers.row_motion, camera.lens);
+  } else {
+    layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
+  }
   if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations = static_cast<std::int64_t>(model.points_m.size());
   if (scene.compositing.method != MethodChoice::plain)
     layers.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
@@ -103,8 +124,9 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   plan.warp_rect = warp_rect_of(bounds, margin_px(layers.sigma_px), scene.footage.size_px);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;
   // A body that lies within needs no clipping.
-  const std::optional<cv::Rect> target =
-      is_within && !may_span_several_views(distance_m, mesh.radius_m) ? std::nullopt : std::optional(plan.warp_rect);
+  std::optional<cv::Rect> target;
+  if (!is_within || may_span_several_views(distance_m, mesh.radius_m))
+    target = grown(plan.warp_rect, layers.row_motion ? layers.row_motion->max_shift_px(lens.camera().lens) : 0);
   if (!plan.warp_rect.empty())
     plan.views = virtual_cameras(lens, plan.corners, target, scene.compositing.supersampling, kMaxViewSize_px);
   return plan;
@@ -141,7 +163,7 @@ Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, con
   const Result<std::vector<RenderedView>> rendered = rendered_views(views, plan, scene, layers, renderer);
   if (!rendered) return fail(rendered.error());
   if (rendered->empty()) return 0;
-  const double coarse_area = area_px(warped(*rendered, coarse, coarse_rect).coverage);
+  const double coarse_area = area_px(warped(*rendered, coarse, coarse_rect, turn_of_row(layers, step)).coverage);
   layers.op_counts.pixels_warped += coarse_rect.area();
   layers.op_counts.lens_evaluations += coarse.evaluations();
   return coarse_area * step * step;

@@ -18,7 +18,11 @@ namespace sigs {
 
 // Where an intruder is, before anything is rendered: its silhouette through the lens and the blur at its distance. The
 // lens evaluations are counted.
-[[nodiscard]] IntruderLayers placed_layers(const Scene& scene, const PlacedIntruder& placed, const Camera& camera);
+[[nodiscard]] IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                                           const Camera& camera);
+
+// For warped(): where the rays of a row lead. step: size of its pixels in the image's.
+[[nodiscard]] TurnOfRow turn_of_row(const IntruderLayers& layers, double step = 1);
 
 // What is to be rendered of an intruder.
 struct RenderPlan {

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "project/json_reading.h"
+#include "project/places.h"
 
 namespace sigs {
 
@@ -98,6 +99,28 @@ void add_camera(FieldList list, CameraSettings& camera) {
   list.path("attitude_file", camera.attitude_file, false,
             "CSV with the attitude, at each frame, of what carries the camera; empty: level");
   list.number("speed_mps", &camera.speed_mps, "m/s", -1000, 1000, "constant speed along world X");
+  list.path("track.file", camera.track.file, false,
+            "flight log or CSV by which the camera moves and turns; empty: none");
+  list.number("track.offset_s", &camera.track.offset_s, "s", -1e9, 1e9, "time in the log at the footage's frame 0");
+  list.add("track.position", choice_of(camera.track.position, {"auto", "log", "none"}), "",
+           "the log's positions: used where there are some; must be there; left out");
+  list.add("track.attitude", choice_of(camera.track.attitude, {"auto", "camera", "airframe", "none"}), "",
+           "the log's attitude: the camera's, else the airframe's; or just one of them; or none");
+  list.add("track.incomplete", choice_of(camera.track.incomplete, {"refuse", "use"}), "",
+           "a log that is damaged or does not cover all frames: an error, or its sound part is used");
+  list.number("readout_s", &camera.readout_s, "s", 0, 1,
+              "time from the first to the last row of the rolling shutter; null: as the log says, else 0");
+}
+
+void add_geo(FieldList list, GeoSettings& geo) {
+  list.number("latitude_deg", &geo.latitude_deg, "deg", -90, 90,
+              "of the world's origin, WGS-84; null: from the camera's log");
+  list.number("longitude_deg", &geo.longitude_deg, "deg", -180, 180,
+              "of the world's origin, WGS-84; null: from the camera's log");
+  list.number("height_m", &geo.height_m, "m", -1e4, 1e5,
+              "of the world's plane z = 0 above the ellipsoid; null: from the camera's log, else 0");
+  list.number("heading_deg", &geo.heading_deg, "deg", -360, 360,
+              "of world X, from true north to the right; null: the camera's at frame 0 by its log");
 }
 
 void add_light(FieldList list, LightSettings& light) {
@@ -124,6 +147,12 @@ void add_trajectory(FieldList list, TrajectoryPlan& plan) {
            "at each waypoint in its frame, or along the same curve at one speed");
   list.add("bank", choice_of(plan.bank, {"coordinated", "level"}), "", "bank as in a coordinated turn, or wings level");
   list.number("bank_limit_deg", &plan.bank_limit_deg, "deg", 0, 90, "steepest bank");
+}
+
+void add_place(FieldList& list, PlaceSettings& place) {
+  list.number("latitude_deg", &place.latitude_deg, "deg", -90, 90, "instead of position_m: where on the Earth, WGS-84");
+  list.number("longitude_deg", &place.longitude_deg, "deg", -180, 180, "with latitude_deg");
+  list.number("height_m", &place.height_m, "m", -1e4, 1e8, "with latitude_deg: above the ellipsoid");
 }
 
 void add_compositing(FieldList list, CompositingSettings& compositing) {
@@ -162,6 +191,7 @@ std::vector<Field> fields_of(Project& project) {
   add_footage(FieldList(fields, "footage."), project.footage);
   add_own_body(FieldList(fields, "own_body."), project.own_body);
   add_camera(FieldList(fields, "camera."), project.camera);
+  add_geo(FieldList(fields, "geo."), project.geo);
   add_light(FieldList(fields, "light."), project.light);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     IntruderSettings& intruder = project.intruders[i];
@@ -176,6 +206,7 @@ std::vector<Field> fields_of(Project& project) {
       FieldList list(fields, fmt::format("{}trajectory.waypoints[{}].", prefix, j));
       list.number("frame", &waypoint.frame, "frame", -1e9, 1e9, "frame at which it is passed; none: spread evenly");
       list.number("position_m", &waypoint.position_m, "m", -kFarthest_m, kFarthest_m, "where, in the world");
+      if (waypoint.place) add_place(list, *waypoint.place);
     }
   }
   add_compositing(FieldList(fields, "compositing."), project.compositing);
@@ -254,6 +285,7 @@ Result<void> set_field(Project& project, const std::string& assignment) {
   const bool takes_text = std::holds_alternative<std::string*>(field->value) && !(field->is_path && text == "null");
   const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
   if (!wrong.empty()) return fail(where, wrong, ErrorKind::usage);
+  place_waypoints(project);
   return {};
 }
 

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "base/staged_outputs.h"
 #include "project/fields.h"
 #include "project/json_reading.h"
+#include "project/places.h"
 
 namespace sigs {
 
@@ -34,15 +38,39 @@ Result<std::size_t> list_size(const Json& json, const char* pointer, const std::
   return json.at(place).size();
 }
 
+constexpr std::array<const char*, 3> kPlaceKeys{"latitude_deg", "longitude_deg", "height_m"};
+
+// A waypoint on the Earth has all three numbers; a missing one is not meant as 0.
+Result<bool> has_place(const Json& waypoint, const std::string& where) {
+  const auto has = [&](const char* key) { return waypoint.contains(key) && !waypoint.at(key).is_null(); };
+  const auto there = std::count_if(kPlaceKeys.begin(), kPlaceKeys.end(), has);
+  if (there == 0) return false;
+  for (const char* const key : kPlaceKeys)
+    if (!has(key))
+      return fail(fmt::format("{}.{}", where, key),
+                  "is missing: a place on the Earth needs latitude_deg, longitude_deg and height_m",
+                  ErrorKind::bad_project);
+  return true;
+}
+
 // A missing position is not meant as the world's origin.
-Result<void> check_positions(const Json& intruder, std::size_t waypoints, const std::string& where) {
-  for (std::size_t i = 0; i < waypoints; ++i) {
+Result<std::vector<WaypointSettings>> empty_waypoints(const Json& intruder, std::size_t count,
+                                                      const std::string& where) {
+  std::vector<WaypointSettings> waypoints(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const Json& waypoint = intruder.at("trajectory").at("waypoints").at(i);
-    if (waypoint.is_object() && !waypoint.contains("position_m"))
-      return fail(fmt::format("{}.trajectory.waypoints[{}].position_m", where, i),
-                  "is missing: where the waypoint is, in the world, as [x, y, z]", ErrorKind::bad_project);
+    if (!waypoint.is_object()) continue;
+    const std::string key = fmt::format("{}.trajectory.waypoints[{}]", where, i);
+    const Result<bool> on_earth = has_place(waypoint, key);
+    if (!on_earth) return fail(on_earth.error());
+    if (*on_earth) waypoints[i].place.emplace();
+    if (!*on_earth && !waypoint.contains("position_m"))
+      return fail(key + ".position_m",
+                  "is missing: where the waypoint is, in the world as [x, y, z], or on the Earth by latitude_deg, "
+                  "longitude_deg and height_m",
+                  ErrorKind::bad_project);
   }
-  return {};
+  return waypoints;
 }
 
 Result<void> make_room_for_lists(const Json& json, const std::string& file, Project& project) {
@@ -56,8 +84,9 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
     const Result<std::size_t> waypoints =
         list_size(intruder, "/trajectory/waypoints", fmt::format("{}: {}.trajectory.waypoints", file, key));
     if (!waypoints) return fail(waypoints.error());
-    if (const Result<void> places = check_positions(intruder, *waypoints, file + ": " + key); !places) return places;
-    project.intruders[i].trajectory.waypoints.resize(*waypoints);
+    Result<std::vector<WaypointSettings>> empty = empty_waypoints(intruder, *waypoints, file + ": " + key);
+    if (!empty) return fail(empty.error());
+    project.intruders[i].trajectory.waypoints = *std::move(empty);
   }
   return {};
 }
@@ -80,6 +109,7 @@ std::vector<std::string> known_keys(std::string_view prefix) {
   Project sample;
   sample.intruders.resize(1);
   sample.intruders[0].trajectory.waypoints.resize(1);
+  sample.intruders[0].trajectory.waypoints[0].place.emplace();
   std::vector<std::string> keys;
   for (const Field& field : fields_of(sample)) {
     if (!field.key.starts_with(prefix)) continue;
@@ -207,6 +237,7 @@ Result<ReadProject> parse_project(const std::string& text, const std::filesystem
   if (step) step = check_sections(*json, file, read.project);
   if (step) step = put_fields(*json, file, read.project, rest);
   if (!step) return fail(step.error());
+  place_waypoints(read.project);
   keep_unknown(std::move(rest), file, read.project, read.warnings);
   return read;
 }

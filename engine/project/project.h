@@ -68,6 +68,27 @@ struct OwnBodySettings {
   [[nodiscard]] bool operator==(const OwnBodySettings&) const = default;
 };
 
+// Which attitude of a flight log is used: the camera's or gimbal's where it has one, else the airframe's; one of the
+// two; or none.
+enum class TrackAttitudeChoice { automatic, camera, airframe, none };
+
+// Whether the log's positions are used: where it has some; always (it is an error if it has none); never.
+enum class TrackPositionChoice { automatic, log, none };
+
+// What happens with a log that is damaged or does not cover all frames: it is an error, or its sound part is used.
+enum class IncompleteTrackChoice { refuse, use };
+
+// The flight log by which the camera moves (telemetry/read_track.h).
+struct TrackSettings {
+  std::string file;     // empty: none
+  double offset_s = 0;  // time in the log at the footage's frame 0
+  TrackPositionChoice position = TrackPositionChoice::automatic;
+  TrackAttitudeChoice attitude = TrackAttitudeChoice::automatic;
+  IncompleteTrackChoice incomplete = IncompleteTrackChoice::refuse;
+
+  [[nodiscard]] bool operator==(const TrackSettings&) const = default;
+};
+
 // Position, mounting and speed of the camera. The world's X axis is the camera's heading at frame 0.
 struct CameraSettings {
   glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
@@ -76,8 +97,21 @@ struct CameraSettings {
   double yaw_deg = 0;
   std::string attitude_file;  // attitude, at each frame, of what carries the camera; empty: level
   double speed_mps = 0;       // along world X
+  TrackSettings track;
+  std::optional<double> readout_s;  // of the rolling shutter, first to last row; none: as the log says, else 0
 
   [[nodiscard]] bool operator==(const CameraSettings&) const = default;
+};
+
+// Where the world lies on the Earth (geo/local_frame.h): the place of its origin and the heading of X. Without place or
+// heading they come from the camera's log, where it has them.
+struct GeoSettings {
+  std::optional<double> latitude_deg;
+  std::optional<double> longitude_deg;
+  std::optional<double> height_m;     // of the world's plane z = 0 above the WGS-84 ellipsoid
+  std::optional<double> heading_deg;  // of world X, from true north to the right
+
+  [[nodiscard]] bool operator==(const GeoSettings&) const = default;
 };
 
 // The one light source, an omnidirectional point light (paper section 3.1.2), and ambient light as a share, 0..1.
@@ -104,11 +138,21 @@ struct ModelSettings {
   [[nodiscard]] bool operator==(const ModelSettings&) const = default;
 };
 
+// A place on the Earth (WGS-84) as a project file has it.
+struct PlaceSettings {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double height_m = 0;  // above the ellipsoid
+
+  [[nodiscard]] bool operator==(const PlaceSettings&) const = default;
+};
+
 // A point of the trajectory in the world, and the frame at which it is passed.
 struct WaypointSettings {
   std::optional<double> frame;  // none: spread evenly between its neighbours
   glm::dvec3 position_m{0, 0, 0};
-  std::string unknown_json;  // unknown keys of the file, as JSON; kept on save
+  std::optional<PlaceSettings> place = {};  // where the file gives it so; position_m follows it (scene/geo_reference.h)
+  std::string unknown_json;                 // unknown keys of the file, as JSON; kept on save
 
   [[nodiscard]] bool operator==(const WaypointSettings&) const = default;
 };
@@ -188,6 +232,7 @@ struct Project {
   FootageSettings footage;
   OwnBodySettings own_body;
   CameraSettings camera;
+  GeoSettings geo;
   LightSettings light;
   std::vector<IntruderSettings> intruders;
   CompositingSettings compositing;
@@ -200,7 +245,8 @@ struct Project {
 // The attitude at which the camera is mounted on what carries it. A roll or pitch that is not set counts as 0.
 [[nodiscard]] Attitude mount_attitude(const CameraSettings& camera);
 
-// Whether the project defines where the horizon is: roll or pitch is set, or an attitude file is named.
+// Whether the project alone defines where the horizon is: roll or pitch is set, or an attitude file is named. A log
+// (camera.track) defines it too where it has an attitude; that is known once it has been read.
 [[nodiscard]] bool knows_horizon(const CameraSettings& camera);
 
 // The categories of the labels: export.categories or, where that is empty, those of the intruders, each once.

@@ -11,6 +11,7 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"
+#include "project/places.h"
 
 namespace sigs {
 
@@ -86,6 +87,35 @@ void check_waypoints(const TrajectoryPlan& plan, const std::string& key, Problem
   }
 }
 
+// A place on the Earth can be told only where the project states where the world is.
+void check_places(const Project& project, Problems& problems) {
+  const GeoSettings& geo = project.geo;
+  if (geo.latitude_deg.has_value() != geo.longitude_deg.has_value())
+    problems.push_back({geo.latitude_deg ? "geo.longitude_deg" : "geo.latitude_deg",
+                        "is missing: latitude and longitude belong together; give both or neither"});
+  if (stated_frame(geo)) return;
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const std::vector<WaypointSettings>& waypoints = project.intruders[i].trajectory.waypoints;
+    const auto placed = std::find_if(waypoints.begin(), waypoints.end(),
+                                     [](const WaypointSettings& waypoint) { return waypoint.place.has_value(); });
+    if (placed == waypoints.end()) continue;
+    problems.push_back(
+        {fmt::format("intruders[{}].trajectory.waypoints[{}].latitude_deg", i, placed - waypoints.begin()),
+         "is a place on the Earth, which needs geo.latitude_deg, geo.longitude_deg, geo.height_m and "
+         "geo.heading_deg: where the world's origin is and where its X axis points"});
+    return;
+  }
+}
+
+// The camera turns by one file; two would have to agree.
+void check_track(const CameraSettings& camera, Problems& problems) {
+  const bool has_two =
+      !camera.attitude_file.empty() && !camera.track.file.empty() && camera.track.attitude != TrackAttitudeChoice::none;
+  if (has_two)
+    problems.push_back({"camera.attitude_file",
+                        "is named beside camera.track.file; leave one out, or set camera.track.attitude to none"});
+}
+
 void check_frames(const FootageSettings& footage, Problems& problems) {
   if (footage.last_frame && *footage.last_frame < footage.first_frame)
     problems.push_back({"footage.last_frame", "lies before footage.first_frame"});
@@ -140,6 +170,8 @@ std::vector<Problem> validate(const Project& project) {
   check_frames(project.footage, problems);
   check_output(project.output, problems);
   check_labels(project.output, problems);
+  check_places(project, problems);
+  check_track(project.camera, problems);
   check_categories(project, problems);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const std::string key = fmt::format("intruders[{}]", i);

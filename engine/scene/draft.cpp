@@ -11,6 +11,7 @@
 #include "base/ensure.h"
 #include "project/fields.h"
 #include "project/validate.h"
+#include "scene/camera_track.h"
 #include "scene/plausibility.h"
 #include "scene/scene_parts.h"
 
@@ -163,8 +164,8 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
   scene.last_frame = range.last;
   scene.camera = part_or_placeholder(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
                                      draft.problems);
-  scene.motion.turns = part_or_placeholder(scene_carrier_attitudes(clean, footage, files),
-                                           std::vector<CarrierAttitude>(), draft.problems);
+  take_camera_flight(
+      scene, part_or_placeholder(camera_flight(clean, footage, range, files), steady_flight(clean), draft.problems));
   scene.own_body = part_or_placeholder(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
   for (std::size_t i = 0; i < clean.intruders.size(); ++i) {
     const bool has_waypoint = !clean.intruders[i].trajectory.waypoints.empty();

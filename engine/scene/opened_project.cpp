@@ -13,6 +13,7 @@
 #include "mesh/textures.h"
 #include "project/fields.h"
 #include "project/validate.h"
+#include "scene/camera_track.h"
 #include "scene/plausibility.h"
 #include "scene/scene_parts.h"
 
@@ -35,9 +36,9 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
   OrProblem<Camera> camera = scene_camera(project, footage.size_px, files);
   if (!camera) return failed(camera.error());
   scene.camera = *std::move(camera);
-  OrProblem<std::vector<CarrierAttitude>> turns = scene_carrier_attitudes(project, footage, files);
-  if (!turns) return failed(turns.error());
-  scene.motion.turns = *std::move(turns);
+  OrProblem<CameraFlight> flight = camera_flight(project, footage, *range, files);
+  if (!flight) return failed(flight.error());
+  take_camera_flight(scene, *std::move(flight));
   const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   scene.own_body = *own_body;

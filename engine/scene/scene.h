@@ -4,15 +4,18 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
+#include "geo/local_frame.h"
 #include "project/project.h"
 #include "project/validate.h"
 #include "scene/model.h"
+#include "spline/piecewise_cubic.h"
 #include "spline/trajectory.h"
 
 namespace sigs {
@@ -47,12 +50,28 @@ struct CarrierAttitude {
   glm::dquat world_from_carrier{1, 0, 0, 0};
 };
 
-// The camera moves along world X at constant speed (paper, section 3.1.3). Its attitude is constant unless the
-// attitudes of the carrier are known.
+// Standard deviation of the camera's attitude at one moment: of small turns about the camera's X, Y and Z.
+struct AttitudeDeviation {
+  double time_s = 0;
+  glm::dvec3 sd_rad{0, 0, 0};
+};
+
+// Where the camera's pose comes from, for the truth: format and quantity of a log; empty: the project's settings.
+struct PoseSource {
+  std::string position;
+  std::string attitude;
+};
+
+// The camera moves along world X at constant speed (paper, section 3.1.3) unless its path is known. Its attitude is
+// constant unless the attitudes of the carrier are known.
 struct CameraMotion {
   Pose<frame::World, frame::Camera> world_from_camera_at_start;  // at time 0, with the carrier level
   double speed_mps = 0;
-  std::vector<CarrierAttitude> turns = {};  // by rising time; empty: always level
+  std::vector<CarrierAttitude> turns = {};          // by rising time; empty: always level
+  std::shared_ptr<const PiecewiseCubic> path = {};  // the camera's place in the world; null: straight on
+  std::vector<AttitudeDeviation> deviations = {};   // by rising time; empty: not known
+  double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once
+  PoseSource source = {};
 };
 
 // A project with everything that it names opened and checked. It does not change after it has been opened.
@@ -65,11 +84,12 @@ struct Scene {
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
   CompositingSettings compositing;
   FootageShape footage;
-  int first_frame = 0;            // of the footage, from 0
-  int last_frame = 0;             // included
-  bool horizon_is_known = false;  // the project states the camera's attitude
-  std::vector<Warning> warnings;  // from reading the files
-  std::vector<Problem> issues;    // settings that can be used but are implausible, by field (scene/plausibility.h)
+  int first_frame = 0;                   // of the footage, from 0
+  int last_frame = 0;                    // included
+  bool horizon_is_known = false;         // the project, or the camera's log, states the camera's attitude
+  std::optional<LocalFrame> earth = {};  // where the world lies on the Earth, if that is known
+  std::vector<Warning> warnings;         // from reading the files
+  std::vector<Problem> issues;  // settings that can be used but are implausible, by field (scene/plausibility.h)
 };
 
 // The camera that the compositing method works with: the footage's; for the method `plain`, which knows no lens

@@ -2,6 +2,7 @@
 #include "scene/scene_at.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace sigs {
@@ -17,27 +18,59 @@ glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, doub
   return glm::slerp(before->world_from_carrier, after->world_from_carrier, share);
 }
 
+std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s) {
+  if (deviations.empty()) return std::nullopt;
+  const auto after = std::upper_bound(deviations.begin(), deviations.end(), time_s,
+                                      [](double time, const AttitudeDeviation& one) { return time < one.time_s; });
+  if (after == deviations.begin()) return after->sd_rad;
+  const auto before = std::prev(after);
+  if (after == deviations.end()) return before->sd_rad;
+  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
+  glm::dvec3 sd_rad;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = before->sd_rad[axis];
+    const double b = after->sd_rad[axis];
+    sd_rad[axis] = std::isfinite(a) && std::isfinite(b) ? glm::mix(a, b, share) : std::max(a, b);
+  }
+  return sd_rad;
+}
+
 Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {
   Pose<frame::World, frame::Camera> pose = motion.world_from_camera_at_start;
-  pose.translation_m.x += motion.speed_mps * time_s;
+  if (motion.path)
+    pose.translation_m = motion.path->motion_at(time_s).position_m;
+  else
+    pose.translation_m.x += motion.speed_mps * time_s;
   if (!motion.turns.empty()) pose.rotation = world_from_carrier_at(motion.turns, time_s) * pose.rotation;
   return pose;
+}
+
+namespace {
+
+// Subtracting in the world first keeps full precision where both are 1e7 m from its origin.
+Pose<frame::Camera, frame::Body> seen_from(const Pose<frame::World, frame::Camera>& world_from_camera,
+                                           const Pose<frame::World, frame::Body>& world_from_body) {
+  const glm::dquat camera_from_world = glm::conjugate(world_from_camera.rotation);
+  return {camera_from_world * world_from_body.rotation,
+          camera_from_world * (world_from_body.translation_m - world_from_camera.translation_m)};
+}
+
+}  // namespace
+
+Pose<frame::Camera, frame::Body> camera_from_body_at(const Scene& scene, std::size_t intruder, double time_s) {
+  return seen_from(camera_at(scene.motion, time_s), scene.intruders[intruder].trajectory.world_from_body(time_s));
 }
 
 SceneMoment scene_at(const Scene& scene, int frame) {
   SceneMoment moment;
   moment.time_s = time_of_frame_s(scene.footage, frame);
   moment.world_from_camera = camera_at(scene.motion, moment.time_s);
-  const Pose<frame::Camera, frame::World> camera_from_world = inverse(moment.world_from_camera);
-  moment.light_in_camera = camera_from_world * scene.light.position_m;
+  moment.light_in_camera = inverse(moment.world_from_camera) * scene.light.position_m;
   for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
     const Pose<frame::World, frame::Body> world_from_body =
         scene.intruders[i].trajectory.world_from_body(moment.time_s);
-    // Subtracting in the world first keeps full precision where both are 1e7 m from its origin.
-    const glm::dvec3 from_camera_in_world = world_from_body.translation_m - moment.world_from_camera.translation_m;
     moment.intruders.push_back({.id = static_cast<int>(i),
-                                .camera_from_body = {camera_from_world.rotation * world_from_body.rotation,
-                                                     camera_from_world.rotation * from_camera_in_world},
+                                .camera_from_body = seen_from(moment.world_from_camera, world_from_body),
                                 .attitude = attitude_of(world_from_body.rotation)});
   }
   std::stable_sort(moment.intruders.begin(), moment.intruders.end(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/pose.h"
@@ -30,8 +32,17 @@ struct SceneMoment {
 // the last as these; level where none is known.
 [[nodiscard]] glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s);
 
-// Pose of the camera. Its attitude is world_from_carrier_at(time_s) * attitude at the start.
+// Standard deviation of the camera's attitude, linear between two known ones; none where none is known.
+[[nodiscard]] std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s);
+
+// Pose of the camera: on its path or, without one, straight on along world X. Its attitude is
+// world_from_carrier_at(time_s) * attitude at the start.
 [[nodiscard]] Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s);
+
+// Pose of an intruder against the camera at any time of the footage.
+//   intruder  index in Scene::intruders
+[[nodiscard]] Pose<frame::Camera, frame::Body> camera_from_body_at(const Scene& scene, std::size_t intruder,
+                                                                   double time_s);
 
 // The scene at a frame of the footage, counted from 0.
 [[nodiscard]] SceneMoment scene_at(const Scene& scene, int frame);

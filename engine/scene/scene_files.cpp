@@ -25,6 +25,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "telemetry/read_track.h"
 
 namespace sigs {
 
@@ -97,8 +98,9 @@ template <class T>
 bool is_used(const T&) {
   return false;
 }
-bool is_used(const std::shared_ptr<const Model>& model) {
-  return model.use_count() > 1;
+template <class T>
+bool is_used(const std::shared_ptr<const T>& shared) {
+  return shared.use_count() > 1;
 }
 
 }  // namespace
@@ -236,6 +238,7 @@ struct SceneFiles::Caches {
   FileCache<CameraKey, Camera> cameras;
   FileCache<ImageKey, cv::Mat> masks;
   FileCache<std::string, std::vector<AttitudeAtFrame>> attitudes;
+  FileCache<std::string, std::shared_ptr<const Track>> tracks;
   FileCache<std::uint64_t, std::shared_ptr<const Model>> crosses;
 };
 
@@ -257,6 +260,15 @@ Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {
   return caches_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
+}
+
+Result<std::shared_ptr<const Track>> SceneFiles::track(const std::filesystem::path& file) {
+  const auto read = [&]() -> Result<std::shared_ptr<const Track>> {
+    Result<Track> track = read_track(file);
+    if (!track) return fail(track.error());
+    return std::make_shared<const Track>(*std::move(track));
+  };
+  return caches_->tracks.take(name_of(file), stamp_of(file), read);
 }
 
 Result<cv::Mat> SceneFiles::own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px) {

@@ -12,6 +12,7 @@
 #include "camera/camera.h"
 #include "mesh/mesh.h"
 #include "scene/model.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 
@@ -52,6 +53,9 @@ class SceneFiles {
 
   // read_attitude_file
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);
+
+  // read_track (telemetry/read_track.h). The same file gives the same object for as long as it is in use.
+  [[nodiscard]] Result<std::shared_ptr<const Track>> track(const std::filesystem::path& file);
 
   // read_own_body_mask. The samples are shared with the cache: not to be written to.
   [[nodiscard]] Result<cv::Mat> own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px);

@@ -76,15 +76,19 @@ std::string key_of_intruder(std::size_t intruder) {
   return fmt::format("intruders[{}]", intruder);
 }
 
+CameraMotion steady_motion(const CameraSettings& camera) {
+  return {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
+          .speed_mps = camera.speed_mps,
+          .readout_s = camera.readout_s.value_or(0)};
+}
+
 Scene bare_scene(const Project& project, const FootageShape& footage) {
-  const CameraSettings& camera = project.camera;
   return {.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
-          .motion = {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
-                     .speed_mps = camera.speed_mps},
+          .motion = steady_motion(project.camera),
           .light = {project.light.position_m, project.light.color, project.light.ambient},
           .compositing = project.compositing,
           .footage = footage,
-          .horizon_is_known = knows_horizon(camera)};
+          .horizon_is_known = knows_horizon(project.camera)};
 }
 
 OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage) {

@@ -25,6 +25,9 @@ using OrProblem = tl::expected<T, Problem>;
 // "intruders[3]"
 [[nodiscard]] std::string key_of_intruder(std::size_t intruder);
 
+// The camera's motion without any file: straight on along world X with the carrier level.
+[[nodiscard]] CameraMotion steady_motion(const CameraSettings& camera);
+
 // What needs no file and cannot fail: camera motion with the carrier level, light, compositing, footage. The lens is a
 // default one, there are no intruders, and the range is not set.
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);

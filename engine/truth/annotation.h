@@ -10,6 +10,7 @@
 
 #include "base/image.h"
 #include "base/pose.h"
+#include "geo/geodetic.h"
 
 namespace sigs {
 
@@ -45,6 +46,7 @@ struct IntruderTruth {
   std::optional<Box> amodal_box;  // the whole of it through the lens; none where no part of it has an image
   HorizonSide horizon = HorizonSide::unknown;  // above or below: all of it is
   double inside_fraction = 0;                  // of the whole silhouette's area: what lies in the image, hidden or not
+  std::optional<GeodeticPosition> place = {};  // of the reference point; none where the world has no place on the Earth
 };
 
 // What the frames are counted in, and which of them a set of labels holds.
@@ -57,12 +59,23 @@ struct FootageTruth {
   int frame_rate_den = 1;
 };
 
+// What is known of the camera's pose beyond the pose itself.
+struct CameraTruth {
+  std::string
+      position_source;  // where it comes from, "PX4 ULog: vehicle_local_position"; empty: the project's settings
+  std::string attitude_source;
+  std::optional<glm::dvec3> attitude_sd_rad =
+      {};                                      // of small turns about the camera's X, Y, Z; infinite: not known here
+  std::optional<GeodeticPosition> place = {};  // none where the world has no place on the Earth
+};
+
 struct FrameTruth {
   int index = 0;  // counts the footage's frames from 0
   double time_s = 0;
   bool substituted = false;               // the footage's own frame is damaged and substituted by another one
   glm::dvec3 camera_position_m{0, 0, 0};  // in the world
   Attitude camera_attitude;
+  CameraTruth camera = {};
   std::vector<IntruderTruth> intruders;  // by id
 };
 

@@ -72,7 +72,7 @@ Layer sharp_in_full(const Looked& look, const PlacedIntruder& placed, double sig
   REQUIRE(silhouette);
   REQUIRE(silhouette->all_have_image);
   const cv::Rect target = pixels_touched(silhouette->box, 1, grown);
-  IntruderLayers layers = placed_layers(look.scene, placed, look.camera);
+  IntruderLayers layers = placed_layers(look.scene, look.moment, placed, look.camera);
   LensTable lens(look.camera);
   const RenderPlan plan = render_plan_for(layers, lens, look.scene, look.moment);
   const auto views = virtual_cameras(look.camera, plan.corners, target, look.scene.compositing.supersampling, 4096);
