@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "labels/camera_text.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 
@@ -64,8 +65,9 @@ class AotLabels : public LabelWriter {
     const auto time_ns = static_cast<std::int64_t>(std::llround(truth.time_s * 1e9));
     const char* const separator = is_first_ ? "\n" : ",\n";
     is_first_ = false;
-    return fmt::format(R"({}{{"time": {}, "blob": {{"frame": {}{}, "flight_id": {}, "img_name": {}}})", separator,
-                       time_ns, truth.index, labelled == nullptr ? "}, \"labels\": {}" : object_text(*labelled),
+    const std::string camera = has_source(truth.camera) ? ", \"camera\": " + camera_json(truth) : "";
+    return fmt::format(R"({}{{"time": {}, "blob": {{"frame": {}{}{}, "flight_id": {}, "img_name": {}}})", separator,
+                       time_ns, truth.index, camera, labelled == nullptr ? "}, \"labels\": {}" : object_text(*labelled),
                        json_string(sequence_.name), json_string(sequence_.images + "/" + image_name(truth.index)));
   }
 

@@ -8,6 +8,7 @@
 #include "base/csv.h"
 #include "base/pose.h"
 #include "base/text.h"
+#include "labels/camera_text.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 
@@ -21,7 +22,9 @@ constexpr std::string_view kCsvHeader =
     "x_m,y_m,z_m,distance_m,roll_deg,pitch_deg,yaw_deg,"
     "box_x_px,box_y_px,box_width_px,box_height_px,visible_pixels,"
     "silhouette_x_px,silhouette_y_px,silhouette_width_px,silhouette_height_px,"
-    "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted\r\n";
+    "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted,"
+    "camera_position_source,camera_attitude_source,camera_sd_x_deg,camera_sd_y_deg,camera_sd_z_deg,"
+    "camera_latitude_deg,camera_longitude_deg,camera_height_m,latitude_deg,longitude_deg,height_m\r\n";
 
 // One line, field by field.
 class CsvRow {
@@ -38,6 +41,8 @@ class CsvRow {
   void add(const Attitude& attitude) {
     for (const double rad : {attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad}) add(deg_of_rad(rad));
   }
+  // Fields that are separated by commas and quoted where they need to be.
+  void add_fields(const std::string& fields) { text_ += "," + fields; }
   void add_empty(int fields) { text_ += std::string(static_cast<std::size_t>(fields), ','); }
   [[nodiscard]] std::string line() const { return text_ + "\r\n"; }
 
@@ -91,6 +96,8 @@ class CsvLabels : public LabelWriter {
     add_box_fields(row, truth);
     add_footage(row);
     row.add(frame.substituted ? "true" : "false");
+    row.add_fields(camera_source_fields(frame.camera));
+    row.add_fields(place_fields(truth.place));
     return row.line();
   }
 

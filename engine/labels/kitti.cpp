@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "labels/camera_text.h"
 #include "labels/label_files.h"
 #include "labels/label_masks.h"
 #include "labels/label_text.h"
@@ -79,15 +81,40 @@ class KittiLabels : public LabelWriter {
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds)) text += row(frame, truth, intruder);
     for (const cv::Rect& box : own_body_) text += region_row(frame, box);
+    if (const Result<void> pose = write_pose(truth); !pose) return pose;
     return labels_.put(text);
   }
 
   Result<void> finish(const fs::path& images) override {
     if (const Result<void> closed = labels_.close(); !closed) return closed;
+    for (std::optional<TextFile>* const file : {&poses_, &pose_sources_})
+      if (*file)
+        if (const Result<void> closed = (*file)->close(); !closed) return closed;
     return link_numbered_images(images, sequence_.footage, folder_ / "image_02" / name_, {.first = 0, .digits = 6});
   }
 
  private:
+  // The camera's pose of each frame, where it comes from a log: poses/NAME.txt and, with source and deviation,
+  // poses/NAME.csv. Of a scene, all frames have a source or none has.
+  Result<void> write_pose(const FrameTruth& truth) {
+    if (!has_source(truth.camera)) return {};
+    if (!poses_)
+      if (const Result<void> begun = begin_poses(); !begun) return begun;
+    if (const Result<void> put = poses_->put(kitti_pose_row(truth)); !put) return put;
+    return pose_sources_->put(camera_csv_row(truth));
+  }
+
+  Result<void> begin_poses() {
+    if (const Result<void> created = make_inner_folder(folder_ / "poses"); !created) return created;
+    Result<TextFile> poses = TextFile::create(folder_ / "poses" / (name_ + ".txt"));
+    if (!poses) return fail(poses.error());
+    Result<TextFile> sources = TextFile::create(folder_ / "poses" / (name_ + ".csv"));
+    if (!sources) return fail(sources.error());
+    poses_ = std::move(*poses);
+    pose_sources_ = std::move(*sources);
+    return pose_sources_->put(std::string(kCameraCsvHeader) + "\n");
+  }
+
   [[nodiscard]] std::string row(int frame, const FrameTruth& truth, const IntruderTruth& intruder) const {
     const LabelledIntruder& labelled = labelled_intruder(sequence_, intruder.id);
     const KittiBox box = kitti_box(truth, intruder, labelled.low_m, labelled.high_m);
@@ -103,6 +130,8 @@ class KittiLabels : public LabelWriter {
   TextFile labels_;
   LabelSequence sequence_;
   std::vector<cv::Rect> own_body_;
+  std::optional<TextFile> poses_;
+  std::optional<TextFile> pose_sources_;
 };
 
 // TrackEval's list of sequences: name, "empty", first frame, number of frames.

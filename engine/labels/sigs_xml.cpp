@@ -8,6 +8,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
+#include "labels/camera_text.h"
 #include "labels/formats.h"
 #include "labels/label_text.h"
 
@@ -29,6 +30,27 @@ void set_attitude(pugi::xml_node node, const Attitude& attitude) {
   set(node, "roll_deg", deg_of_rad(attitude.roll_rad));
   set(node, "pitch_deg", deg_of_rad(attitude.pitch_rad));
   set(node, "yaw_deg", deg_of_rad(attitude.yaw_rad));
+}
+
+void add_place(pugi::xml_node node, const std::optional<GeodeticPosition>& place) {
+  if (!place) return;
+  pugi::xml_node child = node.append_child("place");
+  set(child, "latitude_deg", place->latitude_deg, kLabelPlaceDecimals);
+  set(child, "longitude_deg", place->longitude_deg, kLabelPlaceDecimals);
+  set(child, "height_m", place->height_m);
+}
+
+void add_source(pugi::xml_node node, const CameraTruth& camera) {
+  if (!camera.position_source.empty())
+    node.append_attribute("position_source") = xml_text(camera.position_source).c_str();
+  if (!camera.attitude_source.empty())
+    node.append_attribute("attitude_source") = xml_text(camera.attitude_source).c_str();
+  if (const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(camera)) {
+    set(node, "sd_x_deg", sd_deg->x);
+    set(node, "sd_y_deg", sd_deg->y);
+    set(node, "sd_z_deg", sd_deg->z);
+  }
+  add_place(node, camera.place);
 }
 
 void add_box_elements(pugi::xml_node node, const IntruderTruth& truth) {
@@ -59,6 +81,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   set_position(node.append_child("position"), truth.position_m);
   set(node.append_child("distance"), "m", glm::length(truth.position_m));
   set_attitude(node.append_child("attitude"), truth.attitude);
+  add_place(node, truth.place);
   add_box_elements(node, truth);
 }
 
@@ -89,6 +112,7 @@ std::string xml_of(const FrameTruth& truth) {
   pugi::xml_node camera = frame.append_child("camera");
   set_position(camera, truth.camera_position_m);
   set_attitude(camera, truth.camera_attitude);
+  add_source(camera, truth.camera);
   for (const IntruderTruth& intruder : truth.intruders) add_intruder(frame, intruder);
   std::ostringstream text;
   frame.print(text, "  ", pugi::format_default, pugi::encoding_utf8, 1);

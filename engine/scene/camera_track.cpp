@@ -274,7 +274,27 @@ void warn_if_slow(const Track& track, const UsedParts& parts, std::vector<Warnin
       add(parts.places->source, step_s);
 }
 
-OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track, const LogTimes& times) {
+}  // namespace
+
+CameraFlight steady_flight(const Project& project) {
+  const GeoSettings& geo = project.geo;
+  CameraFlight flight{.motion = steady_motion(project.camera), .horizon_is_known = knows_horizon(project.camera)};
+  if (geo.latitude_deg && geo.longitude_deg)
+    flight.earth = LocalFrame({*geo.latitude_deg, *geo.longitude_deg, geo.height_m.value_or(0)},
+                              rad_of_deg(geo.heading_deg.value_or(0)));
+  return flight;
+}
+
+void take_camera_flight(Scene& scene, CameraFlight flight) {
+  scene.motion = std::move(flight.motion);
+  scene.earth = std::move(flight.earth);
+  scene.horizon_is_known = flight.horizon_is_known;
+  scene.warnings.insert(scene.warnings.end(), flight.warnings.begin(), flight.warnings.end());
+}
+
+OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track, const FootageShape& footage,
+                                      const FrameRange& range) {
+  const LogTimes times = log_times(project.camera.track, footage, range);
   CameraFlight flight = steady_flight(project);
   const TrackSettings& settings = project.camera.track;
   const OrProblem<UsedParts> parts = used_parts(track, settings);
@@ -301,34 +321,19 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
   return flight;
 }
 
-}  // namespace
-
-CameraFlight steady_flight(const Project& project) {
-  const GeoSettings& geo = project.geo;
-  CameraFlight flight{.motion = steady_motion(project.camera), .horizon_is_known = knows_horizon(project.camera)};
-  if (geo.latitude_deg && geo.longitude_deg)
-    flight.earth = LocalFrame({*geo.latitude_deg, *geo.longitude_deg, geo.height_m.value_or(0)},
-                              rad_of_deg(geo.heading_deg.value_or(0)));
-  return flight;
-}
-
-void take_camera_flight(Scene& scene, CameraFlight flight) {
-  scene.motion = std::move(flight.motion);
-  scene.earth = std::move(flight.earth);
-  scene.horizon_is_known = flight.horizon_is_known;
-  scene.warnings.insert(scene.warnings.end(), flight.warnings.begin(), flight.warnings.end());
-}
-
 OrProblem<CameraFlight> camera_flight(const Project& project, const FootageShape& footage, const FrameRange& range,
                                       SceneFiles& files) {
   CameraFlight flight = steady_flight(project);
   if (!project.camera.track.file.empty()) {
     const Result<std::shared_ptr<const Track>> track = files.track(resolved(project, project.camera.track.file));
     if (!track) return log_problem(track.error().text(), track.error().kind);
-    OrProblem<CameraFlight> by_log = flight_by_log(project, **track, log_times(project.camera.track, footage, range));
+    OrProblem<CameraFlight> by_log = flight_by_log(project, **track, footage, range);
     if (!by_log) return by_log;
     flight = *std::move(by_log);
   }
+  if (flight.motion.readout_s > 0 && project.compositing.method == MethodChoice::classic)
+    return tl::unexpected<Problem>(Problem{
+        "camera.readout_s", "is above 0, or the log's is; the classic method knows no rolling shutter: set it to 0"});
   OrProblem<std::vector<CarrierAttitude>> turns = scene_carrier_attitudes(project, footage, files);
   if (!turns) return tl::unexpected<Problem>(turns.error());
   if (!turns->empty()) {

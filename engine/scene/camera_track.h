@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 
@@ -40,5 +41,9 @@ void take_camera_flight(Scene& scene, CameraFlight flight);
 //   range  the project's frames
 [[nodiscard]] OrProblem<CameraFlight> camera_flight(const Project& project, const FootageShape& footage,
                                                     const FrameRange& range, SceneFiles& files);
+
+// The same by a log that has been read; camera.track.file and camera.attitude_file are not looked at.
+[[nodiscard]] OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track,
+                                                    const FootageShape& footage, const FrameRange& range);
 
 }  // namespace sigs

@@ -24,7 +24,7 @@ std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& d
                                       [](double time, const AttitudeDeviation& one) { return time < one.time_s; });
   if (after == deviations.begin()) return after->sd_rad;
   const auto before = std::prev(after);
-  if (after == deviations.end()) return before->sd_rad;
+  if (after == deviations.end() || before->time_s == time_s) return before->sd_rad;
   const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
   glm::dvec3 sd_rad;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "scene/camera_track.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "scene/scene_at.h"
+
+namespace sigs {
+namespace {
+
+constexpr double kFrames_hz = 25;
+const GeodeticPosition kStart{33.126, -117.3315, 40};
+
+FootageShape ten_seconds() {
+  FootageShape footage{.size_px = {640, 480}, .frame_interval_s = 1 / kFrames_hz};
+  for (int i = 0; i <= 250; ++i) footage.times_s.push_back(i / kFrames_hz);
+  return footage;
+}
+
+Project with_log() {
+  Project project;
+  project.camera.position_m = {3, -4, -150};
+  project.camera.track.file = "flight.csv";
+  return project;
+}
+
+// A metre eastwards, by the radius of curvature of the prime vertical (a / sqrt(1 - e^2 sin^2 latitude)).
+double degrees_of_east(double metres, const GeodeticPosition& at) {
+  const double latitude = rad_of_deg(at.latitude_deg);
+  const double e2 = 0.00669437999014;
+  const double radius_m = 6378137.0 / std::sqrt(1 - e2 * std::sin(latitude) * std::sin(latitude));
+  return deg_of_rad(metres / ((radius_m + at.height_m) * std::cos(latitude)));
+}
+
+// Eastwards at 20 m/s and climbing at 2 m/s, from log time 0 to 10 s.
+Track eastwards() {
+  Track track{.file = "flight.csv", .format = "CSV"};
+  track.position.source = "position";
+  for (int i = 0; i <= 100; ++i) {
+    const double t = i * 0.1;
+    track.position.times_s.push_back(t);
+    track.position.values.push_back(
+        {kStart.latitude_deg, kStart.longitude_deg + degrees_of_east(20 * t, kStart), kStart.height_m + 2 * t});
+  }
+  return track;
+}
+
+void add_airframe(Track& track, const Attitude& at_start, double yaw_rate_radps) {
+  track.ned_from_airframe.source = "attitude";
+  for (int i = 0; i <= 1000; ++i) {
+    const double t = i * 0.01;
+    track.ned_from_airframe.times_s.push_back(t);
+    track.ned_from_airframe.values.push_back(
+        rotation_of({at_start.roll_rad, at_start.pitch_rad, at_start.yaw_rad + yaw_rate_radps * t}));
+  }
+}
+
+CameraFlight flown(const Project& project, const Track& track) {
+  const OrProblem<CameraFlight> flight = flight_by_log(project, track, ten_seconds(), {0, 250});
+  if (!flight) FAIL(flight.error().field, ": ", flight.error().what);
+  return *flight;
+}
+
+std::string problem_of(const Project& project, const Track& track, const FrameRange& range = {0, 250}) {
+  const OrProblem<CameraFlight> flight = flight_by_log(project, track, ten_seconds(), range);
+  return flight ? "no problem" : flight.error().field + ": " + flight.error().what;
+}
+
+double angle_of(const glm::dquat& a, const glm::dquat& b) {
+  const glm::dquat turn = glm::conjugate(a) * b;
+  return 2 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
+}
+
+bool has_warning(const CameraFlight& flight, const std::string& word) {
+  for (const Warning& warning : flight.warnings)
+    if (warning.what.find(word) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("without attitude, world X is the course over ground and the camera starts at its position") {
+  const CameraFlight flight = flown(with_log(), eastwards());
+  CHECK(has_warning(flight, "course over ground"));
+  for (const double t : {0.0, 0.33, 4.0, 9.9}) {
+    const glm::dvec3 at = camera_at(flight.motion, t).translation_m;
+    // The parallel bends away from the tangent by d^2 / 2r: 3 mm at 200 m.
+    CHECK(glm::distance(at, glm::dvec3(3 + 20 * t, -4, -150 - 2 * t)) < 0.005);
+  }
+  REQUIRE(flight.earth);
+  CHECK(flight.earth->heading_rad() == doctest::Approx(rad_of_deg(90)).epsilon(1e-4));
+  const GeodeticPosition place = flight.earth->place_of({3, -4, -150});
+  CHECK(place.latitude_deg == doctest::Approx(kStart.latitude_deg).epsilon(1e-12));
+  CHECK(place.longitude_deg == doctest::Approx(kStart.longitude_deg).epsilon(1e-12));
+  CHECK(place.height_m == doctest::Approx(kStart.height_m).epsilon(1e-9));
+  CHECK(flight.motion.source.position == "CSV: position");
+  CHECK_FALSE(flight.horizon_is_known);
+}
+
+TEST_CASE("the log's attitude stands left of the mount's angles, and world X is its heading at frame 0") {
+  Track track = eastwards();
+  add_airframe(track, {0.1, 0.05, rad_of_deg(60)}, 0.2);
+  Project project = with_log();
+  project.camera.roll_deg = 2;
+  project.camera.pitch_deg = -30;
+  project.camera.yaw_deg = 15;
+  const CameraFlight flight = flown(project, track);
+  CHECK(flight.horizon_is_known);
+  for (const double t : {0.0, 1.234, 8.0}) {
+    const glm::dquat expected =
+        rotation_of({0.1, 0.05, 0.2 * t}) * rotation_of({rad_of_deg(2), rad_of_deg(-30), rad_of_deg(15)});
+    CHECK(angle_of(camera_at(flight.motion, t).rotation, expected) < 1e-9);
+  }
+  // East lies 30 degrees to the right of world X.
+  const glm::dvec3 moved = camera_at(flight.motion, 5).translation_m - camera_at(flight.motion, 0).translation_m;
+  CHECK(std::atan2(moved.y, moved.x) == doctest::Approx(rad_of_deg(30)).epsilon(1e-4));
+}
+
+TEST_CASE("a camera's attitude comes before an airframe's unless the other is asked for") {
+  Track track = eastwards();
+  add_airframe(track, {}, 0);
+  track.ned_from_camera = {
+      .source = "gimbal", .times_s = {0, 10}, .values = {rotation_of({0, -0.5, 0}), rotation_of({0, -0.5, 0})}};
+  Project project = with_log();
+  CHECK(flown(project, track).motion.source.attitude == "CSV: gimbal");
+  CHECK(attitude_of(camera_at(flown(project, track).motion, 1).rotation).pitch_rad == doctest::Approx(-0.5));
+  project.camera.track.attitude = TrackAttitudeChoice::airframe;
+  CHECK(flown(project, track).motion.source.attitude == "CSV: attitude");
+  project.camera.track.attitude = TrackAttitudeChoice::none;
+  CHECK(flown(project, track).motion.turns.empty());
+}
+
+TEST_CASE("the offset is the log's time at frame 0") {
+  Track track = eastwards();
+  add_airframe(track, {}, 0.1);
+  Project project = with_log();
+  project.camera.track.offset_s = 2;
+  const OrProblem<CameraFlight> flight = flight_by_log(project, track, ten_seconds(), {0, 150});
+  REQUIRE(flight);
+  const glm::dvec3 at_0 = camera_at(flight->motion, 0).translation_m;
+  CHECK(glm::distance(at_0, project.camera.position_m) < 1e-6);
+  // World X is the heading at frame 0, log time 2 s.
+  CHECK(attitude_of(camera_at(flight->motion, 3).rotation).yaw_rad == doctest::Approx(0.3).epsilon(1e-9));
+}
+
+TEST_CASE("where the world's place is stated, the log's positions are absolute") {
+  Project project = with_log();
+  project.geo = {.latitude_deg = kStart.latitude_deg - 0.01,
+                 .longitude_deg = kStart.longitude_deg,
+                 .height_m = 10,
+                 .heading_deg = 0};
+  const CameraFlight flight = flown(project, eastwards());
+  const glm::dvec3 at = camera_at(flight.motion, 0).translation_m;
+  // A hundredth of a degree of latitude at 33.1 degrees: 1109.1 m by the meridian's radius of curvature.
+  const double e2 = 0.00669437999014;
+  const double s = std::sin(rad_of_deg(kStart.latitude_deg - 0.005));
+  const double arc_m = rad_of_deg(0.01) * 6378137.0 * (1 - e2) / std::pow(1 - e2 * s * s, 1.5);
+  CHECK(at.x == doctest::Approx(arc_m).epsilon(1e-5));
+  CHECK(std::abs(at.y) < 1e-3);
+  CHECK(at.z == doctest::Approx(-30 + arc_m * arc_m / (2 * 6.371e6)).epsilon(1e-3));
+}
+
+TEST_CASE("a local position from an arbitrary origin moves the camera from its own start") {
+  Track track{.file = "flight.ulg", .format = "PX4 ULog"};
+  track.local_position_ned_m = {
+      .source = "local", .times_s = {0, 5, 10}, .values = {{100, 200, -30}, {150, 200, -30}, {200, 200, -30}}};
+  const CameraFlight flight = flown(with_log(), track);
+  CHECK(glm::distance(camera_at(flight.motion, 10).translation_m, glm::dvec3(103, -4, -150)) < 1e-9);
+  CHECK_FALSE(flight.earth);
+}
+
+TEST_CASE("yaw that is not against north counts from frame 0, with its deviation") {
+  Track track{.file = "attitude.csv", .format = "CSV", .heading_is_north = false};
+  const double unknown = std::numeric_limits<double>::infinity();
+  track.ned_from_camera = {.source = "camera",
+                           .times_s = {0, 5, 10},
+                           .values = {rotation_of({0, 0, 1}), rotation_of({0, 0, 1.5}), rotation_of({0, 0, 2})}};
+  track.camera_attitude_sd_rad = {
+      .source = "sd", .times_s = {0, 5, 10}, .values = {{0.1, 0, 0}, {0.3, 0, 0}, {unknown, unknown, unknown}}};
+  const CameraFlight flight = flown(with_log(), track);
+  CHECK(attitude_of(camera_at(flight.motion, 5).rotation).yaw_rad == doctest::Approx(0.5));
+  CHECK(attitude_sd_at(flight.motion.deviations, 2.5)->x == doctest::Approx(0.2));
+  CHECK(attitude_sd_at(flight.motion.deviations, 5)->x == doctest::Approx(0.3));
+  CHECK(attitude_sd_at(flight.motion.deviations, 7)->x == unknown);
+  CHECK_FALSE(attitude_sd_at({}, 7));
+  CHECK(glm::distance(camera_at(flight.motion, 5).translation_m, glm::dvec3(3, -4, -150)) == 0);
+}
+
+TEST_CASE("a log that does not cover the frames, or is damaged, is refused by name unless the project allows it") {
+  Project project = with_log();
+  Track track = eastwards();
+  project.camera.track.offset_s = 4;
+  CHECK(problem_of(project, track).find("covers 0.000 to 10.000 s") != std::string::npos);
+  CHECK(problem_of(project, track, {0, 150}) == "no problem");
+  project.camera.track.incomplete = IncompleteTrackChoice::use;
+  CHECK(problem_of(project, track) == "no problem");
+  CHECK(has_warning(*flight_by_log(project, track, ten_seconds(), {0, 250}), "flies straight on"));
+  project.camera.track.offset_s = 1000;
+  CHECK(problem_of(project, track).find("offset_s") != std::string::npos);
+
+  project = with_log();
+  track.damaged = true;
+  CHECK(problem_of(project, track).find("damaged") != std::string::npos);
+  project.camera.track.incomplete = IncompleteTrackChoice::use;
+  CHECK(problem_of(project, track) == "no problem");
+}
+
+TEST_CASE("what the project asks for and the log has not is named") {
+  Project project = with_log();
+  project.camera.track.attitude = TrackAttitudeChoice::camera;
+  CHECK(problem_of(project, eastwards()).find("no attitude of the camera") != std::string::npos);
+  project.camera.track.attitude = TrackAttitudeChoice::automatic;
+  project.camera.track.position = TrackPositionChoice::log;
+  Track track{.file = "a.csv", .format = "CSV"};
+  add_airframe(track, {}, 0);
+  CHECK(problem_of(project, track).find("no position") != std::string::npos);
+  project.camera.track.position = TrackPositionChoice::none;
+  project.camera.track.attitude = TrackAttitudeChoice::none;
+  CHECK(problem_of(project, track).find("neither attitude nor position") != std::string::npos);
+}
+
+TEST_CASE("a camera at rest with equal stamps and places gives finite numbers") {
+  Track track{.file = "a.csv", .format = "CSV"};
+  track.position = {.source = "gps", .times_s = {0, 0, 1, 10}, .values = {kStart, kStart, kStart, kStart}};
+  const CameraFlight flight = flown(with_log(), track);
+  CHECK(has_warning(flight, "hardly moves"));
+  CHECK(glm::distance(camera_at(flight.motion, 3).translation_m, glm::dvec3(3, -4, -150)) < 1e-6);
+}
+
+TEST_CASE("the readout is the project's, else the log's") {
+  Project project = with_log();
+  Track track = eastwards();
+  track.readout_s = 0.0166;
+  CHECK(flown(project, track).motion.readout_s == 0.0166);
+  project.camera.readout_s = 0;
+  CHECK(flown(project, track).motion.readout_s == 0);
+}
+
+}  // namespace sigs
