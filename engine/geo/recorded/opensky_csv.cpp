@@ -19,7 +19,7 @@ namespace {
 
 using CsvFields = std::vector<std::string_view>;
 
-// Where the columns stand, in any order; nullopt: there is none of that name.
+// The number of each column, whatever their order; nullopt: there is none of that name.
 struct StateColumns {
   std::optional<std::size_t> time, address, latitude, longitude, callsign, pressure_height, height, position_time;
 };
