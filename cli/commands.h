@@ -21,6 +21,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_frame_command(CLI::App& program);     // sigs frame
 [[nodiscard]] Command add_info_command(CLI::App& program);      // sigs info
 [[nodiscard]] Command add_mask_command(CLI::App& program);      // sigs mask
+[[nodiscard]] Command add_path_command(CLI::App& program);      // sigs path
 
 // The same for the subcommands of sigs evaluate.
 [[nodiscard]] Command add_evaluate_detect(CLI::App& evaluate);

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/xml_text.h"  // xml_text, line_text
 #include "truth/annotation.h"
 
 namespace pugi {
@@ -26,13 +27,6 @@ inline constexpr int kLabelPixelDecimals = 4;
 [[nodiscard]] double rate_hz(const FootageTruth& footage);
 [[nodiscard]] std::string rate_text(const FootageTruth& footage);
 [[nodiscard]] int whole_rate_hz(const FootageTruth& footage);
-
-// Text that an XML 1.0 file may contain: bytes that are not UTF-8 and the characters that XML forbids (control
-// characters, U+FFFE, U+FFFF; XML 1.0 section 2.2) become U+FFFD. Markup is not escaped.
-[[nodiscard]] std::string xml_text(std::string_view text);
-
-// The same on one line: line breaks, tabs and DEL become blanks too.
-[[nodiscard]] std::string line_text(std::string_view text);
 
 // A name on one line without blanks at its ends, since readers of lists drop them. "unnamed" where nothing is left.
 // It can be the name of a folder where `text` can.

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/csv.h"
+#include "base/paths.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "base/xml_text.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/process.h"
+#include "geo/czml.h"
+#include "geo/kml.h"
+#include "geo/recorded_path.h"
+#include "geo/utc_time.h"
+
+namespace sigs::cli {
+
+namespace {
+
+constexpr const char* kPathFooter =
+    "Examples:\n"
+    "  sigs path flight.gpx\n"
+    "  sigs path trace_full_3c6444.json --out flight.kml\n"
+    "  sigs path aircraft.json --name DLH400 --out flight.czml --force";
+
+struct PathOptions {
+  std::filesystem::path file;
+  std::filesystem::path out;  // empty: nothing is written
+  std::string name;           // empty: all paths
+  bool force = false;
+};
+
+using Paths = std::vector<RecordedPath>;
+
+// "2026-05-01T12:00:00Z to 2026-05-01T12:10:00Z (10:00)"
+std::string time_span_text(const RecordedPath& path) {
+  if (!path.has_times) return "no times";
+  const double first_s = path.points.front().time_s;
+  const double last_s = path.points.back().time_s;
+  const std::string length = clock_text(last_s - first_s);
+  if (path.utc) return fmt::format("{} to {} ({})", utc_text(first_s), utc_text(last_s), length);
+  return fmt::format("{} to {} s ({})", number_text(first_s, 3), number_text(last_s, 3), length);
+}
+
+std::string name_text(const RecordedPath& path) {
+  if (path.icao24.empty() || path.icao24 == path.name) return fmt::format("\"{}\"", path.name);
+  return fmt::format("\"{}\" ({})", path.name, path.icao24);
+}
+
+std::string height_text(const RecordedPath& path, const PathExtent& extent) {
+  if (path.height == HeightReference::unknown) return "no heights";
+  return fmt::format("height {} to {} m {}", number_text(extent.low_m, 1), number_text(extent.high_m, 1),
+                     name_of(path.height));
+}
+
+// One line, so that a long list can be searched.
+void print_path(const RecordedPath& path) {
+  const PathExtent extent = extent_of(path.points);
+  std::printf("%s: %s, %s, %s, latitude %s to %s, longitude %s to %s\n", name_text(path).c_str(),
+              count_text(std::ssize(path.points), "point").c_str(), time_span_text(path).c_str(),
+              height_text(path, extent).c_str(), number_text(extent.south_deg, 6).c_str(),
+              number_text(extent.north_deg, 6).c_str(), number_text(extent.west_deg, 6).c_str(),
+              number_text(extent.east_deg, 6).c_str());
+  for (const Warning& warning : path.warnings) print_warning(warning);
+}
+
+bool is_called(const RecordedPath& path, const std::string& name) {
+  return lower_case(path.name) == lower_case(name) || (!path.icao24.empty() && path.icao24 == lower_case(name));
+}
+
+// Those asked for. Error usage where there is none of that name.
+Result<Paths> chosen_paths(Paths paths, const PathOptions& options) {
+  if (options.name.empty()) return paths;
+  constexpr std::size_t kMostNamed = 10;
+  std::vector<std::string> others;
+  Paths chosen;
+  for (RecordedPath& path : paths) {
+    if (is_called(path, options.name))
+      chosen.push_back(std::move(path));
+    else if (others.size() < kMostNamed)
+      others.push_back(name_text(path));
+  }
+  if (!chosen.empty()) return chosen;
+  if (paths.size() > others.size()) others.emplace_back("...");
+  return fail("--name " + line_text(options.name),
+              fmt::format("no such path in {}; there are {}", options.file.string(), listed(others)), ErrorKind::usage);
+}
+
+// Colours that differ on maps and aerial images.
+std::array<std::uint8_t, 3> color_number(std::size_t index) {
+  constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{
+      {{255, 220, 0}, {0, 220, 255}, {255, 90, 60}, {120, 255, 90}, {255, 110, 255}, {255, 255, 255}}};
+  return kColors[index % kColors.size()];
+}
+
+std::vector<GeoPath> geo_paths_of(const Paths& paths) {
+  std::vector<GeoPath> all;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const RecordedPath& path = paths[i];
+    std::string description = fmt::format("Heights: {}.", name_of(path.height));
+    if (!path.icao24.empty()) description = fmt::format("ICAO address {}. {}", path.icao24, description);
+    all.push_back({.name = path.name,
+                   .description = std::move(description),
+                   .color_rgb = color_number(i),
+                   .points = path.points,
+                   .has_times = path.has_times,
+                   .utc = path.utc});
+  }
+  return all;
+}
+
+std::string table_of(const Paths& paths) {
+  std::string text = "name,icao24,time_s,utc,latitude_deg,longitude_deg,height_m\n";
+  for (const RecordedPath& path : paths) {
+    const std::string begin = csv_field(path.name) + ',' + csv_field(path.icao24) + ',';
+    for (const TimedPlace& point : path.points)
+      text += fmt::format("{}{},{},{},{},{}\n", begin, number_text(point.time_s, 6),
+                          path.utc ? utc_text(point.time_s) : "", number_text(point.place.latitude_deg, 9),
+                          number_text(point.place.longitude_deg, 9), number_text(point.place.height_m, 4));
+  }
+  return text;
+}
+
+// The contents of the output, by its extension. Error usage.
+Result<std::string> converted(const Paths& paths, const PathOptions& options) {
+  const std::string extension = lower_extension(options.out);
+  const std::string title = options.file.filename().string();
+  if (extension == ".kml") return kml_text(geo_paths_of(paths), title);
+  if (extension == ".czml") return czml_text(geo_paths_of(paths), title);
+  if (extension == ".csv") return table_of(paths);
+  return fail("--out " + options.out.string(), "expected a name that ends with .kml, .czml or .csv", ErrorKind::usage);
+}
+
+Result<void> write(const std::string& text, const PathOptions& options) {
+  if (const Result<void> kept = check_inputs_not_overwritten({options.out}, {options.file}); !kept) return kept;
+  defer_interrupts();
+  if (const Result<void> written = write_text(options.out, text, options.force); !written) return written;
+  std::printf("%s\n", options.out.c_str());
+  return {};
+}
+
+Result<void> run(const PathOptions& options) {
+  if (!options.out.empty())
+    if (const Result<std::string> empty = converted({}, options); !empty) return fail(empty.error());
+  Result<Paths> all = read_recorded_paths(options.file);
+  if (!all) return fail(all.error());
+  const Result<Paths> paths = chosen_paths(std::move(*all), options);
+  if (!paths) return fail(paths.error());
+  for (const RecordedPath& path : *paths) print_path(path);
+  if (options.out.empty()) return {};
+  const Result<std::string> text = converted(*paths, options);
+  if (!text) return fail(text.error());
+  return write(*text, options);
+}
+
+}  // namespace
+
+Command add_path_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("path", "list the recorded paths in a file, or convert them");
+  const auto options = std::make_shared<PathOptions>();
+  command
+      ->add_option("FILE", options->file,
+                   "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network")
+      ->required()
+      ->check(not_empty());
+  command->add_option("--out", options->out, "write the paths into this file, which ends with .kml, .czml or .csv")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_option("--name", options->name, "only paths of this name or ICAO address")->option_text("NAME");
+  command->add_flag("--force", options->force, "overwrite what is there");
+  command->footer(kPathFooter);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sigs::cli

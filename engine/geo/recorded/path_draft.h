@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geo/recorded_path.h"
+
+namespace sigs {
+
+// What a file says about a path before anything is checked. The readers of all formats make drafts; all_repaired()
+// makes paths of them.
+
+struct DraftPoint {
+  std::optional<double> time_s;                                    // nullopt: the file has none, or not a readable one
+  double latitude_deg = std::numeric_limits<double>::quiet_NaN();  // NaN: likewise
+  double longitude_deg = std::numeric_limits<double>::quiet_NaN();
+  std::optional<double> height_m = {};           // from what PathDraft::height says
+  std::optional<double> pressure_height_m = {};  // in the standard atmosphere
+};
+
+struct PathDraft {
+  std::string name;
+  std::string icao24;
+  HeightReference height = HeightReference::unknown;  // of DraftPoint::height_m
+  bool utc = true;                                    // times count from 1970
+  std::vector<DraftPoint> points;
+  std::vector<std::string> notes;  // warnings of the reader
+};
+
+// The paths of all drafts in which at least one point is usable, as read_recorded_paths() promises them, in their
+// order. A draft that never had a point is ignored; of one without a usable point the first path warns.
+// Error bad_data: there is no usable point at all.
+[[nodiscard]] Result<std::vector<RecordedPath>> all_repaired(std::vector<PathDraft> drafts, const std::string& where);
+
+// The whole text, but for white space around it, as a number with a point as decimal separator; NaN and infinity are
+// numbers. nullopt: it is not one.
+[[nodiscard]] std::optional<double> file_number_of(std::string_view text);
+
+// The same with NaN for what is no number.
+[[nodiscard]] double file_number_or_nan(std::string_view text);
+
+// A name from a file on one line of UTF-8 without blanks at its ends, of at most 200 bytes or so.
+[[nodiscard]] std::string file_name_text(std::string_view text);
+
+// Whether two points are surely the same message of an aircraft, repeated in a later snapshot: at the same place, at
+// times that differ by less than rounding makes them.
+[[nodiscard]] bool is_repeated(const PathDraft& draft, const DraftPoint& point);
+
+}  // namespace sigs
