@@ -108,7 +108,7 @@ TEST_CASE("KITTI's poses take points of the camera's optical axes to those of a 
   const std::string name = word_name(one_frame().name);
   std::istringstream row(text_of(folder / "k" / "poses" / (name + ".txt")));
   std::vector<double> m(12);
-  for (double& number : m) REQUIRE(row >> number);
+  for (double& number : m) REQUIRE_FALSE((row >> number).fail());
   // A point 100 m ahead, 7 m right and 3 m down, by the world's axes: x right = Y, y down = Z, z forward = X.
   const glm::dvec3 in_camera(100, 7, 3);
   const FrameTruth frame = logged_frame(117);
