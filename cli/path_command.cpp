@@ -16,6 +16,7 @@
 #include "base/xml_text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/path_project.h"
 #include "cli/process.h"
 #include "geo/czml.h"
 #include "geo/kml.h"
@@ -30,12 +31,15 @@ constexpr const char* kPathFooter =
     "Examples:\n"
     "  sigs path flight.gpx\n"
     "  sigs path trace_full_3c6444.json --out flight.kml\n"
-    "  sigs path aircraft.json --name DLH400 --out flight.czml --force";
+    "  sigs path aircraft.json --name DLH400 --out flight.czml --force\n"
+    "  sigs path aircraft.json --name DLH400 --into encounter.json --intruder 0\n"
+    "  sigs path encounter.json --out encounter.kml";
 
 struct PathOptions {
   std::filesystem::path file;
   std::filesystem::path out;  // empty: nothing is written
   std::string name;           // empty: all paths
+  IntoProject into;           // its project empty: none
   bool force = false;
 };
 
@@ -130,12 +134,16 @@ std::string table_of(const Paths& paths) {
   return text;
 }
 
+// As KML or CZML, by the output's extension.
+Result<std::string> globe_text(const std::vector<GeoPath>& paths, const PathOptions& options) {
+  const std::string title = options.file.filename().string();
+  return lower_extension(options.out) == ".kml" ? kml_text(paths, title) : czml_text(paths, title);
+}
+
 // The contents of the output, by its extension. Error usage.
 Result<std::string> converted(const Paths& paths, const PathOptions& options) {
   const std::string extension = lower_extension(options.out);
-  const std::string title = options.file.filename().string();
-  if (extension == ".kml") return kml_text(geo_paths_of(paths), title);
-  if (extension == ".czml") return czml_text(geo_paths_of(paths), title);
+  if (extension == ".kml" || extension == ".czml") return globe_text(geo_paths_of(paths), options);
   if (extension == ".csv") return table_of(paths);
   return fail("--out " + options.out.string(), "expected a name that ends with .kml, .czml or .csv", ErrorKind::usage);
 }
@@ -148,7 +156,21 @@ Result<void> write(const std::string& text, const PathOptions& options) {
   return {};
 }
 
+// The encounter of a project on the globe.
+Result<void> run_on_project(const PathOptions& options) {
+  const std::string extension = lower_extension(options.out);
+  if (extension != ".kml" && extension != ".czml")
+    return fail(options.file.string(), "is a project; its paths are written with --out FILE.kml or FILE.czml",
+                ErrorKind::usage);
+  const Result<std::vector<GeoPath>> paths = paths_of_project(options.file);
+  if (!paths) return fail(paths.error());
+  const Result<std::string> text = globe_text(*paths, options);
+  if (!text) return fail(text.error());
+  return write(*text, options);
+}
+
 Result<void> run(const PathOptions& options) {
+  if (is_project_file(options.file)) return run_on_project(options);
   if (!options.out.empty())
     if (const Result<std::string> empty = converted({}, options); !empty) return fail(empty.error());
   Result<Paths> all = read_recorded_paths(options.file);
@@ -156,6 +178,10 @@ Result<void> run(const PathOptions& options) {
   const Result<Paths> paths = chosen_paths(std::move(*all), options);
   if (!paths) return fail(paths.error());
   for (const RecordedPath& path : *paths) print_path(path);
+  if (!options.into.project.empty()) {
+    if (paths->size() != 1) return fail("--into", "needs one path; choose it with --name", ErrorKind::usage);
+    if (const Result<void> put = write_into_project(paths->front(), options.into); !put) return put;
+  }
   if (options.out.empty()) return {};
   const Result<std::string> text = converted(*paths, options);
   if (!text) return fail(text.error());
@@ -169,13 +195,36 @@ Command add_path_command(CLI::App& program) {
   const auto options = std::make_shared<PathOptions>();
   command
       ->add_option("FILE", options->file,
-                   "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network")
+                   "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network; or a project")
       ->required()
       ->check(not_empty());
   command->add_option("--out", options->out, "write the paths into this file, which ends with .kml, .czml or .csv")
       ->option_text("FILE")
       ->check(output_path());
   command->add_option("--name", options->name, "only paths of this name or ICAO address")->option_text("NAME");
+  command->add_option("--into", options->into.project, "make the path the flight of an intruder of this project")
+      ->option_text("PROJECT")
+      ->check(not_empty());
+  command->add_option("--intruder", options->into.intruder, "which intruder, from 0; one more adds one like the last")
+      ->option_text("N")
+      ->needs("--into");
+  command
+      ->add_option("--at-frame", options->into.traffic.at_frame,
+                   "the frame at which the path begins; without it both must know UTC")
+      ->option_text("FRAME")
+      ->needs("--into");
+  command
+      ->add_option("--tolerance-m", options->into.traffic.tolerance_m,
+                   "how far off the recorded points the flight may pass (2)")
+      ->option_text("M")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs("--into");
+  command
+      ->add_option("--height-offset-m", options->into.traffic.height_offset_m,
+                   "added to the path's heights, to bring them to the ellipsoid (0)")
+      ->option_text("M")
+      ->check(CLI::Range(-1e5, 1e5))
+      ->needs("--into");
   command->add_flag("--force", options->force, "overwrite what is there");
   command->footer(kPathFooter);
   return [options] { return run(*options); };

@@ -288,6 +288,7 @@ CameraFlight steady_flight(const Project& project) {
 void take_camera_flight(Scene& scene, CameraFlight flight) {
   scene.motion = std::move(flight.motion);
   scene.earth = std::move(flight.earth);
+  scene.utc_at_frame_0_s = flight.utc_at_frame_0_s;
   scene.horizon_is_known = flight.horizon_is_known;
   scene.warnings.insert(scene.warnings.end(), flight.warnings.begin(), flight.warnings.end());
 }
@@ -318,6 +319,7 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
   }
   if (parts->attitude != nullptr) turn_by_log(track, *parts, times, heading_rad, flight);
   flight.motion.readout_s = project.camera.readout_s.value_or(track.readout_s.value_or(0));
+  if (track.utc_at_zero_s) flight.utc_at_frame_0_s = *track.utc_at_zero_s + settings.offset_s;
   return flight;
 }
 

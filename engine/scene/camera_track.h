@@ -15,6 +15,7 @@ namespace sigs {
 struct CameraFlight {
   CameraMotion motion;
   std::optional<LocalFrame> earth;
+  std::optional<double> utc_at_frame_0_s;
   bool horizon_is_known = false;
   std::vector<Warning> warnings;
 };

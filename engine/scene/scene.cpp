@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sigs {
 
@@ -15,6 +17,17 @@ double time_of_frame_s(const FootageShape& footage, double frame) {
   const double share = frame - whole;
   const auto index = static_cast<std::size_t>(whole);
   return share == 0 ? times_s[index] : times_s[index] + share * (times_s[index + 1] - times_s[index]);
+}
+
+double frame_at_time(const FootageShape& footage, double time_s) {
+  const std::vector<double>& times_s = footage.times_s;
+  if (times_s.empty()) return time_s / footage.frame_interval_s;
+  if (time_s <= times_s.front()) return (time_s - times_s.front()) / footage.frame_interval_s;
+  const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
+  const double last = static_cast<double>(times_s.size()) - 1;
+  if (after == times_s.end()) return last + (time_s - times_s.back()) / footage.frame_interval_s;
+  const auto frame = static_cast<double>(after - times_s.begin());
+  return frame - (*after - time_s) / (*after - *std::prev(after));
 }
 
 Camera compositing_camera(const Scene& scene) {

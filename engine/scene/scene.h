@@ -31,6 +31,9 @@ struct FootageShape {
 // footage's ends (extrapolated with frame_interval_s). Without any times: frame * frame_interval_s.
 [[nodiscard]] double time_of_frame_s(const FootageShape& footage, double frame);
 
+// The reverse: the frame, with fractions, at a time. Of frames with the same time the first.
+[[nodiscard]] double frame_at_time(const FootageShape& footage, double time_s);
+
 // A point light and ambient light.
 struct SceneLight {
   glm::dvec3 position_m{0, 0, 0};  // world
@@ -84,11 +87,12 @@ struct Scene {
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
   CompositingSettings compositing;
   FootageShape footage;
-  int first_frame = 0;                   // of the footage, from 0
-  int last_frame = 0;                    // included
-  bool horizon_is_known = false;         // the project, or the camera's log, states the camera's attitude
-  std::optional<LocalFrame> earth = {};  // where the world lies on the Earth, if that is known
-  std::vector<Warning> warnings;         // from reading the files
+  int first_frame = 0;                          // of the footage, from 0
+  int last_frame = 0;                           // included
+  bool horizon_is_known = false;                // the project, or the camera's log, states the camera's attitude
+  std::optional<LocalFrame> earth = {};         // where the world lies on the Earth, if that is known
+  std::optional<double> utc_at_frame_0_s = {};  // seconds since 1970 without leap seconds, if the camera's log knows
+  std::vector<Warning> warnings;                // from reading the files
   std::vector<Problem> issues;  // settings that can be used but are implausible, by field (scene/plausibility.h)
 };
 

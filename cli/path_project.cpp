@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "cli/path_project.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "base/input_file.h"
+#include "base/paths.h"
+#include "base/text.h"
+#include "cli/options.h"
+#include "cli/process.h"
+#include "project/json.h"
+#include "project/validate.h"
+#include "scene/camera_track.h"
+#include "scene/opened_project.h"
+#include "video/frame_source.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<Project> checked_project(const fs::path& file) {
+  Result<ReadProject> read = read_project(file);
+  if (!read) return fail(read.error());
+  for (const Warning& warning : read->warnings) print_warning(warning);
+  return std::move(read->project);
+}
+
+// What of a scene a recorded path needs: the footage's times, the camera's log and the place on the Earth. Models and
+// calibration may be missing still.
+Result<Scene> scene_for_traffic(const Project& project) {
+  const Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), &interrupt_flag());
+  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+  const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
+  Scene scene = bare_scene(project, shape_of(source->info()));
+  const OrProblem<FrameRange> range = scene_range(project.footage, scene.footage);
+  if (!range) return failed(range.error());
+  scene.first_frame = range->first;
+  scene.last_frame = range->last;
+  SceneFiles files;
+  OrProblem<CameraFlight> flight = camera_flight(project, scene.footage, *range, files);
+  if (!flight) return failed(flight.error());
+  take_camera_flight(scene, *std::move(flight));
+  for (const Warning& warning : scene.warnings) print_warning(warning);
+  return scene;
+}
+
+}  // namespace
+
+bool is_project_file(const fs::path& file) {
+  if (lower_extension(file) != ".json") return false;
+  const Result<std::string> text = read_text(file, kProjectLimit_bytes);
+  return text && read_project(file).has_value();
+}
+
+Result<std::vector<GeoPath>> paths_of_project(const fs::path& file) {
+  const Result<Project> project = checked_project(file);
+  if (!project) return fail(project.error());
+  const Result<OpenedProject> opened = open_project(*project, &interrupt_flag());
+  if (!opened) return fail(opened.error());
+  for (const Warning& warning : opened->warnings) print_warning(warning);
+  if (!opened->scene.earth)
+    return fail(file.string() + ": geo",
+                "does not say where on the Earth the world lies; set geo.latitude_deg, geo.longitude_deg, geo.height_m "
+                "and geo.heading_deg, or give the camera a log with positions",
+                ErrorKind::bad_project);
+  return geo_paths_of(opened->scene);
+}
+
+Result<void> write_into_project(const RecordedPath& path, const IntoProject& into) {
+  Result<Project> project = checked_project(into.project);
+  if (!project) return fail(project.error());
+  const auto count = static_cast<int>(project->intruders.size());
+  const std::string where = fmt::format("--intruder {}", into.intruder);
+  if (count == 0)
+    return fail(into.project.string() + ": intruders", "is empty; give it an intruder with a model first",
+                ErrorKind::bad_project);
+  if (into.intruder < 0 || into.intruder > count)
+    return fail(where,
+                fmt::format("the project has {}, 0 to {}; {} adds one like the last", count_text(count, "intruder"),
+                            count - 1, count),
+                ErrorKind::usage);
+  const Result<Scene> scene = scene_for_traffic(*project);
+  if (!scene) return fail(scene.error());
+  Result<std::vector<WaypointSettings>> waypoints = traffic_waypoints(path, *scene, into.traffic);
+  if (!waypoints) return fail(waypoints.error());
+  if (into.intruder == count) {
+    const IntruderSettings last = project->intruders.back();
+    project->intruders.push_back(last);
+    if (!path.name.empty()) project->intruders.back().name = path.name;
+  }
+  const std::size_t written = waypoints->size();
+  take_traffic(*project, static_cast<std::size_t>(into.intruder), *std::move(waypoints), *scene);
+  defer_interrupts();
+  if (const Result<void> saved = write_project(*project, into.project, true); !saved) return saved;
+  std::printf("%s: intruders[%d] flies by %s\n", into.project.c_str(), into.intruder,
+              count_text(static_cast<std::ptrdiff_t>(written), "waypoint").c_str());
+  return {};
+}
+
+}  // namespace sigs::cli
