@@ -10,7 +10,7 @@ namespace sigs {
 
 // Where the world lies on the Earth: its plane z = 0 touches the WGS-84 ellipsoid, raised to the origin's height, at
 // the origin, and its X axis has a heading there. The world is flat: z is the depth below that plane, so height above
-// the ellipsoid and -z part with the square of the distance, 0.08 m at 1 km, 7.8 m at 10 km.
+// the ellipsoid and -z part with the square of the distance, 0.08 m at 1 km, 7.8 to 7.9 m at 10 km.
 class LocalFrame {
  public:
   //   origin       finite, within the ranges of GeodeticPosition; of the world's point (0, 0, 0)

@@ -12,6 +12,7 @@
 #include "geo/local_frame.h"
 #include "geo/recorded_examples.h"
 #include "geo/utc_time.h"
+#include "support/comma_locale.h"
 #include "support/process.h"
 #include "support/test_data.h"
 
@@ -209,4 +210,14 @@ TEST_CASE("CZML begins with the document, has identifiers of its own, and any by
   CHECK(czml[1]["id"] != czml[3]["id"]);
   CHECK_FALSE(czml[2].contains("position"));
   CHECK(czml[2]["polyline"]["positions"]["cartographicDegrees"].size() == 3 * line.points.size());
+}
+
+TEST_CASE("where the system writes 1.234,5 the same texts are written and read") {
+  const GeoPath path = random_path(5);
+  const std::string kml = kml_text({path}, "a");
+  const std::string czml = czml_text({path}, "a");
+  const CommaLocale comma;
+  CHECK(kml_text({path}, "a") == kml);
+  CHECK(czml_text({path}, "a") == czml);
+  CHECK(largest_distance_m(recorded_paths_of(kml, "a.kml").value().at(0).points, path.points) < kMillimetre_m);
 }
