@@ -22,8 +22,8 @@ struct GeoPath {
                                         // are: KML counts them from the sea, CZML from the ellipsoid
   std::vector<std::optional<Attitude>> attitudes = {};  // of the body against north, east and down at its place; one
                                                         // for each point, or empty
-  bool has_times = true;  // false: a line without times is written
-  bool utc = true;        // false: time_s counts from kNoUtcEpoch_s instead of 1970, and the description says so
+  bool has_times = true;                                // false: a line without times is written
+  bool utc = true;  // false: time_s counts from kNoUtcEpoch_s instead of 1970, and the description says so
 };
 
 // The instant that stands for time 0 of paths whose times do not count from a known one: 2000-01-01T00:00:00Z.

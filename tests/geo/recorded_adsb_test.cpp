@@ -94,6 +94,15 @@ TEST_CASE("a trace has geometric heights; where it has pressure alone, the diffe
   CHECK(has_warning(path, "1 gap"));
 }
 
+TEST_CASE("a height that would follow from a wrong difference to the pressure's is not taken") {
+  // 10,000 ft less 70,000 ft of pressure; with 0 ft of pressure that would be 18 km below the ground.
+  const RecordedPath path =
+      adsb_paths(R"({"icao":"a","timestamp":1,"trace":[[0,47,8,70000,0,0,0,0,{"alt_geom":10000}],[5,47,8.1,0]]})")
+          .at(0);
+  REQUIRE(path.points.size() == 2);
+  CHECK(path.points[1].place.height_m == doctest::Approx(10000 * kFoot_m));
+}
+
 TEST_CASE("a trace without its instant has times that count from none") {
   const RecordedPath path = adsb_paths(R"({"icao":"3c6444","trace":[[0,47,8,1000],[5,47.1,8,1000]]})").at(0);
   CHECK(path.has_times);

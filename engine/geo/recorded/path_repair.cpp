@@ -152,7 +152,9 @@ void take_from_pressure(Repair& repair, OptionalNumbers& heights) {
   std::int64_t taken = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (heights[i] || !points[i].pressure_height_m) continue;
-    heights[i] = *points[i].pressure_height_m + all[i];
+    const double height_m = *points[i].pressure_height_m + all[i];
+    if (!is_usable_height(height_m)) continue;
+    heights[i] = height_m;
     ++taken;
   }
   if (taken > 0)
