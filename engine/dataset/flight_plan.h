@@ -19,7 +19,7 @@ namespace sigs {
 
 // The video for which a flight is planned.
 struct FlightContext {
-  CameraSettings camera;  // of an attitude file only the mean attitude counts
+  CameraSettings camera;  // of an attitude file or a log only the mean attitude counts
   const Camera& lens;     // lens and footage must outlive the context
   const FootageShape& footage;
   FrameRange frames;                     // of the video

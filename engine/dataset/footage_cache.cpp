@@ -10,6 +10,7 @@
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"
+#include "telemetry/read_track.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -52,6 +53,15 @@ class BackgroundOpener {
     if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
       if (const auto read = read_attitude_file(attitude); !read)
         return fail_at(key_of(i) + "camera.attitude_file", read.error());
+    if (const TrackSettings& track = background.camera.track; !track.file.empty()) {
+      // Flights are planned about a camera that flies straight on (flight_plan.h).
+      if (track.position != TrackPositionChoice::none)
+        return fail(key_of(i) + "camera.track.position",
+                    "is not \"none\": a recipe plans flights about a camera that flies straight on; use the log's "
+                    "attitude alone, or write the encounter as a project");
+      if (const auto read = read_track(track.file); !read)
+        return fail_at(key_of(i) + "camera.track.file", read.error());
+    }
     const int last = static_cast<int>(shape.times_s.size()) - 1;
     const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};
     if (frames.last > last || frames.first > frames.last)

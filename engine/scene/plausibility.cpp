@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"
 #include "spline/conditioning.h"
@@ -77,6 +78,11 @@ void check_model(const ModelSettings& settings, const Model& model, const std::s
                                                           : fmt::format("; is the file {}?", units))});
 }
 
+// Of the first frame.
+double camera_height_m(const Scene& scene) {
+  return -camera_at(scene.motion, time_of_frame_s(scene.footage, scene.first_frame)).translation_m.z;
+}
+
 struct Extremes {
   double fastest_mps = 0;
   double fastest_frame = 0;
@@ -111,7 +117,7 @@ void check_flight(const Scene& scene, const SceneIntruder& intruder, const std::
                      "together or their frames apart",
                      intruder.name, short_text(extremes.fastest_mps), nearest_frame_text(extremes.fastest_frame))});
   // Where the camera itself lies below z = 0, the project's world has its ground elsewhere.
-  if (extremes.lowest_z_m > 0 && scene.motion.world_from_camera_at_start.translation_m.z <= 0)
+  if (extremes.lowest_z_m > 0 && camera_height_m(scene) >= 0)
     issues.push_back(
         {key, fmt::format("\"{}\" is {} m below the ground at {}; the ground is z = 0, and heights are negative z",
                           intruder.name, short_text(extremes.lowest_z_m), nearest_frame_text(extremes.lowest_frame))});
@@ -167,7 +173,7 @@ std::vector<Problem> plausibility_issues(const Project& project, const Scene& sc
   std::vector<Problem> issues;
   for (const Warning& warning : scene.camera.warnings) issues.push_back({"footage.calibration", warning.text()});
   check_mask(scene.own_body, issues);
-  if (scene.motion.world_from_camera_at_start.translation_m.z > 0)
+  if (camera_height_m(scene) < 0)
     issues.push_back({"camera.position_m", "lies below the ground; the ground is z = 0, and heights are negative z"});
   for (std::size_t i = 0; i < intruder_of_project.size(); ++i) {
     if (intruder_of_project[i] < 0) continue;

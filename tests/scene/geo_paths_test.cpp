@@ -81,7 +81,8 @@ TEST_CASE("traffic without UTC begins at the frame that is given, and heights ma
   const auto waypoints = traffic_waypoints(path, scene, {.at_frame = 25, .height_offset_m = 50});
   REQUIRE(waypoints);
   CHECK(waypoints->front().frame == doctest::Approx(25));
-  CHECK(waypoints->front().place->height_m == doctest::Approx(450).epsilon(1e-6));
+  // 1800 m from the origin, where the world is flat: d^2 / 2R above 400 m, and the offset.
+  CHECK(waypoints->front().place->height_m == doctest::Approx(450 + 1800.0 * 1800 / (2 * 6.38e6)).epsilon(1e-5));
 }
 
 TEST_CASE("traffic that cannot be placed is an error that says why") {
