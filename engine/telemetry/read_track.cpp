@@ -8,8 +8,12 @@
 #include "base/input_file.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "telemetry/dataflash.h"
+#include "telemetry/dji_subtitles.h"
 #include "telemetry/gopro.h"
+#include "telemetry/klv.h"
 #include "telemetry/track_csv.h"
+#include "telemetry/ulog.h"
 #include "video/data_streams.h"
 
 namespace sigs {
@@ -31,10 +35,16 @@ struct StreamFormat {
 
 // The first that recognises a file reads it. To add a format: one line here, and README.md.
 constexpr FileFormat kFileFormats[] = {
+    {"PX4 ULog", is_ulog, read_ulog},
+    {"ArduPilot dataflash", is_dataflash, read_dataflash},
+    {"DJI subtitles", is_dji_subtitles, read_dji_subtitles},
+    {"MISB ST 0601", is_klv, read_klv},
     {"CSV", is_track_csv, read_track_csv},
 };
 constexpr StreamFormat kStreamFormats[] = {
     {"GoPro GPMF", is_gopro, read_gopro},
+    {"MISB ST 0601 in a stream", is_klv_stream, read_klv_stream},
+    {"DJI subtitles in a stream", is_dji_subtitle_stream, read_dji_subtitle_stream},
 };
 
 constexpr std::size_t kHead_bytes = 65536;

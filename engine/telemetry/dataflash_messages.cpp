@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include "telemetry/dataflash_messages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "base/text.h"
+#include "telemetry/binary_numbers.h"
+
+namespace sigs {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kHead = "\xA3\x95"sv;
+constexpr std::size_t kHeader_bytes = 3;
+constexpr std::size_t kFormat_bytes = 89;
+constexpr unsigned kFormatType = 128;
+constexpr std::size_t kMaxNamed = 10;  // places with skipped bytes that a warning names
+
+// What a letter of a format stands for.
+struct Letter {
+  std::size_t bytes = 0;             // 0: no known letter
+  std::optional<NumberType> number;  // none: a text or an array
+  double scale = 1;
+};
+
+Letter letter_of(char c) {
+  switch (c) {
+    case 'a':
+      return {.bytes = 64};
+    case 'b':
+      return {1, NumberType::int8};
+    case 'B':
+    case 'M':
+      return {1, NumberType::uint8};
+    case 'h':
+      return {2, NumberType::int16};
+    case 'H':
+      return {2, NumberType::uint16};
+    case 'c':
+      return {2, NumberType::int16, 0.01};
+    case 'C':
+      return {2, NumberType::uint16, 0.01};
+    case 'i':
+      return {4, NumberType::int32};
+    case 'I':
+      return {4, NumberType::uint32};
+    case 'e':
+      return {4, NumberType::int32, 0.01};
+    case 'E':
+      return {4, NumberType::uint32, 0.01};
+    case 'L':
+      return {4, NumberType::int32, 1e-7};
+    case 'f':
+      return {4, NumberType::float32};
+    case 'd':
+      return {8, NumberType::float64};
+    case 'q':
+      return {8, NumberType::int64};
+    case 'Q':
+      return {8, NumberType::uint64};
+    case 'n':
+      return {.bytes = 4};
+    case 'N':
+      return {.bytes = 16};
+    case 'Z':
+      return {.bytes = 64};
+    default:
+      return {};
+  }
+}
+
+// The text up to its first zero byte.
+std::string_view text_of(std::string_view bytes) {
+  return bytes.substr(0, bytes.find('\0'));
+}
+
+struct Column {
+  std::string name;
+  std::size_t offset = 0;
+  Letter letter;
+};
+
+// A wanted column at its place.
+struct Place {
+  std::size_t offset = 0;
+  NumberType type = NumberType::uint8;
+  double scale = 1;
+};
+
+struct MessageType {
+  std::size_t bytes = 0;  // with its header; 0: not defined
+  std::string name;
+  std::string definition;  // the bytes of its FMT message
+  std::vector<Column> columns;
+  std::string multipliers;  // letters, one for each column; empty: none stated
+  std::vector<std::optional<Place>> places;
+  bool is_placed = false;
+};
+
+// The type that a FMT message defines; nothing where it contradicts itself.
+std::optional<MessageType> defined_type(std::string_view body) {
+  MessageType type;
+  type.bytes = static_cast<unsigned char>(body[1]);
+  type.name = text_of(body.substr(2, 4));
+  type.definition = body;
+  const std::string_view letters = text_of(body.substr(6, 16));
+  std::string_view labels = text_of(body.substr(22, 64));
+  std::size_t offset = kHeader_bytes;
+  for (const char c : letters) {
+    const std::size_t comma = std::min(labels.find(','), labels.size());
+    const Letter letter = letter_of(c);
+    if (letter.bytes == 0) return {};
+    type.columns.push_back({std::string(trimmed(labels.substr(0, comma))), offset, letter});
+    labels.remove_prefix(std::min(comma + 1, labels.size()));
+    offset += letter.bytes;
+  }
+  if (offset != type.bytes || type.name.empty()) return {};
+  return type;
+}
+
+class Walk {
+ public:
+  Walk(std::string_view bytes, const DataflashReader& reader) : bytes_(bytes), reader_(reader) {
+    types_[kFormatType].bytes = kFormat_bytes;
+  }
+
+  DataflashContents contents() {
+    while (at_ < bytes_.size()) {
+      const std::size_t size = message_bytes(at_);
+      if (size == 0 || size > bytes_.size() - at_) {
+        if (!skip()) break;
+        continue;
+      }
+      take(static_cast<unsigned char>(bytes_[at_ + 2]), bytes_.substr(at_, size));
+      at_ += size;
+    }
+    if (skips_ > kMaxNamed)
+      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamed), "more place") +
+                                            " with bytes that are no message"});
+    return std::move(contents_);
+  }
+
+ private:
+  // The length of the message that begins here; 0: none of a known type does.
+  [[nodiscard]] std::size_t message_bytes(std::size_t at) const {
+    if (bytes_.size() - at < kHeader_bytes || bytes_.substr(at, 2) != kHead) return 0;
+    return types_[static_cast<unsigned char>(bytes_[at + 2])].bytes;
+  }
+
+  // Whether something that begins here is a message beyond doubt: another one, or the end, follows.
+  [[nodiscard]] bool is_followed(std::size_t at) const {
+    const std::size_t size = message_bytes(at);
+    if (size == 0 || size > bytes_.size() - at) return false;
+    const std::size_t next = at + size;
+    return next == bytes_.size() ||
+           bytes_.substr(next, 2) == kHead.substr(0, std::min<std::size_t>(2, bytes_.size() - next));
+  }
+
+  // Goes on to the next message. False: there is none.
+  bool skip() {
+    contents_.damaged = true;
+    std::size_t found = bytes_.find(kHead, at_ + 1);
+    while (found != std::string_view::npos && !is_followed(found)) found = bytes_.find(kHead, found + 1);
+    const bool is_end = found == std::string_view::npos;
+    const std::string skipped = count_text(static_cast<std::int64_t>((is_end ? bytes_.size() : found) - at_), "byte");
+    if (is_end)
+      contents_.warnings.push_back({"byte " + std::to_string(at_),
+                                    "the log is cut off or broken: the last " + skipped + " are no whole message"});
+    else if (++skips_ <= kMaxNamed)
+      contents_.warnings.push_back({"byte " + std::to_string(at_), skipped + " skipped that are no message"});
+    at_ = found;
+    return !is_end;
+  }
+
+  void take(unsigned number, std::string_view message) {
+    if (number == kFormatType) return define(message.substr(kHeader_bytes));
+    MessageType& type = types_[number];
+    if (type.name == "FMTU") return take_multipliers(type, message);
+    if (type.name == "MULT") return take_multiplier(type, message);
+    if (type.name == "MSG") return take_text(type, message);
+    if (!type.is_placed) place(type);
+    if (type.places.empty()) return;
+    values_.clear();
+    for (const std::optional<Place>& p : type.places)
+      values_.push_back(p ? number_at(message, p->offset, p->type) * p->scale
+                          : std::numeric_limits<double>::quiet_NaN());
+    reader_.take(type.name, values_);
+  }
+
+  void define(std::string_view body) {
+    const unsigned number = static_cast<unsigned char>(body[0]);
+    if (number == kFormatType || types_[number].definition == body) return;
+    std::optional<MessageType> type = defined_type(body);
+    if (type)
+      types_[number] = std::move(*type);
+    else if (++refused_ <= kMaxNamed)
+      contents_.warnings.push_back(
+          {"byte " + std::to_string(at_),
+           "the definition of message type " + std::to_string(number) + " contradicts itself; left out"});
+  }
+
+  static const Column* column(const MessageType& type, std::string_view name) {
+    for (const Column& column : type.columns)
+      if (column.name == name) return &column;
+    return nullptr;
+  }
+
+  // FMTU: the type that it is about, the letters of the units, and those of the multipliers.
+  void take_multipliers(const MessageType& type, std::string_view message) {
+    const Column* const about = column(type, "FmtType");
+    const Column* const letters = column(type, "MultIds");
+    if (!about || !letters || about->letter.bytes != 1) return;
+    MessageType& described = types_[static_cast<unsigned char>(message[about->offset])];
+    described.multipliers = text_of(message.substr(letters->offset, letters->letter.bytes));
+    described.is_placed = false;
+  }
+
+  void take_multiplier(const MessageType& type, std::string_view message) {
+    const Column* const letter = column(type, "Id");
+    const Column* const value = column(type, "Mult");
+    if (!letter || !value || value->letter.number != NumberType::float64) return;
+    const double multiplier = number_at(message, value->offset, NumberType::float64);
+    if (!std::isfinite(multiplier) || multiplier == 0) return;
+    multipliers_[message[letter->offset]] = multiplier;
+    for (MessageType& other : types_) other.is_placed = false;
+  }
+
+  void take_text(const MessageType& type, std::string_view message) {
+    if (const Column* const text = column(type, "Message"); text && reader_.take_text)
+      reader_.take_text(text_of(message.substr(text->offset, text->letter.bytes)));
+  }
+
+  void place(MessageType& type) {
+    type.is_placed = true;
+    type.places.clear();
+    for (const DataflashColumn& wanted : reader_.wanted(type.name)) {
+      type.places.emplace_back();
+      for (std::size_t i = 0; i < type.columns.size(); ++i) {
+        const Column& column = type.columns[i];
+        if (column.name != wanted.name || !column.letter.number) continue;
+        const double scale = wanted.is_scaled ? scale_of(type, i) : 1;
+        type.places.back() = Place{.offset = column.offset, .type = *column.letter.number, .scale = scale};
+      }
+    }
+  }
+
+  // '?' is the letter of multipliers that nobody has stated, '-' of columns without any.
+  [[nodiscard]] double scale_of(const MessageType& type, std::size_t index) const {
+    const char letter = index < type.multipliers.size() ? type.multipliers[index] : '-';
+    const auto stated = multipliers_.find(letter);
+    return letter == '-' || letter == '?' || stated == multipliers_.end() ? type.columns[index].letter.scale
+                                                                          : stated->second;
+  }
+
+  std::string_view bytes_;
+  const DataflashReader& reader_;
+  DataflashContents contents_;
+  std::size_t at_ = 0;
+  std::array<MessageType, 256> types_;
+  std::map<char, double> multipliers_;
+  std::vector<double> values_;
+  std::size_t skips_ = 0;
+  std::size_t refused_ = 0;
+};
+
+}  // namespace
+
+bool has_dataflash_magic(std::string_view bytes) {
+  return bytes.size() >= kFormat_bytes && bytes.starts_with(
+                                              "\xA3\x95\x80\x80\x59"
+                                              "FMT\0"sv);
+}
+
+Result<DataflashContents> read_dataflash_messages(std::string_view bytes, const std::string& name,
+                                                  const DataflashReader& reader) {
+  if (!has_dataflash_magic(bytes)) return fail(name, "does not begin as a dataflash log does");
+  return Walk(bytes, reader).contents();
+}
+
+}  // namespace sigs
