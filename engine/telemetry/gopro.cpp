@@ -14,6 +14,7 @@
 #include "telemetry/gopro_axes.h"
 #include "telemetry/gopro_stream.h"
 #include "telemetry/gopro_values.h"
+#include "telemetry/log_samples.h"
 
 namespace sigs {
 namespace {
@@ -104,7 +105,7 @@ class Reading {
   template <class T>
   Channel<T> channel_at(const GoproStream& stream, const GoproTimes& times, const std::function<T(Row)>& value_of) {
     Channel<T> channel{.source = "GPMF " + stream.key};
-    LeftOut unsound;
+    LeftOutSpan unsound;
     const std::size_t columns = static_cast<std::size_t>(stream.samples.columns);
     for (std::size_t i = 0; i < times.times_s.size(); ++i) {
       const T value = value_of(Row(stream.samples.values).subspan(i * columns, columns));
@@ -195,7 +196,7 @@ class Reading {
     if (stream == nullptr) return;
     const GoproTimes times = times_of(*stream);
     Channel<GeodeticPosition> position{.source = "GPMF " + stream->key, .clock = clock_of(times)};
-    LeftOut no_fix, at_zero, flat, unsound;
+    LeftOutSpan no_fix, at_zero, flat, unsound;
     std::vector<double> utc_s;
     for (const GoproBlock& block : stream->blocks) {
       for (int row = block.first_row; row < block.first_row + block.rows; ++row) {
@@ -205,7 +206,7 @@ class Reading {
           no_fix.add(time_s);
         } else if (sample.position.latitude_deg == 0 && sample.position.longitude_deg == 0) {
           at_zero.add(time_s);
-        } else if (!is_finite(sample.position)) {
+        } else if (why_no_place(sample.position) != nullptr) {
           unsound.add(time_s);
         } else {
           if (sample.fix < 3) flat.add(time_s);
@@ -217,7 +218,7 @@ class Reading {
         }
       }
     }
-    const auto say = [&](const LeftOut& left, const char* what) {
+    const auto say = [&](const LeftOutSpan& left, const char* what) {
       if (left.count > 0)
         warn(stream->key,
              fmt::format("{} {}, {}", count_text(left.count, "sample"), what, span_text(left.first_s, left.last_s)));

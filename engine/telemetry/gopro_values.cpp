@@ -9,19 +9,6 @@
 
 namespace sigs {
 
-bool is_finite(double value) {
-  return std::isfinite(value);
-}
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-bool is_finite(const glm::dquat& q) {
-  return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
-}
-bool is_finite(const GeodeticPosition& p) {
-  return std::isfinite(p.height_m) && std::abs(p.latitude_deg) <= 90 && std::abs(p.longitude_deg) <= 180;
-}
-
 std::optional<double> utc_of_gpsu(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
   double second = 0;

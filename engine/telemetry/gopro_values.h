@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <string>
-
-#include "geo/geodetic.h"
 
 namespace sigs {
 
@@ -14,20 +10,14 @@ namespace sigs {
 
 inline constexpr double kSecondsPerDay = 86400;
 
-// Whether a value can be a sample: finite, and a place also on the Earth.
-[[nodiscard]] bool is_finite(double value);
-[[nodiscard]] bool is_finite(const glm::dvec3& v);
-[[nodiscard]] bool is_finite(const glm::dquat& q);
-[[nodiscard]] bool is_finite(const GeodeticPosition& p);
-
 // UTC of GPSU's "yymmddhhmmss.sss", seconds since 1970 without leap seconds; nothing where it is no date.
 [[nodiscard]] std::optional<double> utc_of_gpsu(const std::string& text);
 
 // "at 1.20 s", "from 1.20 to 3.40 s"
 [[nodiscard]] std::string span_text(double first_s, double last_s);
 
-// Samples that are left out: how many, and when.
-struct LeftOut {
+// Samples of a stream that are left out for one reason: how many, and when.
+struct LeftOutSpan {
   int count = 0;
   double first_s = 0;
   double last_s = 0;

@@ -72,6 +72,24 @@ TEST_CASE("reading ends when it is cancelled") {
   CHECK(read.error().kind == ErrorKind::interrupted);
 }
 
+TEST_CASE("a file that ends before its index does is read up to there, and says so") {
+  const TemporaryFolder folder;
+  const std::filesystem::path clip = clip_with_subtitles(folder, "clip.mp4", "mov_text");
+  const std::string command = "ffmpeg -v error -y -i '" + clip.string() + "' -map 0 -c copy -movflags +faststart '" +
+                              (folder / "cut.mp4").string() + "'";
+  REQUIRE(std::system(command.c_str()) == 0);
+  const auto whole = read_data_stream(folder / "cut.mp4", 1);
+  REQUIRE(whole);
+  CHECK_FALSE(whole->broke_off);
+  REQUIRE(whole->packets.size() >= 2);
+  // Cut within the last payload.
+  std::filesystem::resize_file(folder / "cut.mp4", static_cast<std::uintmax_t>(whole->packets.back().file_offset + 1));
+  const auto cut = read_data_stream(folder / "cut.mp4", 1);
+  REQUIRE(cut);
+  CHECK(cut->broke_off);
+  CHECK(cut->packets[0].bytes == whole->packets[0].bytes);
+}
+
 TEST_CASE("the telemetry of a real clip is found, also where its video is broken") {
   if (!has_real_data()) return;
   const std::filesystem::path clip = real_data() / "video" / "air_karma_gopro_coast.mp4";
