@@ -309,6 +309,10 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
   flight.warnings = track.warnings;
   flight.warnings.insert(flight.warnings.end(), gaps->begin(), gaps->end());
   warn_if_slow(track, *parts, flight.warnings);
+  if (parts->attitude == &track.ned_from_airframe && settings.attitude == TrackAttitudeChoice::automatic)
+    flight.warnings.push_back({track.file.string(),
+                               "has the airframe's attitude alone, which a camera on a gimbal does not share; set "
+                               "camera.track.attitude to airframe if the camera is fixed to it, else to none"});
 
   const double heading_rad = heading_of_world(project, track, *parts, times, flight.warnings);
   flight.earth = frame_of_log(project, *parts, times, heading_rad);
