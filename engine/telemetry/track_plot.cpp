@@ -46,7 +46,8 @@ struct Axis {
   int last_px = 1;
 
   [[nodiscard]] int at(double value) const {
-    return first_px + static_cast<int>(std::lround((value - low) / (high - low) * (last_px - first_px)));
+    const double share = (value - low) / (high - low);  // of numbers beyond 1e308 it may be none
+    return first_px + (std::isfinite(share) ? static_cast<int>(std::lround(share * (last_px - first_px))) : 0);
   }
 };
 

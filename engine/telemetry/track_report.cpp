@@ -33,8 +33,22 @@ std::string name_of_jump(double jump_s, double slack_s) {
   for (const Count& count : {Count{4294967.296, "2^32 ms: a 32-bit count began again"},
                              Count{4294.967296, "2^32 us: a 32-bit count began again"},
                              Count{65.536, "2^16 ms: a 16-bit count began again"}})
-    if (std::abs(jump_s + count.period_s) <= slack_s) return std::string("goes back by ") + count.name;
+    if (std::abs(jump_s + count.period_s) <= slack_s) return fmt::format("goes back by {}", count.name);
   return jump_s < 0 ? "goes back" : "goes ahead";
+}
+
+ClockJump jump_of(double at_s, double jump_s, double slack_s) {
+  ClockJump jump;
+  jump.at_s = at_s;
+  jump.jump_s = jump_s;
+  jump.what = name_of_jump(jump_s, slack_s);
+  return jump;
+}
+
+// Places need more digits than six.
+std::string range_text(const Range& range, double value) {
+  const bool of_place = range.column == "latitude_deg" || range.column == "longitude_deg";
+  return of_place ? fixed_text(value, 7) : short_number_text(value);
 }
 
 void find_gaps(ChannelReport& report, const std::vector<double>& times_s, double interval_s) {
@@ -51,8 +65,7 @@ void find_jumps(ChannelReport& report, const std::vector<double>& times_s, const
   for (std::size_t i = 1; i < own_s.size() && i < times_s.size(); ++i) {
     const double own_step_s = own_s[i] - own_s[i - 1];
     const double jump_s = own_step_s - (times_s[i] - times_s[i - 1]);
-    if (own_step_s < 0 || std::abs(jump_s) > slack_s)
-      report.jumps.push_back({times_s[i], jump_s, name_of_jump(jump_s, slack_s)});
+    if (own_step_s < 0 || std::abs(jump_s) > slack_s) report.jumps.push_back(jump_of(times_s[i], jump_s, slack_s));
   }
 }
 
@@ -154,8 +167,8 @@ std::string track_report_text(const Track& track, int most_gaps) {
                         report.source);
     if (!report.clock.empty()) text += fmt::format("  times: {}\n", report.clock);
     for (const Range& range : report.ranges)
-      text += fmt::format("  {:<24}{:>14} to {}\n", range.column, short_number_text(range.low),
-                          short_number_text(range.high));
+      text += fmt::format("  {:<24}{:>14} to {}\n", range.column, range_text(range, range.low),
+                          range_text(range, range.high));
     text += odd_times_of(report, most_gaps);
   }
   return text;
