@@ -15,6 +15,7 @@ using namespace std::string_view_literals;
 constexpr std::string_view kKey = "\x06\x0E\x2B\x34\x02\x0B\x01\x01\x0E\x01\x03\x01\x01\x00\x00\x00"sv;
 constexpr std::string_view kAnyKey = "\x06\x0E\x2B\x34"sv;  // of all keys that SMPTE registers
 constexpr std::size_t kAccessUnitHeader_bytes = 5;
+constexpr std::size_t kMaxPacket_bytes = 65536;  // real ones have up to some 2000; a longer one is a damaged length
 
 // How a number is stored (ST 0601, section 8, and ST 1201 for the last).
 enum class Coding {
@@ -170,7 +171,7 @@ KlvPackets klv_packets(std::string_view bytes) {
     const bool is_whole_key = rest.size() >= kKey.size();
     rest.remove_prefix(std::min(kKey.size(), rest.size()));
     const std::optional<std::uint64_t> length = is_whole_key ? taken_length(rest) : std::nullopt;
-    const bool fits = length && *length <= rest.size();
+    const bool fits = length && *length <= rest.size() && *length <= kMaxPacket_bytes;
     const std::size_t items = bytes.size() - rest.size();
     read.skipped_bytes += strange_bytes(bytes.substr(at, key - at), fits ? items - key + *length : 0);
     if (!fits) {

@@ -22,21 +22,21 @@ bool has_samples(const Track& track) {
          !track.airframe_force_mps2.empty() || !track.exposure_s.empty();
 }
 
-bool is_finite(double value) {
+bool all_finite(double value) {
   return std::isfinite(value);
 }
-bool is_finite(const glm::dvec3& value) {
+bool all_finite(const glm::dvec3& value) {
   return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
 }
-bool is_finite(const glm::dquat& value) {
+bool all_finite(const glm::dquat& value) {
   return std::isfinite(value.w) && std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
 }
-bool is_finite(const GeodeticPosition& value) {
+bool all_finite(const GeodeticPosition& value) {
   return std::isfinite(value.latitude_deg) && std::isfinite(value.longitude_deg) && std::isfinite(value.height_m);
 }
 
 const char* why_no_place(const GeodeticPosition& place) {
-  if (!is_finite(place)) return "not a finite number";
+  if (!all_finite(place)) return "not a finite number";
   if (std::abs(place.latitude_deg) > 90) return "a latitude beyond 90 degrees is impossible";
   if (std::abs(place.longitude_deg) > 180) return "a longitude beyond 180 degrees is impossible";
   if (std::abs(place.latitude_deg) < kNoFix_deg && std::abs(place.longitude_deg) < kNoFix_deg)
@@ -44,13 +44,13 @@ const char* why_no_place(const GeodeticPosition& place) {
   return nullptr;
 }
 
-void LeftOut::count(const std::string& reason, double own_time_s) {
+void LeftOutByReason::count(const std::string& reason, double own_time_s) {
   const auto [entry, is_first] = by_reason_.try_emplace(reason);
   if (is_first) entry->second.first_s = own_time_s;
   ++entry->second.count;
 }
 
-void LeftOut::report(const std::string& source, double zero_s, std::vector<Warning>& warnings) const {
+void LeftOutByReason::report(const std::string& source, double zero_s, std::vector<Warning>& warnings) const {
   for (const auto& [reason, samples] : by_reason_) {
     std::string what = count_text(static_cast<std::int64_t>(samples.count), "sample") + " left out";
     const double first_s = samples.first_s - zero_s;

@@ -24,17 +24,17 @@ inline constexpr std::uint64_t kLogLimit_bytes = std::uint64_t{2} << 30;
 [[nodiscard]] bool has_samples(const Track& track);
 
 // Whether all numbers of a value are finite.
-[[nodiscard]] bool is_finite(double value);
-[[nodiscard]] bool is_finite(const glm::dvec3& value);
-[[nodiscard]] bool is_finite(const glm::dquat& value);
-[[nodiscard]] bool is_finite(const GeodeticPosition& value);
+[[nodiscard]] bool all_finite(double value);
+[[nodiscard]] bool all_finite(const glm::dvec3& value);
+[[nodiscard]] bool all_finite(const glm::dquat& value);
+[[nodiscard]] bool all_finite(const GeodeticPosition& value);
 
 // Why the place cannot be one: beyond the range of latitude or longitude, not finite, or within 1e-6 degrees of 0, 0,
 // which receivers write before they have a fix. nullptr: it can.
 [[nodiscard]] const char* why_no_place(const GeodeticPosition& place);
 
 // Samples that were left out, by reason.
-class LeftOut {
+class LeftOutByReason {
  public:
   // One more sample, at a time of the log's own clock in seconds.
   void count(const std::string& reason, double own_time_s);
@@ -70,7 +70,7 @@ class Samples {
 
   // Adds a sample, unless its value or time is not finite or the time is before that of the last sample.
   void add(double own_time_s, const T& value) {
-    if (!is_finite(own_time_s) || !is_finite(value)) return leave_out("not a finite number", own_time_s);
+    if (!all_finite(own_time_s) || !all_finite(value)) return leave_out("not a finite number", own_time_s);
     if (!channel_.own_times_s.empty() && own_time_s < channel_.own_times_s.back())
       return leave_out("their time is before that of the sample before them", own_time_s);
     channel_.own_times_s.push_back(own_time_s);
@@ -96,7 +96,7 @@ class Samples {
 
  private:
   Channel<T> channel_;
-  LeftOut left_out_;
+  LeftOutByReason left_out_;
 };
 
 }  // namespace sigs

@@ -164,7 +164,7 @@ class Reading {
     gimbal_.push_back({time_of(v), {*q, (flags & (says_frame ? 64U : 16U)) != 0}});
   }
   void take_mount(Values v) {
-    if (is_finite(glm::dvec3(v[2], v[3], v[4]))) mount_.push_back({time_of(v), {v[2], v[3], v[4]}});
+    if (all_finite(glm::dvec3(v[2], v[3], v[4]))) mount_.push_back({time_of(v), {v[2], v[3], v[4]}});
   }
   void take_capture(Values v) {
     if (std::isfinite(time_of(v))) captures_s_.push_back(time_of(v));

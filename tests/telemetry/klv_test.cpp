@@ -188,3 +188,18 @@ TEST_CASE("broken KLV never reads beyond its bytes") {
   const std::string bytes = klv_payloads();
   CHECK(survives(bytes, read, 300, 300, bytes.size()));
 }
+
+TEST_CASE("with presentation times the track is on the footage's axis, and the stamps give its UTC") {
+  const std::string items =
+      klv_item(5, std::string(2, '\0')) + klv_item(6, std::string(2, '\0')) + klv_item(7, std::string(2, '\0'));
+  const KlvPackets read =
+      klv_packets(klv_packet_of(klv_stamp('\x00') + items) + klv_packet_of(klv_stamp('\x40') + items));
+  REQUIRE(read.packets.size() == 2);
+  const Result<Track> track =
+      klv_track({{.packet = read.packets[0], .footage_s = 0.5}, {.packet = read.packets[1], .footage_s = 0.6}}, "made");
+  REQUIRE(track);
+  CHECK(track->on_footage_time);
+  CHECK(track->ned_from_airframe.times_s == std::vector<double>{0.5, 0.6});
+  // 0x0005500000000000 microseconds at 0.5 s of the footage.
+  CHECK(*track->utc_at_zero_s == doctest::Approx(0x0005500000000000 * 1e-6 - 0.5).epsilon(1e-14));
+}
