@@ -62,7 +62,8 @@ void add(Digest& digest, const FileStamp& stamp) {
 // so that one that is added to the settings is not forgotten here.
 void add(Digest& digest, const std::vector<WaypointSettings>& waypoints) {
   digest.add(std::uint64_t(waypoints.size()));
-  for (const auto& [frame, position_m, unknown_json] : waypoints) {
+  for (const auto& [frame, position_m, place, unknown_json] : waypoints) {
+    static_cast<void>(place);  // position_m follows it
     static_cast<void>(unknown_json);
     digest.add(std::uint64_t(frame ? 1 : 0));
     digest.add(frame.value_or(0));
@@ -77,6 +78,7 @@ void for_each_input(ProjectOrConst& project, const Call& call) {
   call(project.footage.calibration);
   call(project.footage.own_body_mask);
   call(project.camera.attitude_file);
+  call(project.camera.track.file);
   for (auto& intruder : project.intruders) call(intruder.model.file);
 }
 

@@ -24,8 +24,8 @@ struct ContentId {
 // that this program does not know. Reads nothing from disk.
 [[nodiscard]] ContentId content_id_of(const Project& project);
 
-// Digest of the stamps of all files that a project names (footage, calibration, mask, attitude, models): another one
-// as soon as one of them appears, disappears or is written. Asks the file system.
+// Digest of the stamps of all files that a project names (footage, calibration, mask, attitude, flight log, models):
+// another one as soon as one of them appears, disappears or is written. Asks the file system.
 [[nodiscard]] ContentId input_files_id_of(const Project& project);
 
 // Digest of both: images with equal ids are the same.

@@ -7,6 +7,7 @@
 
 #include "editor/document/project_paths.h"
 #include "project/json.h"
+#include "project/places.h"
 
 namespace sigs::editor {
 
@@ -20,13 +21,22 @@ bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+bool finite(const std::optional<double>& number) {
+  return std::isfinite(number.value_or(0));
+}
+
+bool finite(const WaypointSettings& waypoint) {
+  const PlaceSettings place = waypoint.place.value_or(PlaceSettings());
+  return finite(waypoint.position_m) && finite(waypoint.frame) && std::isfinite(place.latitude_deg) &&
+         std::isfinite(place.longitude_deg) && std::isfinite(place.height_m);
+}
+
 bool finite(const IntruderSettings& intruder) {
   const TrajectoryPlan& plan = intruder.trajectory;
   return std::isfinite(intruder.model.scale) && std::isfinite(intruder.model.length_m) &&
          std::isfinite(plan.bank_limit_deg) &&
-         std::all_of(plan.waypoints.begin(), plan.waypoints.end(), [](const WaypointSettings& waypoint) {
-           return finite(waypoint.position_m) && (!waypoint.frame || std::isfinite(*waypoint.frame));
-         });
+         std::all_of(plan.waypoints.begin(), plan.waypoints.end(),
+                     [](const WaypointSettings& waypoint) { return finite(waypoint); });
 }
 
 bool finite(const OwnBodySettings& own_body) {
@@ -39,12 +49,20 @@ bool finite(const OwnBodySettings& own_body) {
   return true;
 }
 
+bool finite(const CameraSettings& camera) {
+  return finite(camera.position_m) && finite(camera.roll_deg) && finite(camera.pitch_deg) &&
+         std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) && std::isfinite(camera.track.offset_s) &&
+         finite(camera.readout_s);
+}
+
+bool finite(const GeoSettings& geo) {
+  return finite(geo.latitude_deg) && finite(geo.longitude_deg) && finite(geo.height_m) && finite(geo.heading_deg);
+}
+
 bool finite(const Project& project) {
-  const CameraSettings& camera = project.camera;
-  return finite(project.own_body) && finite(camera.position_m) && std::isfinite(camera.roll_deg.value_or(0)) &&
-         std::isfinite(camera.pitch_deg.value_or(0)) && std::isfinite(camera.yaw_deg) &&
-         std::isfinite(camera.speed_mps) && finite(project.light.position_m) && finite(project.light.color) &&
-         std::isfinite(project.light.ambient) && std::isfinite(project.compositing.blur_px_per_m) &&
+  return finite(project.own_body) && finite(project.camera) && finite(project.geo) &&
+         finite(project.light.position_m) && finite(project.light.color) && std::isfinite(project.light.ambient) &&
+         std::isfinite(project.compositing.blur_px_per_m) &&
          std::all_of(project.intruders.begin(), project.intruders.end(),
                      [](const IntruderSettings& intruder) { return finite(intruder); });
 }
@@ -140,6 +158,8 @@ void Document::change(const ChangeProject& change) {
   } catch (const std::exception&) {
     return;
   }
+  if (!finite(changed) || changed == project()) return;
+  keep_places(project(), changed);
   if (!finite(changed) || changed == project()) return;
   const bool joins = !change.gesture.empty() && change.gesture == gesture_ && !past_.empty();
   if (!joins) {

@@ -247,7 +247,8 @@ class Document {
   [[nodiscard]] bool has_file() const { return !project().file.empty(); }
 
   // Applies an edit. A change that leaves the project as it was makes no step of undo. A change that throws, or that
-  // leaves a number in the project that is not finite, is refused as a whole.
+  // leaves a number in the project that is not finite, is refused as a whole. Waypoints that are places on the Earth
+  // have place and position_m in step afterwards (project/places.h).
   void apply(const Edit& edit);
   void apply(const std::vector<Edit>& edits);
 

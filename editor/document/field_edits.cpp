@@ -16,10 +16,18 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m"};
+constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kNames{{
+    {"camera.track.file", "Log file"},
+    {"camera.track.offset_s", "Time offset"},
+    {"camera.track.position", "Its position"},
+    {"camera.track.attitude", "Its attitude"},
+    {"camera.track.incomplete", "If incomplete"},
+    {"camera.readout_s", "Shutter readout"},
+    {"geo.height_m", "Height of z = 0"},
+    {"geo.heading_deg", "Heading of X"},
     {"compositing.blur_px_per_m", "Blur with distance"},
     {"export.video.crf", "Quality (crf)"},
     {"export.video.codec", "Codec"},
@@ -47,6 +55,7 @@ std::string unit_text(std::string_view unit) {
 }
 
 std::string word_for_none(std::string_view key) {
+  if (key.starts_with("geo.") || key == "camera.readout_s") return "from the log";
   return key.starts_with("camera.attitude_deg.") ? "not set" : "none";
 }
 
@@ -246,6 +255,8 @@ std::vector<std::string> extensions_for(std::string_view key) {
   if (key.ends_with(".calibration")) return {".xml", ".yml", ".yaml", ".json"};
   if (key.ends_with("mask")) return {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
   if (key.ends_with(".attitude_file")) return {".csv"};
+  if (key.ends_with(".track.file"))
+    return {".csv", ".srt", ".ulg", ".bin", ".mp4", ".mov", ".ts", ".klv", ".txt", ".log"};
   if (key.ends_with(".model.file")) return {".obj"};
   return {};
 }

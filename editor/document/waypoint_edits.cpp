@@ -23,16 +23,40 @@ bool is_waypoint(const TrajectoryPlan& plan, int waypoint) {
 
 }  // namespace
 
+void put_at(WaypointSettings& waypoint, const glm::dvec3& position_m, const std::optional<LocalFrame>& earth) {
+  waypoint.position_m = position_m;
+  if (!waypoint.place) return;
+  waypoint.place.reset();
+  if (!earth) return;
+  const GeodeticPosition place = earth->place_of(position_m);
+  waypoint.place = {place.latitude_deg, place.longitude_deg, place.height_m};
+}
+
+namespace {
+
+WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
+                              const std::optional<LocalFrame>& earth) {
+  WaypointSettings waypoint{.frame = frame};
+  const bool among_places =
+      !plan.waypoints.empty() && std::all_of(plan.waypoints.begin(), plan.waypoints.end(),
+                                             [](const WaypointSettings& other) { return other.place.has_value(); });
+  if (among_places) waypoint.place.emplace();
+  put_at(waypoint, position_m, earth);
+  return waypoint;
+}
+
+}  // namespace
+
 int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
-                 const std::vector<double>& frames_now) {
+                 const std::vector<double>& frames_now, const std::optional<LocalFrame>& earth) {
   fix_frames(plan, frames_now);
   const auto after = std::find_if(plan.waypoints.begin(), plan.waypoints.end(),
                                   [&](const WaypointSettings& w) { return *w.frame > frame - kMinGap_frames; });
   const auto number = static_cast<int>(after - plan.waypoints.begin());
   if (after != plan.waypoints.end() && *after->frame < frame + kMinGap_frames)
-    after->position_m = position_m;
+    put_at(*after, position_m, earth);
   else
-    plan.waypoints.insert(after, {.frame = frame, .position_m = position_m});
+    plan.waypoints.insert(after, new_waypoint(plan, frame, position_m, earth));
   return number;
 }
 
@@ -42,7 +66,8 @@ void delete_waypoint(TrajectoryPlan& plan, int waypoint, const std::vector<doubl
   plan.waypoints.erase(plan.waypoints.begin() + waypoint);
 }
 
-int duplicate_waypoint(TrajectoryPlan& plan, int waypoint, const std::vector<double>& frames_now) {
+int duplicate_waypoint(TrajectoryPlan& plan, int waypoint, const std::vector<double>& frames_now,
+                       const std::optional<LocalFrame>& earth) {
   if (!is_waypoint(plan, waypoint)) return waypoint;
   fix_frames(plan, frames_now);
   const auto index = static_cast<std::size_t>(waypoint);
@@ -52,12 +77,13 @@ int duplicate_waypoint(TrajectoryPlan& plan, int waypoint, const std::vector<dou
     const WaypointSettings& next = plan.waypoints[index + 1];
     if (*next.frame - *original.frame < 2 * kMinGap_frames) return waypoint;
     copy.frame = std::midpoint(*original.frame, *next.frame);
-    copy.position_m = (original.position_m + next.position_m) * 0.5;
+    put_at(copy, (original.position_m + next.position_m) * 0.5, earth);
   } else {
     const bool alone = index == 0;
     const double gap = alone ? 25 : *original.frame - *plan.waypoints[index - 1].frame;
     copy.frame = *original.frame + std::max(kMinGap_frames, gap);
-    copy.position_m += alone ? glm::dvec3(50, 0, 0) : original.position_m - plan.waypoints[index - 1].position_m;
+    const glm::dvec3 step_m = alone ? glm::dvec3(50, 0, 0) : original.position_m - plan.waypoints[index - 1].position_m;
+    put_at(copy, original.position_m + step_m, earth);
   }
   plan.waypoints.insert(plan.waypoints.begin() + waypoint + 1, copy);
   return waypoint + 1;

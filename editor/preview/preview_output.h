@@ -63,14 +63,22 @@ struct PreviewImage {
   FrameTimes times;
 };
 
+// The camera's attitude in the world in one frame, for curves.
+struct CameraTurn {
+  Attitude attitude;           // yaw goes on beyond 180 degrees where the camera turns on
+  std::optional<Attitude> sd;  // standard deviations of the three angles; none where they are not known
+};
+
 // What the lanes of the timeline show of one intruder, frame by frame, known without rendering. Index 0 is first_frame.
 struct Survey {
   std::uint64_t revision = 0;
   // The scene's first frame, as a frame of the footage.
   int first_frame = 0;
-  // One a frame each; fewer while the survey is being made. All is empty for an intruder without waypoints.
+  // One a frame each; fewer while the survey is being made. Both are empty for an intruder without waypoints.
   std::vector<VisibilityEstimate> estimates;
   std::vector<FlightState> flight;
+  // Of the camera, one a frame too; empty where nothing turns it, there for an intruder without waypoints too.
+  std::vector<CameraTurn> camera;
   // Known once all frames are there: where the flight exceeds a limit, and where it is nearest to the camera.
   std::vector<FlightFlag> flags;
   ClosestApproach closest;

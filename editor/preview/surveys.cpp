@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "export/frame_stream.h"
 #include "project/project.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
-#include "export/frame_stream.h"
+#include "scene/scene_at.h"
 
 namespace sigs::editor {
 
@@ -73,9 +76,45 @@ void SurveyBuilder::begin(std::shared_ptr<const OpenedScene> scene) {
   handed_out_ = 0;
 }
 
+namespace {
+
+// Rates of roll, pitch and yaw by those about the body's axes (Stevens, Lewis, Johnson: Aircraft Control and
+// Simulation, 3rd edition, eq. 1.4-3), taken for small turns.
+Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
+  const double cos_pitch = std::max(std::abs(std::cos(at.pitch_rad)), 1e-9);
+  const double up = sd_rad.y * std::sin(at.roll_rad);
+  const double side = sd_rad.z * std::cos(at.roll_rad);
+  const double yaw_rad = std::hypot(up, side) / cos_pitch;
+  const double roll_rad = std::hypot(sd_rad.x, yaw_rad * std::sin(at.pitch_rad));
+  const double pitch_rad = std::hypot(sd_rad.y * std::cos(at.roll_rad), sd_rad.z * std::sin(at.roll_rad));
+  const auto limited = [](double angle_rad) { return std::min(angle_rad, std::numbers::pi); };
+  return {.roll_rad = limited(roll_rad), .pitch_rad = limited(pitch_rad), .yaw_rad = limited(yaw_rad)};
+}
+
+}  // namespace
+
+CameraTurn camera_turn_at(const CameraMotion& motion, double time_s, const CameraTurn* before) {
+  CameraTurn turn{.attitude = attitude_of(camera_at(motion, time_s).rotation)};
+  if (const std::optional<glm::dvec3> sd_rad = attitude_sd_at(motion.deviations, time_s))
+    turn.sd = deviations_of_angles(turn.attitude, *sd_rad);
+  if (before != nullptr)
+    turn.attitude.yaw_rad = before->attitude.yaw_rad +
+                            std::remainder(turn.attitude.yaw_rad - before->attitude.yaw_rad, 2 * std::numbers::pi);
+  return turn;
+}
+
+void SurveyBuilder::look_at_camera(double time_s) {
+  const CameraMotion& motion = scene_->draft.scene.motion;
+  if (motion.turns.empty() || surveys_.empty()) return;
+  const std::vector<CameraTurn>& before = surveys_.front().camera;
+  const CameraTurn turn = camera_turn_at(motion, time_s, before.empty() ? nullptr : &before.back());
+  for (Survey& survey : surveys_) survey.camera.push_back(turn);
+}
+
 void SurveyBuilder::look_at_frame(int frame) {
   const Scene& scene = scene_->draft.scene;
   const double time_s = time_of_frame_s(scene.footage, frame);
+  look_at_camera(time_s);
   for (std::size_t i = 0; i < surveys_.size(); ++i) {
     const int id = scene_->draft.intruder_of_project[i];
     if (id < 0) continue;

@@ -30,6 +30,7 @@ class SurveyBuilder {
   [[nodiscard]] int last_frame() const { return scene_->draft.scene.last_frame; }
   void step();
   void look_at_frame(int frame);
+  void look_at_camera(double time_s);
   void look_at_whole(std::size_t intruder);
 
   std::shared_ptr<const OpenedScene> scene_;
@@ -40,6 +41,11 @@ class SurveyBuilder {
   // Frames that the last call of surveys() gave out.
   std::size_t handed_out_ = 0;
 };
+
+// The camera's turn at a time of the footage; without `before` its yaw is within 180 degrees of 0, else of that turn's.
+// Standard deviations are to first order: those of the three angles come from small turns about the camera's own axes
+// that do not depend on each other; straight up or down, where roll and yaw are the same, they are at most 180 degrees.
+[[nodiscard]] CameraTurn camera_turn_at(const CameraMotion& motion, double time_s, const CameraTurn* before);
 
 // What result files of this scene's footage count in.
 [[nodiscard]] FootageTruth footage_truth_of(const OpenedScene& scene);

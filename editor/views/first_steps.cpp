@@ -14,6 +14,7 @@
 
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
+#include "editor/views/shown_camera.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
@@ -80,7 +81,9 @@ Steps with_problems(Steps steps, const PreviewOutput& shown) {
 }
 
 // "": not known yet.
-std::string horizon_text(const CameraSettings& camera) {
+std::string horizon_text(const ViewContext& context) {
+  const CameraSettings& camera = context.project().camera;
+  if (camera.attitude_file.empty() && is_turned_by_file(context)) return camera.track.file;
   if (!knows_horizon(camera)) return "";
   if (!camera.attitude_file.empty()) return camera.attitude_file;
   return fmt::format("roll {}, pitch {}", number_text(camera.roll_deg.value_or(0), "deg"),
@@ -111,7 +114,7 @@ Steps steps_of(const ViewContext& context) {
                {.name = "Horizon",
                 .what = "Drag the line onto the footage's horizon, its ends to tilt it",
                 .key = "camera.attitude_deg",
-                .file = horizon_text(project.camera),
+                .file = horizon_text(context),
                 .extensions = {},
                 .choose = {}}}};
   return with_problems(std::move(steps), context.shown);

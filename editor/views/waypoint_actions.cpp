@@ -8,6 +8,8 @@
 
 #include "base/pose.h"
 #include "editor/document/waypoint_edits.h"
+#include "editor/views/shown_camera.h"
+#include "project/places.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 
@@ -25,16 +27,13 @@ const TrajectoryPlan& plan_of(const ViewContext& context, int intruder) {
 
 // Ahead of the camera at a frame and to its right, in the world, where it looks.
 glm::dvec3 ahead_of_camera(const ViewContext& context, int frame, double forward_m, double right_m) {
-  const CameraSettings& camera = context.project().camera;
-  const double time_s =
-      context.shown.scene ? time_of_frame_s(context.shown.scene->draft.scene.footage, frame) : frame * 0.04;
-  const auto [roll_rad, pitch_rad, yaw_rad] = mount_attitude(camera);
+  const CameraPose camera = camera_pose_at(context, time_of(context, frame));
+  const auto [roll_rad, pitch_rad, yaw_rad] = attitude_of(camera.rotation);
   const glm::dvec3 ahead(std::cos(pitch_rad) * std::cos(yaw_rad), std::cos(pitch_rad) * std::sin(yaw_rad),
                          -std::sin(pitch_rad));
   const glm::dvec3 right(-std::sin(yaw_rad), std::cos(yaw_rad), 0);
-  const glm::dvec3 here_m = camera.position_m + glm::dvec3(camera.speed_mps * time_s, 0, 0);
   // Centimetres keep the numbers short.
-  return glm::round((here_m + forward_m * ahead + right_m * right) * 100.0) / 100.0;
+  return glm::round((camera.translation_m + forward_m * ahead + right_m * right) * 100.0) / 100.0;
 }
 
 }  // namespace
@@ -81,7 +80,7 @@ void add_waypoint(const ViewContext& context, int intruder, double frame, const 
   TrajectoryPlan trial = plan_of(context, intruder);
   const int number = put_waypoint(trial, frame, position_m, frames);
   context.edits.change("add waypoint", [=](Project& project) {
-    (void)put_waypoint(plan_of(project, intruder), frame, position_m, frames);
+    (void)put_waypoint(plan_of(project, intruder), frame, position_m, frames, stated_frame(project.geo));
   });
   context.edits.select({Selected::waypoint, intruder, number});
 }
@@ -108,7 +107,9 @@ void duplicate_intruder(const ViewContext& context, int intruder) {
   context.edits.change("duplicate intruder", [=](Project& project) {
     IntruderSettings copy = project.intruders[static_cast<std::size_t>(intruder)];
     copy.name += " copy";
-    for (WaypointSettings& waypoint : copy.trajectory.waypoints) waypoint.position_m.y += 30;
+    const std::optional<LocalFrame> earth = stated_frame(project.geo);
+    for (WaypointSettings& waypoint : copy.trajectory.waypoints)
+      put_at(waypoint, waypoint.position_m + glm::dvec3(0, 30, 0), earth);
     project.intruders.insert(project.intruders.begin() + intruder + 1, copy);
   });
   context.edits.select({Selected::intruder, intruder + 1, 0});
@@ -136,7 +137,8 @@ void duplicate_selected(const ViewContext& context) {
   TrajectoryPlan trial = plan_of(context, selection.intruder);
   const int copy = duplicate_waypoint(trial, selection.waypoint, frames);
   context.edits.change("duplicate waypoint", [=](Project& project) {
-    (void)duplicate_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
+    (void)duplicate_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames,
+                             stated_frame(project.geo));
   });
   context.edits.select({Selected::waypoint, selection.intruder, copy});
 }

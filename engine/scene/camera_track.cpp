@@ -274,6 +274,12 @@ void warn_if_slow(const Track& track, const UsedParts& parts, std::vector<Warnin
       add(parts.places->source, step_s);
 }
 
+// Of a path of geodetic positions.
+glm::bvec3 moves_with_start(const GeoSettings& geo) {
+  const bool level = !geo.latitude_deg || !geo.longitude_deg;
+  return {level, level, !geo.height_m};
+}
+
 }  // namespace
 
 CameraFlight steady_flight(const Project& project) {
@@ -320,6 +326,7 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
     flight.motion.path = path_of(project, *parts, times, flight.earth, heading_rad);
     const std::string& source = parts->places != nullptr ? parts->places->source : parts->local_m->source;
     flight.motion.source.position = fmt::format("{}: {}", track.format, source);
+    if (parts->places != nullptr) flight.motion.moves_with_start = moves_with_start(project.geo);
   }
   if (parts->attitude != nullptr) turn_by_log(track, *parts, times, heading_rad, flight);
   flight.motion.readout_s = project.camera.readout_s.value_or(track.readout_s.value_or(0));

@@ -75,6 +75,8 @@ struct CameraMotion {
   std::vector<AttitudeDeviation> deviations = {};   // by rising time; empty: not known
   double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once
   PoseSource source = {};
+  glm::bvec3 moves_with_start{true, true, true};  // whether camera.position_m moves the path along world X, Y, Z: not
+                                                  // where the project states the world's origin on the Earth
 };
 
 // A project with everything that it names opened and checked. It does not change after it has been opened.

@@ -18,6 +18,16 @@ namespace sigs::editor {
 
 namespace {
 
+// What is set as finely far from zero as near it.
+struct FineField {
+  std::string_view key;
+  double step;  // a pixel of dragging
+  const char* format;
+};
+constexpr std::array<FineField, 3> kFineFields{{{"camera.track.offset_s", 0.002, "%.3f s"},
+                                                {"geo.latitude_deg", 1e-5, "%.7f\u00b0"},
+                                                {"geo.longitude_deg", 1e-5, "%.7f\u00b0"}}};
+
 double min_step(const Field& field) {
   constexpr std::array<std::pair<std::string_view, double>, 5> kSteps{
       {{"m", 0.1}, {"deg", 0.1}, {"m/s", 0.05}, {"px/m", 1e-5}, {"frame", 0.2}}};
@@ -28,6 +38,8 @@ double min_step(const Field& field) {
 
 // How much a number changes a pixel of dragging: a half percent of it, or what suits its unit where it is near zero.
 double drag_step(double value, const Field& field) {
+  for (const FineField& fine : kFineFields)
+    if (field.key == fine.key) return fine.step;
   const double share = std::abs(value) * 0.005;
   const bool has_no_zero = field.minimum > 0 && share > 0;
   return round_step(has_no_zero ? share : std::max(share, min_step(field)));
@@ -35,6 +47,8 @@ double drag_step(double value, const Field& field) {
 
 // Whole frames as whole numbers, so that dragging keeps to them.
 std::string format_of(double value, const Field& field) {
+  for (const FineField& fine : kFineFields)
+    if (field.key == fine.key) return fine.format;
   const bool is_whole = field.unit == "frame" && value == std::round(value);
   return is_whole ? "%.0f" : number_format(value, field.unit);
 }

@@ -95,7 +95,10 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
 }  // namespace
 
 std::string block_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 6> kBlocks{{{"footage.", "Inputs"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 9> kBlocks{{{"footage.", "Inputs"},
+                                                                             {"camera.track.", kCameraLogBlock},
+                                                                             {"camera.readout_s", kCameraLogBlock},
+                                                                             {"geo.", kPlaceBlock},
                                                                              {"own_body.", "Own body"},
                                                                              {"camera.", "Camera"},
                                                                              {"light.", "Light"},

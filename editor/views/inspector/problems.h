@@ -10,6 +10,10 @@
 
 namespace sigs::editor {
 
+// Blocks of the inspector that take some of a group's settings.
+inline constexpr const char* kCameraLogBlock = "Camera log";
+inline constexpr const char* kPlaceBlock = "Place on the Earth";
+
 // The inspector's block that a key belongs to; "" for the project's own.
 [[nodiscard]] std::string block_of(std::string_view key);
 

@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/views/shown_camera.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
@@ -70,10 +71,8 @@ double wrapped_deg(double angle_deg) {
 }  // namespace
 
 LightBlock::Viewpoint LightBlock::viewpoint_of(const ViewContext& context) {
-  const CameraSettings& camera = context.project().camera;
-  const double time_s =
-      context.shown.scene ? time_of_frame_s(context.shown.scene->draft.scene.footage, context.document.playhead()) : 0;
-  return {camera.position_m + glm::dvec3(camera.speed_mps * time_s, 0, 0), rad_of_deg(camera.yaw_deg)};
+  const CameraPose camera = camera_pose_at(context, time_of(context, context.document.playhead()));
+  return {camera.translation_m, attitude_of(camera.rotation).yaw_rad};
 }
 
 void LightBlock::draw_direction(const ViewContext& context, FieldRows& rows, const Viewpoint& viewpoint) {

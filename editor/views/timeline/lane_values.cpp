@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "base/ensure.h"
+#include "base/pose.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
@@ -160,6 +161,32 @@ constexpr std::array kLaneStyles{
               .color = IM_COL32(160, 160, 255, 255),
               .min_span = 2,
               .reference = 0.0},
+    LaneStyle{.lane = Lane::roll,
+              .kind = LaneKind::curve,
+              .shown_by_default = true,
+              .title = "Camera roll",
+              .help = "of the camera: right side down is positive. Alt + drag shifts the log in time",
+              .color = IM_COL32(236, 140, 130, 255),
+              .min_span = 4,
+              .reference = 0.0},
+    LaneStyle{.lane = Lane::pitch,
+              .kind = LaneKind::curve,
+              .shown_by_default = true,
+              .title = "Camera pitch",
+              .help = "of the camera: up is positive. Alt + drag shifts the log in time",
+              .color = IM_COL32(140, 212, 130, 255),
+              .min_span = 4,
+              .reference = 0.0},
+    LaneStyle{.lane = Lane::yaw,
+              .kind = LaneKind::curve,
+              .shown_by_default = true,
+              .title = "Camera yaw",
+              .help =
+                  "of the camera, from world X to the right, without jumps at 180 degrees. Alt + drag shifts the log "
+                  "in time",
+              .color = IM_COL32(136, 176, 255, 255),
+              .min_span = 4,
+              .reference = 0.0},
 };
 
 constexpr bool has_one_style(Lane lane) {
@@ -187,6 +214,10 @@ std::size_t count_of(const Survey& survey, Lane lane) {
     case Lane::load:
     case Lane::climb:
       return survey.flight.size();
+    case Lane::roll:
+    case Lane::pitch:
+    case Lane::yaw:
+      return survey.camera.size();
   }
   return 0;
 }
@@ -204,6 +235,21 @@ const LaneStyle& style_of(Lane lane) {
   return *style;
 }
 
+namespace {
+
+// In degrees, of a lane of the camera.
+double angle_deg(const Attitude& attitude, Lane lane) {
+  if (lane == Lane::roll) return deg_of_rad(attitude.roll_rad);
+  return deg_of_rad(lane == Lane::pitch ? attitude.pitch_rad : attitude.yaw_rad);
+}
+
+}  // namespace
+
+double deviation_in(const Survey& survey, Lane lane, std::size_t i) {
+  if (!is_of_camera(lane) || !survey.camera[i].sd) return std::numeric_limits<double>::quiet_NaN();
+  return angle_deg(*survey.camera[i].sd, lane);
+}
+
 double value_in(const Survey& survey, Lane lane, std::size_t i) {
   switch (lane) {
     case Lane::distance:
@@ -219,6 +265,10 @@ double value_in(const Survey& survey, Lane lane, std::size_t i) {
       return survey.flight[i].load_factor;
     case Lane::climb:
       return survey.flight[i].climb_rate_mps;
+    case Lane::roll:
+    case Lane::pitch:
+    case Lane::yaw:
+      return angle_deg(survey.camera[i].attitude, lane);
     case Lane::visibility:
       break;
   }
@@ -230,6 +280,10 @@ LaneValues values_of(const Survey& survey, Lane lane) {
   const LaneStyle& style = style_of(lane);
   if (style.kind == LaneKind::strip) return result;
   for (std::size_t i = 0; i < count_of(survey, lane); ++i) result.values.push_back(value_in(survey, lane, i));
+  if (is_of_camera(lane))
+    for (std::size_t i = 0; i < result.values.size(); ++i) result.deviations.push_back(deviation_in(survey, lane, i));
+  if (std::none_of(result.deviations.begin(), result.deviations.end(), [](double sd) { return std::isfinite(sd); }))
+    result.deviations.clear();
   result.scale = scale_for(result.values, style.min_span, style.scaling);
   bool is_first = true;
   for (const double value : result.values) {
@@ -240,6 +294,14 @@ LaneValues values_of(const Survey& survey, Lane lane) {
   }
   return result;
 }
+
+namespace {
+
+std::string angle_text(double angle_deg) {
+  return fmt::format("{:.1f}\u00b0", std::abs(angle_deg) < 0.05 ? 0.0 : angle_deg);
+}
+
+}  // namespace
 
 std::string value_text(Lane lane, double value) {
   if (!std::isfinite(value)) return "-";
@@ -256,6 +318,10 @@ std::string value_text(Lane lane, double value) {
       return fmt::format("{:.{}f} g", value, size >= 100 ? 0 : 2);
     case Lane::climb:
       return fmt::format("{:+.{}f} m/s", size < 0.05 ? 0.0 : value, size >= 100 ? 0 : 1);
+    case Lane::roll:
+    case Lane::pitch:
+    case Lane::yaw:
+      return angle_text(value);
     case Lane::visibility:
       break;
   }
@@ -265,7 +331,10 @@ std::string value_text(Lane lane, double value) {
 std::string text_in(const Survey& survey, Lane lane, std::size_t i) {
   if (i >= count_of(survey, lane)) return "-";
   if (lane == Lane::visibility) return name_of(survey.estimates[i].visibility_state);
-  return value_text(lane, value_in(survey, lane, i));
+  const double value = value_in(survey, lane, i);
+  const std::string text = value_text(lane, lane == Lane::yaw ? std::remainder(value, 360) : value);
+  const double deviation = deviation_in(survey, lane, i);
+  return std::isfinite(deviation) ? fmt::format("{} \u00b1{:.2g}\u00b0", text, deviation) : text;
 }
 
 bool belongs_to(FlightFault fault, Lane lane) {

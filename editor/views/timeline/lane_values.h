@@ -44,9 +44,15 @@ using Polyline = std::vector<glm::vec2>;
 [[nodiscard]] std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, const TimeRuler& ruler,
                                              const LaneScale& scale, const LaneBox& box);
 
-// What the timeline shows of the current intruder from frame to frame. visibility has a VisibilityState a frame;
-// distance is in metres, size in pixels, speed and climb in m/s, load in g.
-enum class Lane { visibility, distance, size, speed, load, climb };
+// What the timeline shows of the current intruder from frame to frame, and of the camera. visibility has a
+// VisibilityState a frame; distance is in metres, size in pixels, speed and climb in m/s, load in g; roll, pitch and
+// yaw, those of the camera, in degrees, yaw without jumps at 180.
+enum class Lane { visibility, distance, size, speed, load, climb, roll, pitch, yaw };
+
+// Whether a lane shows the camera, not the intruder.
+[[nodiscard]] constexpr bool is_of_camera(Lane lane) {
+  return lane == Lane::roll || lane == Lane::pitch || lane == Lane::yaw;
+}
 
 // strip: coloured stretches of frames, in a row of a line's height; each strip is drawn by a file of its own
 // (visibility_strip.h). curve: numbers on a scale; curves share the room that strips leave.
@@ -75,6 +81,8 @@ struct LaneStyle {
 // Values of all frames of a survey, and how they are shown. Without values for strips, whose states are no numbers.
 struct LaneValues {
   std::vector<double> values;
+  // Standard deviations, one for each value, NaN where it is not known; empty: none is.
+  std::vector<double> deviations;
   LaneScale scale;
   // Of the finite values; 0 where there is none.
   double minimum = 0;
@@ -84,10 +92,14 @@ struct LaneValues {
 [[nodiscard]] double value_in(const Survey& survey, Lane lane, std::size_t i);
 [[nodiscard]] LaneValues values_of(const Survey& survey, Lane lane);
 
+// Standard deviation of a value of a curve; NaN: not known.
+[[nodiscard]] double deviation_in(const Survey& survey, Lane lane, std::size_t i);
+
 // Of a curve: "933 m", "13.4 px", "+2.1 m/s"; "-" for what is not finite.
 [[nodiscard]] std::string value_text(Lane lane, double value);
 
-// What a lane of either kind says of a frame: "933 m", "in view". i is an index of the survey's frames; "-" where the
+// What a lane of either kind says of a frame: "933 m", "in view", "-12.3\u00b0 \u00b10.2\u00b0" with a standard
+// deviation that is known; yaw within 180 degrees. i is an index of the survey's frames; "-" where the
 // survey has no such frame.
 [[nodiscard]] std::string text_in(const Survey& survey, Lane lane, std::size_t i);
 

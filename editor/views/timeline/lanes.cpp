@@ -69,7 +69,28 @@ void draw_label(ImDrawList& list, const LaneMarks& marks, float x, float y, ImU3
   ImGui::PopFont();
 }
 
+// One standard deviation to both sides of the curve; no finer than the screen.
+void draw_deviations(ImDrawList& list, const LaneMarks& marks) {
+  const std::vector<double>& sd = marks.values.deviations;
+  if (sd.empty()) return;
+  const TimelineStrip& strip = marks.strip;
+  const double stride = std::max(1.0, std::ceil(strip.ruler.count / std::max(1.0, strip.ruler.width)));
+  const ImU32 shade = faded(marks.style.color, 0.25);
+  const auto count = static_cast<double>(sd.size());
+  const double first = marks.survey->first_frame;
+  const double from = std::clamp(std::floor((strip.ruler.first - first) / stride) * stride, 0.0, count);
+  const double to = std::clamp(strip.ruler.first + strip.ruler.count + stride - first, 0.0, count);
+  for (double i = from; i < to; i += stride) {
+    const auto index = static_cast<std::size_t>(i);
+    if (!std::isfinite(sd[index])) continue;
+    const double value = marks.values.values[index];
+    list.AddRectFilled({strip.edge_x(first + i), y_of(marks, value + sd[index])},
+                       {strip.edge_x(first + i + stride), y_of(marks, value - sd[index])}, shade);
+  }
+}
+
 void draw_curve(ImDrawList& list, const LaneMarks& marks) {
+  draw_deviations(list, marks);
   const LaneStyle& style = marks.style;
   const LaneScale& scale = marks.values.scale;
   if (style.reference && *style.reference > scale.low && *style.reference < scale.high) {
@@ -120,6 +141,7 @@ void draw_closest(ImDrawList& list, const LaneMarks& marks) {
 void list_values(const Survey& survey, std::size_t i) {
   ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit);
   for (const LaneStyle& style : lane_styles()) {
+    if (is_of_camera(style.lane) && survey.camera.empty()) continue;
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", style.title);
     ImGui::TableNextColumn();
@@ -187,6 +209,14 @@ void draw_hover(ImDrawList& list, const LaneMarks& marks, int frame) {
   list.AddRectFilled({x, marks.top_y}, {x + 1, marks.top_y + marks.height}, faded(color::kText, 0.5));
   draw_value_dot(list, marks, frame);
   draw_label(list, marks, x, marks.top_y + marks.height / 2, color::kText, fmt::format("{} at {}", text, frame));
+}
+
+// While the log is shifted: by what, beside the mouse.
+void draw_offset(ImDrawList& list, const ViewContext& context, const LaneMarks& marks) {
+  const ImVec2 mouse = ImGui::GetMousePos();
+  if (mouse.y < marks.top_y || mouse.y >= marks.top_y + marks.height) return;
+  draw_label(list, marks, mouse.x + scaled(8), marks.top_y + marks.height / 2, color::kAccent,
+             fmt::format("offset {:.3f} s", context.project().camera.track.offset_s));
 }
 
 // Once the mouse has rested: over a strip all that is known of a frame and what the colours mean, over a curve why it
@@ -289,15 +319,20 @@ void LaneRows::draw_chooser(const ViewContext& context) {
     context.ui_probe.note_item(fmt::format("timeline/lanes/{}", title));
   };
   if (ErrorLane::has_any(context)) draw_choice(ErrorLane::kTitle, shows_errors_);
-  for (LaneState& lane : lanes_) draw_choice(lane.style.title, lane.is_shown);
+  for (LaneState& lane : lanes_)
+    if (camera_turns_ || !is_of_camera(lane.style.lane)) draw_choice(lane.style.title, lane.is_shown);
   ImGui::EndPopup();
+}
+
+bool LaneRows::is_drawn(const LaneState& lane) const {
+  return lane.is_shown && (camera_turns_ || !is_of_camera(lane.style.lane));
 }
 
 float LaneRows::curve_height(float room_px, bool with_errors) const {
   float shares = with_errors ? kErrorsShare : 0;
   float for_curves = room_px;
   for (const LaneState& lane : lanes_) {
-    if (!lane.is_shown) continue;
+    if (!is_drawn(lane)) continue;
     if (lane.style.kind == LaneKind::strip)
       for_curves -= strip_height();
     else
@@ -307,7 +342,7 @@ float LaneRows::curve_height(float room_px, bool with_errors) const {
   return std::floor(std::clamp(for_curves / shares, scaled(kMinCurve_px), scaled(kMaxCurve_px)));
 }
 
-void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const {
+void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) {
   const ImVec2 low{row.strip.left(), row.top_y};
   const ImVec2 high{row.strip.right(), row.top_y + row.height};
   const LaneStyle& style = row.lane.style;
@@ -317,7 +352,7 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("lane", {std::max(1.0F, high.x - low.x), row.height});
   context.ui_probe.note_item(fmt::format("timeline/lane/{}", style.title));
-  ruler.scrub_on_item(context, row.strip);
+  if (!is_of_camera(style.lane) || !offset_.update_on_item(context, row.strip)) ruler.scrub_on_item(context, row.strip);
   const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
 
   const LaneMarks marks{.strip = row.strip,
@@ -339,11 +374,15 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
     draw_hover(list, marks, frame);
     tooltip_for_lanes(context, marks, frame);
   }
+  if (is_of_camera(style.lane) && offset_.is_active()) draw_offset(list, context, marks);
   list.PopClipRect();
   draw_row_line(list, row.strip, high.y - 1);
 }
 
 void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler) {
+  // While the log is shifted, so far that it covers no frame, its lanes stay under the mouse.
+  const bool turns = context.shown.scene && !context.shown.scene->draft.scene.motion.turns.empty();
+  camera_turns_ = turns || offset_.is_active();
   const std::optional<int> intruder = current_intruder(context);
   const auto index = static_cast<std::size_t>(intruder.value_or(0));
   const bool known = intruder && index < context.shown.surveys.size();
@@ -358,7 +397,7 @@ void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, floa
     y += height;
   }
   for (const LaneState& lane : lanes_) {
-    if (!lane.is_shown) continue;
+    if (!is_drawn(lane)) continue;
     const float height = lane.style.kind == LaneKind::strip ? strip_height() : curve;
     ImGui::PushID(lane.style.title);
     draw_lane(context, {.strip = strip, .lane = lane, .top_y = y, .height = height}, ruler);

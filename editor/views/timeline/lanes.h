@@ -6,12 +6,14 @@
 
 #include "editor/views/timeline/error_lane.h"
 #include "editor/views/timeline/lane_values.h"
+#include "editor/views/timeline/offset_drag.h"
 #include "editor/views/timeline/ruler.h"
 
 namespace sigs::editor {
 
 // How far the current intruder is, how large it looks, what hides it and how it flies, frame by frame; above that how
-// well trackers follow it, where their results are loaded. Pressing or dragging on a lane moves the playhead.
+// well trackers follow it, where their results are loaded, and below how the camera turns, where a file turns it.
+// Pressing or dragging on a lane moves the playhead; with Alt on a lane of the camera it shifts the log in time.
 class LaneRows {
  public:
   // Shows the lanes that are shown by default.
@@ -39,12 +41,16 @@ class LaneRows {
   [[nodiscard]] bool shows_errors(const ViewContext& context) const;
   // Of one curve, in screen pixels.
   [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
-  void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler) const;
+  // Hidden are those that are not ticked, and those of a camera that nothing turns.
+  [[nodiscard]] bool is_drawn(const LaneState& lane) const;
+  void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler);
 
   std::vector<LaneState> lanes_;  // one for each of lane_styles(), in its order
   bool shows_errors_ = true;      // where there are any
   ErrorLane errors_;
   std::shared_ptr<const Survey> survey_;  // of the current intruder
+  OffsetDrag offset_;
+  bool camera_turns_ = false;  // in this update
 };
 
 }  // namespace sigs::editor

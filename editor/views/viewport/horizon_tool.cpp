@@ -8,6 +8,8 @@
 #include <cstdio>
 
 #include "base/pose.h"
+#include "editor/views/shown_camera.h"
+#include "editor/views/viewport/heading_marks.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/theme.h"
@@ -49,7 +51,7 @@ void put_tilt(const ViewContext& context, const HorizonTilt& tilt, const std::st
 
 // On the line, within the mouse's reach.
 std::optional<HorizonGrip> grip_at(const ToolContext& tool) {
-  if (!tool.context.project().camera.attitude_file.empty()) return std::nullopt;
+  if (is_turned_by_file(tool.context)) return std::nullopt;
   const std::optional<HorizonGrip> grip =
       grip_of(horizon_of(tool), tool.canvas.view.image_of(tool.mouse), image_size(tool));
   if (!grip) return std::nullopt;
@@ -123,7 +125,8 @@ std::optional<HorizonPart> HorizonTool::part_at(const ToolContext& tool) const {
 
 void HorizonTool::draw(const ToolContext& tool, bool highlighted, LabelPlacer& labels) const {
   draw_horizon(tool.canvas, tool.eye);
-  const bool is_known = knows_horizon(tool.context.project().camera);
+  draw_heading_marks(tool.canvas, tool.context, tool.eye, labels);
+  const bool is_known = knows_horizon(tool.context.project().camera) || is_turned_by_file(tool.context);
   if (is_known && !highlighted && !taken_) return;
   const glm::dvec2 center = (image_size(tool) - 1.0) / 2.0;
   const std::optional<HorizonGrip> grip = grip_of(horizon_of(tool), center, image_size(tool));
@@ -131,7 +134,7 @@ void HorizonTool::draw(const ToolContext& tool, bool highlighted, LabelPlacer& l
   const glm::dvec2 middle = tool.canvas.view.screen_of(grip->middle_px);
   const auto handle = static_cast<double>(scaled(6));
   tool.context.ui_probe.note("viewport/horizon", {middle - handle, middle + handle});
-  if (tool.context.project().camera.attitude_file.empty())
+  if (!is_turned_by_file(tool.context))
     for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px}) draw_handle(tool.canvas, pixel);
   if (!is_known)
     draw_text(tool.canvas, *grip, "Horizon not set: drag this line onto it, its ends to tilt it", labels);

@@ -14,7 +14,8 @@ void keep_horizon(const ViewContext& context);
 
 // Moves the simulated horizon over the footage's own with the mouse: a drag of the middle half of the line sets the
 // camera's pitch, a drag of its ends sets roll (about the line's middle) and pitch. A click without a drag changes
-// nothing. One drag is one undo step; Escape takes it back. With an attitude file the line cannot be dragged.
+// nothing. One drag is one undo step; Escape takes it back. Where an attitude file or a log turns the camera
+// the line cannot be dragged.
 class HorizonTool {
  public:
   // For a press of the left button. True: the line was under the mouse and may be dragged.

@@ -101,7 +101,8 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
       toggle_item(
           {"horizon", Icon::horizon, "Horizon",
            "Where the world is level. Drag the line onto the footage's own horizon: its middle up and down, its "
-           "ends to tilt it"},
+           "ends to tilt it. Numbers: headings against true north where it is known, else against world X; the "
+           "circle with wings: where the camera flies to"},
           overlays.horizon),
       toggle_item({"own body", Icon::own_body, "Own body", "The mask of the aircraft that carries the camera"},
                   overlays.own_body),

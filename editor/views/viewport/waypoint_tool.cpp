@@ -12,6 +12,7 @@
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/zoomable_image.h"
+#include "project/places.h"
 #include "scene/scene_at.h"
 
 namespace sigs::editor {
@@ -39,7 +40,10 @@ int put_in_gesture(const ViewContext& context, int intruder, int frame, const gl
   const int number = put_waypoint(trial, frame, position_m, frames);
   context.edits.change(
       "add waypoint",
-      [=](Project& project) { (void)put_waypoint(project.intruders.at(index).trajectory, frame, position_m, frames); },
+      [=](Project& project) {
+        (void)put_waypoint(project.intruders.at(index).trajectory, frame, position_m, frames,
+                           stated_frame(project.geo));
+      },
       gesture);
   context.edits.select({Selected::waypoint, intruder, number});
   return number;

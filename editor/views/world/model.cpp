@@ -108,7 +108,6 @@ constexpr double kToleranceShare = 5e-5;  // of a trajectory's extent: a tenth o
 constexpr int kBorderSteps = 10;          // a side of the image, for a distorting lens
 constexpr int kHalvings = 14;
 constexpr double kFlatImageX = 0.3;  // of a ray's length: 72 degrees off the axis
-constexpr double kUsualInterval_s = 0.04;
 
 double extent_m(const std::vector<glm::dvec3>& points_m) {
   glm::dvec3 low = points_m.front();
@@ -212,9 +211,24 @@ ImageBorder image_border(const Camera& camera) {
   return border;
 }
 
+namespace {
+
+CurveSamples camera_path_of(const Scene& scene) {
+  const auto place = [&](double frame) {
+    return camera_at(scene.motion, time_of_frame_s(scene.footage, frame)).translation_m;
+  };
+  std::vector<glm::dvec3> rough_m;
+  for (int i = 0; i <= 8; ++i) rough_m.push_back(place(std::lerp(scene.first_frame, scene.last_frame, i / 8.0)));
+  const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
+  return sampled_curve(place, scene.first_frame, scene.last_frame, {}, tolerance_m, kMaxPoints);
+}
+
+}  // namespace
+
 WorldModel world_model(const OpenedScene& opened) {
   const Scene& scene = opened.draft.scene;
-  WorldModel model{.revision = opened.revision, .border = image_border(scene.camera)};
+  WorldModel model{
+      .revision = opened.revision, .border = image_border(scene.camera), .camera_path = camera_path_of(scene)};
   const std::vector<int>& numbers = opened.draft.intruder_of_project;
   for (std::size_t i = 0; i < numbers.size() && i < opened.project->intruders.size(); ++i) {
     if (numbers[i] < 0) continue;
@@ -225,25 +239,11 @@ WorldModel world_model(const OpenedScene& opened) {
   return model;
 }
 
-CameraPose camera_pose_at(const Project& project, double time_s) {
-  const CameraSettings& camera = project.camera;
-  return camera_at({.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
-                    .speed_mps = camera.speed_mps},
-                   time_s);
-}
-
-double time_of(const ViewContext& context, double frame) {
-  if (!context.shown.scene) return frame * kUsualInterval_s;
-  return time_of_frame_s(context.shown.scene->draft.scene.footage, frame);
-}
-
 WorldMoment world_moment(const ViewContext& context) {
   const double time_s = time_of(context, context.document.playhead());
-  WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(context.project(), time_s)};
+  WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(context, time_s)};
   if (!context.shown.scene) return moment;
   const DraftScene& draft = context.shown.scene->draft;
-  moment.world_from_camera.rotation =
-      world_from_carrier_at(draft.scene.motion.turns, time_s) * moment.world_from_camera.rotation;
   const std::size_t count = std::min(draft.intruder_of_project.size(), context.project().intruders.size());
   for (std::size_t i = 0; i < count; ++i) {
     if (draft.intruder_of_project[i] < 0) continue;
@@ -259,7 +259,8 @@ std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const Wor
   const Document& document = context.document;
   std::vector<glm::dvec3> points_m;
   for (const int frame : {document.first_frame(), document.last_frame()})
-    points_m.push_back(camera_pose_at(context.project(), time_of(context, frame)).translation_m);
+    points_m.push_back(camera_pose_at(context, time_of(context, frame)).translation_m);
+  for (const glm::dvec3& point_m : model.camera_path.points_m) points_m.push_back(point_m + path_shift_m(context));
   for (const IntruderSettings& intruder : context.project().intruders)
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints) points_m.push_back(waypoint.position_m);
   if (document.selection().kind == Selected::light) points_m.push_back(context.project().light.position_m);
@@ -267,7 +268,8 @@ std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const Wor
     const std::vector<glm::dvec3> flown_m = stretch(curve.samples, curve.range_first, curve.range_last);
     points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());
   }
-  if (points_m.front() == points_m[1] && points_m.size() == 2)  // a camera that hangs in the air, alone
+  // A camera that hangs in the air, alone.
+  if (std::all_of(points_m.begin(), points_m.end(), [&](const glm::dvec3& p) { return p == points_m.front(); }))
     points_m.push_back(points_m.front() + glm::dvec3(100, 0, 0));
   return points_m;
 }

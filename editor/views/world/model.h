@@ -12,6 +12,7 @@
 #include "editor/geometry/lens_projection.h"
 #include "editor/preview/preview_output.h"
 #include "editor/views/context.h"
+#include "editor/views/shown_camera.h"
 
 namespace sigs::editor {
 
@@ -65,6 +66,8 @@ struct WorldModel {
   std::uint64_t revision = 0;
   std::vector<WorldCurve> curves;
   ImageBorder border;
+  // Of the camera over the scene's range, by frame.
+  CurveSamples camera_path;
   // Distance of the farthest intruder from the camera, over the range; 0: there is none.
   double farthest_m = 0;
 };
@@ -77,19 +80,13 @@ struct WorldBody {
   Pose<frame::World, frame::Body> world_from_body;
   std::shared_ptr<const Model> model;
 };
-// The playhead's moment. The camera is the document's own, so that it does not lag behind a drag.
+// The playhead's moment, with the camera of views/shown_camera.h.
 struct WorldMoment {
   double time_s = 0;
   CameraPose world_from_camera;
   std::vector<WorldBody> bodies;
 };
 [[nodiscard]] WorldMoment world_moment(const ViewContext& context);
-
-// The camera by the document's settings, with what carries the camera level (an attitude file does not count).
-[[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
-
-// Time of a frame in seconds, by the footage where it is known, else by 25 frames a second.
-[[nodiscard]] double time_of(const ViewContext& context, double frame);
 
 // Everything near that should be in sight when a project is first shown: camera, trajectories within the range,
 // waypoints; the light only while it is selected.

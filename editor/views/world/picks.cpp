@@ -124,7 +124,8 @@ std::optional<Movable> movable(const WorldContext& world) {
 std::optional<Movable> movable(const WorldContext& world, const Selection& what) {
   const Project& project = world.context.project();
   if (what.kind == Selected::light) return Movable{what, "Light", project.light.position_m};
-  if (what.kind == Selected::camera) return Movable{what, "Camera", world.moment.world_from_camera.translation_m};
+  if (what.kind == Selected::camera && glm::any(movable_axes(world.context)))
+    return Movable{what, "Camera", world.moment.world_from_camera.translation_m};
   if (const WaypointSettings* waypoint = waypoint_of(project, what))
     return Movable{what, waypoint_title(world.context, what), waypoint->position_m};
   return std::nullopt;
@@ -143,10 +144,12 @@ void move_to(const WorldContext& world, const Movable& moved, const glm::dvec3& 
     edits.change(
         "move light", [=](Project& project) { project.light.position_m = to_m; }, gesture_of(moved.what));
   if (moved.what.kind != Selected::camera) return;
-  // The project holds where it starts.
-  const glm::dvec3 flown_m{world.context.project().camera.speed_mps * world.moment.time_s, 0, 0};
+  // The project holds where it starts: all of its way moves along.
+  const glm::dvec3 way_m = to_m - world.moment.world_from_camera.translation_m;
+  const glm::dvec3 start_m =
+      world.context.project().camera.position_m + glm::mix(glm::dvec3(0), way_m, movable_axes(world.context));
   edits.change(
-      "move camera", [=](Project& project) { project.camera.position_m = to_m - flown_m; }, gesture_of(moved.what));
+      "move camera", [=](Project& project) { project.camera.position_m = start_m; }, gesture_of(moved.what));
 }
 
 std::optional<glm::dvec3> place_for_waypoint(const WorldCanvas& canvas, const WorldContext& world,

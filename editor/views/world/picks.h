@@ -25,7 +25,8 @@ struct Movable {
   // In the world.
   glm::dvec3 at_m{0, 0, 0};
 };
-// What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the playhead).
+// What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the
+// playhead), unless its log says where it is (movable_axes()).
 [[nodiscard]] std::optional<Movable> movable(const WorldContext& world);
 [[nodiscard]] std::optional<Movable> movable(const WorldContext& world, const Selection& what);
 // Part of a gesture, of this name.

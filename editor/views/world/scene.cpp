@@ -114,8 +114,9 @@ void draw_axes(WorldCanvas& canvas) {
 
 namespace {
 
-constexpr double kCamera_px = 13;  // of the little camera, along its axis
-constexpr double kTick_px = 3.5;   // half a mark across a trajectory
+constexpr double kCamera_px = 13;      // of the little camera, along its axis
+constexpr double kCameraAxes_px = 24;  // of its axes
+constexpr double kTick_px = 3.5;       // half a mark across a trajectory
 constexpr double kMinTickGap_px = 7;
 constexpr ImU32 kCameraColor = IM_COL32(214, 222, 235, 255);
 
@@ -149,6 +150,31 @@ void draw_camera_icon(WorldCanvas& canvas, const CameraPose& pose, ImU32 color) 
   canvas.polyline(frame, color, 1.4);
   const std::array<glm::dvec3, 3> up{at(1, -0.35, -0.6), at(1, 0, -0.95), at(1, 0.35, -0.6)};
   canvas.polyline(up, color, 1.4);
+}
+
+// Forward, right and down of the camera, in the colours of the world's X, Y and Z.
+void draw_camera_axes(WorldCanvas& canvas, const CameraPose& pose) {
+  const double length_m = scaled(kCameraAxes_px) / canvas.eye().pixels_per_metre(pose.translation_m, canvas.rect());
+  constexpr std::array<ImU32, 3> kColors{color::kAxisX, color::kAxisY, color::kAxisZ};
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 tip{0, 0, 0};
+    tip[axis] = length_m;
+    canvas.line(pose.translation_m, pose * tip, kColors[static_cast<std::size_t>(axis)], 1.4);
+  }
+}
+
+// As the scene's log has it, or straight on by the settings.
+void draw_camera_path(WorldCanvas& canvas, const WorldContext& world) {
+  const ViewContext& context = world.context;
+  const ImU32 shade = faded(kCameraColor, 0.55);
+  if (context.shown.scene && context.shown.scene->draft.scene.motion.path) {
+    std::vector<glm::dvec3> points_m = world.model.camera_path.points_m;
+    for (glm::dvec3& point_m : points_m) point_m += path_shift_m(context);
+    canvas.polyline(points_m, shade, 1.6);
+    return;
+  }
+  const auto place = [&](int frame) { return camera_pose_at(context, time_of(context, frame)).translation_m; };
+  canvas.line(place(context.document.first_frame()), place(context.document.last_frame()), shade, 1.6);
 }
 
 void draw_ticks(WorldCanvas& canvas, const WorldCurve& curve, ImU32 color) {
@@ -204,14 +230,12 @@ void draw_drop_line(WorldCanvas& canvas, const glm::dvec3& from_m, ImU32 color) 
 
 void draw_camera(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered) {
   const Document& document = world.context.document;
-  const auto place = [&](int frame) {
-    return camera_pose_at(world.context.project(), time_of(world.context, frame)).translation_m;
-  };
-  canvas.line(place(document.first_frame()), place(document.last_frame()), faded(kCameraColor, 0.55), 1.6);
+  draw_camera_path(canvas, world);
   const CameraPose& pose = world.moment.world_from_camera;
   const bool highlighted = document.selection().kind == Selected::camera || hovered.kind == Selected::camera;
   draw_field_of_view(canvas, world.model.border, view_depth_m(world.model), pose, highlighted);
   draw_drop_line(canvas, pose.translation_m, kCameraColor);
+  draw_camera_axes(canvas, pose);
   draw_camera_icon(canvas, pose, highlighted ? color::kAccent : kCameraColor);
 }
 
@@ -268,7 +292,7 @@ void draw_closest_approaches(WorldCanvas& canvas, const WorldContext& world) {
     const Survey* survey = survey_of(world.context, curve.intruder);
     if (survey == nullptr || !(survey->closest.distance_m > 0)) continue;
     const ClosestApproach& closest = survey->closest;
-    const glm::dvec3 camera_m = camera_pose_at(world.context.project(), closest.time_s).translation_m;
+    const glm::dvec3 camera_m = camera_pose_at(world.context, closest.time_s).translation_m;
     const std::optional<glm::dvec3> body_m = position_of(world.context, curve.intruder, closest.frame);
     if (!body_m) continue;
     const bool current = is_current(world.context, curve.intruder);

@@ -81,8 +81,13 @@ std::optional<Selection> WorldMenu::draw_items(const WorldContext& world) const 
     case Selected::waypoint:
       if (!movable(world, what)) return std::nullopt;
       return draw_waypoint_items(world, what) ? std::optional(what) : std::nullopt;
-    case Selected::light:
     case Selected::camera:
+      if (!movable(world, what)) {
+        ImGui::TextDisabled("%s", kWhyCameraIsFixed);
+        return std::nullopt;
+      }
+      [[fallthrough]];
+    case Selected::light:
       return ImGui::MenuItem("Type its position ...", "N") ? std::optional(what) : std::nullopt;
     case Selected::intruder:
       if (ImGui::MenuItem("Add a waypoint here", "Enter")) add_waypoint_here(world.context);

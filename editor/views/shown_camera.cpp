@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/shown_camera.h"
+
+#include "scene/scene_at.h"
+#include "scene/scene_parts.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr double kUsualInterval_s = 0.04;
+
+// Null: no scene is open.
+const CameraMotion* motion_of(const ViewContext& context) {
+  return context.shown.scene ? &context.shown.scene->draft.scene.motion : nullptr;
+}
+
+}  // namespace
+
+CameraPose camera_pose_at(const Project& project, double time_s) {
+  return camera_at(steady_motion(project.camera), time_s);
+}
+
+CameraPose camera_pose_at(const ViewContext& context, double time_s) {
+  CameraPose pose = camera_pose_at(context.project(), time_s);
+  const CameraMotion* const motion = motion_of(context);
+  if (motion == nullptr) return pose;
+  pose.rotation = world_from_carrier_at(motion->turns, time_s) * pose.rotation;
+  if (motion->path) pose.translation_m = camera_at(*motion, time_s).translation_m + path_shift_m(context);
+  return pose;
+}
+
+double time_of(const ViewContext& context, double frame) {
+  if (!context.shown.scene) return frame * kUsualInterval_s;
+  return time_of_frame_s(context.shown.scene->draft.scene.footage, frame);
+}
+
+glm::dvec3 path_shift_m(const ViewContext& context) {
+  const CameraMotion* const motion = motion_of(context);
+  if (motion == nullptr || !motion->path || !context.shown.scene->project) return {0, 0, 0};
+  const glm::dvec3 shift_m = context.project().camera.position_m - context.shown.scene->project->camera.position_m;
+  return glm::mix(glm::dvec3(0), shift_m, motion->moves_with_start);
+}
+
+bool is_turned_by_file(const ViewContext& context) {
+  const CameraMotion* const motion = motion_of(context);
+  return !context.project().camera.attitude_file.empty() || (motion != nullptr && !motion->turns.empty());
+}
+
+glm::bvec3 movable_axes(const ViewContext& context) {
+  const CameraMotion* const motion = motion_of(context);
+  return motion != nullptr && motion->path ? motion->moves_with_start : glm::bvec3(true);
+}
+
+}  // namespace sigs::editor
