@@ -133,9 +133,10 @@ float Landscape::ground_luma(const glm::dvec2& p_m, double diameter_m) const {
   return 105 + 20 * fine_.mean(p_m, diameter_m) + 38 * fields_.mean(turned_m, diameter_m);
 }
 
+// Two sets of waves that the wind drives in nearly the same direction, at 9 and 5 m/s.
 float Landscape::water_luma(const glm::dvec2& p_m, double diameter_m, double time_s) const {
-  return 85 + 20 * waves_.mean(p_m - glm::dvec2(5, -4) * time_s, diameter_m) +
-         14 * waves_.mean(glm::dvec2(1.7 * p_m.y, -1.7 * p_m.x) - glm::dvec2(-3, 7) * time_s, 1.7 * diameter_m);
+  return 85 + 20 * waves_.mean(p_m - glm::dvec2(3, -9) * time_s, diameter_m) +
+         14 * waves_.mean(glm::dvec2(1.7 * p_m.y, -1.7 * p_m.x) - glm::dvec2(-9, 2) * time_s, 1.7 * diameter_m);
 }
 
 Seen Landscape::ground(const Ray& ray) const {
