@@ -1,2 +1,278 @@
 // SPDX-License-Identifier: MIT
 #include "ego_motion/ego_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/threads.h"
+#include "ego_motion/attitudes.h"
+#include "ego_motion/doubtful_frames.h"
+#include "ego_motion/features.h"
+#include "ego_motion/gyro_fusion.h"
+#include "ego_motion/horizon.h"
+#include "ego_motion/rotation_fit.h"
+#include "ego_motion/time_offset.h"
+#include "ego_motion/turns.h"
+#include "video/luma_stream.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kHorizonEvery = 10;           // frames
+constexpr double kLeastCorrelation = 0.7;   // below it log and footage are not of the same flight
+constexpr double kStabilized_rad = 0.0017;  // 0.1 degrees turned by the camera itself
+
+// What one pass over the footage gives.
+struct Seen {
+  std::vector<FrameRays> rays;
+  std::vector<bool> repeated;
+  std::vector<int> damaged;
+  std::vector<HorizonLine> lines;
+  double pixel_rad = 1e-3;  // of the reduced image
+};
+
+class Estimate {
+ public:
+  Estimate(FrameSource& footage, const Camera& camera, const cv::Mat& own_body, const Track* telemetry,
+           const EgoMotionSettings& settings, const EgoMotionControl& control)
+      : footage_(footage),
+        camera_(camera),
+        own_body_(own_body),
+        telemetry_(telemetry),
+        settings_(settings),
+        control_(control),
+        path_(footage.info().path.string()),
+        times_s_(footage.info().times_s) {}
+
+  Result<EgoMotion> run() {
+    if (const Result<void> good = check(); !good) return fail(good.error());
+    if (const Result<void> passed = pass(); !passed) return fail(passed.error());
+    const double readout_s =
+        settings_.readout_s.value_or(telemetry_ != nullptr && telemetry_->readout_s ? *telemetry_->readout_s : 0.0);
+    compare_with_gyro();
+    if (readout_s > 0) unroll(readout_s);
+    std::vector<FrameRotation> rotations = rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
+    scale_deviations(rotations);
+    const std::vector<FrameRotation> of_images = rotations;
+    if (motion_.gyro && motion_.gyro->is_fused) rotations = fused(rotations, times_s_, recorded_);
+    fill(of_images, rotations);
+    add_doubtful_frames(motion_, path_);
+    return std::move(motion_);
+  }
+
+ private:
+  [[nodiscard]] Result<void> check() const {
+    const VideoInfo& info = footage_.info();
+    if (info.frame_count() < 2) return fail(path_, "has 1 frame; at least 2 are needed to see how the camera turns");
+    if (camera_.size_px != info.size_px)
+      return fail(path_, fmt::format("has frames of {}x{} px, the calibration is of {}x{}", info.size_px.width,
+                                     info.size_px.height, camera_.size_px.width, camera_.size_px.height));
+    if (!own_body_.empty() && (own_body_.type() != CV_8UC1 || own_body_.size() != info.size_px))
+      return fail(path_, "the own body's mask is not an 8-bit grey image of the footage's size");
+    const EgoMotionSettings& s = settings_;
+    if (s.features < 20 || s.max_width_px < 64 || s.detect_every < 1 || s.key_every < 2 || s.min_features < 4 ||
+        s.window_overlap < 2 || s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) ||
+        (s.readout_s && !(*s.readout_s >= 0 && *s.readout_s <= 1)))
+      return fail(path_, "a setting of the estimation is out of its range", ErrorKind::usage);
+    return {};
+  }
+
+  Result<void> pass() {
+    const int count = footage_.info().frame_count();
+    FeatureTracker tracker(footage_.info().size_px, own_body_, settings_);
+    seen_.pixel_rad = tracker.scale() / std::max(1e-9, camera_.lens.pixels_per_radian({1, 0, 0}));
+    LumaStream stream(footage_, {.first = 0, .every = 1, .count = count});
+    for (int n = 0; n < count; ++n) {
+      if (control_.cancel != nullptr && *control_.cancel)
+        return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+      const std::optional<Result<LumaFrame>> frame = stream.next();
+      if (!frame) break;
+      if (!*frame) return fail(frame->error());
+      add(n, **frame, tracker);
+      if (control_.progress) control_.progress(n + 1, count);
+    }
+    if (seen_.rays.size() != times_s_.size()) return fail(path_, "ended before its last frame");
+    return {};
+  }
+
+  void add(int n, const LumaFrame& frame, FeatureTracker& tracker) {
+    FrameRays rays;
+    const double height = std::max(1, camera_.size_px.height - 1);
+    for (const Feature& feature : tracker.next(frame.luma)) {
+      const glm::dvec2 pixel(feature.pixel_px.x, feature.pixel_px.y);
+      if (const auto ray = camera_.lens.ray(pixel))
+        rays.push_back({feature.id, eigen_of(*ray), pixel.y / height - 0.5});
+    }
+    seen_.rays.push_back(std::move(rays));
+    seen_.repeated.push_back(tracker.is_repeated());
+    if (frame.damaged) seen_.damaged.push_back(n);
+    if (settings_.use_horizon && n % kHorizonEvery == 0)
+      if (const auto line = horizon_in(tracker.reduced(), tracker.scale(), camera_, own_body_, n))
+        seen_.lines.push_back(*line);
+  }
+
+  // Turns from frame to frame, those of repeated frames left out.
+  [[nodiscard]] std::vector<SeenTurn> seen_turns() const {
+    std::vector<SeenTurn> turns;
+    for (std::size_t k = 1; k < steps_.size(); ++k)
+      if (steps_[k] && !seen_.repeated[k] && times_s_[k] > times_s_[k - 1])
+        turns.push_back({times_s_[k - 1], times_s_[k], -vector_of(steps_[k]->after_from_before)});
+    return turns;
+  }
+
+  void compare_with_gyro() {
+    steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
+    if (telemetry_ == nullptr) return;
+    read_stabilization();
+    if (!settings_.use_gyro || telemetry_->camera_rate_radps.empty()) return;
+    const RateIntegral rates(telemetry_->camera_rate_radps);
+    const std::vector<SeenTurn> turns = seen_turns();
+    constexpr double kSameAxis_s = 1;
+    constexpr double kOtherAxis_s = 10;
+    const auto offset = time_offset(turns, rates, telemetry_->on_footage_time ? kSameAxis_s : kOtherAxis_s);
+    if (!offset) {
+      warn("the gyroscope's log cannot be compared with the images: too few frames with features in common with it");
+      return;
+    }
+    motion_.gyro = GyroLink{.offset_s = offset->offset_s,
+                            .offset_sd_s = offset->offset_sd_s,
+                            .drift = offset->drift,
+                            .drift_sd = offset->drift_sd,
+                            .correlation = offset->correlation,
+                            .slope = offset->slope,
+                            .is_fused = offset->correlation >= kLeastCorrelation};
+    warn_of_disagreement();
+    recorded_ = recorded_turns(times_s_, rates, *offset, gyro_alignment(turns, rates, *offset), stabilization_);
+  }
+
+  void warn_of_disagreement() {
+    const GyroLink& gyro = *motion_.gyro;
+    constexpr double kSlope = 0.1;
+    if (!gyro.is_fused)
+      warn(fmt::format(
+          "the images do not follow the gyroscope (correlation {:.2f}): stabilized in the camera, or the log "
+          "of another flight? The images alone are used",
+          gyro.correlation));
+    else if (std::abs(gyro.slope - 1) > kSlope && stabilization_.empty())
+      warn(fmt::format(
+          "the images turn {:.2f} times as fast as the gyroscope says: stabilized in the camera, or a wrong "
+          "focal length?",
+          gyro.slope));
+  }
+
+  // What the camera turned its images by, at each frame.
+  void read_stabilization() {
+    const Channel<glm::dquat>& turns = telemetry_->camera_from_image;
+    const std::size_t count = std::min(turns.times_s.size(), turns.values.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      largest = std::max(largest, vector_of(eigen_of(turns.values[i]).normalized()).norm());
+    if (!(largest > kStabilized_rad)) return;
+    motion_.is_stabilized = true;
+    warn(fmt::format(
+        "the log says that the camera stabilized its images, by up to {:.1f} degrees: attitudes are those of "
+        "the images",
+        largest * 57.29577951308232));
+    for (const double time_s : times_s_) {
+      const auto after = std::lower_bound(turns.times_s.begin(),
+                                          turns.times_s.begin() + static_cast<std::ptrdiff_t>(count), time_s - 1e-4);
+      const auto i = std::min(count - 1, static_cast<std::size_t>(after - turns.times_s.begin()));
+      stabilization_.push_back(eigen_of(turns.values[i]).normalized());
+    }
+  }
+
+  void unroll(double readout_s) {
+    const std::vector<FrameRays> rolled = seen_.rays;
+    const bool by_gyro = motion_.gyro && motion_.gyro->is_fused && stabilization_.empty();
+    const int rounds = by_gyro ? 1 : 2;
+    for (int round = 0; round < rounds; ++round) {
+      for (std::size_t k = 0; k < rolled.size(); ++k) seen_.rays[k] = unrolled(rolled[k], rate_at(k), readout_s);
+      if (round + 1 < rounds) steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
+    }
+  }
+
+  // Mean of the turns to this frame and from it, per second.
+  [[nodiscard]] Eigen::Vector3d rate_at(std::size_t k) const {
+    Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+    double length_s = 0;
+    for (std::size_t i = std::max<std::size_t>(k, 1); i <= k + 1 && i < steps_.size(); ++i) {
+      if (!steps_[i]) continue;
+      turn_rad -= vector_of(steps_[i]->after_from_before);
+      length_s += times_s_[i] - times_s_[i - 1];
+    }
+    return length_s > 0 ? Eigen::Vector3d(turn_rad / length_s) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  }
+
+  // From what the adjustment says to what is reported: errors are not independent, and no feature is exact.
+  void scale_deviations(std::vector<FrameRotation>& rotations) const {
+    const double factor = settings_.sd_factor * settings_.sd_factor;
+    constexpr double kFloor_px = 0.01;
+    const Eigen::Matrix3d floor = Eigen::Matrix3d::Identity() * std::pow(kFloor_px * seen_.pixel_rad, 2);
+    for (FrameRotation& r : rotations) {
+      r.covariance = factor * r.covariance + floor;
+      r.own_covariance = factor * r.own_covariance + floor;
+    }
+  }
+
+  void fill(const std::vector<FrameRotation>& of_images, const std::vector<FrameRotation>& rotations) {
+    Eigen::Quaterniond level = Eigen::Quaterniond::Identity();
+    std::vector<Eigen::Quaterniond> turns;
+    for (const FrameRotation& r : rotations) turns.push_back(r.start_from_camera);
+    if (const auto found = level_of(seen_.lines, turns)) {
+      level = world_from_start(found->up_in_start);
+      motion_.level_sd_rad = found->sd_rad;
+    }
+    bool known = true;
+    for (std::size_t k = 0; k < rotations.size(); ++k) {
+      EgoFrame frame{.time_s = times_s_[k], .features = of_images[k].features_used, .is_repeated = seen_.repeated[k]};
+      frame.is_lost = k > 0 && !rotations[k].is_linked;
+      frame.is_cut = frame.is_lost && has_enough(k - 1) && has_enough(k);
+      known = known && !frame.is_lost;
+      frame.world_from_camera = glm_of((level * rotations[k].start_from_camera).normalized());
+      for (int axis = 0; axis < 3; ++axis) {
+        frame.sd_rad[axis] = known ? std::min(kUnknownRotation_rad, std::sqrt(rotations[k].covariance(axis, axis)))
+                                   : kUnknownRotation_rad;
+        frame.step_sd_rad[axis] = std::sqrt(of_images[k].own_covariance(axis, axis));
+      }
+      motion_.frames.push_back(frame);
+    }
+    if (!seen_.damaged.empty())
+      warn(fmt::format("{} damaged frames show another one's image: {}", seen_.damaged.size(),
+                       ranges_text(seen_.damaged)));
+  }
+
+  [[nodiscard]] bool has_enough(std::size_t k) const {
+    return static_cast<int>(seen_.rays[k].size()) >= 2 * settings_.min_features;
+  }
+
+  void warn(std::string what) { motion_.warnings.push_back({path_, std::move(what)}); }
+
+  FrameSource& footage_;
+  const Camera& camera_;
+  const cv::Mat& own_body_;
+  const Track* telemetry_;
+  const EgoMotionSettings& settings_;
+  const EgoMotionControl& control_;
+  std::string path_;
+  const std::vector<double>& times_s_;
+  Seen seen_;
+  std::vector<std::optional<RotationFit>> steps_;
+  std::vector<Eigen::Quaterniond> stabilization_;  // camera from image, at each frame; empty: none
+  std::vector<RecordedTurn> recorded_;
+  EgoMotion motion_;
+};
+
+}  // namespace
+
+Result<EgoMotion> estimate_ego_motion(FrameSource& footage, const Camera& camera, const cv::Mat& own_body,
+                                      const Track* telemetry, const EgoMotionSettings& settings,
+                                      const EgoMotionControl& control) {
+  return guarded([&] { return Estimate(footage, camera, own_body, telemetry, settings, control).run(); },
+                 footage.info().path.string());
+}
+
+}  // namespace sigs

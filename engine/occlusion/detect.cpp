@@ -11,8 +11,8 @@
 
 #include "base/ensure.h"
 #include "occlusion/convergence.h"
-#include "occlusion/luma_stream.h"
 #include "occlusion/mask_geometry.h"
+#include "video/luma_stream.h"
 
 namespace sigs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/luma_stream.h"
+#include "video/luma_stream.h"
 
 #include <utility>
 

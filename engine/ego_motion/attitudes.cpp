@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/attitudes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "base/threads.h"
+#include "ego_motion/key_frames.h"
+#include "ego_motion/rotation_fit.h"
+#include "ego_motion/turns.h"
+
+namespace sigs {
+
+namespace {
+
+int cores() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Key frames of a run of linked frames: each settings.key_every-th and the last.
+std::vector<int> keys_of(int first, int last, int every) {
+  std::vector<int> keys;
+  for (int f = first; f < last; f += every) keys.push_back(f);
+  if (keys.size() > 1 && last - keys.back() < every / 2) keys.pop_back();
+  keys.push_back(last);
+  return keys;
+}
+
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, const Eigen::Quaterniond& to_from_from) {
+  const Eigen::Matrix3d r = to_from_from.toRotationMatrix();
+  return r * covariance * r.transpose();
+}
+
+// One run of frames that are linked to each other.
+class Run {
+ public:
+  Run(std::span<const FrameRays> frames, std::span<const double> times_s,
+      std::span<const std::optional<RotationFit>> steps, double pixel_rad, const EgoMotionSettings& settings)
+      : frames_(frames), times_s_(times_s), steps_(steps), pixel_rad_(pixel_rad), settings_(settings) {}
+
+  // Rotations against the run's first frame.
+  void solve(std::span<FrameRotation> out) {
+    chain(out);
+    if (out.size() < 2) return;
+    keys_ = keys_of(0, static_cast<int>(out.size()) - 1, settings_.key_every);
+    const std::size_t stride = static_cast<std::size_t>(settings_.window_keys - settings_.window_overlap);
+    for (std::size_t begin = 0;; begin += stride) {
+      const std::size_t end = std::min(keys_.size(), begin + static_cast<std::size_t>(settings_.window_keys));
+      solve_window(begin, end, out);
+      if (end == keys_.size()) break;
+    }
+  }
+
+ private:
+  // First values, from frame to frame.
+  void chain(std::span<FrameRotation> out) {
+    for (std::size_t i = 1; i < out.size(); ++i)
+      out[i].start_from_camera = (out[i - 1].start_from_camera * steps_[i]->after_from_before.conjugate()).normalized();
+    chained_.clear();
+    for (const FrameRotation& r : out) chained_.push_back(r.start_from_camera);
+  }
+
+  void solve_window(std::size_t begin, std::size_t end, std::span<FrameRotation> out) {
+    const std::span<const int> keys = std::span(keys_).subspan(begin, end - begin);
+    const KeyFrames solved = adjusted_keys(frames_, times_s_, chained_, keys, pixel_rad_);
+    // Frames before the middle of the overlap keep what the window before says of them.
+    const int from = begin == 0 ? 0 : keys[static_cast<std::size_t>(settings_.window_overlap) / 2];
+    const auto start = static_cast<std::size_t>(from);
+    const Eigen::Quaterniond world_from_start = out[start].start_from_camera;
+    const Eigen::Matrix3d start_covariance = out[start].covariance;
+    const FrameRotation at_start = located(solved, keys, from);
+    const Eigen::Quaterniond shift = (world_from_start * at_start.start_from_camera.conjugate()).normalized();
+    const int last = keys.back();
+    parallel_for(last - from + 1, cores(), [&](int i) {
+      const int f = from + i;
+      if (i == 0 && begin > 0) return;
+      FrameRotation r = located(solved, keys, f);
+      r.start_from_camera = (shift * r.start_from_camera).normalized();
+      r.covariance += turned(start_covariance, r.start_from_camera.conjugate() * world_from_start);
+      r.is_linked = f > 0;
+      out[static_cast<std::size_t>(f)] = r;
+    });
+  }
+
+  // The rotation of any frame of the window against the window's first key frame.
+  [[nodiscard]] FrameRotation located(const KeyFrames& solved, std::span<const int> keys, int f) const {
+    const auto after = std::upper_bound(keys.begin(), keys.end() - 1, f);
+    const auto b = static_cast<std::size_t>(after - keys.begin());
+    const std::size_t a = b - 1;
+    const auto index = [](int frame) { return static_cast<std::size_t>(frame); };
+    const double share =
+        (times_s_[index(f)] - times_s_[index(keys[a])]) / (times_s_[index(keys[b])] - times_s_[index(keys[a])]);
+    const BundleFrame& before = solved.frames[a];
+    const BundleFrame& next = solved.frames[b];
+    BundleFrame guess;
+    // The turn since the key frame as the chain has it, and what the chain misses by at the next key frame in parts.
+    const Eigen::Quaterniond ab = chained_[index(keys[a])].conjugate() * chained_[index(keys[b])];
+    const Eigen::Quaterniond af = chained_[index(keys[a])].conjugate() * chained_[index(f)];
+    const Eigen::Vector3d gap = vector_of((before.world_from_camera * ab).conjugate() * next.world_from_camera);
+    guess.world_from_camera = before.world_from_camera * af * turn_of(share * gap);
+    guess.position = (1 - share) * before.position + share * next.position;
+    const LocatedFrame found = located_frame(solved, frames_[index(f)], guess);
+    FrameRotation r;
+    r.start_from_camera = found.world_from_camera;
+    r.own_covariance = found.covariance;
+    r.covariance = (1 - share) * solved.covariances[a] + share * solved.covariances[b] + found.covariance;
+    r.features_used = found.features_used;
+    return r;
+  }
+
+  std::span<const FrameRays> frames_;
+  std::span<const double> times_s_;
+  std::span<const std::optional<RotationFit>> steps_;
+  double pixel_rad_;
+  const EgoMotionSettings& settings_;
+  std::vector<Eigen::Quaterniond> chained_;
+  std::vector<int> keys_;
+};
+
+}  // namespace
+
+FrameRays unrolled(const FrameRays& frame, const Eigen::Vector3d& rate_radps, double readout_s) {
+  FrameRays rays = frame;
+  for (RayObservation& o : rays) o.ray = turn_of(rate_radps * (readout_s * o.row)) * o.ray;
+  return rays;
+}
+
+std::vector<std::optional<RotationFit>> steps_between(std::span<const FrameRays> frames, double pixel_rad,
+                                                      const EgoMotionSettings& settings) {
+  std::vector<std::optional<RotationFit>> steps(frames.size());
+  const RotationFitSettings fit{.inlier_rad = 2 * pixel_rad, .min_inliers = settings.min_features};
+  parallel_for(static_cast<int>(frames.size()) - 1, cores(), [&](int i) {
+    const auto k = static_cast<std::size_t>(i) + 1;
+    steps[k] = fitted_rotation(common_rays(frames[k - 1], frames[k]), fit);
+  });
+  return steps;
+}
+
+std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames, std::span<const double> times_s,
+                                        double pixel_rad, const EgoMotionSettings& settings) {
+  const std::vector<std::optional<RotationFit>> steps = steps_between(frames, pixel_rad, settings);
+  std::vector<FrameRotation> all(frames.size());
+  for (std::size_t first = 0; first < frames.size();) {
+    std::size_t end = first + 1;
+    while (end < frames.size() && steps[end]) ++end;
+    const std::size_t count = end - first;
+    const std::span<FrameRotation> out = std::span(all).subspan(first, count);
+    Run(frames.subspan(first, count), times_s.subspan(first, count), std::span(steps).subspan(first, count), pixel_rad,
+        settings)
+        .solve(out);
+    if (first > 0) {
+      const FrameRotation& before = all[first - 1];
+      const Eigen::Quaterniond world_from_run = before.start_from_camera;
+      for (FrameRotation& r : out) {
+        r.covariance += turned(before.covariance, r.start_from_camera.conjugate());
+        r.start_from_camera = (world_from_run * r.start_from_camera).normalized();
+      }
+    }
+    first = end;
+  }
+  return all;
+}
+
+}  // namespace sigs

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace sigs {
+
+namespace {
+
+constexpr int kWindow_px = 15;  // of Lucas and Kanade: wide enough for cloud edges, narrow enough for the horizon
+constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^3 px
+constexpr int kIterations = 12;
+constexpr double kStop_px = 0.005;
+constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
+constexpr int kBorder_px = 8;          // of the image and of the own body: half a window
+constexpr float kLeastCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
+constexpr float kRepeated = 1.5F;      // codes; frames that repeat one another differ less, even when coded again
+const cv::Size kWindow{kWindow_px, kWindow_px};
+
+cv::Mat allowed_in(cv::Size reduced_size, const cv::Mat& own_body) {
+  cv::Mat allowed(reduced_size, CV_8UC1, cv::Scalar(255));
+  if (!own_body.empty()) {
+    cv::Mat body;
+    cv::resize(own_body, body, reduced_size, 0, 0, cv::INTER_AREA);
+    cv::dilate(body > 8, body, cv::Mat::ones(2 * kBorder_px + 1, 2 * kBorder_px + 1, CV_8U));
+    allowed.setTo(0, body);
+  }
+  const cv::Rect inside(kBorder_px, kBorder_px, reduced_size.width - 2 * kBorder_px,
+                        reduced_size.height - 2 * kBorder_px);
+  cv::Mat border(reduced_size, CV_8UC1, cv::Scalar(255));
+  if (inside.width > 0 && inside.height > 0) border(inside).setTo(0);
+  allowed.setTo(0, border);
+  return allowed;
+}
+
+double reduction_of(cv::Size size_px, int max_width) {
+  return std::max(1.0, static_cast<double>(size_px.width) / max_width);
+}
+
+// Every 16th row tells whether two frames show the same.
+bool is_same_image(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size()) return false;
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < a.rows; y += 16) {
+    if (cv::norm(a.row(y), b.row(y), cv::NORM_INF) > 3 * kRepeated) return false;
+    sum += cv::norm(a.row(y), b.row(y), cv::NORM_L1);
+    count += a.cols;
+  }
+  return sum < 0.1 * count;
+}
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+FeatureTracker::FeatureTracker(cv::Size size_px, const cv::Mat& own_body, const EgoMotionSettings& settings)
+    : settings_(settings), scale_(reduction_of(size_px, settings.max_width_px)) {
+  const cv::Size reduced_size(std::max(1, static_cast<int>(std::lround(size_px.width / scale_))),
+                              std::max(1, static_cast<int>(std::lround(size_px.height / scale_))));
+  allowed_ = allowed_in(reduced_size, own_body);
+}
+
+cv::Point2f FeatureTracker::full(const cv::Point2f& p) const {
+  const auto scale = static_cast<float>(scale_);
+  return {(p.x + 0.5F) * scale - 0.5F, (p.y + 0.5F) * scale - 0.5F};
+}
+
+std::vector<cv::Point2f> FeatureTracker::predicted() const {
+  std::vector<cv::Point2f> guess = points_;
+  constexpr float kFast_px = 6;  // slower motions are found without a guess
+  if (std::hypot(drift_.x, drift_.y) > kFast_px)
+    for (cv::Point2f& p : guess) p += drift_;
+  return guess;
+}
+
+void FeatureTracker::follow(const std::vector<cv::Mat>& pyramid) {
+  if (points_.empty()) return;
+  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations, kStop_px);
+  std::vector<cv::Point2f> there = predicted();
+  std::vector<cv::Point2f> back = points_;
+  std::vector<uchar> found;
+  std::vector<uchar> found_back;
+  cv::calcOpticalFlowPyrLK(pyramid_, pyramid, points_, there, found, cv::noArray(), kWindow, kLevels, stop,
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
+  // Back from there the start is known, so that the finest level is enough to find it again.
+  cv::calcOpticalFlowPyrLK(pyramid, pyramid_, there, back, found_back, cv::noArray(), kWindow, 0, stop,
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
+  std::size_t kept = 0;
+  std::vector<float> dx;
+  std::vector<float> dy;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const cv::Point2f miss = back[i] - points_[i];
+    const cv::Point at(cvRound(there[i].x), cvRound(there[i].y));
+    const bool inside = at.x >= 0 && at.y >= 0 && at.x < allowed_.cols && at.y < allowed_.rows;
+    if (!found[i] || !found_back[i] || !(std::hypot(miss.x, miss.y) < kReturn_px) || !inside) continue;
+    if (allowed_.at<uchar>(at) == 0) continue;
+    dx.push_back(there[i].x - points_[i].x);
+    dy.push_back(there[i].y - points_[i].y);
+    points_[kept] = there[i];
+    ids_[kept] = ids_[i];
+    ++kept;
+  }
+  points_.resize(kept);
+  ids_.resize(kept);
+  drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(median(dx), median(dy));
+}
+
+void FeatureTracker::detect() {
+  const double area = static_cast<double>(allowed_.total());
+  const int cell = std::max(8, static_cast<int>(std::sqrt(area / settings_.features)));
+  const int columns = (allowed_.cols + cell - 1) / cell;
+  const int rows = (allowed_.rows + cell - 1) / cell;
+  std::vector<char> taken(static_cast<std::size_t>(columns * rows), 0);
+  for (const cv::Point2f& p : points_)
+    taken[static_cast<std::size_t>(static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell)] = 1;
+  cv::Mat corner;
+  cv::cornerMinEigenVal(reduced_, corner, 5);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      if (taken[static_cast<std::size_t>(row * columns + column)]) continue;
+      const cv::Rect area_px = cv::Rect(column * cell, row * cell, cell, cell) & cv::Rect({0, 0}, allowed_.size());
+      double best = 0;
+      cv::Point at;
+      cv::minMaxLoc(corner(area_px), nullptr, &best, nullptr, &at, allowed_(area_px));
+      if (best < kLeastCorner) continue;
+      points_.emplace_back(static_cast<float>(area_px.x + at.x), static_cast<float>(area_px.y + at.y));
+      ids_.push_back(next_id_++);
+    }
+}
+
+const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {
+  cv::Mat reduced;
+  if (luma.size() == allowed_.size())
+    luma.copyTo(reduced);
+  else
+    cv::resize(luma, reduced, allowed_.size(), 0, 0, cv::INTER_AREA);
+  repeated_ = !reduced_.empty() && is_same_image(reduced, reduced_);
+  std::vector<cv::Mat> pyramid;
+  cv::buildOpticalFlowPyramid(reduced, pyramid, kWindow, kLevels);
+  if (!repeated_) follow(pyramid);
+  reduced_ = reduced;
+  pyramid_ = std::move(pyramid);
+  const bool few = points_.size() < static_cast<std::size_t>(settings_.features) / 2;
+  if (++since_detection_ >= settings_.detect_every || (few && since_detection_ >= 2) || next_id_ == 0) {
+    detect();
+    since_detection_ = 0;
+  }
+  features_.clear();
+  for (std::size_t i = 0; i < points_.size(); ++i) features_.push_back({ids_[i], full(points_[i])});
+  return features_;
+}
+
+}  // namespace sigs

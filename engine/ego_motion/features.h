@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "ego_motion/settings.h"
+
+namespace sigs {
+
+// A feature in one frame.
+struct Feature {
+  int id = 0;            // counts features from 0 in order of detection
+  cv::Point2f pixel_px;  // in the footage's own pixels
+};
+
+// Follows corners of the image from frame to frame (pyramids of Lucas and Kanade; corners of Shi and Tomasi), and
+// detects new ones where the image has none. All is done on a reduced image. Not for use by several threads at a time.
+class FeatureTracker {
+ public:
+  //   own_body  CV_8UC1 of the footage's size, above 127 where no feature may lie; empty: nowhere
+  FeatureTracker(cv::Size size_px, const cv::Mat& own_body, const EgoMotionSettings& settings);
+
+  // The next frame.
+  //   luma  CV_8UC1 of the footage's size; not kept
+  // The features, by rising id: those followed from the frame before, then new ones.
+  [[nodiscard]] const std::vector<Feature>& next(const cv::Mat& luma);
+
+  // Whether the last frame's image repeats the one before it: no sample of it differs by more than coding does.
+  [[nodiscard]] bool is_repeated() const { return repeated_; }
+
+  // The reduced image of the last frame, and how many of the footage's pixels one of its pixels spans.
+  [[nodiscard]] const cv::Mat& reduced() const { return reduced_; }
+  [[nodiscard]] double scale() const { return scale_; }
+
+ private:
+  void follow(const std::vector<cv::Mat>& pyramid);
+  void detect();
+  [[nodiscard]] std::vector<cv::Point2f> predicted() const;
+  [[nodiscard]] cv::Point2f full(const cv::Point2f& reduced_px) const;
+
+  EgoMotionSettings settings_;
+  double scale_ = 1;
+  cv::Mat allowed_;  // of the reduced size, 255 where features may lie
+  cv::Mat reduced_;
+  std::vector<cv::Mat> pyramid_;
+  std::vector<cv::Point2f> points_;  // in the reduced image
+  std::vector<int> ids_;
+  std::vector<Feature> features_;
+  cv::Point2f drift_;  // of the median feature from the frame before the last to the last
+  bool repeated_ = false;
+  int next_id_ = 0;
+  int since_detection_ = 0;
+};
+
+}  // namespace sigs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "camera/camera.h"
+
+namespace sigs {
+
+// A straight edge across the image, as the far edge of the sea or of a plain is: a great circle on the sphere.
+struct HorizonLine {
+  int frame = 0;
+  Eigen::Vector3d up;  // unit, camera axes, normal of the circle's plane, on the side of the image's upper border
+  double sd_rad = 0;   // of the fit
+};
+
+// The longest such edge. Candidates are the strongest changes of brightness in each column; two of them define a plane,
+// and the plane on which most columns have a candidate is fitted to those (Fischler, Bolles 1981). Nothing where fewer
+// than half of the columns agree. Rolls beyond about 60 degrees are not seen.
+//   reduced   CV_8UC1, the frame reduced by `scale`
+//   own_body  of the footage's size, above 127 where the own body is; may be empty
+[[nodiscard]] std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
+                                                    const cv::Mat& own_body, int frame);
+
+// What lines of several frames say together.
+struct Level {
+  Eigen::Vector3d up_in_start;  // unit, in the axes of the camera at frame 0
+  double sd_rad = 0;  // of roll and pitch; the horizon's dip below the level, which is not known, is part of it
+  int lines = 0;      // that agree
+};
+
+// Lines that stay in place while the camera turns belong to the horizon; roads and shores do not. Nothing where fewer
+// than 5 lines, or fewer than half of all, agree within half a degree.
+//   start_from_camera  of each frame
+[[nodiscard]] std::optional<Level> level_of(std::span<const HorizonLine> lines,
+                                            std::span<const Eigen::Quaterniond> start_from_camera);
+
+// The rotation from the axes of the camera at frame 0 to a level world whose X is its heading.
+[[nodiscard]] Eigen::Quaterniond world_from_start(const Eigen::Vector3d& up_in_start);
+
+}  // namespace sigs

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/key_frames.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "ego_motion/turns.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kFloor_px = 0.02;      // no feature is known better
+constexpr std::size_t kLocalKeys = 10;  // adjusted together while key frames are added
+constexpr std::size_t kAddedKeys = 3;   // between two such adjustments
+constexpr double kPositionSd = 0.01;    // of a frame between its key frames, in the unit of length
+
+class KeyAdjuster {
+ public:
+  KeyAdjuster(std::span<const FrameRays> frames, std::span<const double> times_s,
+              std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad)
+      : frames_(frames), times_s_(times_s), first_values_(first_values), keys_(keys), pixel_rad_(pixel_rad) {
+    bundle_settings_.least_sigma_rad = kFloor_px * pixel_rad;
+  }
+
+  KeyFrames solved() {
+    result_.frames.push_back({.time_s = times_s_[at(0)]});
+    for (std::size_t k = 1; k < keys_.size(); ++k) {
+      append(k);
+      if (k % kAddedKeys == 0 || k + 1 == keys_.size()) adjust_range(k < kLocalKeys ? 0 : k + 1 - kLocalKeys, k + 1, 8);
+    }
+    const BundleFit fit = adjust_range(0, keys_.size(), 14);
+    result_.covariances = fit.covariances;
+    result_.sigma_rad = fit.sigma_rad;
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t at(std::size_t k) const { return static_cast<std::size_t>(keys_[k]); }
+
+  // The next key frame goes on from the one before as the chain turns and in the direction in which the features flow.
+  void append(std::size_t k) {
+    const BundleFrame& before = result_.frames.back();
+    const Eigen::Quaterniond turn = first_values_[at(k - 1)].conjugate() * first_values_[at(k)];
+    std::vector<RayPair> pairs = common_rays(frames_[at(k - 1)], frames_[at(k)]);
+    for (RayPair& pair : pairs) pair.after = turn * pair.after;
+    const double step_s = times_s_[at(k)] - times_s_[at(k - 1)];
+    const Eigen::Vector3d direction = before.world_from_camera * direction_of_motion(pairs, pixel_rad_);
+    Eigen::Vector3d velocity = direction;
+    if (k >= 2) {
+      const BundleFrame& older = result_.frames[k - 2];
+      const Eigen::Vector3d last = (before.position - older.position) / (before.time_s - older.time_s);
+      // Once landmarks have a scale, the speed has to go on with it.
+      velocity = k < kAddedKeys + 1 ? direction * last.norm() : last;
+    }
+    result_.frames.push_back({.world_from_camera = (before.world_from_camera * turn).normalized(),
+                              .position = before.position + velocity * step_s,
+                              .time_s = times_s_[at(k)]});
+  }
+
+  // Adjusts key frames [begin, end) and the landmarks that two or more of them see.
+  BundleFit adjust_range(std::size_t begin, std::size_t end, int rounds) {
+    std::map<int, std::vector<BundleObservation>> seen;
+    for (std::size_t k = begin; k < end; ++k)
+      for (const RayObservation& o : frames_[at(k)])
+        seen[o.id].push_back({.frame = static_cast<int>(k - begin), .landmark = 0, .ray = o.ray});
+    Bundle bundle{.frames = {result_.frames.begin() + static_cast<std::ptrdiff_t>(begin),
+                             result_.frames.begin() + static_cast<std::ptrdiff_t>(end)}};
+    std::vector<int> ids;
+    for (auto& [id, observations] : seen) {
+      if (observations.size() < 2) continue;
+      for (BundleObservation& o : observations) o.landmark = static_cast<int>(ids.size());
+      bundle.landmarks.push_back(landmark_of(id, observations, bundle));
+      bundle.observations.insert(bundle.observations.end(), observations.begin(), observations.end());
+      ids.push_back(id);
+    }
+    BundleSettings settings = bundle_settings_;
+    settings.rounds = rounds;
+    settings.start_sigma_rad = 4 * pixel_rad_;
+    BundleFit fit = adjust(bundle, settings);
+    std::copy(bundle.frames.begin(), bundle.frames.end(), result_.frames.begin() + static_cast<std::ptrdiff_t>(begin));
+    for (std::size_t i = 0; i < ids.size(); ++i) result_.landmarks[ids[i]] = bundle.landmarks[i];
+    return fit;
+  }
+
+  // As known already, else from the observations: direction of the first, inverse depth by least squares over all.
+  [[nodiscard]] Landmark landmark_of(int id, const std::vector<BundleObservation>& observations,
+                                     const Bundle& bundle) const {
+    if (const auto known = result_.landmarks.find(id); known != result_.landmarks.end()) return known->second;
+    const BundleFrame& first = bundle.frames[static_cast<std::size_t>(observations.front().frame)];
+    Landmark landmark{.reference = first.position,
+                      .direction = (first.world_from_camera * observations.front().ray).normalized()};
+    double top = 0;
+    double bottom = 1e-4;
+    for (const BundleObservation& o : observations) {
+      const BundleFrame& frame = bundle.frames[static_cast<std::size_t>(o.frame)];
+      const Eigen::Vector3d ray = frame.world_from_camera * o.ray;
+      const Eigen::Vector3d by_depth = (frame.position - landmark.reference).cross(ray);
+      top += landmark.direction.cross(ray).dot(by_depth);
+      bottom += by_depth.squaredNorm();
+    }
+    landmark.inverse_depth = std::clamp(top / bottom, 0.0, 2.0);
+    return landmark;
+  }
+
+  std::span<const FrameRays> frames_;
+  std::span<const double> times_s_;
+  std::span<const Eigen::Quaterniond> first_values_;
+  std::span<const int> keys_;
+  double pixel_rad_;
+  BundleSettings bundle_settings_;
+  KeyFrames result_;
+};
+
+}  // namespace
+
+KeyFrames adjusted_keys(std::span<const FrameRays> frames, std::span<const double> times_s,
+                        std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad) {
+  return KeyAdjuster(frames, times_s, first_values, keys, pixel_rad).solved();
+}
+
+Eigen::Vector3d direction_of_motion(std::span<const RayPair> pairs, double pixel_rad) {
+  const Eigen::Vector3d forward = Eigen::Vector3d::UnitX();
+  std::vector<Eigen::Vector3d> normals;
+  for (const RayPair& pair : pairs) normals.push_back(pair.before.cross(pair.after));
+  std::vector<double> weights(normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) weights[i] = 1 / (normals[i].norm() + pixel_rad);
+  Eigen::Vector3d direction = forward;
+  for (int round = 0; round < 6; ++round) {
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < normals.size(); ++i) m += weights[i] * normals[i] * normals[i].transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
+    if (!(solver.eigenvalues()(1) > 0)) return forward;
+    direction = solver.eigenvectors().col(0);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const double miss = direction.dot(normals[i]);
+      weights[i] = 1 / (1 + miss * miss / (0.25 * pixel_rad * pixel_rad));
+    }
+  }
+  double away = 0;  // features move away from the direction of motion
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    away += weights[i] *
+            (pairs[i].after - pairs[i].before).dot(direction - direction.dot(pairs[i].before) * pairs[i].before);
+  return away > 0 ? -direction : direction;
+}
+
+LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess) {
+  struct Seen {
+    const Landmark* landmark;
+    const Eigen::Vector3d* ray;
+  };
+  std::vector<Seen> seen;
+  for (const RayObservation& o : rays)
+    if (const auto found = keys.landmarks.find(o.id); found != keys.landmarks.end() && found->second.weight > 0.2)
+      seen.push_back({&found->second, &o.ray});
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  const double variance = keys.sigma_rad * keys.sigma_rad;
+  BundleFrame frame = guess;
+  Matrix6 normal = Matrix6::Zero();
+  int used = 0;
+  for (int round = 0; round < 5; ++round) {
+    const double scale = keys.sigma_rad * std::max(3.0, 24.0 / (1 << (2 * round)));
+    normal.setZero();
+    Vector6 right = Vector6::Zero();
+    const double position = variance / (kPositionSd * kPositionSd);
+    normal.diagonal().tail<3>().array() += position;
+    right.tail<3>() = position * (guess.position - frame.position);
+    used = 0;
+    for (const Seen& s : seen) {
+      const Projection p = projection(frame, *s.landmark, *s.ray);
+      const double root = 1 / (1 + p.residual.squaredNorm() / (2 * scale * scale));
+      const double w = s.landmark->weight * root * root;
+      if (root > 0.3) ++used;
+      normal += w * p.by_frame.transpose() * p.by_frame;
+      right += w * p.by_frame.transpose() * p.residual;
+    }
+    normal.diagonal().array() += 1e-9;
+    const Vector6 change = normal.ldlt().solve(right);
+    if (!change.allFinite()) break;
+    frame.world_from_camera = (frame.world_from_camera * turn_of(change.head<3>())).normalized();
+    frame.position += change.tail<3>();
+  }
+  const Eigen::Matrix3d own = Matrix6(variance * normal.inverse()).topLeftCorner<3, 3>();
+  return {frame.world_from_camera, own, used};
+}
+
+}  // namespace sigs

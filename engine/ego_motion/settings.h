@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+namespace sigs {
+
+// What exchanges error for run time, and what is known of the camera. The defaults are those of which bench/ego_motion
+// shows that more of anything takes longer and gains little.
+struct EgoMotionSettings {
+  int features = 240;      // wanted at a time, spread evenly over the image; 20 or more
+  int max_width_px = 640;  // features are followed in an image reduced to this width; 64 or more
+  int detect_every = 4;    // frames between detections of new features; 1 or more
+  int key_every = 8;       // frames between key frames; 2 or more
+  int window_keys = 48;    // key frames that are adjusted together, two or more times window_overlap
+  int window_overlap = 16;
+  int min_features = 12;  // with fewer that agree, a frame's motion is not known; 4 or more
+
+  // Rolling shutter: from the first row to the last, seconds; 0: all rows at once. Not given: that of the telemetry,
+  // else 0. Row y of h is exposed at the frame's time + readout_s * (y / (h - 1) - 0.5), so that the time of a frame is
+  // that of its middle row.
+  std::optional<double> readout_s = {};
+
+  bool use_horizon = true;  // where it is seen, roll and pitch are absolute
+  bool use_gyro = true;     // fuse the rates of the telemetry, where there are any
+
+  // Factor from the adjustment's own standard deviation to the one that is reported. The errors of a feature in
+  // successive frames are not independent, which the adjustment takes them to be.
+  double sd_factor = 2.0;
+};
+
+}  // namespace sigs

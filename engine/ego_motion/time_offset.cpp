@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/time_offset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ego_motion/turns.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kStep_s = 0.005;
+constexpr std::size_t kLeastTurns = 20;
+constexpr int kParts = 4;
+
+struct Comparison {
+  double correlation = 0;
+  double slope = 0;
+  std::size_t count = 0;
+};
+
+Comparison compared(std::span<const SeenTurn> turns, const RateIntegral& rates, double offset_s) {
+  Eigen::Vector3d mean_seen = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_recorded = Eigen::Vector3d::Zero();
+  std::vector<std::array<Eigen::Vector3d, 2>> both;
+  for (const SeenTurn& turn : turns) {
+    if (!rates.covers(turn.from_s + offset_s, turn.to_s + offset_s)) continue;
+    const double length_s = turn.to_s - turn.from_s;
+    both.push_back({turn.turn_rad / length_s, rates.between(turn.from_s + offset_s, turn.to_s + offset_s) / length_s});
+    mean_seen += both.back()[0];
+    mean_recorded += both.back()[1];
+  }
+  if (both.size() < kLeastTurns) return {};
+  mean_seen /= static_cast<double>(both.size());
+  mean_recorded /= static_cast<double>(both.size());
+  double seen2 = 0;
+  double recorded2 = 0;
+  double mixed = 0;
+  for (const auto& [seen, recorded] : both) {
+    seen2 += (seen - mean_seen).squaredNorm();
+    recorded2 += (recorded - mean_recorded).squaredNorm();
+    mixed += (seen - mean_seen).dot(recorded - mean_recorded);
+  }
+  if (!(seen2 > 0) || !(recorded2 > 0)) return {.count = both.size()};
+  return {mixed / std::sqrt(seen2 * recorded2), mixed / recorded2, both.size()};
+}
+
+struct Peak {
+  double offset_s = 0;
+  double sd_s = std::numeric_limits<double>::infinity();
+};
+
+// The highest correlation near `around`, to parts of a step, and how sharp it is.
+std::optional<Peak> peak(std::span<const SeenTurn> turns, const RateIntegral& rates, double around_s, double range_s) {
+  double best = -2;
+  double best_s = around_s;
+  for (double s = around_s - range_s; s <= around_s + range_s + 1e-9; s += kStep_s)
+    if (const Comparison c = compared(turns, rates, s); c.count >= kLeastTurns && c.correlation > best) {
+      best = c.correlation;
+      best_s = s;
+    }
+  if (best < -1.5) return std::nullopt;
+  constexpr double kWide_s = 2 * kStep_s;
+  const double before = compared(turns, rates, best_s - kWide_s).correlation;
+  const double after = compared(turns, rates, best_s + kWide_s).correlation;
+  const double bend = (before - 2 * best + after) / (kWide_s * kWide_s);
+  if (!(bend < 0)) return Peak{best_s};
+  const double part_s = std::clamp((before - after) / (2 * kWide_s) / bend, -kWide_s, kWide_s);
+  // The correlation falls by (1 - r^2) / (2 n) within one standard deviation of its maximum.
+  const double noise = std::max(1e-6, 1 - best * best) / static_cast<double>(turns.size());
+  return Peak{best_s + part_s, std::sqrt(noise / std::max(-bend * std::abs(best), 1e-12))};
+}
+
+void add_drift(TimeOffset& offset, std::span<const SeenTurn> turns, const RateIntegral& rates) {
+  double s = 0;
+  double st = 0;
+  double stt = 0;
+  double so = 0;
+  double sto = 0;
+  const std::size_t length = turns.size() / kParts;
+  if (length < 2 * kLeastTurns) {
+    offset.drift_sd = std::numeric_limits<double>::infinity();
+    return;
+  }
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::span<const SeenTurn> some = turns.subspan(part * length, length);
+    const std::optional<Peak> found = peak(some, rates, offset.offset_s, 0.1);
+    if (!found || !std::isfinite(found->sd_s)) continue;
+    const double weight = 1 / (found->sd_s * found->sd_s + 1e-6);
+    const double t = (some.front().from_s + some.back().to_s) / 2 - offset.middle_s;
+    s += weight;
+    st += weight * t;
+    stt += weight * t * t;
+    so += weight * found->offset_s;
+    sto += weight * t * found->offset_s;
+  }
+  const double determinant = s * stt - st * st;
+  offset.drift_sd = determinant > 0 ? std::sqrt(s / determinant) : std::numeric_limits<double>::infinity();
+  const double drift = determinant > 0 ? (s * sto - st * so) / determinant : 0;
+  if (std::abs(drift) > 3 * offset.drift_sd) offset.drift = drift;
+}
+
+}  // namespace
+
+RateIntegral::RateIntegral(const Channel<glm::dvec3>& rates) {
+  const std::size_t count = std::min(rates.times_s.size(), rates.values.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d rate = eigen_of(rates.values[i]);
+    if (!rate.allFinite() || !std::isfinite(rates.times_s[i])) continue;
+    if (!times_s_.empty() && !(rates.times_s[i] > times_s_.back())) continue;
+    sums_.push_back(times_s_.empty() ? Eigen::Vector3d(0, 0, 0)
+                                     : Eigen::Vector3d(sums_.back() + (rates_.back() + rate) / 2 *
+                                                                          (rates.times_s[i] - times_s_.back())));
+    times_s_.push_back(rates.times_s[i]);
+    rates_.push_back(rate);
+  }
+}
+
+bool RateIntegral::covers(double from_s, double to_s) const {
+  return !empty() && from_s >= first_s() && to_s <= last_s();
+}
+
+Eigen::Vector3d RateIntegral::between(double from_s, double to_s) const {
+  if (empty()) return Eigen::Vector3d::Zero();
+  return up_to(to_s) - up_to(from_s);
+}
+
+Eigen::Vector3d RateIntegral::up_to(double time_s) const {
+  if (time_s <= first_s()) return Eigen::Vector3d::Zero();
+  if (time_s >= last_s()) return sums_.back();
+  const auto after = std::upper_bound(times_s_.begin(), times_s_.end(), time_s);
+  const auto i = static_cast<std::size_t>(after - times_s_.begin()) - 1;
+  const double part_s = time_s - times_s_[i];
+  const double share = part_s / (times_s_[i + 1] - times_s_[i]);
+  return sums_[i] + part_s * (rates_[i] + 0.5 * share * (rates_[i + 1] - rates_[i]));
+}
+
+std::optional<TimeOffset> time_offset(std::span<const SeenTurn> turns, const RateIntegral& rates, double max_offset_s) {
+  if (turns.size() < kLeastTurns || rates.empty()) return std::nullopt;
+  const std::optional<Peak> found = peak(turns, rates, 0, max_offset_s);
+  if (!found) return std::nullopt;
+  const Comparison at_peak = compared(turns, rates, found->offset_s);
+  TimeOffset offset{.offset_s = found->offset_s,
+                    .offset_sd_s = found->sd_s,
+                    .middle_s = (turns.front().from_s + turns.back().to_s) / 2,
+                    .correlation = at_peak.correlation,
+                    .slope = at_peak.slope};
+  add_drift(offset, turns, rates);
+  return offset;
+}
+
+}  // namespace sigs
