@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// make_flight CASE SEED FOLDER writes one flight with its truth (tests/made_flights/write_flight.h).
+// make_flight CASE SEED FOLDER writes one flight with its truth (tests/attitude_flights/write_flight.h).
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
 
-#include "made_flights/made_cases.h"
-#include "made_flights/write_flight.h"
+#include "attitude_flights/attitude_cases.h"
+#include "attitude_flights/write_flight.h"
 
 namespace {
 

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <ctime>
 
+#include "attitude_flights/attitude_cases.h"
+#include "attitude_flights/gyro_log.h"
+#include "attitude_flights/write_flight.h"
 #include "base/pose.h"
 #include "ego_motion/measures.h"
-#include "made_flights/gyro_log.h"
-#include "made_flights/made_cases.h"
-#include "made_flights/write_flight.h"
 #include "video/frame_source.h"
 
 namespace sigs::bench {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "accuracy/csv.h"
+#include "attitude_flights/flight.h"
+#include "attitude_flights/slip_score.h"
 #include "ego_motion/ego_motion.h"
-#include "made_flights/flight.h"
-#include "made_flights/slip_score.h"
 
 namespace sigs::bench {
 

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <string>
 
+#include "attitude_flights/attitude_cases.h"
 #include "base/pose.h"
 #include "ego_motion/measures.h"
-#include "made_flights/made_cases.h"
 
 namespace sigs::bench {
 

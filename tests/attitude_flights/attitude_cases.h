@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "made_flights/flight.h"
+#include "attitude_flights/flight.h"
 
 namespace sigs::made {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/made_cases.h"
+#include "attitude_flights/attitude_cases.h"
 
 #include "base/pose.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/write_flight.h"
+#include "attitude_flights/write_flight.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "made_flights/gyro_log.h"
+#include "attitude_flights/gyro_log.h"
 #include "video/video_writer.h"
 
 namespace sigs::made {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/slip_score.h"
+#include "attitude_flights/slip_score.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/flight.h"
+#include "attitude_flights/flight.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "attitude_flights/random.h"
 #include "base/pose.h"
-#include "made_flights/random.h"
 
 namespace sigs::made {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/slip_score.h"
+#include "attitude_flights/slip_score.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "made_flights/motion.h"
-#include "made_flights/random.h"
+#include "attitude_flights/motion.h"
+#include "attitude_flights/random.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/landscape.h"
+#include "attitude_flights/landscape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "made_flights/random.h"
+#include "attitude_flights/random.h"
 
 namespace sigs::made {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/motion.h"
+#include "attitude_flights/motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "attitude_flights/random.h"
 #include "base/pose.h"
-#include "made_flights/random.h"
 
 namespace sigs::made {
 

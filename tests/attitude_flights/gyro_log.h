@@ -6,8 +6,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "attitude_flights/motion.h"
 #include "base/result.h"
-#include "made_flights/motion.h"
 
 namespace sigs::made {
 

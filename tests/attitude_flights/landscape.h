@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "made_flights/tile.h"
+#include "attitude_flights/tile.h"
 
 namespace sigs::made {
 

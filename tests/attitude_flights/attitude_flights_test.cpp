@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "attitude_flights/attitude_cases.h"
 #include "base/pose.h"
-#include "made_flights/made_cases.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/tile.h"
+#include "attitude_flights/tile.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "made_flights/random.h"
+#include "attitude_flights/random.h"
 
 namespace sigs::made {
 

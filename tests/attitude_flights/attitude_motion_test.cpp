@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "attitude_flights/gyro_log.h"
+#include "attitude_flights/motion.h"
 #include "base/pose.h"
-#include "made_flights/gyro_log.h"
-#include "made_flights/motion.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "attitude_flights/flight.h"
 #include "base/result.h"
-#include "made_flights/flight.h"
 
 namespace sigs::made {
 

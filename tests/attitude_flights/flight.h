@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "attitude_flights/landscape.h"
+#include "attitude_flights/motion.h"
 #include "camera/camera.h"
-#include "made_flights/landscape.h"
-#include "made_flights/motion.h"
 #include "video/frame.h"
 
 namespace sigs::made {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "made_flights/gyro_log.h"
+#include "attitude_flights/gyro_log.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
 
-#include "made_flights/random.h"
+#include "attitude_flights/random.h"
 
 namespace sigs::made {
 
