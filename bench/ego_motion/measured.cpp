@@ -58,16 +58,16 @@ void add_score(Measured& result, const made::Flight& flight) {
 
 }  // namespace
 
-MadeFlight made_flight(const accuracy::Call& call, const std::string& kind, std::uint32_t seed) {
+MadeFlight made_flight(const accuracy::Call& call, const std::string& kind, std::uint32_t seed, bool lossless) {
   const cv::Size size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480);
   const auto camera = read_calibration(SIGS_ASSETS_DIR "/calibrations/sample.xml", size_px);
   if (!camera) accuracy::stop(camera.error().text());
   made::FlightSettings settings = made::case_by_name(kind, seed, *camera).value();
   if (call.quick) settings.frames = 30;
-  std::string id = kind + "-" + std::to_string(seed);
+  std::string id = kind + "-" + std::to_string(seed) + (lossless ? "-lossless" : "");
   std::replace(id.begin(), id.end(), ' ', '-');
   made::Flight flight(settings, *camera);
-  const auto footage = made::write_flight(flight, call.folder / id, false);
+  const auto footage = made::write_flight(flight, call.folder / id, lossless);
   if (!footage) accuracy::stop(footage.error().text());
   return {std::move(flight), *footage, id};
 }

@@ -18,8 +18,10 @@ struct MadeFlight {
   std::string id;  // "own-body-1"
 };
 
-// Draws it where it is not yet in the folder. Stops the program where it cannot be written.
-[[nodiscard]] MadeFlight made_flight(const accuracy::Call& call, const std::string& kind, std::uint32_t seed);
+// Draws it where it is not yet in the folder; as H.264 with CRF 18, or lossless as FFV1. Stops the program where it
+// cannot be written.
+[[nodiscard]] MadeFlight made_flight(const accuracy::Call& call, const std::string& kind, std::uint32_t seed,
+                                     bool lossless = false);
 
 // An estimate and what it cost.
 struct Measured {
@@ -36,7 +38,8 @@ struct Measured {
                                                const EgoMotionSettings& settings);
 
 // CSV files in the folder: cases.csv, all cases with images alone and with the gyroscope, seeds 1 and 2; sweep.csv,
-// error against run time by number of features, size of the images and distance of key frames, seed 1.
+// error against run time by number of features, size of the images and distance of key frames, and with lossless
+// footage, seed 1.
 void measure_cases(const accuracy::Call& call);
 void measure_sweep(const accuracy::Call& call);
 

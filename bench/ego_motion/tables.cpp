@@ -74,6 +74,8 @@ void measure_sweep(const accuracy::Call& call) {
     for (const Variant& variant : variants())
       if (const auto result = measured(flight, false, variant.settings))
         csv.row(variant.name, kind, 1, "no", values_of(*result));
+    if (const auto result = measured(made_flight(call, kind, 1, true), false, {}))
+      csv.row("lossless footage", kind, 1, "no", values_of(*result));
   }
 }
 
