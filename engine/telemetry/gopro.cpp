@@ -109,7 +109,7 @@ class Reading {
     const std::size_t columns = static_cast<std::size_t>(stream.samples.columns);
     for (std::size_t i = 0; i < times.times_s.size(); ++i) {
       const T value = value_of(Row(stream.samples.values).subspan(i * columns, columns));
-      if (!is_finite(value)) {
+      if (!all_finite(value)) {
         unsound.add(times.times_s[i]);
         continue;
       }
