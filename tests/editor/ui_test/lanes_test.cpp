@@ -35,7 +35,7 @@ void write_rolling_log(const fs::path& file) {
 
 TEST_CASE("where a log turns the camera its lanes are there, and Alt + drag on one shifts the log in time") {
   if (!can_drive_windows()) return;
-  UiTest ui_test("camera-lanes");
+  UiTest ui_test("camera-lanes", {{"timeline_height", 420}});
   EditorDriver& editor = ui_test.editor();
   write_rolling_log(ui_test.folder() / "flight.csv");
   Json content = sample_project("head-on");

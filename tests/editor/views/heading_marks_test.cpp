@@ -33,7 +33,7 @@ const HeadingMark* mark_at(const std::vector<HeadingMark>& marks, double heading
 
 TEST_CASE("a level pinhole sees the heading h at f * tan(h - its own), on the row of the horizon") {
   const double yaw_deg = 20;
-  const auto marks = heading_marks(pinhole({.yaw_rad = rad_of_deg(yaw_deg)}), kImage_px, 0, 8);
+  const auto marks = heading_marks(pinhole({.yaw_rad = rad_of_deg(yaw_deg)}), kImage_px, 0, 7);
   for (const double heading_deg : {0.0, 10.0, 20.0, 45.0, 350.0}) {
     const HeadingMark* const mark = mark_at(marks, heading_deg);
     CAPTURE(heading_deg);
@@ -47,7 +47,7 @@ TEST_CASE("a level pinhole sees the heading h at f * tan(h - its own), on the ro
 }
 
 TEST_CASE("against north, marks are shifted by the heading of world X") {
-  const auto marks = heading_marks(pinhole({}), kImage_px, rad_of_deg(90), 8);
+  const auto marks = heading_marks(pinhole({}), kImage_px, rad_of_deg(90), 7);
   REQUIRE(mark_at(marks, 90) != nullptr);
   CHECK(mark_at(marks, 90)->pixel.x == doctest::Approx(639.5));
   CHECK(mark_at(marks, 0) == nullptr);
@@ -55,20 +55,22 @@ TEST_CASE("against north, marks are shifted by the heading of world X") {
 
 TEST_CASE("a camera with its right side down has the marks' tops leaning to the left") {
   const double roll_rad = rad_of_deg(30);
-  const auto marks = heading_marks(pinhole({.roll_rad = roll_rad}), kImage_px, 0, 8);
+  const auto marks = heading_marks(pinhole({.roll_rad = roll_rad}), kImage_px, 0, 7);
   REQUIRE(mark_at(marks, 0) != nullptr);
   CHECK(glm::distance(mark_at(marks, 0)->up, glm::dvec2(-std::sin(roll_rad), -std::cos(roll_rad))) < 1e-6);
 }
 
-TEST_CASE("numbers come nearer together the larger the image is drawn, and every fifth degree at most") {
-  const auto numbered = [](double px_per_deg) {
-    const auto marks = heading_marks(pinhole({}), kImage_px, 0, px_per_deg);
+TEST_CASE("numbers stand as far apart as their text needs, on every fifth degree at most") {
+  const auto numbered = [](double number_gap_deg) {
+    const auto marks = heading_marks(pinhole({}), kImage_px, 0, number_gap_deg);
     return std::count_if(marks.begin(), marks.end(), [](const HeadingMark& m) { return m.is_numbered; });
   };
-  CHECK(numbered(100) == 13);  // -30 to 30 by 5
-  CHECK(numbered(1000) == 13);
-  CHECK(numbered(100) > numbered(4));
-  CHECK(numbered(4) > numbered(0.7));
+  // The image reaches to atan(640 / 1000) = 32.6 degrees on both sides.
+  CHECK(numbered(0.1) == 13);
+  CHECK(numbered(5) == 13);
+  CHECK(numbered(6) == 7);
+  CHECK(numbered(25) == 3);
+  CHECK(numbered(1e9) == 1);
 }
 
 TEST_CASE("headings are written as in aviation against north, and to both sides against world X") {

@@ -8,6 +8,7 @@
 #include "base/pose.h"
 #include "editor/views/inspector/camera_log.h"
 #include "editor/views/world/picks.h"
+#include "scene/scene_parts.h"
 #include "spline/splines.h"
 
 using namespace sigs;
@@ -18,7 +19,10 @@ namespace {
 // A camera whose log leads it 10 m/s to the right from (1, 2, -150) and turns it by 90 degrees in 10 s.
 struct ByLog {
   explicit ByLog(glm::bvec3 moves_with_start = glm::bvec3(true)) : document(project_of()) {
-    OpenedScene opened{.revision = 1, .project = std::make_shared<const Project>(document.project())};
+    const FootageShape shape{.size_px = {1280, 960}, .times_s = {0, 0.04}};
+    OpenedScene opened{.revision = 1,
+                       .project = std::make_shared<const Project>(document.project()),
+                       .draft = {.scene = bare_scene(document.project(), shape)}};
     CameraMotion& motion = opened.draft.scene.motion;
     motion.path = std::make_shared<const PiecewiseCubic>(
         interpolating_spline(std::vector<TimedWaypoint>{{0, {1, 2, -150}}, {5, {1, 52, -150}}, {10, {1, 102, -150}}}));
