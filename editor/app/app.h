@@ -18,6 +18,7 @@
 #include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
 #include "editor/preview/scoring.h"
+#include "editor/views/ego_motion/ego_motion_session.h"
 #include "editor/views/own_body/own_body_session.h"
 #include "editor/widgets/textures.h"
 #include "editor/widgets/ui_probe.h"
@@ -120,6 +121,7 @@ class App {
   ProbeWriter probe_writer_;
   Previewer previewer_;
   OwnBodySession own_body_;
+  EgoMotionSession ego_motion_;
   ResultFiles results_;
   Scoring scoring_;
   // Of this update; null: no results are loaded.

@@ -8,6 +8,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
+#include "editor/preview/ego_motion_job.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/scoring.h"
 #include "editor/widgets/keys.h"
@@ -53,6 +54,8 @@ struct ViewContext {
   double speed = 0;
   // Null: no results of trackers are loaded.
   const Scored* scored = nullptr;
+  // Of the camera's motion that is estimated in the background. Null: this window has no such job.
+  const EgoMotionState* ego_motion = nullptr;
 
   [[nodiscard]] const Project& project() const { return document.project(); }
 };

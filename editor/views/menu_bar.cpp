@@ -76,6 +76,9 @@ void draw_edit_menu(const ViewContext& context, bool has_project) {
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
   if (item(context, "Own body...", "", has_project)) context.edits.ask(ShowOwnBody{});
+  const bool estimates = context.ego_motion != nullptr && context.ego_motion->is_running();
+  if (item(context, "Estimate camera motion", "", has_project && !estimates)) context.edits.ask(EstimateCameraMotion{});
+  if (estimates && item(context, "Stop estimating camera motion", "")) context.edits.ask(StopCameraMotion{});
   ImGui::Separator();
   if (item(context, "Add waypoint here", "Enter", has_project && !context.project().intruders.empty()))
     add_waypoint_here(context);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "editor/document/field_edits.h"
+#include "editor/views/inspector/camera_log.h"
 #include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/results/results_view.h"
 #include "editor/widgets/icons.h"
@@ -47,17 +48,6 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
   if (ImGui::Button("Detect and paint...")) context.edits.ask(ShowOwnBody{});
   context.ui_probe.note_item("inspector/own body");
   tooltip_for_item("Finds the aircraft that carries the camera in its footage");
-}
-
-void draw_camera(const ViewContext& context, FieldRows& rows) {
-  rows.rows("camera.");
-  const CameraSettings& camera = context.project().camera;
-  if (!camera.attitude_file.empty()) return;
-  ImGui::Spacing();
-  if (!knows_horizon(camera)) note("Horizon: not set. Labels call the intruders' side of it unknown.");
-  if (ImGui::Button("Horizon...")) context.edits.ask(ShowHorizon{});
-  context.ui_probe.note_item("inspector/horizon");
-  tooltip_for_item("Shows the horizon's line over the footage, to be dragged onto the footage's own");
 }
 
 void draw_compositing(const ViewContext& context, FieldRows& rows) {
@@ -176,6 +166,8 @@ void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
   block(context, "Inputs", true, [&] { draw_inputs(context, rows); });
   block(context, "Own body", false, [&] { draw_own_body(context, rows); });
   block(context, "Camera", true, [&] { draw_camera(context, rows); });
+  block(context, kCameraLogBlock, false, [&] { draw_camera_log(context, rows); });
+  block(context, kPlaceBlock, false, [&] { draw_place_on_earth(context, rows); });
   block(context, "Light", false, [&] { light_.draw(context, rows); });
   block(context, "Intruders", true, [&] { model_.draw(context, rows); });
   block(context, "Trajectory", true, [&] { trajectory_.draw(context, rows); });

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "editor/views/timeline/deviation_band.h"
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/ruler.h"
 #include "editor/views/timeline/visibility_strip.h"
@@ -69,29 +70,10 @@ void draw_label(ImDrawList& list, const LaneMarks& marks, float x, float y, ImU3
   ImGui::PopFont();
 }
 
-// One standard deviation to both sides of the curve; no finer than the screen.
-void draw_deviations(ImDrawList& list, const LaneMarks& marks) {
-  const std::vector<double>& sd = marks.values.deviations;
-  if (sd.empty()) return;
-  const TimelineStrip& strip = marks.strip;
-  const double stride = std::max(1.0, std::ceil(strip.ruler.count / std::max(1.0, strip.ruler.width)));
-  const ImU32 shade = faded(marks.style.color, 0.25);
-  const auto count = static_cast<double>(sd.size());
-  const double first = marks.survey->first_frame;
-  const double from = std::clamp(std::floor((strip.ruler.first - first) / stride) * stride, 0.0, count);
-  const double to = std::clamp(strip.ruler.first + strip.ruler.count + stride - first, 0.0, count);
-  for (double i = from; i < to; i += stride) {
-    const auto index = static_cast<std::size_t>(i);
-    if (!std::isfinite(sd[index])) continue;
-    const double value = marks.values.values[index];
-    list.AddRectFilled({strip.edge_x(first + i), y_of(marks, value + sd[index])},
-                       {strip.edge_x(first + i + stride), y_of(marks, value - sd[index])}, shade);
-  }
-}
-
 void draw_curve(ImDrawList& list, const LaneMarks& marks) {
-  draw_deviations(list, marks);
   const LaneStyle& style = marks.style;
+  draw_deviation_band(list, marks.strip, marks.values, marks.survey->first_frame, box_of(marks),
+                      faded(style.color, 0.25));
   const LaneScale& scale = marks.values.scale;
   if (style.reference && *style.reference > scale.low && *style.reference < scale.high) {
     const float y = std::floor(y_of(marks, *style.reference));

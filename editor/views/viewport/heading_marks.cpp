@@ -17,8 +17,10 @@ namespace {
 
 constexpr double kMinNumberGap_px = 52;  // between numbers, where text is 15 px high
 constexpr double kUp_rad = 0.002;        // a small step towards the zenith
-constexpr double kMark_px = 7;
-constexpr double kMinorMark_px = 4;
+constexpr double kMark_px = 8;
+constexpr double kMinorMark_px = 5;
+constexpr ImU32 kBright = color::kHorizon | IM_COL32_A_MASK;
+constexpr ImU32 kDark = IM_COL32(12, 13, 16, 170);
 constexpr double kMinSpeed_mps = 0.5;
 constexpr double kSpeedSpan_s = 0.1;
 
@@ -28,9 +30,9 @@ struct Steps {
 };
 constexpr std::array<Steps, 5> kSteps{{{5, 1}, {10, 5}, {30, 10}, {45, 15}, {90, 30}}};
 
-Steps steps_for(double px_per_deg) {
+Steps steps_for(double number_gap_deg) {
   for (const Steps& steps : kSteps)
-    if (steps.number_deg * px_per_deg >= scaled(kMinNumberGap_px)) return steps;
+    if (steps.number_deg >= number_gap_deg) return steps;
   return kSteps.back();
 }
 
@@ -47,21 +49,25 @@ bool is_in(const glm::dvec2& pixel, const glm::dvec2& image_px) {
   return pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x <= image_px.x - 0.5 && pixel.y <= image_px.y - 0.5;
 }
 
-// Screen pixels that a degree of heading takes near the optical axis.
-double px_per_deg_of(const ImageCanvas& canvas, const FootageCamera& eye) {
+// How many degrees near the optical axis the text of a number needs.
+double number_gap_deg_of(const ImageCanvas& canvas, const FootageCamera& eye) {
   const glm::dvec3 ahead = {1, 0, 0};
   const glm::dvec3 aside = {std::cos(rad_of_deg(1)), std::sin(rad_of_deg(1)), 0};
   const std::optional<glm::dvec2> a = eye.lens.pixel(ahead);
   const std::optional<glm::dvec2> b = eye.lens.pixel(aside);
-  return a && b ? glm::distance(*a, *b) * canvas.view.zoom : 0;
+  const double px_per_deg = a && b ? glm::distance(*a, *b) * canvas.view.zoom : 0;
+  return scaled(kMinNumberGap_px) / std::max(px_per_deg, 1e-9);
 }
 
 void draw_mark(const ImageCanvas& canvas, const HeadingMark& mark) {
   const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
   const double length = scaled(mark.is_numbered ? kMark_px : kMinorMark_px);
   const double below = mark.is_numbered ? length * 0.4 : 0;
-  canvas.draw.AddLine(im(at - mark.up * below), im(at + mark.up * length), color::kHorizon,
-                      scaled(mark.is_numbered ? 1.6F : 1.1F));
+  const float width = scaled(mark.is_numbered ? 1.8F : 1.3F);
+  const ImVec2 foot = im(at - mark.up * below);
+  const ImVec2 tip = im(at + mark.up * length);
+  canvas.draw.AddLine(foot, tip, kDark, width + scaled(1.8));
+  canvas.draw.AddLine(foot, tip, kBright, width);
 }
 
 void draw_number(const ImageCanvas& canvas, const HeadingMark& mark, bool from_north, LabelPlacer& labels) {
@@ -70,15 +76,13 @@ void draw_number(const ImageCanvas& canvas, const HeadingMark& mark, bool from_n
   const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
   const glm::dvec2 above = at + mark.up * static_cast<double>(scaled(kMark_px + 3)) - glm::dvec2(size.x / 2, 0);
   const glm::dvec2 below = at - mark.up * static_cast<double>(scaled(kMark_px + 3)) + glm::dvec2(-size.x / 2, size.y);
-  draw_label(canvas, labels, std::array{above, below}, text, color::kHorizon | IM_COL32_A_MASK, false);
+  draw_label(canvas, labels, std::array{above, below}, text, kBright, false);
 }
 
 void draw_flight_mark(const ImageCanvas& canvas, const glm::dvec2& pixel) {
   const glm::dvec2 at = canvas.view.screen_of(pixel);
   const double r = scaled(5);
-  const ImU32 dark = IM_COL32(12, 13, 16, 200);
-  for (const auto& [shade, width] :
-       {std::pair(dark, 3.2F), std::pair(ImU32(color::kHorizon | IM_COL32_A_MASK), 1.5F)}) {
+  for (const auto& [shade, width] : {std::pair(kDark, 3.2F), std::pair(kBright, 1.5F)}) {
     canvas.draw.AddCircle(im(at), static_cast<float>(r), shade, 16, scaled(width));
     for (const glm::dvec2& wing : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, -1)})
       canvas.draw.AddLine(im(at + wing * r), im(at + wing * r * 2.2), shade, scaled(width));
@@ -88,8 +92,8 @@ void draw_flight_mark(const ImageCanvas& canvas, const glm::dvec2& pixel) {
 }  // namespace
 
 std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px, double reference_rad,
-                                       double px_per_deg) {
-  const Steps steps = steps_for(px_per_deg);
+                                       double number_gap_deg) {
+  const Steps steps = steps_for(number_gap_deg);
   std::vector<HeadingMark> marks;
   for (int heading_deg = 0; heading_deg < 360; heading_deg += steps.mark_deg) {
     const double azimuth_rad = rad_of_deg(heading_deg) - reference_rad;
@@ -134,7 +138,7 @@ void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, c
   const glm::dvec2 image_px{canvas.image_px.width, canvas.image_px.height};
   const HeadingReference reference = heading_reference(context);
   const std::vector<HeadingMark> marks =
-      heading_marks(eye, image_px, reference.heading_of_x_rad, px_per_deg_of(canvas, eye));
+      heading_marks(eye, image_px, reference.heading_of_x_rad, number_gap_deg_of(canvas, eye));
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
   for (const HeadingMark& mark : marks) {
     draw_mark(canvas, mark);

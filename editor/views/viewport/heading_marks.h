@@ -21,10 +21,9 @@ struct HeadingMark {
 
 // The marks that the image shows.
 //   reference_rad  heading of world X against the reference that is counted from
-//   px_per_deg     how many screen pixels a degree takes near the image's middle; by it the steps are chosen: numbers
-//                  not nearer together than their text is wide
+//   number_gap_deg  numbers stand at least so far apart: 5, 10, 30, 45 or 90 degrees
 [[nodiscard]] std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px,
-                                                     double reference_rad, double px_per_deg);
+                                                     double reference_rad, double number_gap_deg);
 
 // "0", "45", "350" against world X; "N", "045", "350" against true north.
 [[nodiscard]] std::string heading_text(double heading_deg, bool from_north);

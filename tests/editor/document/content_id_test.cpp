@@ -42,6 +42,10 @@ TEST_CASE("the content id changes with everything that affects an image, and wit
       [](Project& p) { p.footage.own_body_mask.clear(); },
       [](Project& p) { p.camera.speed_mps += 1e-9; },
       [](Project& p) { p.camera.attitude_file = std::string("gyro.csv"); },
+      [](Project& p) { p.camera.track.file = std::string("flight.csv"); },
+      [](Project& p) { p.camera.track.offset_s = 0.001; },
+      [](Project& p) { p.camera.readout_s = 0.02; },
+      [](Project& p) { p.geo.heading_deg = 1; },
       [](Project& p) { p.light.ambient = 0.1; },
       [](Project& p) { p.intruders[0].name += "b"; },  // the truth has it
       [](Project& p) { p.intruders[0].trajectory.waypoints[1].position_m.z += 1e-9; },
@@ -86,6 +90,10 @@ TEST_CASE("a file that appears or changes on disk changes the id of the files al
   REQUIRE(write_text(folder / "a.mp4", "ab", true));
   CHECK_FALSE(input_files_id_of(project) == with);
   CHECK(content_id_of(project) == content);
+  project.camera.track.file = "flight.csv";
+  const ContentId without_log = input_files_id_of(project);
+  REQUIRE(write_text(folder / "flight.csv", "time_s,roll_deg", true));
+  CHECK_FALSE(input_files_id_of(project) == without_log);
   CHECK_FALSE(combined_id(content, with) == combined_id(content, without));
   CHECK_FALSE(combined_id(content, with) == combined_id(with, content));
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/pose.h"
 #include "editor/preview/surveys.h"
 #include "export/export_project.h"
 #include "preview_client.h"
@@ -95,4 +96,55 @@ TEST_CASE("a long survey is made in slices and grows") {
   CHECK(showings <= 30);  // each copies all there is
   MESSAGE("slices " << slices << ", longest " << max_duration_s * 1e3 << " ms");
   CHECK(max_duration_s < 0.25);  // 3 ms where no other process uses the core
+}
+
+TEST_CASE("a camera that turns on and on has a yaw without jumps") {
+  CameraMotion motion;
+  for (int i = 0; i <= 80; ++i)
+    motion.turns.push_back({0.1 * i, rotation_of({.roll_rad = 0.1, .yaw_rad = rad_of_deg(10.0 * i)})});
+  CameraTurn turn = camera_turn_at(motion, 0, nullptr);
+  for (int i = 1; i <= 80; ++i) turn = camera_turn_at(motion, 0.1 * i, &turn);
+  CHECK(deg_of_rad(turn.attitude.yaw_rad) == doctest::Approx(800));
+  CHECK(turn.attitude.roll_rad == doctest::Approx(0.1));
+  CHECK_FALSE(turn.sd.has_value());
+}
+
+TEST_CASE("deviations of roll, pitch and yaw are those of turns about the camera's axes, tried one by one") {
+  const Attitude at{.roll_rad = 0.5, .pitch_rad = -0.4, .yaw_rad = 1};
+  const glm::dvec3 sd_rad{0.002, 0.003, 0.001};
+  CameraMotion motion;
+  motion.turns = {{0, rotation_of(at)}};
+  motion.deviations = {{0, sd_rad}};
+  double roll = 0, pitch = 0, yaw = 0;  // variances by differences
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 unit{0, 0, 0};
+    unit[axis] = 1;
+    const Attitude turned = attitude_of(rotation_of(at) * glm::angleAxis(sd_rad[axis], unit));
+    roll += std::pow(turned.roll_rad - at.roll_rad, 2);
+    pitch += std::pow(turned.pitch_rad - at.pitch_rad, 2);
+    yaw += std::pow(turned.yaw_rad - at.yaw_rad, 2);
+  }
+  const CameraTurn turn = camera_turn_at(motion, 0, nullptr);
+  REQUIRE(turn.sd.has_value());
+  // Differences of 3 mrad are linear to some thousandths.
+  CHECK(turn.sd->roll_rad == doctest::Approx(std::sqrt(roll)).epsilon(0.005));
+  CHECK(turn.sd->pitch_rad == doctest::Approx(std::sqrt(pitch)).epsilon(0.005));
+  CHECK(turn.sd->yaw_rad == doctest::Approx(std::sqrt(yaw)).epsilon(0.005));
+}
+
+TEST_CASE("each survey has the camera's turns in all frames, and none where nothing turns it") {
+  SurveyBuilder still;
+  still.begin(long_scene(50));
+  while (!still.done()) still.work(0.01);
+  CHECK(still.surveys()[0]->camera.empty());
+  OpenedScene turned = *long_scene(50);
+  turned.draft.scene.motion.turns = {{0, {1, 0, 0, 0}}, {0.98, rotation_of({.pitch_rad = 0.49})}};
+  SurveyBuilder maker;
+  maker.begin(std::make_shared<const OpenedScene>(std::move(turned)));
+  while (!maker.done()) maker.work(0.01);
+  for (const auto& survey : maker.surveys()) {
+    REQUIRE(survey->camera.size() == 50);
+    // 0.5 rad a second, less the sample's own mounting, which is level.
+    CHECK(survey->camera[25].attitude.pitch_rad - survey->camera[0].attitude.pitch_rad == doctest::Approx(0.25));
+  }
 }

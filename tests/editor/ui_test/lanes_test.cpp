@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <fstream>
+
 #include "editor/ui_test/ui_test.h"
 
 namespace sigs::test {
@@ -18,7 +21,41 @@ void tick(UiTest& ui_test, const std::string& title, bool is_to_show) {
                   [&](const Json& now) { return shows(now, "timeline/lane/" + title) == is_to_show; });
 }
 
+// A log that rolls the camera to and fro, from 2 s before the footage to 20 s after its start.
+void write_rolling_log(const fs::path& file) {
+  std::ofstream out(file);
+  out << "time_s,camera_roll_deg,camera_pitch_deg,camera_yaw_deg\n";
+  for (int i = -100; i <= 1000; ++i) {
+    const double time_s = i * 0.02;
+    out << time_s << ',' << 10 * std::sin(time_s) << ',' << -3 << ',' << 4 * time_s << '\n';
+  }
+}
+
 }  // namespace
+
+TEST_CASE("where a log turns the camera its lanes are there, and Alt + drag on one shifts the log in time") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("camera-lanes", {{"timeline_height", 420}});
+  EditorDriver& editor = ui_test.editor();
+  write_rolling_log(ui_test.folder() / "flight.csv");
+  Json content = sample_project("head-on");
+  content["camera"]["track"] = {{"file", "flight.csv"}, {"offset_s", 1.5}};
+  const fs::path project = put(content, ui_test.folder() / "head-on.json");
+  editor.start({project.string()});
+  editor.wait_for_image();
+  const ScreenPlace roll = editor.place("timeline/lane/Camera roll");
+  CHECK(editor.has_place("timeline/lane/Camera yaw"));
+  const int frame = editor.state()["frame"].get<int>();
+  const double x = roll.center_x();
+  ui_test.edit([&] { editor.drag(x, roll.center_y(), x + 20, roll.center_y(), 1, "alt"); });
+  CHECK(editor.state()["frame"].get<int>() == frame);  // the playhead stays
+  const double offset_s = ui_test.saved(project)["camera"]["track"]["offset_s"].get<double>();
+  // The curve has gone to the right, so the log's time at frame 0 is earlier: by 20 pixels.
+  CHECK(offset_s < 1.5);
+  CHECK(offset_s > 0.5);
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(ui_test.saved(project)["camera"]["track"]["offset_s"].get<double>() == 1.5);
+}
 
 TEST_CASE("a person hides lanes of the timeline and shows others, without changing the project") {
   if (!can_drive_windows()) return;

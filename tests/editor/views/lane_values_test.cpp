@@ -50,6 +50,25 @@ TEST_CASE("a strip has words instead of values, and a frame beyond the survey ha
   for (const LaneStyle& style : lane_styles()) CHECK(text_in(survey, style.lane, 2) == "-");
 }
 
+TEST_CASE("lanes of the camera are in degrees; yaw is told within 180 and drawn without jumps") {
+  Survey survey;
+  CHECK(values_of(survey, Lane::yaw).values.empty());
+  CHECK(text_in(survey, Lane::yaw, 0) == "-");
+  survey.camera = {{.attitude = {.roll_rad = 0.1, .pitch_rad = -0.2, .yaw_rad = 3.0}},
+                   {.attitude = {.roll_rad = 0.1, .pitch_rad = -0.2, .yaw_rad = 3.5},
+                    .sd = Attitude{.roll_rad = 0.01, .pitch_rad = 0.02, .yaw_rad = 0.03}}};
+  const LaneValues yaw = values_of(survey, Lane::yaw);
+  CHECK(yaw.maximum == doctest::Approx(200.535));  // 3.5 * 180 / pi
+  REQUIRE(yaw.deviations.size() == 2);
+  CHECK(std::isnan(yaw.deviations[0]));
+  CHECK(yaw.deviations[1] == doctest::Approx(1.7189));
+  CHECK(text_in(survey, Lane::yaw, 1) == "-159.5\u00b0 \u00b11.7\u00b0");
+  CHECK(text_in(survey, Lane::roll, 0) == "5.7\u00b0");
+  CHECK(text_in(survey, Lane::pitch, 0) == "-11.5\u00b0");
+  survey.camera[1].sd.reset();
+  CHECK(values_of(survey, Lane::yaw).deviations.empty());
+}
+
 TEST_CASE("a lane is found by its name, wherever it stands in the list") {
   for (const LaneStyle& style : lane_styles()) CHECK(style_of(style.lane).title == style.title);
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/ego_motion/ego_motion_session.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "base/pose.h"
+#include "editor/document/project_paths.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path attitude_file_beside(const Project& project, int number) {
+  const fs::path beside = !project.file.empty() ? project.file : resolved(project, project.footage.video);
+  const std::string ending = number > 1 ? fmt::format(".attitude_{}.csv", number) : ".attitude.csv";
+  return fs::absolute(beside.parent_path() / (beside.stem().string() + ending)).lexically_normal();
+}
+
+// Frames whose turn is not known have no sample, at the ends of the footage either.
+void use_motion(Project& project, const EstimatedMotion& motion) {
+  CameraSettings& camera = project.camera;
+  camera.track = {.file = path_in_project(project, motion.file),
+                  .incomplete = motion.lost_frames > 0 ? IncompleteTrackChoice::use : IncompleteTrackChoice::refuse};
+  camera.attitude_file.clear();
+  camera.roll_deg = 0;
+  camera.pitch_deg = 0;
+  camera.yaw_deg = 0;
+}
+
+}  // namespace
+
+fs::path new_attitude_file(const Project& project) {
+  std::error_code code;
+  int number = 1;
+  while (fs::exists(attitude_file_beside(project, number), code)) ++number;
+  return attitude_file_beside(project, number);
+}
+
+std::string summary_of(const EstimatedMotion& motion) {
+  std::string text = fmt::format("{} frames", motion.frames);
+  if (motion.lost_frames > 0) text += fmt::format(", {} of them unknown", motion.lost_frames);
+  text += motion.level_sd_rad ? fmt::format("; level by the horizon, to {:.2g}\u00b0", deg_of_rad(*motion.level_sd_rad))
+                              : std::string("; no horizon seen: level as the camera's roll and pitch were at frame 0");
+  if (motion.is_gyro_used) text += "; with the log's gyroscope";
+  return text;
+}
+
+EgoMotionSession::EgoMotionSession(Edits& edits, std::function<void()> wake, EgoMotionJob::Work work)
+    : edits_(edits), job_(std::move(wake), std::move(work)) {}
+
+void EgoMotionSession::start(const Document& document) {
+  const Project& project = document.project();
+  if (project.footage.video.empty() || project.footage.calibration.empty()) {
+    edits_.ask(ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
+    return;
+  }
+  video_ = resolved(project, project.footage.video);
+  job_.start({project, new_attitude_file(project)});
+}
+
+void EgoMotionSession::forget() {
+  job_.forget();
+  state_ = {};
+  taken_ = nullptr;
+  was_running_ = false;
+}
+
+void EgoMotionSession::follow(const Document& document) {
+  const Project& project = document.project();
+  if (resolved(project, project.footage.video) != video_ && job_.is_running()) job_.forget();
+  state_ = job_.state();
+  const bool has_ended = std::exchange(was_running_, state_.is_running()) && !state_.is_running();
+  if (state_.value != nullptr && state_.value != taken_) take(document);
+  if (has_ended && state_.phase == JobPhase::failed)
+    edits_.ask(ShowMessage{"The camera's motion was not found: " + state_.error.text(), true});
+}
+
+void EgoMotionSession::take(const Document& document) {
+  taken_ = state_.value;
+  const Project& before = document.project();
+  std::string text = "Camera motion: " + summary_of(*taken_) + ".";
+  if (before.camera.yaw_deg != 0) text += " Yaw is 0: world X is where the camera looks at frame 0.";
+  edits_.end_gesture();
+  edits_.change("use estimated camera motion", [motion = taken_](Project& project) { use_motion(project, *motion); });
+  edits_.ask(ShowMessage{text});
+}
+
+}  // namespace sigs::editor
