@@ -1,13 +1,87 @@
 // SPDX-License-Identifier: MIT
 #include "telemetry/read_track.h"
 
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
 #include "base/input_file.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "telemetry/gopro.h"
+#include "telemetry/track_csv.h"
+#include "video/data_streams.h"
 
 namespace sigs {
+namespace {
 
-Result<Track> read_track(const std::filesystem::path& file, const ReadTrackOptions&) {
+// A format that is a file of its own, recognised by how the file begins (kHead_bytes, or all of a shorter one).
+struct FileFormat {
+  const char* name;
+  bool (*recognises)(std::string_view head);
+  Result<Track> (*read)(const std::filesystem::path& file, const ReadTrackOptions& options);
+};
+
+// A format that is a stream of a container, recognised by what the container says about the stream.
+struct StreamFormat {
+  const char* name;
+  bool (*recognises)(const DataStream& stream);
+  Result<Track> (*read)(const std::filesystem::path& file, const DataStream& stream, const ReadTrackOptions& options);
+};
+
+// The first that recognises a file reads it. To add a format: one line here, and README.md.
+constexpr FileFormat kFileFormats[] = {
+    {"CSV", is_track_csv, read_track_csv},
+};
+constexpr StreamFormat kStreamFormats[] = {
+    {"GoPro GPMF", is_gopro, read_gopro},
+};
+
+constexpr std::size_t kHead_bytes = 65536;
+
+std::string head_of(const std::filesystem::path& file) {
+  std::string head(kHead_bytes, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  return head;
+}
+
+std::string known_formats() {
+  std::vector<std::string> names;
+  for (const StreamFormat& format : kStreamFormats) names.emplace_back(format.name);
+  for (const FileFormat& format : kFileFormats) names.emplace_back(format.name);
+  return listed(names);
+}
+
+tl::unexpected<Error> no_format(const std::filesystem::path& file, const std::vector<DataStream>& streams) {
+  std::vector<std::string> found;
+  for (const DataStream& stream : streams)
+    found.push_back(stream.codec + (stream.tag.empty() ? "" : " (" + stream.tag + ")"));
+  return fail(file.string(), "there is no telemetry in it that SIGS reads; known are " + known_formats() +
+                                 (found.empty() ? "" : "; its data streams are " + listed(found)));
+}
+
+Result<Track> read(const std::filesystem::path& file, const ReadTrackOptions& options) {
+  const std::string head = head_of(file);
+  for (const FileFormat& format : kFileFormats)
+    if (format.recognises(head)) return format.read(file, options);
+  const Result<std::vector<DataStream>> streams = data_streams_of(file, options.cancel);
+  // What FFmpeg says of a file that is no container would mislead; of an MP4 that was cut short it helps.
+  if (!streams) return streams.error().kind == ErrorKind::cannot_read ? no_format(file, {}) : fail(streams.error());
+  for (const StreamFormat& format : kStreamFormats)
+    for (const DataStream& stream : *streams)
+      if (format.recognises(stream)) return format.read(file, stream, options);
+  return no_format(file, *streams);
+}
+
+}  // namespace
+
+Result<Track> read_track(const std::filesystem::path& file, const ReadTrackOptions& options) {
   if (const Result<void> there = check_input_file(file, "flight log"); !there) return fail(there.error());
-  return fail(file.string(), "is no flight log that SIGS reads");
+  if (!std::ifstream(file, std::ios::binary))
+    return fail(file.string(), "may not be read: permission denied", ErrorKind::cannot_read);
+  return guarded([&] { return read(file, options); });
 }
 
 }  // namespace sigs

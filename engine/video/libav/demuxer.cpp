@@ -99,7 +99,7 @@ tl::unexpected<Error> interrupted() {
   return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
 }
 
-Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* cancel) {
+Result<InputPtr> open_input(const fs::path& path, const std::atomic<bool>* cancel) {
   silence();
   if (const Result<void> file = check_is_file(path); !file) return fail(file.error());
   AVFormatContext* opened = new_input(cancel);
@@ -111,12 +111,27 @@ Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* can
   if (error < 0) return open_failed(path, error);
   InputPtr input(opened);
   if (const int probed = avformat_find_stream_info(input.get(), nullptr); probed < 0) return open_failed(path, probed);
-  const int stream = av_find_best_stream(input.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (stream < 0 || !is_video(*input->streams[stream]))
-    return fail(path.string(), "there is no video in it", ErrorKind::cannot_read);
-  for (unsigned i = 0; i < input->nb_streams; ++i)
-    if (static_cast<int>(i) != stream) input->streams[i]->discard = AVDISCARD_ALL;
-  return Demuxer(std::move(input), stream, cancel);
+  return input;
+}
+
+int video_stream_of(AVFormatContext& input) {
+  const int stream = av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  return stream >= 0 && is_video(*input.streams[stream]) ? stream : -1;
+}
+
+bool has_true_time_stamps(const AVFormatContext& format) {
+  const std::string_view name = format.iformat->name;
+  return name.starts_with("mov,mp4") || name.starts_with("matroska");
+}
+
+Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* cancel) {
+  Result<InputPtr> input = open_input(path, cancel);
+  if (!input) return fail(input.error());
+  const int stream = video_stream_of(**input);
+  if (stream < 0) return fail(path.string(), "there is no video in it", ErrorKind::cannot_read);
+  for (unsigned i = 0; i < (*input)->nb_streams; ++i)
+    if (static_cast<int>(i) != stream) (*input)->streams[i]->discard = AVDISCARD_ALL;
+  return Demuxer(std::move(*input), stream, cancel);
 }
 
 bool Demuxer::next(AVPacket& packet) {

@@ -13,6 +13,20 @@ namespace sigs::libav {
 // The error of work that `cancel` has ended.
 [[nodiscard]] tl::unexpected<Error> interrupted();
 
+// Opens one regular file as a container and looks at its streams; no playlists, no network. Which streams are there is
+// the caller's to see: a file of sound or of data alone opens too.
+//   cancel  while it is true, opening, reading and seeking soon end; null, or outlives the input
+// Errors: cannot_read (missing, a device or pipe, no container, a playlist), bad_data (an MP4 without its index),
+// interrupted.
+[[nodiscard]] Result<InputPtr> open_input(const std::filesystem::path& path, const std::atomic<bool>* cancel);
+
+// The stream whose images are the file's video, as FrameSource reads it: no cover image, no text drawn as images.
+// Negative: there is none.
+[[nodiscard]] int video_stream_of(AVFormatContext& input);
+
+// Whether the container's time stamps and key flags are those of the file rather than guesses: MP4 and Matroska.
+[[nodiscard]] bool has_true_time_stamps(const AVFormatContext& format);
+
 // Reads the packets of a file's video stream, in the order in which they are stored (order of decoding).
 class Demuxer {
  public:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <string_view>
 
 namespace sigs::libav {
 namespace {
@@ -25,12 +24,6 @@ bool one_frame_per_packet(const AVCodecParameters& parameters) {
 
 bool is_in_fields(const AVCodecParameters& parameters) {
   return parameters.field_order != AV_FIELD_PROGRESSIVE && parameters.field_order != AV_FIELD_UNKNOWN;
-}
-
-// Time stamps and key flags of the others are guesses.
-bool has_true_time_stamps(const AVFormatContext& format) {
-  const std::string_view name = format.iformat->name;
-  return name.starts_with("mov,mp4") || name.starts_with("matroska");
 }
 
 // FFV1 and PNG may refer to the image before, but only in packets that are no keyframes.

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "telemetry/gpmf.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "base/text.h"
+
+namespace sigs {
+namespace {
+
+constexpr std::size_t kHeader_bytes = 8;
+constexpr std::size_t kMaxColumns = 255;  // a sample has at most 255 bytes
+
+std::uint64_t big_endian(std::string_view bytes) {
+  std::uint64_t number = 0;
+  for (const char byte : bytes) number = number << 8 | static_cast<unsigned char>(byte);
+  return number;
+}
+
+// Bytes of one number of a type; 0: no such type.
+int size_of_type(char type) {
+  switch (type) {
+    case 'b':
+    case 'B':
+    case 'c':
+      return 1;
+    case 's':
+    case 'S':
+      return 2;
+    case 'f':
+    case 'F':
+    case 'l':
+    case 'L':
+    case 'q':
+      return 4;
+    case 'd':
+    case 'j':
+    case 'J':
+    case 'Q':
+      return 8;
+    case 'G':
+    case 'U':
+      return 16;
+    default:
+      return 0;
+  }
+}
+
+double number_of(char type, std::string_view bytes) {
+  const std::uint64_t bits = bytes.size() <= 8 ? big_endian(bytes) : 0;
+  switch (type) {
+    case 'b':
+      return static_cast<std::int8_t>(bits);
+    case 's':
+      return static_cast<std::int16_t>(bits);
+    case 'l':
+      return static_cast<std::int32_t>(bits);
+    case 'j':
+      return static_cast<double>(static_cast<std::int64_t>(bits));
+    case 'B':
+    case 'S':
+    case 'L':
+    case 'J':
+      return static_cast<double>(bits);
+    case 'f':
+      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    case 'd':
+      return std::bit_cast<double>(bits);
+    case 'q':
+      return static_cast<std::int32_t>(bits) / 65536.0;
+    case 'Q':
+      return static_cast<double>(static_cast<std::int64_t>(bits)) / 4294967296.0;
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+// The count in brackets behind a type, taken off the structure: "[8]L" gives 8 and leaves "L". 1 where there is none.
+std::size_t count_behind(std::string_view& structure) {
+  if (!structure.starts_with('[')) return 1;
+  std::size_t count = 0;
+  std::size_t i = 1;
+  for (; i < structure.size() && structure[i] >= '0' && structure[i] <= '9'; ++i)
+    count = std::min(count * 10 + static_cast<std::size_t>(structure[i] - '0'), kMaxColumns + 1);
+  structure.remove_prefix(std::min(i + 1, structure.size()));
+  return count;
+}
+
+// The types of one sample's columns, one character each; empty where they do not fill the sample.
+std::string columns_of(const GpmfElement& element, std::string_view structure) {
+  std::string types;
+  if (element.type == '?') {
+    while (!structure.empty() && types.size() <= kMaxColumns) {
+      const char type = structure.front();
+      structure.remove_prefix(1);
+      types.append(count_behind(structure), type);
+    }
+  } else if (const int bytes = size_of_type(element.type); bytes > 0 && element.size % bytes == 0) {
+    types.append(static_cast<std::size_t>(element.size / bytes), element.type);
+  }
+  int bytes = 0;
+  for (const char type : types) {
+    if (size_of_type(type) == 0) return {};
+    bytes += size_of_type(type);
+  }
+  return bytes == element.size ? types : std::string();
+}
+
+bool is_key(std::string_view key) {
+  return std::all_of(key.begin(), key.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+bool is_padding(std::string_view rest) {
+  return std::all_of(rest.begin(), rest.end(), [](char c) { return c == 0; });
+}
+
+}  // namespace
+
+GpmfLevel gpmf_level(std::string_view value, std::int64_t at) {
+  GpmfLevel level;
+  std::size_t i = 0;
+  while (i < value.size()) {
+    const std::string_view rest = value.substr(i);
+    const std::int64_t here = at + static_cast<std::int64_t>(i);
+    if (rest.size() < kHeader_bytes || !is_key(rest.substr(0, 4))) {
+      if (!is_padding(rest)) level.broken_at = here;
+      return level;
+    }
+    GpmfElement element{.key = rest.substr(0, 4), .type = rest[4], .at = here};
+    element.size = static_cast<unsigned char>(rest[5]);
+    element.repeat = static_cast<int>(big_endian(rest.substr(6, 2)));
+    const std::size_t bytes = static_cast<std::size_t>(element.size) * static_cast<std::size_t>(element.repeat);
+    if (bytes > rest.size() - kHeader_bytes) {
+      level.broken_at = here;
+      // Of elements in one that is cut off, the first may be whole.
+      if (element.type == 0) {
+        element.value = rest.substr(kHeader_bytes);
+        level.elements.push_back(element);
+      }
+      return level;
+    }
+    element.value = rest.substr(kHeader_bytes, bytes);
+    level.elements.push_back(element);
+    i += kHeader_bytes + (bytes + 3) / 4 * 4;
+  }
+  return level;
+}
+
+std::optional<GpmfNumbers> gpmf_numbers(const GpmfElement& element, std::string_view structure) {
+  const std::string types = columns_of(element, structure);
+  if (types.empty()) return {};
+  GpmfNumbers numbers{.columns = static_cast<int>(types.size())};
+  numbers.values.reserve(types.size() * static_cast<std::size_t>(element.repeat));
+  std::string_view rest = element.value;
+  for (int row = 0; row < element.repeat; ++row) {
+    for (const char type : types) {
+      const std::size_t bytes = static_cast<std::size_t>(size_of_type(type));
+      numbers.values.push_back(number_of(type, rest.substr(0, bytes)));
+      rest.remove_prefix(bytes);
+    }
+  }
+  return numbers;
+}
+
+std::string gpmf_text(const GpmfElement& element) {
+  return std::string(trimmed(element.value.substr(0, element.value.find('\0'))));
+}
+
+}  // namespace sigs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sigs {
+
+// GPMF, the General Purpose Metadata Format of GoPro (https://gopro.github.io/gpmf-parser): key, type, size, repeat and
+// value, big endian, each padded to 4 bytes. This file knows the structure alone; what the keys mean is gopro.h's.
+
+// One element. Views the payload that it was read from.
+struct GpmfElement {
+  std::string_view key;    // four characters
+  char type = 0;           // of its numbers; 0: it contains elements; '?': as the TYPE before it says
+  int size = 0;            // bytes of one sample
+  int repeat = 0;          // samples
+  std::string_view value;  // size * repeat bytes, without the padding
+  std::int64_t at = 0;     // of the element in the payload, in bytes
+};
+
+// The elements of one level, up to the first that is broken: a key that is no text, or a length beyond the end. One
+// that contains elements and is cut off is given with what is there of it.
+struct GpmfLevel {
+  std::vector<GpmfElement> elements;
+  std::optional<std::int64_t> broken_at;  // where in the payload; nothing: it is sound
+};
+
+//   value  of an element of type 0, or a payload
+//   at     of the value in the payload
+[[nodiscard]] GpmfLevel gpmf_level(std::string_view value, std::int64_t at = 0);
+
+// Samples as numbers, one row for each, each with the same number of columns.
+struct GpmfNumbers {
+  int columns = 0;
+  std::vector<double> values;  // row by row; NaN for what is no number (text, IDs)
+
+  [[nodiscard]] int rows() const { return columns > 0 ? static_cast<int>(values.size()) / columns : 0; }
+  [[nodiscard]] double at(int row, int column) const {
+    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+  }
+};
+
+// The numbers of an element. Nothing where the type is not known or does not fit the sample's size.
+//   structure  the TYPE that holds for elements of type '?': "Lffffff", "f[8]L"
+[[nodiscard]] std::optional<GpmfNumbers> gpmf_numbers(const GpmfElement& element, std::string_view structure = {});
+
+// The text of an element, up to the first zero and without blanks at its ends; in what GoPro writes, Latin-1.
+[[nodiscard]] std::string gpmf_text(const GpmfElement& element);
+
+}  // namespace sigs
