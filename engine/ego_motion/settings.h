@@ -10,7 +10,6 @@ namespace sigs {
 struct EgoMotionSettings {
   int features = 240;      // wanted at a time, spread evenly over the image; 20 or more
   int max_width_px = 640;  // features are followed in an image reduced to this width; 64 or more
-  int detect_every = 4;    // frames between detections of new features; 1 or more
   int key_every = 8;       // frames between key frames; 2 or more
   int window_keys = 48;    // key frames that are adjusted together, two or more times window_overlap
   int window_overlap = 16;

@@ -349,10 +349,7 @@ OrProblem<CameraFlight> camera_flight(const Project& project, const FootageShape
         "camera.readout_s", "is above 0, or the log's is; the classic method knows no rolling shutter: set it to 0"});
   OrProblem<std::vector<CarrierAttitude>> turns = scene_carrier_attitudes(project, footage, files);
   if (!turns) return tl::unexpected<Problem>(turns.error());
-  if (!turns->empty()) {
-    flight.motion.turns = *std::move(turns);
-    flight.motion.source.attitude = "attitude file";
-  }
+  if (!turns->empty()) flight.motion.turns = *std::move(turns);
   return flight;
 }
 
