@@ -114,7 +114,7 @@ class Panel {
       cv::line(image_, {x_of(t), kTop_px}, {x_of(t), kPanel_px - kBottom_px}, kGrid);
       write(image_, fixed_text(t, decimals_of(time_step)), {x_of(t) + 12, kPanel_px - 14}, true);
     }
-    write(image_, "time [s]", {kWidth_px - kRight_px, kPanel_px - 2}, true);
+    write(image_, "time [s]", {kWidth_px - kRight_px, kPanel_px - 6}, true);
     cv::rectangle(image_, {kLeft_px, kTop_px}, {kWidth_px - kRight_px, kPanel_px - kBottom_px}, kInk);
   }
 

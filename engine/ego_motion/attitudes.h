@@ -13,11 +13,11 @@ namespace sigs {
 // The camera's rotation at one frame, from features alone.
 struct FrameRotation {
   Eigen::Quaterniond start_from_camera = Eigen::Quaterniond::Identity();  // against the camera at frame 0
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      // of small turns about the camera's axes, rad^2
-  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();  // the part that is independent from frame to frame
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();         // of small turns about the camera's axes, rad^2
+  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();     // the part that is independent from frame to frame
   Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero();  // see rotations_of
-  int features_used = 0;                                     // that agree with the rotation
-  bool is_linked = false;                                    // to the frame before; frame 0 is not
+  int features_used = 0;                                        // that agree with the rotation
+  bool is_linked = false;                                       // to the frame before; frame 0 is not
 };
 
 // The rotations of all frames.

@@ -74,7 +74,7 @@ class Estimate {
       return fail(path_, "the own body's mask is not an 8-bit grey image of the footage's size");
     const EgoMotionSettings& s = settings_;
     if (s.features < 20 || s.max_width_px < 64 || s.key_every < 2 || s.min_features < 4 || s.window_overlap < 2 ||
-        s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) ||
+        s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) || !(s.sd_growth >= 0) ||
         (s.readout_s && !(*s.readout_s >= 0 && *s.readout_s <= 1)))
       return fail(path_, "a setting of the estimation is out of its range", ErrorKind::usage);
     return {};
@@ -227,13 +227,20 @@ class Estimate {
     return length_s > 0 ? Eigen::Vector3d(turn_rad / length_s) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
 
-  // From what the adjustment says to what is reported: errors are not independent, and no feature is exact.
+  // From what the adjustment says to what is reported: no feature is exact, and the errors of one feature in successive
+  // frames are not independent. That counts where features leave the image and others take over from them, which shows
+  // as a deviation that grows beyond that of the first seconds.
   void scale_deviations(std::vector<FrameRotation>& rotations) const {
-    const double factor = settings_.sd_factor * settings_.sd_factor;
+    const double factor = std::pow(settings_.sd_factor, 2);
+    const double growth = std::pow(settings_.sd_growth, 2);
     constexpr double kFloor_px = 0.01;
     const Eigen::Matrix3d floor = Eigen::Matrix3d::Identity() * std::pow(kFloor_px * seen_.pixel_rad, 2);
+    const auto slow = [](const FrameRotation& r) { return (r.covariance - r.own_covariance).trace() / 3; };
+    const auto first_key = std::min(rotations.size() - 1, static_cast<std::size_t>(settings_.key_every));
+    const double at_first = slow(rotations[first_key]);
     for (FrameRotation& r : rotations) {
-      r.covariance = factor * r.covariance + floor;
+      const double grown = std::max(0.0, slow(r) - at_first) / std::max(slow(r), 1e-18);
+      r.covariance = factor * r.covariance + growth * grown * (r.covariance - r.own_covariance) + floor;
       r.own_covariance = factor * r.own_covariance + floor;
     }
   }

@@ -23,9 +23,11 @@ struct EgoMotionSettings {
   bool use_horizon = true;  // where it is seen, roll and pitch are absolute
   bool use_gyro = true;     // fuse the rates of the telemetry, where there are any
 
-  // Factor from the adjustment's own standard deviation to the one that is reported. The errors of a feature in
-  // successive frames are not independent, which the adjustment takes them to be.
-  double sd_factor = 2.0;
+  // Factors from the adjustment's own standard deviation to the one that is reported: sd_factor of all of it, sd_growth
+  // of what it grows by while features leave the image and others take over. The errors of a feature in successive
+  // frames are not independent, which the adjustment takes them to be. Fitted to synthetic flights.
+  double sd_factor = 1.2;
+  double sd_growth = 3.0;
 };
 
 }  // namespace sigs

@@ -17,7 +17,7 @@ struct Point {
   bool moves = false;
 };
 
-constexpr double kHalfWidth = 0.6;   // tangents of the field's half angles
+constexpr double kHalfWidth = 0.6;  // tangents of the field's half angles
 constexpr double kHalfHeight = 0.45;
 
 }  // namespace

@@ -18,9 +18,9 @@ struct RayFlight {
 struct RayFlightSettings {
   int frames = 100;
   double rate_hz = 25;
-  int points = 220;             // seen at a time
-  double pixel_rad = 0.002;     // 500 px a radian
-  double noise_px = 0.1;        // of each ray, in each direction
+  int points = 220;          // seen at a time
+  double pixel_rad = 0.002;  // 500 px a radian
+  double noise_px = 0.1;     // of each ray, in each direction
   double speed_mps = 22;
   double height_m = 150;
   Eigen::Vector3d turn_radps{0, 0, 0};  // even, about the camera's axes
