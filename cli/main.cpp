@@ -23,6 +23,8 @@ constexpr const char* kProgramFooter =
     "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out out/report\n"
     "  sigs check projects/crossing/crossing.json\n"
     "  sigs info assets/footage/sample.mp4\n"
+    "  sigs telemetry flight.mp4 --out flight.csv\n"
+    "  sigs ego-motion flight.mp4 --calibration gopro.xml --out attitude.csv\n"
     "\n"
     "Exit status: 0 done, 64 usage, 65 bad data, 66 cannot read an input, 69 no OpenGL, encoder or memory,\n"
     "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted,\n"
@@ -44,15 +46,18 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kProgramFooter);
   std::vector<AddedCommand> commands;
-  for (const auto add : {add_export_command, add_frame_command, add_mask_command, add_dataset_command,
-                         add_evaluate_command, add_check_command, add_info_command}) {
+  for (const auto add :
+       {add_export_command, add_frame_command, add_mask_command, add_dataset_command, add_evaluate_command,
+        add_check_command, add_info_command, add_telemetry_command, add_ego_motion_command}) {
     Command run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
   }
   const auto is_asked_for = [&](const AddedCommand& command) { return command.app->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
-    print_error({argv[1], "no such command; there are export, frame, mask, dataset, evaluate, check and info",
-                 sigs::ErrorKind::usage});
+    print_error(
+        {argv[1],
+         "no such command; there are export, frame, mask, dataset, evaluate, check, info, telemetry and ego-motion",
+         sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
   }
   if (argc > 2 && argv[1] == std::string_view("evaluate") && is_no_evaluation(argv[2])) {

@@ -36,8 +36,14 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, const Eigen::Quaternio
 class Run {
  public:
   Run(std::span<const FrameRays> frames, std::span<const double> times_s,
-      std::span<const std::optional<RotationFit>> steps, double pixel_rad, const EgoMotionSettings& settings)
-      : frames_(frames), times_s_(times_s), steps_(steps), pixel_rad_(pixel_rad), settings_(settings) {}
+      std::span<const std::optional<RotationFit>> steps, double pixel_rad, const EgoMotionSettings& settings,
+      double readout_s)
+      : frames_(frames),
+        times_s_(times_s),
+        steps_(steps),
+        pixel_rad_(pixel_rad),
+        settings_(settings),
+        readout_s_(readout_s) {}
 
   // Rotations against the run's first frame.
   void solve(std::span<FrameRotation> out) {
@@ -100,12 +106,13 @@ class Run {
     const Eigen::Vector3d gap = vector_of((before.world_from_camera * ab).conjugate() * next.world_from_camera);
     guess.world_from_camera = before.world_from_camera * af * turn_of(share * gap);
     guess.position = (1 - share) * before.position + share * next.position;
-    const LocatedFrame found = located_frame(solved, frames_[index(f)], guess);
+    const LocatedFrame found = located_frame(solved, frames_[index(f)], guess, readout_s_);
     FrameRotation r;
     r.start_from_camera = found.world_from_camera;
     r.own_covariance = found.covariance;
     r.covariance = (1 - share) * solved.covariances[a] + share * solved.covariances[b] + found.covariance;
     r.features_used = found.features_used;
+    r.rate_change_radps = found.rate_change_radps;
     return r;
   }
 
@@ -114,6 +121,7 @@ class Run {
   std::span<const std::optional<RotationFit>> steps_;
   double pixel_rad_;
   const EgoMotionSettings& settings_;
+  double readout_s_;
   std::vector<Eigen::Quaterniond> chained_;
   std::vector<int> keys_;
 };
@@ -138,7 +146,7 @@ std::vector<std::optional<RotationFit>> steps_between(std::span<const FrameRays>
 }
 
 std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames, std::span<const double> times_s,
-                                        double pixel_rad, const EgoMotionSettings& settings) {
+                                        double pixel_rad, const EgoMotionSettings& settings, double readout_s) {
   const std::vector<std::optional<RotationFit>> steps = steps_between(frames, pixel_rad, settings);
   std::vector<FrameRotation> all(frames.size());
   for (std::size_t first = 0; first < frames.size();) {
@@ -147,7 +155,7 @@ std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames, std::
     const std::size_t count = end - first;
     const std::span<FrameRotation> out = std::span(all).subspan(first, count);
     Run(frames.subspan(first, count), times_s.subspan(first, count), std::span(steps).subspan(first, count), pixel_rad,
-        settings)
+        settings, readout_s)
         .solve(out);
     if (first > 0) {
       const FrameRotation& before = all[first - 1];

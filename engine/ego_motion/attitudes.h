@@ -13,21 +13,23 @@ namespace sigs {
 // The camera's rotation at one frame, from features alone.
 struct FrameRotation {
   Eigen::Quaterniond start_from_camera = Eigen::Quaterniond::Identity();  // against the camera at frame 0
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      // of small turns about the camera's axes, rad^2
-  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();  // the part that is independent from frame to frame
-  int features_used = 0;                                     // that agree with the rotation
-  bool is_linked = false;                                    // to the frame before; frame 0 is not
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();         // of small turns about the camera's axes, rad^2
+  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();     // the part that is independent from frame to frame
+  Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero();  // see rotations_of
+  int features_used = 0;                                        // that agree with the rotation
+  bool is_linked = false;                                       // to the frame before; frame 0 is not
 };
 
 // The rotations of all frames.
 //   frames      features of each frame; rolling shutter is taken out already (unrolled)
 //   times_s     of the frames, rising
+//   readout_s   not 0: the rates with which rays were unrolled may be wrong, and what to add to them is found too
 //   pixel_rad   angle of one pixel of the image in which the features were followed
 // Where too few features are common to two frames, the later one keeps the rotation of the one before, is not linked,
 // and its covariance and that of all later ones does not contain the unknown turn between them.
 [[nodiscard]] std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames,
                                                       std::span<const double> times_s, double pixel_rad,
-                                                      const EgoMotionSettings& settings);
+                                                      const EgoMotionSettings& settings, double readout_s = 0);
 
 // Turns from each frame to the next by far features alone, as fitted_rotation() has them; entry k takes rays of frame
 // k - 1 to frame k, entry 0 and those of frames that have too few in common are empty.

@@ -83,7 +83,7 @@ class Adjustment {
 
   void weigh(double scale) {
     constexpr double kObservation = 3;  // sigmas at which an observation has a quarter of its weight
-    constexpr double kLandmark = 2.5;   // the same of a landmark's root mean square
+    constexpr double kLandmark = 1.5;   // the same of a landmark's root mean square
     weights_.resize(projections_.size());
     for (std::size_t l = 0; l < bundle_.landmarks.size(); ++l) {
       double sum = 0;

@@ -49,7 +49,7 @@ struct BundleSettings {
 struct BundleFit {
   std::vector<Eigen::Matrix3d> covariances;  // of each frame's rotation against the first: small turns about the
                                              // camera's axes, rad^2
-  double sigma_rad = 0;  // of an observation in one direction
+  double sigma_rad = 0;                      // of an observation in one direction
 };
 
 // Least squares with weights of Geman and McClure, of single observations and of whole landmarks, whose scale shrinks

@@ -54,8 +54,7 @@ class Estimate {
     const double readout_s =
         settings_.readout_s.value_or(telemetry_ != nullptr && telemetry_->readout_s ? *telemetry_->readout_s : 0.0);
     compare_with_gyro();
-    if (readout_s > 0) unroll(readout_s);
-    std::vector<FrameRotation> rotations = rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
+    std::vector<FrameRotation> rotations = seen_rotations(readout_s);
     scale_deviations(rotations);
     const std::vector<FrameRotation> of_images = rotations;
     if (motion_.gyro && motion_.gyro->is_fused) rotations = fused(rotations, times_s_, recorded_);
@@ -74,8 +73,8 @@ class Estimate {
     if (!own_body_.empty() && (own_body_.type() != CV_8UC1 || own_body_.size() != info.size_px))
       return fail(path_, "the own body's mask is not an 8-bit grey image of the footage's size");
     const EgoMotionSettings& s = settings_;
-    if (s.features < 20 || s.max_width_px < 64 || s.detect_every < 1 || s.key_every < 2 || s.min_features < 4 ||
-        s.window_overlap < 2 || s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) ||
+    if (s.features < 20 || s.max_width_px < 64 || s.key_every < 2 || s.min_features < 4 || s.window_overlap < 2 ||
+        s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) || !(s.sd_growth >= 0) ||
         (s.readout_s && !(*s.readout_s >= 0 && *s.readout_s <= 1)))
       return fail(path_, "a setting of the estimation is out of its range", ErrorKind::usage);
     return {};
@@ -129,7 +128,8 @@ class Estimate {
     if (telemetry_ == nullptr) return;
     read_stabilization();
     if (!settings_.use_gyro || telemetry_->camera_rate_radps.empty()) return;
-    const RateIntegral rates(telemetry_->camera_rate_radps);
+    rates_.emplace(telemetry_->camera_rate_radps);
+    const RateIntegral& rates = *rates_;
     const std::vector<SeenTurn> turns = seen_turns();
     constexpr double kSameAxis_s = 1;
     constexpr double kOtherAxis_s = 10;
@@ -146,7 +146,9 @@ class Estimate {
                             .slope = offset->slope,
                             .is_fused = offset->correlation >= kLeastCorrelation};
     warn_of_disagreement();
-    recorded_ = recorded_turns(times_s_, rates, *offset, gyro_alignment(turns, rates, *offset), stabilization_);
+    offset_ = *offset;
+    camera_from_gyro_ = gyro_alignment(turns, rates, offset_);
+    recorded_ = recorded_turns(times_s_, rates, offset_, camera_from_gyro_, stabilization_);
   }
 
   void warn_of_disagreement() {
@@ -185,13 +187,31 @@ class Estimate {
     }
   }
 
-  void unroll(double readout_s) {
+  // Rows that are exposed one after the other see the camera turned; the gyroscope tells by how much. Without one the
+  // turns from frame to frame are a first value, of which the features themselves show what it misses.
+  [[nodiscard]] std::vector<FrameRotation> seen_rotations(double readout_s) {
+    if (!(readout_s > 0)) return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
     const std::vector<FrameRays> rolled = seen_.rays;
-    const bool by_gyro = motion_.gyro && motion_.gyro->is_fused && stabilization_.empty();
-    const int rounds = by_gyro ? 1 : 2;
-    for (int round = 0; round < rounds; ++round) {
-      for (std::size_t k = 0; k < rolled.size(); ++k) seen_.rays[k] = unrolled(rolled[k], rate_at(k), readout_s);
-      if (round + 1 < rounds) steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
+    if (motion_.gyro && motion_.gyro->is_fused && stabilization_.empty()) {
+      for (std::size_t k = 0; k < rolled.size(); ++k) unroll_by_gyro(seen_.rays[k], times_s_[k], readout_s);
+      return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
+    }
+    std::vector<Eigen::Vector3d> rates;
+    for (std::size_t k = 0; k < rolled.size(); ++k) rates.push_back(rate_at(k));
+    for (int round = 0;; ++round) {
+      for (std::size_t k = 0; k < rolled.size(); ++k) seen_.rays[k] = unrolled(rolled[k], rates[k], readout_s);
+      std::vector<FrameRotation> found = rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_, readout_s);
+      if (round == 1) return found;
+      for (std::size_t k = 0; k < rolled.size(); ++k) rates[k] += found[k].rate_change_radps;
+    }
+  }
+
+  void unroll_by_gyro(FrameRays& frame, double time_s, double readout_s) const {
+    for (RayObservation& o : frame) {
+      const double middle_s = offset_.log_time_s(time_s);
+      const double row_s = offset_.log_time_s(time_s + readout_s * o.row);
+      if (rates_->covers(std::min(middle_s, row_s), std::max(middle_s, row_s)))
+        o.ray = turn_of(camera_from_gyro_ * rates_->between(middle_s, row_s)) * o.ray;
     }
   }
 
@@ -207,13 +227,20 @@ class Estimate {
     return length_s > 0 ? Eigen::Vector3d(turn_rad / length_s) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
 
-  // From what the adjustment says to what is reported: errors are not independent, and no feature is exact.
+  // From what the adjustment says to what is reported: no feature is exact, and the errors of one feature in successive
+  // frames are not independent. That counts where features leave the image and others take over from them, which shows
+  // as a deviation that grows beyond that of the first seconds.
   void scale_deviations(std::vector<FrameRotation>& rotations) const {
-    const double factor = settings_.sd_factor * settings_.sd_factor;
+    const double factor = std::pow(settings_.sd_factor, 2);
+    const double growth = std::pow(settings_.sd_growth, 2);
     constexpr double kFloor_px = 0.01;
     const Eigen::Matrix3d floor = Eigen::Matrix3d::Identity() * std::pow(kFloor_px * seen_.pixel_rad, 2);
+    const auto slow = [](const FrameRotation& r) { return (r.covariance - r.own_covariance).trace() / 3; };
+    const auto first_key = std::min(rotations.size() - 1, static_cast<std::size_t>(settings_.key_every));
+    const double at_first = slow(rotations[first_key]);
     for (FrameRotation& r : rotations) {
-      r.covariance = factor * r.covariance + floor;
+      const double grown = std::max(0.0, slow(r) - at_first) / std::max(slow(r), 1e-18);
+      r.covariance = factor * r.covariance + growth * grown * (r.covariance - r.own_covariance) + floor;
       r.own_covariance = factor * r.own_covariance + floor;
     }
   }
@@ -262,6 +289,9 @@ class Estimate {
   Seen seen_;
   std::vector<std::optional<RotationFit>> steps_;
   std::vector<Eigen::Quaterniond> stabilization_;  // camera from image, at each frame; empty: none
+  std::optional<RateIntegral> rates_;
+  TimeOffset offset_;
+  Eigen::Quaterniond camera_from_gyro_ = Eigen::Quaterniond::Identity();
   std::vector<RecordedTurn> recorded_;
   EgoMotion motion_;
 };

@@ -13,8 +13,10 @@ namespace {
 constexpr int kWindow_px = 15;  // of Lucas and Kanade: wide enough for cloud edges, narrow enough for the horizon
 constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^3 px
 constexpr int kIterations = 12;
-constexpr double kStop_px = 0.005;
+constexpr double kStop_px = 0.01;
 constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
+constexpr char kPerCell = 2;           // features; more in one place tell the same again
+constexpr float kFar_px = 3;           // features look different after a longer way
 constexpr int kBorder_px = 8;          // of the image and of the own body: half a window
 constexpr float kLeastCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
 constexpr float kRepeated = 1.5F;      // codes; frames that repeat one another differ less, even when coded again
@@ -53,6 +55,10 @@ bool is_same_image(const cv::Mat& a, const cv::Mat& b) {
   return sum < 0.1 * count;
 }
 
+cv::TermCriteria stop() {
+  return {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations, kStop_px};
+}
+
 float median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -81,46 +87,72 @@ std::vector<cv::Point2f> FeatureTracker::predicted() const {
   return guess;
 }
 
+void FeatureTracker::keep(const std::vector<char>& good) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!good[i]) continue;
+    points_[kept] = points_[i];
+    key_points_[kept] = key_points_[i];
+    ids_[kept++] = ids_[i];
+  }
+  points_.resize(kept);
+  key_points_.resize(kept);
+  ids_.resize(kept);
+}
+
 void FeatureTracker::follow(const std::vector<cv::Mat>& pyramid) {
   if (points_.empty()) return;
-  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations, kStop_px);
   std::vector<cv::Point2f> there = predicted();
-  std::vector<cv::Point2f> back = points_;
   std::vector<uchar> found;
-  std::vector<uchar> found_back;
-  cv::calcOpticalFlowPyrLK(pyramid_, pyramid, points_, there, found, cv::noArray(), kWindow, kLevels, stop,
+  cv::calcOpticalFlowPyrLK(key_pyramid_, pyramid, key_points_, there, found, cv::noArray(), kWindow, kLevels, stop(),
                            cv::OPTFLOW_USE_INITIAL_FLOW);
-  // Back from there the start is known, so that the finest level is enough to find it again.
-  cv::calcOpticalFlowPyrLK(pyramid, pyramid_, there, back, found_back, cv::noArray(), kWindow, 0, stop,
-                           cv::OPTFLOW_USE_INITIAL_FLOW);
-  std::size_t kept = 0;
+  std::vector<char> good(points_.size(), 0);
   std::vector<float> dx;
   std::vector<float> dy;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const cv::Point2f miss = back[i] - points_[i];
     const cv::Point at(cvRound(there[i].x), cvRound(there[i].y));
     const bool inside = at.x >= 0 && at.y >= 0 && at.x < allowed_.cols && at.y < allowed_.rows;
-    if (!found[i] || !found_back[i] || !(std::hypot(miss.x, miss.y) < kReturn_px) || !inside) continue;
-    if (allowed_.at<uchar>(at) == 0) continue;
+    if (!found[i] || !inside || allowed_.at<uchar>(at) == 0) continue;
+    good[i] = 1;
     dx.push_back(there[i].x - points_[i].x);
     dy.push_back(there[i].y - points_[i].y);
-    points_[kept] = there[i];
-    ids_[kept] = ids_[i];
-    ++kept;
   }
-  points_.resize(kept);
-  ids_.resize(kept);
+  points_ = there;
+  keep(good);
   drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(median(dx), median(dy));
+}
+
+// Leaves out features that do not lead back to where they were in the key frame.
+void FeatureTracker::check_back(const std::vector<cv::Mat>& pyramid) {
+  if (points_.empty()) return;
+  std::vector<cv::Point2f> back = key_points_;
+  std::vector<uchar> found;
+  // The way back ends where the way there began, so that the finest level is enough.
+  cv::calcOpticalFlowPyrLK(pyramid, key_pyramid_, points_, back, found, cv::noArray(), kWindow, 0, stop(),
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
+  std::vector<char> good(points_.size(), 0);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const cv::Point2f miss = back[i] - key_points_[i];
+    good[i] = found[i] && std::hypot(miss.x, miss.y) < kReturn_px ? 1 : 0;
+  }
+  keep(good);
 }
 
 void FeatureTracker::detect() {
   const double area = static_cast<double>(allowed_.total());
-  const int cell = std::max(8, static_cast<int>(std::sqrt(area / settings_.features)));
+  const int cell = std::max(8, static_cast<int>(std::sqrt(1.25 * area / settings_.features)));
   const int columns = (allowed_.cols + cell - 1) / cell;
   const int rows = (allowed_.rows + cell - 1) / cell;
+  // Of several features in a cell the oldest stays: it has seen the longest way.
   std::vector<char> taken(static_cast<std::size_t>(columns * rows), 0);
-  for (const cv::Point2f& p : points_)
-    taken[static_cast<std::size_t>(static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell)] = 1;
+  std::vector<char> good(points_.size(), 0);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    char& here = taken[static_cast<std::size_t>(cvRound(points_[i].y) / cell * columns + cvRound(points_[i].x) / cell)];
+    if (here >= kPerCell) continue;
+    ++here;
+    good[i] = 1;
+  }
+  keep(good);
   cv::Mat corner;
   cv::cornerMinEigenVal(reduced_, corner, 5);
   for (int row = 0; row < rows; ++row)
@@ -132,6 +164,7 @@ void FeatureTracker::detect() {
       cv::minMaxLoc(corner(area_px), nullptr, &best, nullptr, &at, allowed_(area_px));
       if (best < kLeastCorner) continue;
       points_.emplace_back(static_cast<float>(area_px.x + at.x), static_cast<float>(area_px.y + at.y));
+      key_points_.push_back(points_.back());
       ids_.push_back(next_id_++);
     }
 }
@@ -147,11 +180,19 @@ const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {
   cv::buildOpticalFlowPyramid(reduced, pyramid, kWindow, kLevels);
   if (!repeated_) follow(pyramid);
   reduced_ = reduced;
-  pyramid_ = std::move(pyramid);
-  const bool few = points_.size() < static_cast<std::size_t>(settings_.features) / 2;
-  if (++since_detection_ >= settings_.detect_every || (few && since_detection_ >= 2) || next_id_ == 0) {
-    detect();
-    since_detection_ = 0;
+  const bool many_gone = 5 * points_.size() < 3 * key_count_ || key_count_ == 0;
+  travelled_ = repeated_ ? travelled_ : travelled_ + static_cast<float>(std::hypot(drift_.x, drift_.y));
+  const bool is_due = ++since_detection_ >= settings_.key_every || many_gone || next_id_ == 0;
+  if (is_due || travelled_ > kFar_px) {
+    check_back(pyramid);
+    if (is_due) {
+      detect();
+      since_detection_ = 0;
+    }
+    travelled_ = 0;
+    key_pyramid_ = std::move(pyramid);
+    key_points_ = points_;
+    key_count_ = points_.size();
   }
   features_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) features_.push_back({ids_[i], full(points_[i])});

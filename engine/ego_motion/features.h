@@ -35,6 +35,8 @@ class FeatureTracker {
 
  private:
   void follow(const std::vector<cv::Mat>& pyramid);
+  void check_back(const std::vector<cv::Mat>& pyramid);
+  void keep(const std::vector<char>& good);
   void detect();
   [[nodiscard]] std::vector<cv::Point2f> predicted() const;
   [[nodiscard]] cv::Point2f full(const cv::Point2f& reduced_px) const;
@@ -43,14 +45,17 @@ class FeatureTracker {
   double scale_ = 1;
   cv::Mat allowed_;  // of the reduced size, 255 where features may lie
   cv::Mat reduced_;
-  std::vector<cv::Mat> pyramid_;
-  std::vector<cv::Point2f> points_;  // in the reduced image
+  std::vector<cv::Mat> key_pyramid_;
+  std::vector<cv::Point2f> key_points_;  // of the same features in the key frame
+  std::size_t key_count_ = 0;            // features that the key frame had
+  std::vector<cv::Point2f> points_;      // in the reduced image
   std::vector<int> ids_;
   std::vector<Feature> features_;
   cv::Point2f drift_;  // of the median feature from the frame before the last to the last
   bool repeated_ = false;
   int next_id_ = 0;
   int since_detection_ = 0;
+  float travelled_ = 0;  // of the median feature since the key frame, in the reduced image
 };
 
 }  // namespace sigs

@@ -17,6 +17,7 @@ namespace {
 constexpr double kFloor_px = 0.02;      // no feature is known better
 constexpr std::size_t kLocalKeys = 10;  // adjusted together while key frames are added
 constexpr std::size_t kAddedKeys = 3;   // between two such adjustments
+constexpr double kRateSd_radps = 2;     // of a rate that is not known from frame to frame
 constexpr double kPositionSd = 0.01;    // of a frame between its key frames, in the unit of length
 
 class KeyAdjuster {
@@ -148,45 +149,52 @@ Eigen::Vector3d direction_of_motion(std::span<const RayPair> pairs, double pixel
   return away > 0 ? -direction : direction;
 }
 
-LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess) {
+LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess, double readout_s) {
+  using Matrix9 = Eigen::Matrix<double, 9, 9>;  // turn, position, rate
+  using Vector9 = Eigen::Matrix<double, 9, 1>;
   struct Seen {
     const Landmark* landmark;
     const Eigen::Vector3d* ray;
+    double delay_s;
   };
   std::vector<Seen> seen;
   for (const RayObservation& o : rays)
     if (const auto found = keys.landmarks.find(o.id); found != keys.landmarks.end() && found->second.weight > 0.2)
-      seen.push_back({&found->second, &o.ray});
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
+      seen.push_back({&found->second, &o.ray, readout_s * o.row});
   const double variance = keys.sigma_rad * keys.sigma_rad;
+  const double of_position = variance / (kPositionSd * kPositionSd);
+  const double of_rate = variance / (kRateSd_radps * kRateSd_radps);
   BundleFrame frame = guess;
-  Matrix6 normal = Matrix6::Zero();
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  Matrix9 normal = Matrix9::Zero();
   int used = 0;
-  for (int round = 0; round < 5; ++round) {
+  for (int round = 0; round < 4; ++round) {
     const double scale = keys.sigma_rad * std::max(3.0, 24.0 / (1 << (2 * round)));
     normal.setZero();
-    Vector6 right = Vector6::Zero();
-    const double position = variance / (kPositionSd * kPositionSd);
-    normal.diagonal().tail<3>().array() += position;
-    right.tail<3>() = position * (guess.position - frame.position);
+    Vector9 right = Vector9::Zero();
+    normal.diagonal() << 1e-9, 1e-9, 1e-9, of_position, of_position, of_position, of_rate, of_rate, of_rate;
+    right.segment<3>(3) = of_position * (guess.position - frame.position);
+    right.tail<3>() = -of_rate * rate;
     used = 0;
     for (const Seen& s : seen) {
-      const Projection p = projection(frame, *s.landmark, *s.ray);
+      const Projection p = projection(frame, *s.landmark, turn_of(rate * s.delay_s) * *s.ray);
       const double root = 1 / (1 + p.residual.squaredNorm() / (2 * scale * scale));
       const double w = s.landmark->weight * root * root;
       if (root > 0.3) ++used;
-      normal += w * p.by_frame.transpose() * p.by_frame;
-      right += w * p.by_frame.transpose() * p.residual;
+      Eigen::Matrix<double, 2, 9> by;
+      // A ray that is unrolled by a larger rate moves as if the camera turned back by as much.
+      by << p.by_frame, s.delay_s * p.by_frame.leftCols<3>();
+      normal += w * by.transpose() * by;
+      right += w * by.transpose() * p.residual;
     }
-    normal.diagonal().array() += 1e-9;
-    const Vector6 change = normal.ldlt().solve(right);
+    const Vector9 change = normal.ldlt().solve(right);
     if (!change.allFinite()) break;
     frame.world_from_camera = (frame.world_from_camera * turn_of(change.head<3>())).normalized();
-    frame.position += change.tail<3>();
+    frame.position += change.segment<3>(3);
+    if (readout_s > 0) rate += change.tail<3>();
   }
-  const Eigen::Matrix3d own = Matrix6(variance * normal.inverse()).topLeftCorner<3, 3>();
-  return {frame.world_from_camera, own, used};
+  const Eigen::Matrix3d own = Matrix9(variance * normal.inverse()).topLeftCorner<3, 3>();
+  return {frame.world_from_camera, own, used, rate};
 }
 
 }  // namespace sigs

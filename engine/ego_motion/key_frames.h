@@ -31,12 +31,17 @@ struct LocatedFrame {
   Eigen::Quaterniond world_from_camera;
   Eigen::Matrix3d covariance;  // of this frame alone, landmarks taken as known, rad^2
   int features_used = 0;
+  Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero();  // of the turn during the readout; see located_frame
 };
 
+//   readout_s  0: rays are those of one instant. Else they were unrolled with a rate that may be wrong, and what has to
+//   be
+//              added to it is found too
 //   guess  near enough that half of the features miss by some pixels at most; its position is held within narrow
 //   limits,
 //          since an aircraft's motion is smooth
-[[nodiscard]] LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess);
+[[nodiscard]] LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess,
+                                         double readout_s);
 
 // The direction in which the camera moves between two frames, unit, in the axes of the first: the one to which the
 // paths of all features on the sphere lead (the focus of expansion). Forward where nothing moves by parallax.

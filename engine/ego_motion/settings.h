@@ -10,7 +10,6 @@ namespace sigs {
 struct EgoMotionSettings {
   int features = 240;      // wanted at a time, spread evenly over the image; 20 or more
   int max_width_px = 640;  // features are followed in an image reduced to this width; 64 or more
-  int detect_every = 4;    // frames between detections of new features; 1 or more
   int key_every = 8;       // frames between key frames; 2 or more
   int window_keys = 48;    // key frames that are adjusted together, two or more times window_overlap
   int window_overlap = 16;
@@ -24,9 +23,11 @@ struct EgoMotionSettings {
   bool use_horizon = true;  // where it is seen, roll and pitch are absolute
   bool use_gyro = true;     // fuse the rates of the telemetry, where there are any
 
-  // Factor from the adjustment's own standard deviation to the one that is reported. The errors of a feature in
-  // successive frames are not independent, which the adjustment takes them to be.
-  double sd_factor = 2.0;
+  // Factors from the adjustment's own standard deviation to the one that is reported: sd_factor of all of it, sd_growth
+  // of what it grows by while features leave the image and others take over. The errors of a feature in successive
+  // frames are not independent, which the adjustment takes them to be. Fitted to synthetic flights.
+  double sd_factor = 1.2;
+  double sd_growth = 3.0;
 };
 
 }  // namespace sigs

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <span>
@@ -15,13 +13,13 @@
 #include "base/text.h"
 #include "telemetry/gopro_axes.h"
 #include "telemetry/gopro_stream.h"
+#include "telemetry/gopro_values.h"
 
 namespace sigs {
 namespace {
 
 const std::vector<std::string> kKeys = {"GYRO", "ACCL", "CORI", "IORI", "GRAV", "SHUT", "SROT",
                                         "GPS5", "GPS9", "ATTD", "LNED", "GLPI", "SYST"};
-constexpr double kSecondsPerDay = 86400;
 constexpr double kDaysTo2000 = 10957;  // from 1970-01-01 to 2000-01-01
 
 using Row = std::span<const double>;
@@ -31,50 +29,6 @@ double median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-bool is_finite(double value) {
-  return std::isfinite(value);
-}
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-bool is_finite(const glm::dquat& q) {
-  return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
-}
-bool is_finite(const GeodeticPosition& p) {
-  return std::isfinite(p.height_m) && std::abs(p.latitude_deg) <= 90 && std::abs(p.longitude_deg) <= 180;
-}
-
-// UTC of a "yymmddhhmmss.sss", seconds since 1970.
-std::optional<double> utc_of(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-  double second = 0;
-  if (std::sscanf(text.c_str(), "%2d%2d%2d%2d%2d%lf", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-  const std::chrono::year_month_day date{std::chrono::year(2000 + year),
-                                         std::chrono::month(static_cast<unsigned>(month)),
-                                         std::chrono::day(static_cast<unsigned>(day))};
-  if (!date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return static_cast<double>(days) * kSecondsPerDay + hour * 3600 + minute * 60 + second;
-}
-
-// "at 1.2 s", "from 1.2 to 3.4 s"
-std::string span_text(double first_s, double last_s) {
-  if (first_s == last_s) return "at " + fixed_text(first_s, 2) + " s";
-  return "from " + fixed_text(first_s, 2) + " to " + fixed_text(last_s, 2) + " s";
-}
-
-// Samples that are left out, counted, with the first and last time.
-struct LeftOut {
-  int count = 0;
-  double first_s = 0;
-  double last_s = 0;
-
-  void add(double time_s) {
-    if (count++ == 0) first_s = time_s;
-    last_s = time_s;
-  }
-};
 
 class Reading {
  public:
@@ -230,7 +184,7 @@ class Reading {
       sample.utc_s = (number(5) + kDaysTo2000) * kSecondsPerDay + number(6);
       sample.fix = number(8);
     } else if (row == block.first_row) {
-      sample.utc_s = utc_of(block.utc).value_or(NAN);
+      sample.utc_s = utc_of_gpsu(block.utc).value_or(NAN);
     }
     return sample;
   }

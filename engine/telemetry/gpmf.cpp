@@ -134,6 +134,11 @@ GpmfLevel gpmf_level(std::string_view value, std::int64_t at) {
     const std::size_t bytes = static_cast<std::size_t>(element.size) * static_cast<std::size_t>(element.repeat);
     if (bytes > rest.size() - kHeader_bytes) {
       level.broken_at = here;
+      // Of elements in one that is cut off, the first may be whole.
+      if (element.type == 0) {
+        element.value = rest.substr(kHeader_bytes);
+        level.elements.push_back(element);
+      }
       return level;
     }
     element.value = rest.substr(kHeader_bytes, bytes);

@@ -22,7 +22,8 @@ struct GpmfElement {
   std::int64_t at = 0;     // of the element in the payload, in bytes
 };
 
-// The elements of one level, up to the first that is broken: a key that is no text, or a length beyond the end.
+// The elements of one level, up to the first that is broken: a key that is no text, or a length beyond the end. One
+// that contains elements and is cut off is given with what is there of it.
 struct GpmfLevel {
   std::vector<GpmfElement> elements;
   std::optional<std::int64_t> broken_at;  // where in the payload; nothing: it is sound

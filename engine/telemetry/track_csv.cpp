@@ -20,7 +20,7 @@
 namespace sigs {
 namespace {
 
-constexpr std::size_t kMaxWarnings = 100;  // of one kind that are told apart
+constexpr std::size_t kMaxWarnings = 100;  // that are listed one by one
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // --- Writing.

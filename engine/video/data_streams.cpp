@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/threads.h"
@@ -120,6 +121,13 @@ void add_packet(DataPackets& read, const AVPacket& packet, double tick_s, double
   read.packets.push_back(std::move(added));
 }
 
+// Whether an MP4's index has more packets of a stream than could be read. FFmpeg takes that for the end of the file.
+bool lists_more(const AVFormatContext& input, int index, std::size_t packets) {
+  const int listed = avformat_index_get_entries_count(input.streams[index]);
+  return std::string_view(input.iformat->name).starts_with("mov,mp4") && listed > 0 &&
+         static_cast<std::size_t>(listed) > packets;
+}
+
 Result<void> check_cancelled(const std::atomic<bool>* cancel) {
   if (cancel != nullptr && cancel->load()) return libav::interrupted();
   return {};
@@ -136,16 +144,18 @@ Result<DataPackets> read_packets(const std::filesystem::path& file, int index, d
   const libav::PacketPtr packet = libav::new_packet();
   DataPackets read;
   std::uint64_t bytes = 0;
+  bool corrupt = false;  // the container knows that a payload is cut off
   Step step = Step::end;
   while ((step = next_packet(**input, index, *packet)) == Step::packet) {
     bytes += static_cast<std::uint64_t>(packet->size);
     if (bytes > kDataStreamLimit_bytes)
       return fail(file.string(), fmt::format("stream {} has more than {} MiB of data; cut the file into shorter ones",
                                              index, kDataStreamLimit_bytes >> 20));
+    corrupt = corrupt || (packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
     add_packet(read, *packet, tick_s, zero_s);
   }
   if (const Result<void> go_on = check_cancelled(cancel); !go_on) return fail(go_on.error());
-  read.broke_off = step == Step::broke_off;
+  read.broke_off = step == Step::broke_off || corrupt || lists_more(**input, index, read.packets.size());
   return read;
 }
 

@@ -39,7 +39,7 @@ std::set<std::string> verbs_below(const std::string& verb) {
   const std::size_t begin = help.find("Subcommands:");
   if (begin == std::string::npos) return {};
   const std::size_t end = help.find("Examples:");
-  return matches(help.substr(begin, end - begin), std::regex("\n  ([a-z]+) "));
+  return matches(help.substr(begin, end - begin), std::regex("\n  ([a-z-]+) "));
 }
 
 // "export", "evaluate", "evaluate track", ...

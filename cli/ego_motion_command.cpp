@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/paths.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "camera/camera.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/process.h"
+#include "cli/progress.h"
+#include "ego_motion/attitude_plot.h"
+#include "ego_motion/ego_motion.h"
+#include "telemetry/read_track.h"
+#include "telemetry/track_csv.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEgoMotionFooter =
+    "Examples:\n"
+    "  sigs ego-motion flight.mp4 --calibration gopro.xml --out attitude.csv\n"
+    "  sigs ego-motion flight.mp4 --calibration gopro.xml --mask own_body.png --telemetry flight.mp4 \\\n"
+    "    --readout-ms 20 --out attitude.csv --plot attitude.png";
+
+struct EgoMotionOptions {
+  fs::path video;
+  fs::path calibration;
+  fs::path mask;       // empty: none
+  fs::path telemetry;  // likewise
+  fs::path csv;
+  fs::path plot;  // empty: none
+  std::optional<double> readout_ms;
+  bool force = false;
+  std::string progress = "auto";
+};
+
+Result<void> check_names(const EgoMotionOptions& options) {
+  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
+    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
+  if (!options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
+    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
+  std::vector<fs::path> inputs{options.video, options.calibration};
+  for (const fs::path& more : {options.mask, options.telemetry})
+    if (!more.empty()) inputs.push_back(more);
+  for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
+    if (path.empty()) continue;
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
+      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+// Empty where no mask is asked for.
+Result<cv::Mat> mask_of(const fs::path& path) {
+  if (path.empty()) return cv::Mat();
+  if (const Result<void> there = check_input_file(path, "mask"); !there) return fail(there.error());
+  cv::Mat mask = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
+  if (mask.empty()) return fail(path.string(), "is no image that can be read");
+  return mask;
+}
+
+Result<EgoMotion> estimated(const EgoMotionOptions& options) {
+  Result<FrameSource> footage = FrameSource::open(options.video, &interrupt_flag());
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  const Result<Camera> camera = read_calibration(options.calibration, footage->info().size_px);
+  if (!camera) return fail(camera.error());
+  for (const Warning& warning : camera->warnings) print_warning(warning);
+  const Result<cv::Mat> mask = mask_of(options.mask);
+  if (!mask) return fail(mask.error());
+  std::optional<Track> track;
+  if (!options.telemetry.empty()) {
+    Result<Track> read = read_track(options.telemetry, {.cancel = &interrupt_flag()});
+    if (!read) return fail(read.error());
+    for (const Warning& warning : read->warnings) print_warning(warning);
+    track = std::move(*read);
+  }
+  EgoMotionSettings settings;
+  if (options.readout_ms) settings.readout_s = *options.readout_ms / 1000;
+  Progress progress(progress_style(options.progress));
+  const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                                 .cancel = &interrupt_flag()};
+  Result<EgoMotion> motion =
+      estimate_ego_motion(*footage, *camera, *mask, track ? &*track : nullptr, settings, control);
+  progress.end();
+  return motion;
+}
+
+Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const EgoMotion& motion,
+                   const fs::path& video) {
+  std::ofstream out(csv, std::ios::binary);
+  out << track_csv_text(track_of(motion, video));
+  out.close();
+  if (!out) return fail(outputs.with_final_names({csv.string(), "could not be written", ErrorKind::write_failed}));
+  if (!plot.empty() && !cv::imwrite(plot.string(), attitude_plot(motion)))
+    return fail(outputs.with_final_names({plot.string(), "could not be written", ErrorKind::write_failed}));
+  return outputs.commit();
+}
+
+void print_summary(const EgoMotion& motion) {
+  for (const Warning& warning : motion.warnings) print_warning(warning);
+  double largest_rad = 0;
+  int lost = 0;
+  for (const EgoFrame& frame : motion.frames) {
+    for (int axis = 0; axis < 3; ++axis) largest_rad = std::max(largest_rad, frame.sd_rad[axis]);
+    lost += frame.is_lost ? 1 : 0;
+  }
+  std::fprintf(stderr, "%s, %d of them lost; largest standard deviation since frame 0: %s deg\n",
+               count_text(static_cast<std::int64_t>(motion.frames.size()), "frame").c_str(), lost,
+               short_number_text(deg_of_rad(largest_rad)).c_str());
+  if (motion.level_sd_rad)
+    std::fprintf(stderr, "horizon seen: roll and pitch are absolute to %s deg\n",
+                 fixed_text(deg_of_rad(*motion.level_sd_rad), 2).c_str());
+  if (motion.gyro)
+    std::fprintf(
+        stderr, "gyroscope: offset of the log %s s (+- %s), drift %s, correlation %s, images turn %s times as fast%s\n",
+        fixed_text(motion.gyro->offset_s, 4).c_str(), fixed_text(motion.gyro->offset_sd_s, 4).c_str(),
+        short_number_text(motion.gyro->drift).c_str(), fixed_text(motion.gyro->correlation, 4).c_str(),
+        fixed_text(motion.gyro->slope, 3).c_str(), motion.gyro->is_fused ? "" : "; not used");
+}
+
+Result<void> run(const EgoMotionOptions& options) {
+  if (const Result<void> named = check_names(options); !named) return named;
+  defer_interrupts();
+  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  const Result<fs::path> csv = outputs.add_file(options.csv);
+  if (!csv) return fail(csv.error());
+  fs::path plot;
+  if (!options.plot.empty()) {
+    const Result<fs::path> added = outputs.add_file(options.plot);
+    if (!added) return fail(added.error());
+    plot = *added;
+  }
+  const Result<EgoMotion> motion = estimated(options);
+  if (!motion) return fail(motion.error());
+  if (const Result<void> written = write(outputs, *csv, plot, *motion, options.video); !written) return written;
+  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  print_summary(*motion);
+  return {};
+}
+
+}  // namespace
+
+Command add_ego_motion_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("ego-motion", "estimate the camera's attitude from its footage");
+  const auto options = std::make_shared<EgoMotionOptions>();
+  const auto add_input = [command](const char* name, fs::path& path, const char* help) {
+    return command->add_option(name, path, help)->option_text("FILE")->check(not_empty());
+  };
+  command->add_option("VIDEO", options->video, "the footage")->required()->check(not_empty());
+  add_input("--calibration", options->calibration, "the camera's calibration")->required();
+  add_input("--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
+  add_input("--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
+  command->add_option("--readout-ms", options->readout_ms, "rolling shutter, first row to last; milliseconds")
+      ->option_text("MS")
+      ->check(from_to(0, 1000));
+  command->add_option("--out", options->csv, "the attitudes, as CSV")
+      ->option_text("FILE")
+      ->required()
+      ->check(output_path());
+  command->add_option("--plot", options->plot, "draw roll, pitch and yaw with their deviations; a PNG")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_flag("--force", options->force, "overwrite what is there");
+  add_progress_option(*command, options->progress);
+  command->footer(kEgoMotionFooter);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sigs::cli

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "telemetry/track_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "telemetry/csv_columns.h"
+#include "telemetry/track_channels.h"
+
+namespace sigs {
+namespace {
+
+constexpr double kMinJump_s = 0.5;  // less may be a delay
+
+double median_interval_s(const std::vector<double>& times_s) {
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i)
+    if (times_s[i] > times_s[i - 1]) intervals_s.push_back(times_s[i] - times_s[i - 1]);
+  if (intervals_s.empty()) return 0;
+  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 2);
+  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
+  return *middle;
+}
+
+std::string name_of_jump(double jump_s, double slack_s) {
+  struct Count {
+    double period_s;
+    const char* name;
+  };
+  for (const Count& count : {Count{4294967.296, "2^32 ms: a 32-bit count began again"},
+                             Count{4294.967296, "2^32 us: a 32-bit count began again"},
+                             Count{65.536, "2^16 ms: a 16-bit count began again"}})
+    if (std::abs(jump_s + count.period_s) <= slack_s) return fmt::format("goes back by {}", count.name);
+  return jump_s < 0 ? "goes back" : "goes ahead";
+}
+
+ClockJump jump_of(double at_s, double jump_s, double slack_s) {
+  ClockJump jump;
+  jump.at_s = at_s;
+  jump.jump_s = jump_s;
+  jump.what = name_of_jump(jump_s, slack_s);
+  return jump;
+}
+
+// Places need more digits than six.
+std::string range_text(const Range& range, double value) {
+  const bool of_place = range.column == "latitude_deg" || range.column == "longitude_deg";
+  return of_place ? fixed_text(value, 7) : short_number_text(value);
+}
+
+void find_gaps(ChannelReport& report, const std::vector<double>& times_s, double interval_s) {
+  for (std::size_t i = 1; i < times_s.size(); ++i) {
+    const double step_s = times_s[i] - times_s[i - 1];
+    report.repeated += step_s == 0;
+    if (interval_s > 0 && step_s > kGapFactor * interval_s) report.gaps.push_back({times_s[i - 1], step_s});
+  }
+}
+
+void find_jumps(ChannelReport& report, const std::vector<double>& times_s, const std::vector<double>& own_s,
+                double interval_s) {
+  const double slack_s = std::max(kMinJump_s, kGapFactor * interval_s);
+  for (std::size_t i = 1; i < own_s.size() && i < times_s.size(); ++i) {
+    const double own_step_s = own_s[i] - own_s[i - 1];
+    const double jump_s = own_step_s - (times_s[i] - times_s[i - 1]);
+    if (own_step_s < 0 || std::abs(jump_s) > slack_s) report.jumps.push_back(jump_of(times_s[i], jump_s, slack_s));
+  }
+}
+
+template <class T>
+std::vector<Range> ranges_of(std::string_view name, const Channel<T>& channel) {
+  std::vector<Range> ranges;
+  for (const std::string& column : csv_columns(name)) ranges.push_back({column, INFINITY, -INFINITY});
+  for (const T& value : channel.values) {
+    const std::vector<double> numbers = csv_numbers(name, value);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ranges[i].low = std::min(ranges[i].low, numbers[i]);
+      ranges[i].high = std::max(ranges[i].high, numbers[i]);
+    }
+  }
+  return ranges;
+}
+
+std::string utc_text(double utc_s) {
+  const double day = std::floor(utc_s / 86400);
+  if (!(std::abs(day) < 1e6)) return exact_text(utc_s) + " s since 1970";
+  const double in_day_s = utc_s - day * 86400;
+  // Days since 1970-01-01 to a date of the Gregorian calendar, from an era that begins on 0000-03-01.
+  const long long z = static_cast<long long>(day) + 719468;
+  const long long era = (z >= 0 ? z : z - 146096) / 146097;
+  const long long of_era = z - era * 146097;
+  const long long year_of_era = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
+  const long long of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+  const long long month = (5 * of_year + 2) / 153;
+  const long long day_of_month = of_year - (153 * month + 2) / 5 + 1;
+  const long long calendar_month = month < 10 ? month + 3 : month - 9;
+  const long long year = year_of_era + era * 400 + (calendar_month <= 2 ? 1 : 0);
+  const int whole_s = static_cast<int>(in_day_s);
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:06.3f}", year, calendar_month, day_of_month, whole_s / 3600,
+                     whole_s / 60 % 60, in_day_s - whole_s / 60 * 60);
+}
+
+std::string heading_of(const Track& track) {
+  std::string text = fmt::format("format: {}\n", track.format);
+  if (!track.device.empty()) text += fmt::format("device: {}\n", track.device);
+  text += fmt::format("time 0: {}\n", track.on_footage_time ? "the footage's frame 0" : "the log's first stamp");
+  if (track.utc_at_zero_s) text += fmt::format("UTC at time 0: {}\n", utc_text(*track.utc_at_zero_s));
+  if (track.readout_s)
+    text += fmt::format("rolling shutter: {} s from the first row to the last\n", short_number_text(*track.readout_s));
+  if (!track.heading_is_north) text += "yaw 0: an arbitrary heading, not north\n";
+  if (!track.position.empty())
+    text += fmt::format("heights: {}\n", track.height_above_ellipsoid ? "above the ellipsoid"
+                                                                      : "above the sea, the start, or not known");
+  if (track.damaged) text += "damaged: yes; what stands before the damage is here\n";
+  return text;
+}
+
+std::string odd_times_of(const ChannelReport& report, int most) {
+  std::string text;
+  const std::size_t limit = static_cast<std::size_t>(std::max(most, 0));
+  for (std::size_t i = 0; i < std::min(limit, report.gaps.size()); ++i)
+    text += fmt::format("  gap: {} s after {} s\n", fixed_text(report.gaps[i].length_s, 3),
+                        fixed_text(report.gaps[i].at_s, 3));
+  if (report.gaps.size() > limit) text += fmt::format("  and {} more gaps\n", report.gaps.size() - limit);
+  for (std::size_t i = 0; i < std::min(limit, report.jumps.size()); ++i)
+    text += fmt::format("  clock: {}, {} s at {} s\n", report.jumps[i].what, fixed_text(report.jumps[i].jump_s, 3),
+                        fixed_text(report.jumps[i].at_s, 3));
+  if (report.jumps.size() > limit)
+    text += fmt::format("  and {} more jumps of the clock\n", report.jumps.size() - limit);
+  if (report.repeated > 0)
+    text += fmt::format("  {} at the same time as the one before\n", count_text(report.repeated, "sample"));
+  return text;
+}
+
+}  // namespace
+
+std::vector<ChannelReport> track_report(const Track& track) {
+  std::vector<ChannelReport> reports;
+  for_each_channel(track, [&](std::string_view name, const auto& channel) {
+    if (channel.empty()) return;
+    ChannelReport report{.name = std::string(name),
+                         .source = channel.source,
+                         .clock = channel.clock,
+                         .count = static_cast<int>(channel.values.size()),
+                         .first_s = channel.times_s.front(),
+                         .last_s = channel.times_s.back()};
+    const double interval_s = median_interval_s(channel.times_s);
+    if (interval_s > 0) report.median_rate_hz = 1 / interval_s;
+    find_gaps(report, channel.times_s, interval_s);
+    find_jumps(report, channel.times_s, channel.own_times_s, interval_s);
+    report.ranges = ranges_of(name, channel);
+    reports.push_back(std::move(report));
+  });
+  return reports;
+}
+
+std::string track_report_text(const Track& track, int most_gaps) {
+  std::string text = heading_of(track);
+  text += fmt::format("\n{:<24}{:>8}{:>12}{:>12}{:>10}{:>6}  {}\n", "channel", "samples", "from s", "to s", "rate Hz",
+                      "gaps", "source");
+  for (const ChannelReport& report : track_report(track)) {
+    text += fmt::format("{:<24}{:>8}{:>12}{:>12}{:>10}{:>6}  {}\n", report.name, report.count,
+                        fixed_text(report.first_s, 3), fixed_text(report.last_s, 3),
+                        report.median_rate_hz > 0 ? fixed_text(report.median_rate_hz, 2) : "-", report.gaps.size(),
+                        report.source);
+    if (!report.clock.empty()) text += fmt::format("  times: {}\n", report.clock);
+    for (const Range& range : report.ranges)
+      text += fmt::format("  {:<24}{:>14} to {}\n", range.column, range_text(range, range.low),
+                          range_text(range, range.high));
+    text += odd_times_of(report, most_gaps);
+  }
+  return text;
+}
+
+}  // namespace sigs

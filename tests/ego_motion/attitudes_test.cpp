@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/attitudes.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <random>
+
+#include "ego_motion/rotation_fit.h"
+#include "ego_motion/turns.h"
+#include "synthetic_rays.h"
+
+namespace sigs::test {
+
+namespace {
+
+// The largest error of any frame about any axis, in pixels.
+double largest_error_px(const RayFlightSettings& settings) {
+  const RayFlight flight = ray_flight(settings);
+  const std::vector<FrameRotation> found = rotations_of(flight.frames, flight.times_s, settings.pixel_rad, {});
+  double largest = 0;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    largest = std::max(
+        largest, vector_of(flight.start_from_camera[k].conjugate() * found[k].start_from_camera).cwiseAbs().maxCoeff());
+  return largest / settings.pixel_rad;
+}
+
+std::vector<RayPair> turned_pairs(const Eigen::Quaterniond& turn, int count, double astray) {
+  std::mt19937 chance(5);
+  std::uniform_real_distribution<double> even(-0.5, 0.5);
+  std::vector<RayPair> pairs;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d ray = Eigen::Vector3d(1, even(chance), even(chance)).normalized();
+    Eigen::Vector3d after = turn * ray;
+    if (i < astray * count) after = (after + 0.1 * Eigen::Vector3d(0, even(chance), even(chance))).normalized();
+    pairs.push_back({ray, after});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+TEST_CASE("without noise the rotation of a flight over ground is exact, whatever the parallax") {
+  // The adjustment stops at some 1e-3 px.
+  CHECK(largest_error_px({.frames = 60, .noise_px = 0}) < 0.02);
+}
+
+TEST_CASE("with noise of 0.1 px the rotation is off by less than that, also when the camera shakes, turns or hovers") {
+  // 200 features average the noise to some 0.02 px; new features in a turn take over errors of the old ones.
+  CHECK(largest_error_px({.frames = 60}) < 0.2);
+  CHECK(largest_error_px({.frames = 60, .shake_rad = 0.004}) < 0.2);
+  CHECK(largest_error_px({.frames = 60, .speed_mps = 0}) < 0.2);
+  CHECK(largest_error_px({.frames = 60, .turn_radps = {0, 0, 0.35}}) < 0.4);
+}
+
+TEST_CASE("points that move together do not pull the rotation, though three of ten do") {
+  CHECK(largest_error_px({.frames = 60, .moving_share = 0.3}) < 0.3);
+}
+
+TEST_CASE("a rotation is found exactly although four of ten pairs are astray") {
+  const Eigen::Quaterniond turn = turn_of({0.02, -0.05, 0.1});
+  const auto fit = fitted_rotation(turned_pairs(turn, 100, 0.4), {});
+  REQUIRE(fit);
+  CHECK(fit->after_from_before.angularDistance(turn) < 1e-6);
+}
+
+TEST_CASE("too few pairs, one direction alone, and what is no number give no rotation") {
+  const Eigen::Quaterniond turn = turn_of({0, 0, 0.1});
+  CHECK_FALSE(fitted_rotation(turned_pairs(turn, 5, 0), {}));
+  CHECK_FALSE(fitted_rotation({}, {}));
+  std::vector<RayPair> same(50, turned_pairs(turn, 1, 0).front());
+  CHECK_FALSE(fitted_rotation(same, {}));
+  std::vector<RayPair> bad = turned_pairs(turn, 50, 0);
+  for (RayPair& pair : bad) pair.before.x() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(fitted_rotation(bad, {}));
+}
+
+}  // namespace sigs::test
