@@ -71,6 +71,7 @@ Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const 
                          .frames = static_cast<int>(motion->frames.size()),
                          .lost_frames = static_cast<int>(lost),
                          .level_sd_rad = motion->level_sd_rad,
+                         .is_level_stated = project.camera.roll_deg || project.camera.pitch_deg,
                          .is_gyro_used = motion->gyro && motion->gyro->is_fused,
                          .warnings = motion->warnings};
 }

@@ -24,6 +24,7 @@ struct EstimatedMotion {
   int lost_frames = 0;                 // of which the turn is not known
   std::optional<double> level_sd_rad;  // standard deviation of roll and pitch as a whole; none: no horizon was seen,
                                        // frame 0 is as the project's camera.attitude_deg says
+  bool is_level_stated = false;        // without a horizon: the project had roll or pitch
   bool is_gyro_used = false;
   std::vector<Warning> warnings;
 };

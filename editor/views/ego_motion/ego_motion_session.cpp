@@ -44,8 +44,12 @@ fs::path new_attitude_file(const Project& project) {
 std::string summary_of(const EstimatedMotion& motion) {
   std::string text = fmt::format("{} frames", motion.frames);
   if (motion.lost_frames > 0) text += fmt::format(", {} of them unknown", motion.lost_frames);
-  text += motion.level_sd_rad ? fmt::format("; level by the horizon, to {:.2g}\u00b0", deg_of_rad(*motion.level_sd_rad))
-                              : std::string("; no horizon seen: level as the camera's roll and pitch were at frame 0");
+  if (motion.level_sd_rad)
+    text += fmt::format("; level by the horizon, to {:.2g}\u00b0", deg_of_rad(*motion.level_sd_rad));
+  else if (motion.is_level_stated)
+    text += "; no horizon was found: frame 0 has the roll and pitch that were set";
+  else
+    text += "; no horizon was found: frame 0 counts as level. If it is not, undo, set the horizon, and estimate again";
   if (motion.is_gyro_used) text += "; with the log's gyroscope";
   return text;
 }

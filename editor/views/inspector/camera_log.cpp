@@ -54,7 +54,7 @@ void draw_estimate(const ViewContext& context) {
       "Finds how the camera turns from the footage itself, in the background, and writes it as a log beside the "
       "project. With a log that has rates of turn, both are used together.");
   if (state->value)
-    for (const Warning& warning : state->value->warnings) note(warning.text(), true);
+    for (const Warning& warning : state->value->warnings) note(warning.what, true);
 }
 
 }  // namespace
