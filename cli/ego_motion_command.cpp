@@ -71,7 +71,13 @@ Result<cv::Mat> mask_of(const fs::path& path) {
   return mask;
 }
 
-Result<EgoMotion> estimated(const EgoMotionOptions& options) {
+// What is found, and the log of the flight, if there is one.
+struct Estimated {
+  EgoMotion motion;
+  std::optional<Track> log;
+};
+
+Result<Estimated> estimated(const EgoMotionOptions& options) {
   Result<FrameSource> footage = FrameSource::open(options.video, &interrupt_flag());
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
@@ -95,16 +101,20 @@ Result<EgoMotion> estimated(const EgoMotionOptions& options) {
   Result<EgoMotion> motion =
       estimate_ego_motion(*footage, *camera, *mask, track ? &*track : nullptr, settings, control);
   progress.end();
-  return motion;
+  if (!motion) return fail(motion.error());
+  return Estimated{*std::move(motion), std::move(track)};
 }
 
-Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const EgoMotion& motion,
-                   const fs::path& video) {
+Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const Estimated& found,
+                   const EgoMotionOptions& options) {
+  Track track = track_of(found.motion, options.video);
+  if (found.log) add_log(track, *found.log, found.motion);
+  if (options.readout_ms) track.readout_s = *options.readout_ms / 1000;
   std::ofstream out(csv, std::ios::binary);
-  out << track_csv_text(track_of(motion, video));
+  out << track_csv_text(track);
   out.close();
   if (!out) return fail(outputs.with_final_names({csv.string(), "could not be written", ErrorKind::write_failed}));
-  if (!plot.empty() && !cv::imwrite(plot.string(), attitude_plot(motion)))
+  if (!plot.empty() && !cv::imwrite(plot.string(), attitude_plot(found.motion)))
     return fail(outputs.with_final_names({plot.string(), "could not be written", ErrorKind::write_failed}));
   return outputs.commit();
 }
@@ -143,11 +153,11 @@ Result<void> run(const EgoMotionOptions& options) {
     if (!added) return fail(added.error());
     plot = *added;
   }
-  const Result<EgoMotion> motion = estimated(options);
-  if (!motion) return fail(motion.error());
-  if (const Result<void> written = write(outputs, *csv, plot, *motion, options.video); !written) return written;
+  const Result<Estimated> found = estimated(options);
+  if (!found) return fail(found.error());
+  if (const Result<void> written = write(outputs, *csv, plot, *found, options); !written) return written;
   for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
-  print_summary(*motion);
+  print_summary(found->motion);
   return {};
 }
 

@@ -36,13 +36,6 @@ std::shared_ptr<const Track> track_with_rates(const Project& project, SceneFiles
   return (*track)->camera_rate_radps.empty() ? nullptr : *track;
 }
 
-// Without a horizon in sight attitudes are against frame 0: there the camera is as the project says.
-void begin_as_project_says(Track& track, const CameraSettings& camera) {
-  const Attitude mount = mount_attitude(camera);
-  const glm::dquat world_from_start = rotation_of({mount.roll_rad, mount.pitch_rad, 0});
-  for (glm::dquat& attitude : track.ned_from_camera.values) attitude = glm::normalize(world_from_start * attitude);
-}
-
 }  // namespace
 
 Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const JobControl& control) {
@@ -62,7 +55,8 @@ Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const 
                           {.progress = control.progress, .cancel = control.cancel});
   if (!motion) return fail(motion.error());
   Track track = track_of(*motion, resolved(project, project.footage.video));
-  if (!motion->level_sd_rad) begin_as_project_says(track, project.camera);
+  if (log) add_log(track, *log, *motion);
+  if (project.camera.readout_s) track.readout_s = project.camera.readout_s;
   if (const Result<void> written = write_text(request.file, track_csv_text(track), false); !written)
     return fail(written.error());
   const auto lost =

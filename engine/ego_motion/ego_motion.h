@@ -72,6 +72,12 @@ struct EgoMotion {
 
 // The same as a track, to be written or used as any other: ned_from_camera with camera_attitude_sd_rad, in which the
 // level's uncertainty is included; heading_is_north is false, on_footage_time true. Lost frames are left out.
+// level_is_known says whether roll and pitch are absolute.
 [[nodiscard]] Track track_of(const EgoMotion& motion, const std::filesystem::path& footage);
+
+// Adds to the attitudes what the log of the same flight knows besides: position, velocity, exposure, UTC, on the
+// footage's time axis, and the readout. Positions are left out where the log's place on that axis is not known: it has
+// another axis, and no gyroscope that was compared with the images.
+void add_log(Track& attitudes, const Track& log, const EgoMotion& motion);
 
 }  // namespace sigs

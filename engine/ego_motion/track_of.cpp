@@ -24,8 +24,33 @@ Track track_of(const EgoMotion& motion, const std::filesystem::path& footage) {
     track.camera_attitude_sd_rad.times_s.push_back(frame.time_s);
     track.camera_attitude_sd_rad.values.push_back(sd_rad);
   }
+  track.level_is_known = motion.level_sd_rad.has_value();
   track.warnings = motion.warnings;
   return track;
+}
+
+namespace {
+
+template <class T>
+Channel<T> shifted(Channel<T> channel, double offset_s) {
+  for (double& time_s : channel.times_s) time_s -= offset_s;
+  return channel;
+}
+
+}  // namespace
+
+void add_log(Track& attitudes, const Track& log, const EgoMotion& motion) {
+  attitudes.readout_s = log.readout_s;
+  const bool is_placed = motion.gyro && motion.gyro->is_fused;
+  if (!is_placed && !log.on_footage_time) return;
+  // Positions change slowly: the drift of the clock does not show in them.
+  const double offset_s = is_placed ? motion.gyro->offset_s : 0;
+  attitudes.position = shifted(log.position, offset_s);
+  attitudes.height_above_ellipsoid = log.height_above_ellipsoid;
+  attitudes.local_position_ned_m = shifted(log.local_position_ned_m, offset_s);
+  attitudes.velocity_ned_mps = shifted(log.velocity_ned_mps, offset_s);
+  attitudes.exposure_s = shifted(log.exposure_s, offset_s);
+  if (log.utc_at_zero_s) attitudes.utc_at_zero_s = *log.utc_at_zero_s + offset_s;
 }
 
 }  // namespace sigs

@@ -250,14 +250,22 @@ void turn_by_log(const Track& track, const UsedParts& parts, const LogTimes& tim
   // Where yaw is not against north, it counts from the heading at frame 0, which is that of world X.
   const double zero_rad = track.heading_is_north ? heading_rad : yaw_at(flight.motion.turns, 0);
   const glm::dquat world_from_ned = rotation_of({0, 0, -zero_rad});
+  // Turns against an attitude at the start that is not known: it is the project's, so that with its mount's angles,
+  // which come last, the whole is (attitude at the start) * (turn since).
+  const bool is_level_known = track.level_is_known || parts.attitude != &track.ned_from_camera;
+  const glm::dquat start = is_level_known ? glm::dquat(1, 0, 0, 0) : flight.motion.world_from_camera_at_start.rotation;
   for (CarrierAttitude& turn : flight.motion.turns)
-    turn.world_from_carrier = glm::normalize(world_from_ned * turn.world_from_carrier);
+    turn.world_from_carrier = glm::normalize(start * world_from_ned * turn.world_from_carrier * glm::conjugate(start));
   const Channel<glm::dvec3>& sd = track.camera_attitude_sd_rad;
   if (parts.attitude == &track.ned_from_camera)
     for (std::size_t i = 0; i < sd.values.size(); ++i)
       flight.motion.deviations.push_back({times.footage_s(sd.times_s[i]), sd.values[i]});
   flight.motion.source.attitude = fmt::format("{}: {}", track.format, parts.attitude->source);
-  flight.horizon_is_known = true;
+  flight.horizon_is_known = flight.horizon_is_known || is_level_known;
+  if (!flight.horizon_is_known)
+    flight.warnings.push_back({track.file.string(),
+                               "has roll and pitch against its first sample alone, which counts as level; "
+                               "camera.attitude_deg can state what they were"});
 }
 
 void warn_if_slow(const Track& track, const UsedParts& parts, std::vector<Warning>& warnings) {

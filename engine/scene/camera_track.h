@@ -32,7 +32,9 @@ void take_camera_flight(Scene& scene, CameraFlight flight);
 // Position: the log's geodetic positions, else its local ones, joined by a C2 cubic spline. Where the project states
 // latitude and longitude of the world's origin, geodetic positions are absolute; else the camera is at
 // camera.position_m at the footage's frame 0 and the log adds the displacement since.
-// Attitude: world_from_ned * (the log's attitude) * (camera.attitude_deg), the last one being the mount's angles.
+// Attitude: world_from_ned * (the log's attitude) * (camera.attitude_deg), the last one being the mount's angles. Of a
+// log that knows turns since its first sample alone (Track::level_is_known): (camera.attitude_deg) * (turn), so that
+// camera.attitude_deg is the camera's attitude at the start.
 // World X: geo.heading_deg; else the heading of what carries the camera at frame 0, if the log has it against north;
 // else the course over ground there, if it moves by more than 1 m/s; else north, with a warning.
 // Readout: camera.readout_s, else the log's, else 0.

@@ -39,6 +39,7 @@ struct Track {
   bool on_footage_time = false;              // the time axis is the footage's
   std::optional<double> utc_at_zero_s = {};  // UTC of time 0, seconds since 1970 without leap seconds
   bool heading_is_north = true;              // false: yaw 0 is an arbitrary heading, as that of a camera alone
+  bool level_is_known = true;                // false: the camera's attitude is against that of its first sample
 
   Channel<GeodeticPosition> position = {};
   bool height_above_ellipsoid = false;            // false: above the sea, above the start or not known; see warnings

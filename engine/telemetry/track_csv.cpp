@@ -67,6 +67,7 @@ std::string settings_of(const Track& track) {
   say("on_footage_time", yes(track.on_footage_time));
   say("utc_at_zero_s", exact_text(track.utc_at_zero_s));
   say("heading_is_north", yes(track.heading_is_north));
+  say("level_is_known", yes(track.level_is_known));
   say("height_above_ellipsoid", yes(track.height_above_ellipsoid));
   say("readout_s", exact_text(track.readout_s));
   if (track.damaged) say("damaged", "true");
@@ -204,6 +205,7 @@ class Reader {
     track_.on_footage_time = settings.text("on_footage_time") == "true";
     track_.utc_at_zero_s = number_of(settings.text("utc_at_zero_s"));
     track_.heading_is_north = settings.text("heading_is_north") != "false";
+    track_.level_is_known = settings.text("level_is_known") != "false";
     track_.height_above_ellipsoid = settings.text("height_above_ellipsoid") == "true";
     track_.readout_s = number_of(settings.text("readout_s"));
     track_.damaged = settings.text("damaged") == "true";

@@ -36,7 +36,7 @@ namespace sigs {
 // alt, alt_m, altitude, altitude_m, height; roll, pitch, yaw, heading, heading_deg (degrees); vn, ve, vd.
 //
 // Lines that begin with # before the columns are settings, `# key: value`, of which other programs see comments:
-// format, device, on_footage_time (true, false), utc_at_zero_s, heading_is_north, height_above_ellipsoid, readout_s,
+// format, device, on_footage_time (true, false), utc_at_zero_s, heading_is_north, level_is_known, height_above_ellipsoid, readout_s,
 // damaged, frame_rate, warning (any number of them), source NAME and clock NAME of a channel. Unknown ones are
 // comments.
 

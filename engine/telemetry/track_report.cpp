@@ -110,6 +110,7 @@ std::string heading_of(const Track& track) {
   if (track.readout_s)
     text += fmt::format("rolling shutter: {} s from the first row to the last\n", short_number_text(*track.readout_s));
   if (!track.heading_is_north) text += "yaw 0: an arbitrary heading, not north\n";
+  if (!track.level_is_known) text += "roll and pitch: against the first sample, which counts as level\n";
   if (!track.position.empty())
     text += fmt::format("heights: {}\n", track.height_above_ellipsoid ? "above the ellipsoid"
                                                                       : "above the sea, the start, or not known");

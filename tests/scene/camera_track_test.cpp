@@ -190,6 +190,23 @@ TEST_CASE("yaw that is not against north counts from frame 0, with its deviation
   CHECK(glm::distance(camera_at(flight.motion, 5).translation_m, glm::dvec3(3, -4, -150)) == 0);
 }
 
+TEST_CASE("turns since the first sample stand right of the attitude at the start, and say nothing of the horizon") {
+  Track track{.file = "attitude.csv", .format = "images", .heading_is_north = false, .level_is_known = false};
+  const glm::dquat turn = rotation_of({0.1, -0.2, 0.7});
+  track.ned_from_camera = {
+      .source = "ego-motion", .times_s = {0, 5, 10}, .values = {glm::dquat(1, 0, 0, 0), turn, turn}};
+  Project project = with_log();
+  CHECK_FALSE(flown(project, track).horizon_is_known);
+  CHECK(has_warning(flown(project, track), "counts as level"));
+  project.camera.roll_deg = 5;
+  project.camera.pitch_deg = -25;
+  const CameraFlight flight = flown(project, track);
+  CHECK(flight.horizon_is_known);
+  const glm::dquat start = rotation_of({rad_of_deg(5), rad_of_deg(-25), 0});
+  CHECK(angle_of(camera_at(flight.motion, 0).rotation, start) < 1e-9);
+  CHECK(angle_of(camera_at(flight.motion, 5).rotation, start * turn) < 1e-9);
+}
+
 TEST_CASE("a log that does not cover the frames, or is damaged, is refused by name unless the project allows it") {
   Project project = with_log();
   Track track = eastwards();

@@ -81,7 +81,7 @@ TEST_CASE("attitude and places of a PX4 log are the numbers at their places in t
   for (std::size_t i = 0; i < attitudes.size(); ++i) {
     const glm::dquat& q = track->ned_from_airframe.values[i];
     CHECK(track->ned_from_airframe.own_times_s[i] ==
-          doctest::Approx(1e-6 * copied<std::uint64_t>(bytes, attitudes[i])));
+          doctest::Approx(1e-6 * static_cast<double>(copied<std::uint64_t>(bytes, attitudes[i]))));
     // Stored in single precision, here brought to length 1.
     CHECK(std::abs(q.w - copied<float>(bytes, attitudes[i] + 8)) < 1e-6);
     CHECK(std::abs(q.x - copied<float>(bytes, attitudes[i] + 12)) < 1e-6);
@@ -120,7 +120,7 @@ TEST_CASE("rates, forces and the dropout of a PX4 log are read") {
     CHECK(track->airframe_rate_radps.values[i].z == copied<float>(bytes, rates[i] + 24));
     // timestamp_sample, not timestamp: the rate was measured some 0.4 ms before it was published.
     CHECK(track->airframe_rate_radps.own_times_s[i] ==
-          doctest::Approx(1e-6 * copied<std::uint64_t>(bytes, rates[i] + 8)));
+          doctest::Approx(1e-6 * static_cast<double>(copied<std::uint64_t>(bytes, rates[i] + 8))));
   }
   for (std::size_t i = 0; i < forces.size(); ++i)
     CHECK(track->airframe_force_mps2.values[i].z == copied<float>(bytes, forces[i] + 36));

@@ -27,9 +27,10 @@ void use_motion(Project& project, const EstimatedMotion& motion) {
   camera.track = {.file = path_in_project(project, motion.file),
                   .incomplete = motion.lost_frames > 0 ? IncompleteTrackChoice::use : IncompleteTrackChoice::refuse};
   camera.attitude_file.clear();
+  camera.yaw_deg = 0;
+  if (!motion.level_sd_rad) return;  // roll and pitch are then those at the start
   camera.roll_deg = 0;
   camera.pitch_deg = 0;
-  camera.yaw_deg = 0;
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ std::string summary_of(const EstimatedMotion& motion) {
   else if (motion.is_level_stated)
     text += "; no horizon was found: frame 0 has the roll and pitch that were set";
   else
-    text += "; no horizon was found: frame 0 counts as level. If it is not, undo, set the horizon, and estimate again";
+    text += "; no horizon was found: frame 0 counts as level until the horizon is set";
   if (motion.is_gyro_used) text += "; with the log's gyroscope";
   return text;
 }
