@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "telemetry/dji_subtitles.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -117,7 +119,8 @@ class DjiReading {
     GeodeticPosition place = values.place;
     if (const char* const why = why_no_place(place)) {
       const bool by_order = values.place_form != DjiPlaceForm::named;
-      return places_.samples.leave_out(std::string(why) + (by_order ? "; " + order_text(values.place_form) : ""), t_s);
+      return places_.samples.leave_out(
+          by_order ? fmt::format("{}; {}", why, order_text(values.place_form)) : std::string(why), t_s);
     }
     if (height && !(values.*height->field))
       return places_.samples.leave_out("no height of the kind that the others have", t_s);
