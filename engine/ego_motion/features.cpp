@@ -15,6 +15,7 @@ constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^
 constexpr int kIterations = 12;
 constexpr double kStop_px = 0.005;
 constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
+constexpr char kPerCell = 2;         // features; more in one place tell the same again
 constexpr int kBorder_px = 8;          // of the image and of the own body: half a window
 constexpr float kLeastCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
 constexpr float kRepeated = 1.5F;      // codes; frames that repeat one another differ less, even when coded again
@@ -115,12 +116,21 @@ void FeatureTracker::follow(const std::vector<cv::Mat>& pyramid) {
 
 void FeatureTracker::detect() {
   const double area = static_cast<double>(allowed_.total());
-  const int cell = std::max(8, static_cast<int>(std::sqrt(area / settings_.features)));
+  const int cell = std::max(8, static_cast<int>(std::sqrt(1.25 * area / settings_.features)));
   const int columns = (allowed_.cols + cell - 1) / cell;
   const int rows = (allowed_.rows + cell - 1) / cell;
+  // Of several features in a cell the oldest stays: it has seen the longest way.
   std::vector<char> taken(static_cast<std::size_t>(columns * rows), 0);
-  for (const cv::Point2f& p : points_)
-    taken[static_cast<std::size_t>(static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell)] = 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    char& here = taken[static_cast<std::size_t>(cvRound(points_[i].y) / cell * columns + cvRound(points_[i].x) / cell)];
+    if (here >= kPerCell) continue;
+    ++here;
+    points_[kept] = points_[i];
+    ids_[kept++] = ids_[i];
+  }
+  points_.resize(kept);
+  ids_.resize(kept);
   cv::Mat corner;
   cv::cornerMinEigenVal(reduced_, corner, 5);
   for (int row = 0; row < rows; ++row)

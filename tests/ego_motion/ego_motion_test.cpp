@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "ego_motion/ego_motion.h"
-
-#include <doctest/doctest.h>

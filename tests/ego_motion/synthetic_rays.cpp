@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "synthetic_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "ego_motion/turns.h"
+
+namespace sigs::test {
+
+namespace {
+
+struct Point {
+  int id = 0;
+  Eigen::Vector3d place;  // NED-like: x along the first heading, z down
+  bool moves = false;
+};
+
+constexpr double kHalfWidth = 0.6;   // tangents of the field's half angles
+constexpr double kHalfHeight = 0.45;
+
+}  // namespace
+
+RayFlight ray_flight(const RayFlightSettings& s) {
+  std::mt19937 chance(s.seed);
+  std::uniform_real_distribution<double> even(0, 1);
+  std::normal_distribution<double> normal(0, 1);
+  RayFlight flight;
+  std::vector<Point> points;
+  int next_id = 0;
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d place(0, 0, -s.height_m);
+  Eigen::Vector3d shake_before(0, 0, 0);
+  for (int k = 0; k < s.frames; ++k) {
+    const Eigen::Vector3d shake =
+        k == 0 ? Eigen::Vector3d(0, 0, 0)
+               : Eigen::Vector3d(s.shake_rad * Eigen::Vector3d(normal(chance), normal(chance), normal(chance)));
+    const Eigen::Quaterniond world_from_camera = turn * turn_of(shake);
+    const double t = k / s.rate_hz;
+    const auto seen_from = [&](const Point& p) {
+      const Eigen::Vector3d drift = p.moves ? Eigen::Vector3d(0, 25.0 * t, 0) : Eigen::Vector3d(0, 0, 0);
+      return Eigen::Vector3d(world_from_camera.conjugate() * (p.place + drift - place));
+    };
+    const auto is_seen = [](const Eigen::Vector3d& v) {
+      return v.x() > 1 && std::abs(v.y() / v.x()) < kHalfWidth && std::abs(v.z() / v.x()) < kHalfHeight;
+    };
+    std::erase_if(points, [&](const Point& p) { return !is_seen(seen_from(p)); });
+    while (static_cast<int>(points.size()) < s.points) {
+      const Eigen::Vector3d ray = (world_from_camera * Eigen::Vector3d(1, kHalfWidth * (2 * even(chance) - 1),
+                                                                       kHalfHeight * (2 * even(chance) - 1)))
+                                      .normalized();
+      Point p{.id = next_id++, .moves = even(chance) < s.moving_share};
+      // Ground below the horizon up to 8 km, hills or clouds beyond.
+      const double to_ground = ray.z() > 0.01 ? s.height_m / ray.z() : 1e9;
+      const double distance = p.moves ? 1500 : std::min(to_ground, 8000 + 4000 * even(chance));
+      p.place = place + distance * ray;
+      if (p.moves) p.place -= Eigen::Vector3d(0, 25.0 * t, 0);
+      points.push_back(p);
+    }
+    FrameRays rays;
+    for (const Point& p : points) {
+      const double row = std::clamp(seen_from(p).z() / seen_from(p).x() / kHalfHeight / 2, -0.5, 0.5);
+      Eigen::Vector3d v = seen_from(p).normalized();
+      // Seen by a row before or after the middle one, when the camera had another attitude.
+      v = turn_of(-s.turn_radps * (s.readout_s * row)) * v;
+      const Eigen::Matrix<double, 3, 2> across = tangents_of(v);
+      const Eigen::Vector2d error(normal(chance), normal(chance));
+      rays.push_back({p.id, (v + across * error * s.noise_px * s.pixel_rad).normalized(), row});
+    }
+    std::sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    flight.frames.push_back(std::move(rays));
+    flight.times_s.push_back(t);
+    flight.start_from_camera.push_back(world_from_camera);
+    place += world_from_camera * Eigen::Vector3d(s.speed_mps / s.rate_hz, 0, 0);
+    turn = turn * turn_of(s.turn_radps / s.rate_hz);
+    shake_before = shake;
+  }
+  return flight;
+}
+
+}  // namespace sigs::test

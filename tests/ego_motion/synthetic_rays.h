@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "ego_motion/tracks.h"
+
+namespace sigs::test {
+
+// A camera that flies over points whose places are known: the rays along which it sees them, without any image.
+struct RayFlight {
+  std::vector<FrameRays> frames;
+  std::vector<double> times_s;
+  std::vector<Eigen::Quaterniond> start_from_camera;  // the truth
+};
+
+struct RayFlightSettings {
+  int frames = 100;
+  double rate_hz = 25;
+  int points = 220;             // seen at a time
+  double pixel_rad = 0.002;     // 500 px a radian
+  double noise_px = 0.1;        // of each ray, in each direction
+  double speed_mps = 22;
+  double height_m = 150;
+  Eigen::Vector3d turn_radps{0, 0, 0};  // even, about the camera's axes
+  double shake_rad = 0;                 // from frame to frame
+  double moving_share = 0;              // of the points that drift together, as clouds do
+  double readout_s = 0;
+  unsigned seed = 1;
+};
+
+[[nodiscard]] RayFlight ray_flight(const RayFlightSettings& settings);
+
+}  // namespace sigs::test
