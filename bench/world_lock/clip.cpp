@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
 #include "accuracy/csv.h"
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 
 const fs::path kData = SIGS_TEST_DATA;
 const fs::path kAssets = SIGS_ASSETS_DIR;
-constexpr double kGuessedField_rad = std::numbers::pi / 3;
 constexpr int kBoxMargin_px = 6;
 
 // Cameras that travel: what lies far off was marked by eye in the first frame. The patches are low, so that they hold
@@ -35,8 +33,8 @@ std::vector<ClipSource> travelling() {
            .has_log = true},
           {.name = "road",
            .path = kData / "video/ground_udacity_road_540p.mp4",
-           .far_background = {300, 250, 210, 20},
-           .patch_px = {40, 14}},
+           .far_background = {345, 247, 130, 8},
+           .patch_px = {40, 10}},
           {.name = "bonnet",
            .path = kData / "video/ownbody_dashcam_bonnet_360p.mp4",
            .far_background = {290, 155, 80, 14},
@@ -85,7 +83,7 @@ std::vector<cv::Rect> boxes_of(const fs::path& file, int frames) {
 
 fs::path written_calibration(const ClipSource& source, cv::Size size_px, const fs::path& folder) {
   const double focal_px =
-      source.focal_px > 0 ? source.focal_px : 0.5 * size_px.width / std::tan(0.5 * kGuessedField_rad);
+      source.focal_px > 0 ? source.focal_px : 0.5 * size_px.width / std::tan(0.5 * source.guessed_field_rad);
   const fs::path file = folder / (source.name + " camera.yml");
   cv::FileStorage out(file.string(), cv::FileStorage::WRITE);
   out << "image_width" << size_px.width << "image_height" << size_px.height << "camera_matrix"

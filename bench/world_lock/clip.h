@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -18,8 +19,9 @@ namespace sigs::bench {
 struct ClipSource {
   std::string name;
   std::filesystem::path path;
-  double focal_px = 0;                      // pinhole, principal point in the middle; 0: 60 degrees across are guessed
-  std::filesystem::path calibration = {};   // instead, where there is a file
+  double focal_px = 0;  // pinhole, principal point in the middle; 0: by the guessed field of view
+  double guessed_field_rad = std::numbers::pi / 3;  // across the image
+  std::filesystem::path calibration = {};           // instead, where there is a file
   cv::Rect far_background = {};             // of a camera that travels: where intruders are put in frame 0; else empty
   cv::Size patch_px{40, 40};                // half the size of the background's patch that is followed around a point
   std::filesystem::path moving_boxes = {};  // CSV with one box per frame of what moves by itself; empty: none
@@ -28,6 +30,11 @@ struct ClipSource {
   bool finds_own_body = false;              // by detect_own_body()
   bool has_log = false;                     // telemetry within the video
 };
+
+// Whether its camera changes its place, so that near background moves by parallax.
+[[nodiscard]] inline bool travels(const ClipSource& source) {
+  return !source.far_background.empty();
+}
 
 // The clips of the folder SIGS_TEST_DATA that are there, then those of assets/footage.
 [[nodiscard]] std::vector<ClipSource> clip_sources();

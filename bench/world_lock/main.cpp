@@ -9,6 +9,7 @@
 #include <string>
 
 #include "accuracy/csv.h"
+#include "base/pose.h"
 #include "world_lock/image_motion.h"
 #include "world_lock/slip.h"
 #include "world_lock/strips.h"
@@ -20,6 +21,7 @@ using namespace sigs::bench;
 
 struct Options {
   std::string folder, clip, images, picture;
+  double field_deg = 60;
 };
 
 // Root mean square and largest length of vectors.
@@ -94,7 +96,7 @@ void measure(const ClipSource& source, const Options& options, Tables& tables) {
   write_samples(clip, cameras, run, tables.samples);
   const Reference reference = reference_of(run);
   const auto steps = all_of(run, &SlipSample::step_px), offsets = all_of(run, &SlipSample::offset_px);
-  const auto trembles = trembling(run), beyond = offsets_beyond_parallax(run);
+  const auto trembles = trembling(run), beyond = travels(source) ? offsets_beyond_parallax(run) : offsets;
   for (std::size_t k = 0; k < cameras.size(); ++k) {
     const Spread step = spread_of(steps, k), tremble = spread_of(trembles, k), offset = spread_of(offsets, k),
                  left = spread_of(beyond, k);
@@ -124,8 +126,10 @@ void measure_all(const Options& options) {
       {folder / "samples.csv",
        "clip,camera,start,place,frame,corners,reference_sd_px,background_x,background_y,step_x,step_y,"
        "offset_x,offset_y,growth"}};
-  for (const ClipSource& source : clip_sources())
+  for (ClipSource source : clip_sources()) {
+    source.guessed_field_rad = rad_of_deg(options.field_deg);
     if (options.clip.empty() || options.clip == source.name) measure(source, options, tables);
+  }
 }
 
 }  // namespace
@@ -135,6 +139,8 @@ int main(int count, char** arguments) {
   Options options;
   app.add_option("FOLDER", options.folder, "where tables and estimates go")->required();
   app.add_option("--clip", options.clip, "this one alone");
+  app.add_option("--field", options.field_deg, "guessed field of view of clips without calibration, degrees")
+      ->check(CLI::Range(5, 150));
   app.add_option("--images", options.images, "instead: strips of enlarged frames of the clip coast, or of --clip");
   app.add_option("--picture", options.picture, "instead: the picture of the documentation, from our own footage");
   CLI11_PARSE(app, count, arguments);

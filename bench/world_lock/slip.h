@@ -33,7 +33,7 @@ struct SlipRun {
 
 inline constexpr double kLongest_s = 10;
 
-// What is left of offset_px without the parallax of a camera that flies straight on: then the image around a point
+// What is left of offset_px without the parallax of a camera that travels straight on: then the image around a point
 // grows by the same factor as the point's distance from the direction of flight, wherever that is,
 //   offset = -(growth - 1) * (start_px - flight_px)
 // The growth is measured; flight_px is fitted, two numbers for all the points of a start, with the offsets of the last

@@ -60,6 +60,16 @@ cv::Mat enlarged(const cv::Mat& image, cv::Point2d middle, cv::Size piece_px) {
   return large;
 }
 
+// Ticks at the edges, level with the place that the intruder has above the point of the background.
+void draw_ticks(cv::Mat& piece, cv::Point at) {
+  constexpr int kTick_px = 14, kThick_px = 3;
+  const cv::Scalar color(0, 220, 255);
+  cv::line(piece, {at.x, 0}, {at.x, kTick_px}, color, kThick_px);
+  cv::line(piece, {at.x, piece.rows - 1}, {at.x, piece.rows - 1 - kTick_px}, color, kThick_px);
+  cv::line(piece, {0, at.y}, {kTick_px, at.y}, color, kThick_px);
+  cv::line(piece, {piece.cols - 1, at.y}, {piece.cols - 1 - kTick_px, at.y}, color, kThick_px);
+}
+
 // One row of a strip.
 cv::Mat row_of(const Clip& clip, const CameraKnowledge& camera, const Hovering& intruder,
                const std::vector<cv::Point2d>& background, const StripSettings& settings) {
@@ -72,7 +82,9 @@ cv::Mat row_of(const Clip& clip, const CameraKnowledge& camera, const Hovering& 
   for (int i = 0; i < pieces; ++i) {
     const cv::Mat image = composed(scene, footage, settings.first + i * settings.every, context);
     const cv::Point2d middle = background[static_cast<std::size_t>(i)] - cv::Point2d(0, 0.5 * settings.above_px);
-    enlarged(image, middle, settings.piece_px).copyTo(row(cv::Rect({i * (large_px.width + kGap_px), 0}, large_px)));
+    cv::Mat piece = enlarged(image, middle, settings.piece_px);
+    draw_ticks(piece, {large_px.width / 2, large_px.height / 2 - kEnlarged * settings.above_px / 2});
+    piece.copyTo(row(cv::Rect({i * (large_px.width + kGap_px), 0}, large_px)));
   }
   return row;
 }
@@ -121,10 +133,11 @@ void draw_strips(const std::string& name, const std::filesystem::path& folder, c
 }
 
 void draw_picture(const std::filesystem::path& folder, const std::filesystem::path& picture) {
-  const Clip clip = clip_by_name("made", folder);
+  Clip clip = clip_by_name("made", folder);
+  clip.source.far_background = {560, 485, 160, 30};  // straight ahead: the camera travels there, without parallax
   std::vector<CameraKnowledge> cameras = knowledge_of(clip, folder);
   cameras.resize(2);  // constant attitude, and estimated from the images
-  const StripSettings settings{.every = 13, .pieces = 6, .piece_px = {40, 32}, .above_px = 10};
+  const StripSettings settings{.every = 2, .pieces = 6, .piece_px = {40, 32}, .above_px = 10};
   write(picture, strip_of(clip, cameras, 1000, best_place(clip, 0), settings));
 }
 
