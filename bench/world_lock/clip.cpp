@@ -55,8 +55,8 @@ std::vector<ClipSource> on_the_ground() {
   return clips;
 }
 
-ClipSource made_clip() {
-  return {.name = "made",
+ClipSource synthetic_clip() {
+  return {.name = "synthetic",
           .path = kAssets / "footage/table1_vibration.mp4",
           .calibration = kAssets / "calibrations/sample.xml",
           .far_background = {100, 485, 1080, 30},
@@ -106,7 +106,7 @@ std::vector<ClipSource> clip_sources() {
   const std::vector<ClipSource> ground = on_the_ground();
   clips.insert(clips.end(), ground.begin(), ground.end());
   std::erase_if(clips, [](const ClipSource& clip) { return !fs::exists(clip.path); });
-  clips.push_back(made_clip());
+  clips.push_back(synthetic_clip());
   return clips;
 }
 

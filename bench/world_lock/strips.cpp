@@ -133,7 +133,7 @@ void draw_strips(const std::string& name, const std::filesystem::path& folder, c
 }
 
 void draw_picture(const std::filesystem::path& folder, const std::filesystem::path& picture) {
-  Clip clip = clip_by_name("made", folder);
+  Clip clip = clip_by_name("synthetic", folder);
   clip.source.far_background = {560, 485, 160, 30};  // straight ahead: the camera travels there, without parallax
   std::vector<CameraKnowledge> cameras = knowledge_of(clip, folder);
   cameras.resize(2);  // constant attitude, and estimated from the images
