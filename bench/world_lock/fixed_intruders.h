@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ego_motion/ego_motion.h"
+#include "scene/scene.h"
+#include "world_lock/clip.h"
+
+namespace sigs::bench {
+
+inline constexpr double kDistances_m[] = {300, 1000, 10000};
+
+// What tells a project how the camera turns.
+struct CameraKnowledge {
+  std::string name;           // "constant attitude", "images", "images and gyroscope", "true attitude"
+  std::string track;          // camera.track.file; empty: none
+  std::string attitude_file;  // camera.attitude_file; empty: none
+  double readout_s = 0;
+  int lost_frames = 0;  // that the estimation could not judge
+  std::optional<GyroLink> gyro = {};
+};
+
+// Constant attitude; estimated from the images; with the log's gyroscope; true: those that there are for the clip.
+// Estimates are written into the folder. Stops the program where an estimation fails.
+[[nodiscard]] std::vector<CameraKnowledge> knowledge_of(const Clip& clip, const std::filesystem::path& folder);
+
+// An intruder that hovers where the camera saw a pixel.
+struct Hovering {
+  cv::Point2d pixel;
+  double distance_m = 1000;
+};
+
+// The scene of a project with these intruders, which are seen at their pixels in `frame`. The camera does not travel.
+[[nodiscard]] Scene scene_with(const Clip& clip, const CameraKnowledge& camera, int frame,
+                               const std::vector<Hovering>& intruders);
+
+// Pixel of an intruder's reference point, as the truth has it; nothing where it has no image.
+[[nodiscard]] std::optional<cv::Point2d> pixel_of(const Scene& scene, std::size_t intruder, int frame);
+
+}  // namespace sigs::bench
