@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Slip of an intruder that is fixed in the world against the background of real clips, with the camera's attitude from the
-# footage and without: tables, strips of enlarged frames, the picture of the documentation.
+# footage and without: tables, strips of enlarged frames, the figure of the documentation.
 #   bench/world_lock.sh [--write] [--images FOLDER] [BUILD]     default: build/release; some ten minutes on two processors
 #   --write          draws docs/images/camera-motion-lock.png anew, from our own footage
 #   --images FOLDER  strips of the real clip `coast`, into FOLDER (not to be committed: the footage is not ours)
@@ -13,7 +13,7 @@ write= images=
 build=${1:-build/release}
 folder=$build/world-lock
 if [ -n "$images" ]; then "$build/bench_world_lock" "$folder" --images "$images"; fi
-if [ -n "$write" ]; then "$build/bench_world_lock" "$folder" --picture docs/images/camera-motion-lock.png; fi
+if [ -n "$write" ]; then "$build/bench_world_lock" "$folder" --figure docs/images/camera-motion-lock.png; fi
 "$build/bench_world_lock" "$folder" >&2
 awk -F, '
   NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i

@@ -20,7 +20,7 @@ using namespace sigs;
 using namespace sigs::bench;
 
 struct Options {
-  std::string folder, clip, images, picture;
+  std::string folder, clip, images, figure;
   double field_deg = 60;
 };
 
@@ -142,12 +142,12 @@ int main(int count, char** arguments) {
   app.add_option("--field", options.field_deg, "guessed field of view of clips without calibration, degrees")
       ->check(CLI::Range(5, 150));
   app.add_option("--images", options.images, "instead: strips of enlarged frames of the clip coast, or of --clip");
-  app.add_option("--picture", options.picture, "instead: the picture of the documentation, from our own footage");
+  app.add_option("--figure", options.figure, "instead: the figure of the documentation, from our own footage");
   CLI11_PARSE(app, count, arguments);
   if (!options.images.empty())
     draw_strips(options.clip.empty() ? "coast" : options.clip, options.folder, options.images);
-  else if (!options.picture.empty())
-    draw_picture(options.folder, options.picture);
+  else if (!options.figure.empty())
+    draw_figure(options.folder, options.figure);
   else
     measure_all(options);
 }

@@ -132,13 +132,13 @@ void draw_strips(const std::string& name, const std::filesystem::path& folder, c
           strip_of(clip, cameras, distance_m, at, {.every = std::min(60, (clip.frame_count() - 1) / 6)}));
 }
 
-void draw_picture(const std::filesystem::path& folder, const std::filesystem::path& picture) {
+void draw_figure(const std::filesystem::path& folder, const std::filesystem::path& figure) {
   Clip clip = clip_by_name("synthetic", folder);
   clip.source.far_background = {560, 485, 160, 30};  // straight ahead: the camera travels there, without parallax
   std::vector<CameraKnowledge> cameras = knowledge_of(clip, folder);
   cameras.resize(2);  // constant attitude, and estimated from the images
   const StripSettings settings{.every = 2, .pieces = 6, .piece_px = {40, 32}, .above_px = 10};
-  write(picture, strip_of(clip, cameras, 1000, best_place(clip, 0), settings));
+  write(figure, strip_of(clip, cameras, 1000, best_place(clip, 0), settings));
 }
 
 }  // namespace sigs::bench

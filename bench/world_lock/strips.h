@@ -12,6 +12,6 @@ namespace sigs::bench {
 void draw_strips(const std::string& clip, const std::filesystem::path& folder, const std::filesystem::path& images);
 
 // The same of our own footage, for docs/images.
-void draw_picture(const std::filesystem::path& folder, const std::filesystem::path& picture);
+void draw_figure(const std::filesystem::path& folder, const std::filesystem::path& figure);
 
 }  // namespace sigs::bench

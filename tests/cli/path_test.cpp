@@ -2,10 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/staged_outputs.h"
 #include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "project/json.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -27,6 +30,14 @@ struct PathFolder {
     return run_sigs("path " + file("a.json") + " " + arguments);
   }
 };
+
+// Puts the project's world on the Earth.
+void tiny_on_earth(const std::string& file) {
+  Result<ReadProject> read = read_project(file);
+  REQUIRE(read);
+  read->project.geo = {.latitude_deg = 50, .longitude_deg = 8, .height_m = 100, .heading_deg = 0};
+  REQUIRE(write_project(read->project, file, true));
+}
 
 }  // namespace
 
@@ -88,4 +99,41 @@ TEST_CASE("path refuses unknown kinds of output and inputs that are none") {
   CHECK(has(bad.err, "bad.gpx: line 1"));
   CHECK_FALSE(std::filesystem::exists(folder.file("bad.kml")));
   CHECK(run_sigs("path").status == 64);
+}
+
+TEST_CASE("path makes a recorded path the flight of a project's intruder, and writes the encounter for a globe") {
+  const TinyProject tiny;
+  tiny_on_earth(tiny.project());
+  const std::string gpx = tiny.file("t.gpx").string();
+  write_file(gpx, R"(<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1"><trk><name>N1</name><trkseg>
+<trkpt lat="50.001" lon="8"><ele>200</ele><time>2026-05-01T12:00:00Z</time></trkpt>
+<trkpt lat="50.001" lon="8.001"><ele>210</ele><time>2026-05-01T12:00:05Z</time></trkpt></trkseg></trk></gpx>)");
+  const Run without_utc = run_sigs("path " + gpx + " --into " + tiny.project());
+  CHECK(without_utc.status == 64);
+  CHECK(has(without_utc.err, "say at which frame it begins"));
+  const Run wrong = run_sigs("path " + gpx + " --at-frame 0 --intruder 7 --into " + tiny.project());
+  CHECK(wrong.status == 64);
+  CHECK(has(wrong.err, "--intruder 7"));
+  const Run run = run_sigs("path " + gpx + " --at-frame 0 --into " + tiny.project());
+  CHECK_MESSAGE(run.status == 0, run.err);
+  const auto json = nlohmann::json::parse(read_text(tiny.project()).value());
+  const auto& waypoints = json.at("intruders").at(0).at("trajectory").at("waypoints");
+  REQUIRE(waypoints.size() == 2);
+  CHECK(waypoints.at(0).at("latitude_deg").get<double>() == doctest::Approx(50.001).epsilon(1e-10));
+  CHECK(waypoints.at(1).at("height_m").get<double>() == doctest::Approx(210).epsilon(1e-9));
+  CHECK(waypoints.at(1).at("frame").get<double>() == doctest::Approx(125));  // 25 frames a second
+
+  const Run kml = run_sigs("path " + tiny.project() + " --out " + tiny.file("e.kml").string());
+  CHECK_MESSAGE(kml.status == 0, kml.err);
+  const Run again = run_sigs("path " + tiny.file("e.kml").string());
+  CHECK(has(again.out, "\"camera\": 10 points"));
+  CHECK(run_sigs("path " + tiny.project() + " --out " + tiny.file("e.csv").string()).status == 64);
+}
+
+TEST_CASE("a project without a place on the Earth has no path on a globe") {
+  const TinyProject tiny;
+  const Run run = run_sigs("path " + tiny.project() + " --out " + tiny.file("e.kml").string());
+  CHECK(run.status == 78);
+  CHECK(has(run.err, "geo"));
+  CHECK_FALSE(std::filesystem::exists(tiny.file("e.kml")));
 }
