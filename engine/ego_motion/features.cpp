@@ -11,9 +11,9 @@ namespace sigs {
 namespace {
 
 constexpr int kWindow_px = 15;  // of Lucas and Kanade: wide enough for cloud edges, narrow enough for the horizon
-constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^3 px
-constexpr int kIterations = 12;
-constexpr double kStop_px = 0.01;
+constexpr int kLevels = 2;
+constexpr int kIterations = 8;
+constexpr double kStop_px = 0.02;
 constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
 constexpr char kPerCell = 2;           // features; more in one place tell the same again
 constexpr float kFar_px = 3;           // features look different after a longer way
