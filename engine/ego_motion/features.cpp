@@ -17,6 +17,7 @@ constexpr double kStop_px = 0.02;
 constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
 constexpr char kPerCell = 2;           // features; more in one place tell the same again
 constexpr float kFar_px = 3;           // features look different after a longer way
+constexpr float kApart_px = 6;         // features of one scene move alike to this, most of them
 constexpr int kBorder_px = 8;          // of the image and of the own body: half a window
 constexpr float kLeastCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
 constexpr int kCorner_px = 5;          // of the window that a corner's strength is summed over
@@ -107,7 +108,8 @@ void FeatureTracker::follow() {
   std::vector<uchar> found;
   cv::calcOpticalFlowPyrLK(key_pyramid_, pyramid_, key_points_, there, found, cv::noArray(), kWindow, kLevels, stop(),
                            cv::OPTFLOW_USE_INITIAL_FLOW);
-  std::vector<char> good(points_.size(), 0);
+  const std::size_t before = points_.size();
+  std::vector<char> good(before, 0);
   std::vector<float> dx;
   std::vector<float> dy;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -121,6 +123,10 @@ void FeatureTracker::follow() {
   points_ = there;
   keep(good);
   drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(median(dx), median(dy));
+  std::size_t together = 0;
+  for (std::size_t i = 0; i < dx.size(); ++i)
+    together += std::hypot(dx[i] - drift_.x, dy[i] - drift_.y) < kApart_px + 0.5F * std::hypot(drift_.x, drift_.y);
+  scattered_ = 2 * together < before;
 }
 
 // Leaves out features that do not lead back to where they were in the key frame.
@@ -196,7 +202,7 @@ const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {
   }
   const bool many_gone = 5 * points_.size() < 3 * key_count_ || key_count_ == 0;
   const bool is_due = ++since_detection_ >= settings_.key_every || many_gone || next_id_ == 0;
-  if (is_due || travelled_ > kFar_px) take_as_key(is_due);
+  if (is_due || travelled_ > kFar_px || scattered_) take_as_key(is_due);
   features_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) features_.push_back({ids_[i], full(points_[i])});
   return features_;
@@ -206,11 +212,13 @@ const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {
 void FeatureTracker::take_as_key(bool detects) {
   cv::buildOpticalFlowPyramid(reduced_, new_key_pyramid_, kWindow, kLevels, true);
   check_back();
-  if (detects) {
+  // After a cut features are followed to anywhere, and the way back shows it.
+  if (detects || 5 * points_.size() < 3 * key_count_) {
     detect();
     since_detection_ = 0;
   }
   travelled_ = 0;
+  scattered_ = false;
   std::swap(key_pyramid_, new_key_pyramid_);
   key_points_ = points_;
   key_count_ = points_.size();

@@ -60,6 +60,7 @@ class FeatureTracker {
   std::vector<Feature> features_;
   cv::Point2f drift_;  // of the median feature from the frame before the last to the last
   bool repeated_ = false;
+  bool scattered_ = false;  // the last frame's features did not move together
   int next_id_ = 0;
   int since_detection_ = 0;
   float travelled_ = 0;  // of the median feature since the key frame, in the reduced image

@@ -26,7 +26,8 @@ constexpr int kTrials = 600;
 constexpr double kSteepest = 1.7;      // tangent of the roll
 constexpr int kAlike = 10;             // columns whose errors are alike: swell, coding, haze
 constexpr int kBand_px = 14;           // above and below the edge, where texture is compared
-constexpr double kSmooth_codes = 2;    // texture of a sky, at least
+constexpr double kRougher = 0.7;       // of the texture below: that of a sky, at most
+constexpr double kSmooth_codes = 3;    // smooth, whatever is below
 constexpr double kAgree_rad = 0.0087;  // half a degree
 constexpr double kDip_rad = 0.0068;    // sqrt(2 h / R): the horizon's dip seen from 150 m
 constexpr int kLeastLines = 5;
@@ -123,24 +124,29 @@ bool is_on(const Candidate& c, const Eigen::Vector3d& normal, const Stretch& str
   return c.column >= stretch.first && c.column <= stretch.last && std::abs(normal.dot(c.ray)) <= kNear_rad;
 }
 
-// The sky is no rougher than what lies below it; of an edge within fields or streets both sides are alike.
+// The sky is smoother than what lies below it; of an edge within fields or streets both sides are alike.
+// Texture is how neighbours at the same distance from the edge differ.
 bool has_sky_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal,
                    const Stretch& stretch) {
   double above = 0;
   double below = 0;
   int count = 0;
+  const Candidate* before = nullptr;
   for (const Candidate& c : candidates) {
     if (!is_on(c, normal, stretch)) continue;
-    const int x = static_cast<int>(c.at_px.x);
-    const int y = cvRound(c.at_px.y);
-    for (int d = 3; d <= kBand_px; ++d) {
-      if (y - d < 0 || y + d >= reduced.rows || x + 3 >= reduced.cols) break;
-      above += std::abs(reduced.at<uchar>(y - d, x) - reduced.at<uchar>(y - d, x + 3));
-      below += std::abs(reduced.at<uchar>(y + d, x) - reduced.at<uchar>(y + d, x + 3));
-      ++count;
+    if (before != nullptr && before->column < c.column) {
+      const cv::Point a(cvRound(before->at_px.x), cvRound(before->at_px.y));
+      const cv::Point b(cvRound(c.at_px.x), cvRound(c.at_px.y));
+      const int room = std::min({std::min(a.y, b.y), reduced.rows - 1 - std::max(a.y, b.y), kBand_px});
+      for (int d = kStep_px; d <= room; ++d) {
+        above += std::abs(reduced.at<uchar>(a.y - d, a.x) - reduced.at<uchar>(b.y - d, b.x));
+        below += std::abs(reduced.at<uchar>(a.y + d, a.x) - reduced.at<uchar>(b.y + d, b.x));
+        ++count;
+      }
     }
+    before = &c;
   }
-  return count > 0 && above <= std::max(below, kSmooth_codes * count);
+  return count > 0 && above <= std::max(kRougher * below, kSmooth_codes * count);
 }
 
 // The plane through two candidates that has the longest stretch.
