@@ -11,7 +11,7 @@ namespace sigs {
 namespace {
 
 constexpr int kWindow_px = 15;  // of Lucas and Kanade: wide enough for cloud edges, narrow enough for the horizon
-constexpr int kLevels = 2;
+constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^3 px
 constexpr int kIterations = 8;
 constexpr double kStop_px = 0.02;
 constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
@@ -166,8 +166,12 @@ void FeatureTracker::detect() {
       const cv::Rect area_px = cv::Rect(column * cell, row * cell, cell, cell) & cv::Rect({0, 0}, allowed_.size());
       double best = 0;
       cv::Point at;
-      cv::cornerMinEigenVal(reduced_(area_px), corner_, kCorner_px);  // sees what lies around the cell, too
-      cv::minMaxLoc(corner_, nullptr, &best, nullptr, &at, allowed_(area_px));
+      // With what lies around the cell, so that a corner at its border is as strong as it is elsewhere.
+      const cv::Rect wide_px = cv::Rect(area_px.x - kCorner_px, area_px.y - kCorner_px, area_px.width + 2 * kCorner_px,
+                                        area_px.height + 2 * kCorner_px) &
+                               cv::Rect({0, 0}, allowed_.size());
+      cv::cornerMinEigenVal(reduced_(wide_px), corner_, kCorner_px);
+      cv::minMaxLoc(corner_(area_px - wide_px.tl()), nullptr, &best, nullptr, &at, allowed_(area_px));
       if (best < kLeastCorner) continue;
       points_.emplace_back(static_cast<float>(area_px.x + at.x), static_cast<float>(area_px.y + at.y));
       key_points_.push_back(points_.back());
