@@ -124,10 +124,10 @@ class Estimate {
   }
 
   void compare_with_gyro() {
-    steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
     if (telemetry_ == nullptr) return;
     read_stabilization();
     if (!settings_.use_gyro || telemetry_->camera_rate_radps.empty()) return;
+    steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
     rates_.emplace(telemetry_->camera_rate_radps);
     const RateIntegral& rates = *rates_;
     const std::vector<SeenTurn> turns = seen_turns();
@@ -196,6 +196,7 @@ class Estimate {
       for (std::size_t k = 0; k < rolled.size(); ++k) unroll_by_gyro(seen_.rays[k], times_s_[k], readout_s);
       return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
     }
+    if (steps_.empty()) steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
     std::vector<Eigen::Vector3d> rates;
     for (std::size_t k = 0; k < rolled.size(); ++k) rates.push_back(rate_at(k));
     for (int round = 0;; ++round) {

@@ -12,13 +12,15 @@ namespace {
 
 constexpr int kWindow_px = 15;  // of Lucas and Kanade: wide enough for cloud edges, narrow enough for the horizon
 constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^3 px
-constexpr int kIterations = 12;
-constexpr double kStop_px = 0.01;
+constexpr int kIterations = 8;
+constexpr double kStop_px = 0.02;
 constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
 constexpr char kPerCell = 2;           // features; more in one place tell the same again
 constexpr float kFar_px = 3;           // features look different after a longer way
+constexpr float kApart_px = 6;         // features of one scene move alike to this, most of them
 constexpr int kBorder_px = 8;          // of the image and of the own body: half a window
 constexpr float kLeastCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
+constexpr int kCorner_px = 5;          // of the window that a corner's strength is summed over
 constexpr float kRepeated = 1.5F;      // codes; frames that repeat one another differ less, even when coded again
 const cv::Size kWindow{kWindow_px, kWindow_px};
 
@@ -100,13 +102,14 @@ void FeatureTracker::keep(const std::vector<char>& good) {
   ids_.resize(kept);
 }
 
-void FeatureTracker::follow(const std::vector<cv::Mat>& pyramid) {
+void FeatureTracker::follow() {
   if (points_.empty()) return;
   std::vector<cv::Point2f> there = predicted();
   std::vector<uchar> found;
-  cv::calcOpticalFlowPyrLK(key_pyramid_, pyramid, key_points_, there, found, cv::noArray(), kWindow, kLevels, stop(),
+  cv::calcOpticalFlowPyrLK(key_pyramid_, pyramid_, key_points_, there, found, cv::noArray(), kWindow, kLevels, stop(),
                            cv::OPTFLOW_USE_INITIAL_FLOW);
-  std::vector<char> good(points_.size(), 0);
+  const std::size_t before = points_.size();
+  std::vector<char> good(before, 0);
   std::vector<float> dx;
   std::vector<float> dy;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -120,15 +123,19 @@ void FeatureTracker::follow(const std::vector<cv::Mat>& pyramid) {
   points_ = there;
   keep(good);
   drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(median(dx), median(dy));
+  std::size_t together = 0;
+  for (std::size_t i = 0; i < dx.size(); ++i)
+    together += std::hypot(dx[i] - drift_.x, dy[i] - drift_.y) < kApart_px + 0.5F * std::hypot(drift_.x, drift_.y);
+  scattered_ = 2 * together < before;
 }
 
 // Leaves out features that do not lead back to where they were in the key frame.
-void FeatureTracker::check_back(const std::vector<cv::Mat>& pyramid) {
+void FeatureTracker::check_back() {
   if (points_.empty()) return;
   std::vector<cv::Point2f> back = key_points_;
   std::vector<uchar> found;
   // The way back ends where the way there began, so that the finest level is enough.
-  cv::calcOpticalFlowPyrLK(pyramid, key_pyramid_, points_, back, found, cv::noArray(), kWindow, 0, stop(),
+  cv::calcOpticalFlowPyrLK(new_key_pyramid_, key_pyramid_, points_, back, found, cv::noArray(), kWindow, 0, stop(),
                            cv::OPTFLOW_USE_INITIAL_FLOW);
   std::vector<char> good(points_.size(), 0);
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -153,15 +160,18 @@ void FeatureTracker::detect() {
     good[i] = 1;
   }
   keep(good);
-  cv::Mat corner;
-  cv::cornerMinEigenVal(reduced_, corner, 5);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       if (taken[static_cast<std::size_t>(row * columns + column)]) continue;
       const cv::Rect area_px = cv::Rect(column * cell, row * cell, cell, cell) & cv::Rect({0, 0}, allowed_.size());
       double best = 0;
       cv::Point at;
-      cv::minMaxLoc(corner(area_px), nullptr, &best, nullptr, &at, allowed_(area_px));
+      // With what lies around the cell, so that a corner at its border is as strong as it is elsewhere.
+      const cv::Rect wide_px = cv::Rect(area_px.x - kCorner_px, area_px.y - kCorner_px, area_px.width + 2 * kCorner_px,
+                                        area_px.height + 2 * kCorner_px) &
+                               cv::Rect({0, 0}, allowed_.size());
+      cv::cornerMinEigenVal(reduced_(wide_px), corner_, kCorner_px);
+      cv::minMaxLoc(corner_(area_px - wide_px.tl()), nullptr, &best, nullptr, &at, allowed_(area_px));
       if (best < kLeastCorner) continue;
       points_.emplace_back(static_cast<float>(area_px.x + at.x), static_cast<float>(area_px.y + at.y));
       key_points_.push_back(points_.back());
@@ -169,34 +179,53 @@ void FeatureTracker::detect() {
     }
 }
 
-const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {
-  cv::Mat reduced;
-  if (luma.size() == allowed_.size())
-    luma.copyTo(reduced);
-  else
-    cv::resize(luma, reduced, allowed_.size(), 0, 0, cv::INTER_AREA);
-  repeated_ = !reduced_.empty() && is_same_image(reduced, reduced_);
-  std::vector<cv::Mat> pyramid;
-  cv::buildOpticalFlowPyramid(reduced, pyramid, kWindow, kLevels);
-  if (!repeated_) follow(pyramid);
-  reduced_ = reduced;
-  const bool many_gone = 5 * points_.size() < 3 * key_count_ || key_count_ == 0;
-  travelled_ = repeated_ ? travelled_ : travelled_ + static_cast<float>(std::hypot(drift_.x, drift_.y));
-  const bool is_due = ++since_detection_ >= settings_.key_every || many_gone || next_id_ == 0;
-  if (is_due || travelled_ > kFar_px) {
-    check_back(pyramid);
-    if (is_due) {
-      detect();
-      since_detection_ = 0;
-    }
-    travelled_ = 0;
-    key_pyramid_ = std::move(pyramid);
-    key_points_ = points_;
-    key_count_ = points_.size();
+// Halves as often as that is no more than what is wanted: fast, and each sample counts; the rest by interpolation.
+void FeatureTracker::reduce(const cv::Mat& luma) {
+  if (luma.size() == allowed_.size()) {
+    luma.copyTo(reduced_);
+    return;
   }
+  const cv::Mat* from = &luma;
+  std::size_t step = 0;
+  while (from->cols / 2 >= allowed_.cols && from->rows / 2 >= allowed_.rows) {
+    if (halved_.size() <= step) halved_.emplace_back();
+    cv::resize(*from, halved_[step], {from->cols / 2, from->rows / 2}, 0, 0, cv::INTER_AREA);
+    from = &halved_[step++];
+  }
+  cv::resize(*from, reduced_, allowed_.size(), 0, 0, cv::INTER_LINEAR);
+}
+
+const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {
+  cv::swap(reduced_, before_);
+  reduce(luma);
+  repeated_ = !before_.empty() && is_same_image(reduced_, before_);
+  if (!repeated_) {
+    cv::buildOpticalFlowPyramid(reduced_, pyramid_, kWindow, kLevels, false);
+    follow();
+    travelled_ += static_cast<float>(std::hypot(drift_.x, drift_.y));
+  }
+  const bool many_gone = 5 * points_.size() < 3 * key_count_ || key_count_ == 0;
+  const bool is_due = ++since_detection_ >= settings_.key_every || many_gone || next_id_ == 0;
+  if (is_due || travelled_ > kFar_px || scattered_) take_as_key(is_due);
   features_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) features_.push_back({ids_[i], full(points_[i])});
   return features_;
+}
+
+// Derivatives are needed of the frame that features are followed from, the key frame alone.
+void FeatureTracker::take_as_key(bool detects) {
+  cv::buildOpticalFlowPyramid(reduced_, new_key_pyramid_, kWindow, kLevels, true);
+  check_back();
+  // After a cut features are followed to anywhere, and the way back shows it.
+  if (detects || 5 * points_.size() < 3 * key_count_) {
+    detect();
+    since_detection_ = 0;
+  }
+  travelled_ = 0;
+  scattered_ = false;
+  std::swap(key_pyramid_, new_key_pyramid_);
+  key_points_ = points_;
+  key_count_ = points_.size();
 }
 
 }  // namespace sigs

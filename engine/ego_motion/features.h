@@ -34,10 +34,12 @@ class FeatureTracker {
   [[nodiscard]] double scale() const { return scale_; }
 
  private:
-  void follow(const std::vector<cv::Mat>& pyramid);
-  void check_back(const std::vector<cv::Mat>& pyramid);
+  void reduce(const cv::Mat& luma);
+  void follow();
+  void check_back();
   void keep(const std::vector<char>& good);
   void detect();
+  void take_as_key(bool detects);
   [[nodiscard]] std::vector<cv::Point2f> predicted() const;
   [[nodiscard]] cv::Point2f full(const cv::Point2f& reduced_px) const;
 
@@ -45,7 +47,12 @@ class FeatureTracker {
   double scale_ = 1;
   cv::Mat allowed_;  // of the reduced size, 255 where features may lie
   cv::Mat reduced_;
-  std::vector<cv::Mat> key_pyramid_;
+  cv::Mat before_;                        // the reduced image of the frame before
+  std::vector<cv::Mat> halved_;           // steps of the reduction
+  std::vector<cv::Mat> pyramid_;          // of the last frame, without derivatives
+  std::vector<cv::Mat> key_pyramid_;      // with derivatives, which take as long as all else
+  std::vector<cv::Mat> new_key_pyramid_;  // storage of the next one
+  cv::Mat corner_;
   std::vector<cv::Point2f> key_points_;  // of the same features in the key frame
   std::size_t key_count_ = 0;            // features that the key frame had
   std::vector<cv::Point2f> points_;      // in the reduced image
@@ -53,6 +60,7 @@ class FeatureTracker {
   std::vector<Feature> features_;
   cv::Point2f drift_;  // of the median feature from the frame before the last to the last
   bool repeated_ = false;
+  bool scattered_ = false;  // the last frame's features did not move together
   int next_id_ = 0;
   int since_detection_ = 0;
   float travelled_ = 0;  // of the median feature since the key frame, in the reduced image

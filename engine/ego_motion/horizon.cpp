@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "base/pose.h"
@@ -13,20 +14,38 @@ namespace sigs {
 
 namespace {
 
-constexpr int kColumnStep_px = 4;
-constexpr std::size_t kPerColumn = 3;  // candidates
-constexpr float kLeastEdge = 12;       // of Sobel's sums on an image of 8 bits: a step of 3 codes
-constexpr double kNear_rad = 0.003;    // a candidate on the plane
-constexpr double kLeastShare = 0.5;    // of the columns
-constexpr int kTrials = 300;
+constexpr int kColumnStep_px = 5;
+constexpr std::size_t kPerColumn = 4;  // candidates
+constexpr std::size_t kTried = 2;      // of them, through which planes are laid
+constexpr float kLeastStep = 4;        // codes by which the sky is brighter than what lies below it
+constexpr int kStep_px = 4;            // above and below the edge, where the two are compared
+constexpr double kNear_rad = 0.0025;   // a candidate on the plane
+constexpr double kLeastShare = 0.25;   // of the columns, side by side
+constexpr int kGap = 4;                // a column without the edge counts as much as so many with it
+constexpr int kTrials = 600;
+constexpr double kSteepest = 1.7;      // tangent of the roll
+constexpr int kAlike = 10;             // columns whose errors are alike: swell, coding, haze
+constexpr int kBand_px = 14;           // above and below the edge, where texture is compared
+constexpr double kRougher = 0.7;       // of the texture below: that of a sky, at most
+constexpr double kSmooth_codes = 3;    // smooth, whatever is below
 constexpr double kAgree_rad = 0.0087;  // half a degree
 constexpr double kDip_rad = 0.0068;    // sqrt(2 h / R): the horizon's dip seen from 150 m
 constexpr int kLeastLines = 5;
 
 struct Candidate {
   int column = 0;
-  bool falls = false;  // darker below
+  int rank = 0;         // 0: the strongest of its column
+  glm::dvec2 at_px{0};  // in the reduced image
   Eigen::Vector3d ray;
+};
+
+// Columns side by side that have the edge, but for a few.
+struct Stretch {
+  int first = 0;
+  int last = -1;
+  int columns = 0;  // that have it
+
+  [[nodiscard]] int length() const { return last - first + 1; }
 };
 
 bool is_own_body(const cv::Mat& own_body, double x, double y) {
@@ -36,21 +55,22 @@ bool is_own_body(const cv::Mat& own_body, double x, double y) {
   return own_body.at<uchar>(row, column) > 127;
 }
 
-// Rows of the strongest edges of a column, to parts of a row.
-std::vector<std::pair<float, float>> edges_in(const cv::Mat& gradient, int x) {
-  std::vector<std::pair<float, float>> edges;  // strength with sign, row
-  for (int y = 2; y + 2 < gradient.rows; ++y) {
-    const float before = std::abs(gradient.at<float>(y - 1, x));
-    const float here = std::abs(gradient.at<float>(y, x));
-    const float after = std::abs(gradient.at<float>(y + 1, x));
-    if (here < kLeastEdge || here < before || here <= after) continue;
+// Rows where it is brighter above than below by most, to parts of a row, with the step in codes.
+std::vector<std::pair<float, float>> edges_in(const cv::Mat& gradient, const cv::Mat& mean, int x) {
+  std::vector<std::pair<float, float>> edges;
+  for (int y = kStep_px; y + kStep_px < gradient.rows; ++y) {
+    const float before = -gradient.at<float>(y - 1, x);
+    const float here = -gradient.at<float>(y, x);
+    const float after = -gradient.at<float>(y + 1, x);
+    if (here <= 0 || here < before || here <= after) continue;
+    const float step = mean.at<float>(y - kStep_px, x) - mean.at<float>(y + kStep_px, x);
+    if (step < kLeastStep) continue;
     const float bend = before - 2 * here + after;
     const float part = bend < 0 ? 0.5F * (before - after) / bend : 0;
-    edges.emplace_back(gradient.at<float>(y, x), static_cast<float>(y) + std::clamp(part, -0.5F, 0.5F));
+    edges.emplace_back(step, static_cast<float>(y) + std::clamp(part, -0.5F, 0.5F));
   }
   const std::size_t kept = std::min(edges.size(), kPerColumn);
-  std::partial_sort(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(kept), edges.end(),
-                    [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  std::partial_sort(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(kept), edges.end(), std::greater<>());
   edges.resize(kept);
   return edges;
 }
@@ -59,29 +79,99 @@ std::vector<Candidate> candidates_in(const cv::Mat& reduced, double scale, const
                                      const cv::Mat& own_body) {
   cv::Mat smooth;
   cv::Mat gradient;
-  cv::GaussianBlur(reduced, smooth, {9, 3}, 2.5, 0.8);
+  cv::Mat mean;
+  cv::GaussianBlur(reduced, smooth, {5, 5}, 1.2);
   cv::Sobel(smooth, gradient, CV_32F, 0, 1);
+  cv::boxFilter(reduced, mean, CV_32F, {5, 2 * kStep_px - 3});
   std::vector<Candidate> candidates;
-  for (int x = kColumnStep_px; x < reduced.cols - kColumnStep_px; x += kColumnStep_px)
-    for (const auto& [strength, y] : edges_in(gradient, x)) {
+  for (int x = kColumnStep_px; x < reduced.cols - kColumnStep_px; x += kColumnStep_px) {
+    int rank = 0;
+    for (const auto& [step, y] : edges_in(gradient, mean, x)) {
       const glm::dvec2 pixel((x + 0.5) * scale - 0.5, (static_cast<double>(y) + 0.5) * scale - 0.5);
       if (is_own_body(own_body, pixel.x, pixel.y)) continue;
       if (const auto ray = camera.lens.ray(pixel))
-        candidates.push_back({x / kColumnStep_px, strength < 0, eigen_of(*ray)});
+        candidates.push_back({x / kColumnStep_px, rank++, {x, y}, eigen_of(*ray)});
     }
+  }
   return candidates;
 }
 
-// Number of columns with a candidate on the plane, of edges that all fall or all rise.
-int support(const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal, bool falls) {
-  int columns = 0;
-  int last = -1;
+// The best stretch of columns with a candidate on the plane: most columns with less those without, times kGap.
+Stretch stretch_on(const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal) {
+  Stretch best;
+  Stretch here;
+  int score = 0;
+  int best_score = 0;
   for (const Candidate& c : candidates) {
-    if (c.column == last || c.falls != falls || std::abs(normal.dot(c.ray)) > kNear_rad) continue;
-    ++columns;
-    last = c.column;
+    if (std::abs(normal.dot(c.ray)) > kNear_rad || (here.columns > 0 && c.column == here.last)) continue;
+    score -= here.columns > 0 ? kGap * (c.column - here.last - 1) : 0;
+    if (score <= 0) {
+      score = 0;
+      here = {.first = c.column, .last = c.column};
+    }
+    ++score;
+    ++here.columns;
+    here.last = c.column;
+    if (score <= best_score) continue;
+    best_score = score;
+    best = here;
   }
-  return columns;
+  return best;
+}
+
+// Whether a candidate belongs to the edge.
+bool is_on(const Candidate& c, const Eigen::Vector3d& normal, const Stretch& stretch) {
+  return c.column >= stretch.first && c.column <= stretch.last && std::abs(normal.dot(c.ray)) <= kNear_rad;
+}
+
+// The sky is smoother than what lies below it; of an edge within fields or streets both sides are alike.
+// Texture is how neighbours at the same distance from the edge differ.
+bool has_sky_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal,
+                   const Stretch& stretch) {
+  double above = 0;
+  double below = 0;
+  int count = 0;
+  const Candidate* before = nullptr;
+  for (const Candidate& c : candidates) {
+    if (!is_on(c, normal, stretch)) continue;
+    if (before != nullptr && before->column < c.column) {
+      const cv::Point a(cvRound(before->at_px.x), cvRound(before->at_px.y));
+      const cv::Point b(cvRound(c.at_px.x), cvRound(c.at_px.y));
+      const int room = std::min({std::min(a.y, b.y), reduced.rows - 1 - std::max(a.y, b.y), kBand_px});
+      for (int d = kStep_px; d <= room; ++d) {
+        above += std::abs(reduced.at<uchar>(a.y - d, a.x) - reduced.at<uchar>(b.y - d, b.x));
+        below += std::abs(reduced.at<uchar>(a.y + d, a.x) - reduced.at<uchar>(b.y + d, b.x));
+        ++count;
+      }
+    }
+    before = &c;
+  }
+  return count > 0 && above <= std::max(kRougher * below, kSmooth_codes * count);
+}
+
+// The plane through two candidates that has the longest stretch.
+std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates, int columns) {
+  std::vector<const Candidate*> strong;
+  for (const Candidate& c : candidates)
+    if (c.rank < static_cast<int>(kTried)) strong.push_back(&c);
+  if (static_cast<double>(strong.size()) < kLeastShare * columns) return std::nullopt;
+  cv::RNG chance(1);
+  const int count = static_cast<int>(strong.size());
+  int best = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Candidate& a = *strong[static_cast<std::size_t>(chance.uniform(0, count))];
+    const Candidate& b = *strong[static_cast<std::size_t>(chance.uniform(0, count))];
+    const glm::dvec2 way = b.at_px - a.at_px;
+    if (std::abs(a.column - b.column) < columns / 8 || std::abs(way.y) > kSteepest * std::abs(way.x)) continue;
+    const Eigen::Vector3d tried = a.ray.cross(b.ray).normalized();
+    if (const int found = stretch_on(candidates, tried).columns; found > best) {
+      best = found;
+      normal = tried;
+    }
+  }
+  if (best < kLeastShare * columns) return std::nullopt;
+  return normal;
 }
 
 }  // namespace
@@ -90,40 +180,25 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
                                       const cv::Mat& own_body, int frame) {
   const std::vector<Candidate> candidates = candidates_in(reduced, scale, camera, own_body);
   const int columns = reduced.cols / kColumnStep_px;
-  if (candidates.size() < static_cast<std::size_t>(columns) / 2) return std::nullopt;
-  cv::RNG chance(1);
-  int best = 0;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  bool falls = false;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const Candidate& a = candidates[static_cast<std::size_t>(chance.uniform(0, static_cast<int>(candidates.size())))];
-    const Candidate& b = candidates[static_cast<std::size_t>(chance.uniform(0, static_cast<int>(candidates.size())))];
-    if (a.falls != b.falls || std::abs(a.column - b.column) < columns / 5) continue;
-    const Eigen::Vector3d tried = a.ray.cross(b.ray).normalized();
-    if (const int count = support(candidates, tried, a.falls); count > best) {
-      best = count;
-      normal = tried;
-      falls = a.falls;
-    }
-  }
-  if (best < kLeastShare * columns) return std::nullopt;
-  int used = 0;
-  double sum = 0;
+  const std::optional<Eigen::Vector3d> plane = plane_of(candidates, columns);
+  if (!plane) return std::nullopt;
+  Eigen::Vector3d normal = *plane;
+  double sd_rad = 0;
   for (int round = 0; round < 3; ++round) {
+    const Stretch stretch = stretch_on(candidates, normal);
+    if (stretch.columns < kLeastShare * columns) return std::nullopt;
+    if (round == 2 && !has_sky_above(reduced, candidates, normal, stretch)) return std::nullopt;
     Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-    used = 0;
-    sum = 0;
-    for (const Candidate& c : candidates) {
-      const double miss = normal.dot(c.ray);
-      if (c.falls != falls || std::abs(miss) > kNear_rad) continue;
-      m += c.ray * c.ray.transpose();
-      sum += miss * miss;
-      ++used;
-    }
-    normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors().col(0);
+    for (const Candidate& c : candidates)
+      if (is_on(c, normal, stretch)) m += c.ray * c.ray.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
+    normal = solver.eigenvectors().col(0);
+    // The smallest value is the sum of squared misses; the next one tells how long the edge is.
+    const double miss2 = std::max(solver.eigenvalues()(0), 0.0) / stretch.columns + 1e-8;
+    sd_rad = std::sqrt(miss2 * kAlike / std::max(solver.eigenvalues()(1), 1e-9));
   }
   if (normal.z() > 0) normal = -normal;  // Z is down
-  return HorizonLine{frame, normal, std::sqrt(sum / used / std::max(1, used / 10))};
+  return HorizonLine{frame, normal, sd_rad};
 }
 
 std::optional<Level> level_of(std::span<const HorizonLine> lines,
@@ -149,8 +224,9 @@ std::optional<Level> level_of(std::span<const HorizonLine> lines,
   if (level.lines < kLeastLines || 2 * level.lines < static_cast<int>(ups.size())) return std::nullopt;
   level.up_in_start = best.normalized();
   double squares = 0;
-  for (const Eigen::Vector3d& up : ups)
-    if ((up - level.up_in_start).norm() <= kAgree_rad) squares += (up - level.up_in_start).squaredNorm() / 2;
+  for (std::size_t i = 0; i < ups.size(); ++i)
+    if ((ups[i] - level.up_in_start).norm() <= kAgree_rad)
+      squares += std::max((ups[i] - level.up_in_start).squaredNorm() / 2, lines[i].sd_rad * lines[i].sd_rad);
   // Hills bias all lines alike, so that the scatter does not shrink with their number.
   level.sd_rad = std::sqrt(squares / level.lines + kDip_rad * kDip_rad);
   return level;

@@ -18,9 +18,10 @@ struct HorizonLine {
   double sd_rad = 0;   // of the fit
 };
 
-// The longest such edge. Candidates are the strongest changes of brightness in each column; two of them define a plane,
-// and the plane on which most columns have a candidate is fitted to those (Fischler, Bolles 1981). Nothing where fewer
-// than half of the columns agree. Rolls beyond about 60 degrees are not seen.
+// The longest such edge below a sky. Candidates are the rows of each fifth column at which it is brighter above than
+// below by 4 codes or more; two of them define a plane, and the plane that has most columns side by side is fitted to
+// those (Fischler, Bolles 1981). Nothing where they are fewer than a quarter of the image's columns, or where what lies
+// above the edge is rougher than 0.7 of what lies below. Rolls beyond 60 degrees are not seen.
 //   reduced   CV_8UC1, the frame reduced by `scale`
 //   own_body  of the footage's size, above 127 where the own body is; may be empty
 [[nodiscard]] std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,

@@ -82,6 +82,12 @@ TEST_CASE("the first signal ends the opening of a video") {
   CHECK(status_after(SIGINT, {"check", tiny.project()}, video) == 130);
   CHECK(status_after(SIGINT, {"mask", video.string(), "--out", tiny.file("mask.png").string()}, video) == 130);
   CHECK_FALSE(fs::exists(tiny.file("mask.png")));
+  CHECK(status_after(SIGINT,
+                     {"ego-motion", video.string(), "--calibration", tiny.file("lens.xml").string(), "--out",
+                      tiny.file("a.csv").string(), "--plot", tiny.file("a.png").string()},
+                     video) == 130);
+  CHECK_FALSE(fs::exists(tiny.file("a.csv")));
+  CHECK_FALSE(fs::exists(tiny.file("a.png")));
   CHECK(status_after(SIGINT, {"export", tiny.project(), "--out", tiny.out()}, video) == 130);
   CHECK(tiny.files_out() == 0);
   const int terminated = status_after(SIGTERM, {"export", tiny.project(), "--out", tiny.out()}, video);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "ego_motion/horizon.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+
+#include "ego_motion/turns.h"
+
+namespace sigs::test {
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr int kSky = 170;
+constexpr int kSea = 120;
+
+Camera view_camera(LensModel model) {
+  LensParameters lens{.model = model, .fx = 420, .fy = 420, .cx = 319.5, .cy = 179.5};
+  if (model == LensModel::kannala_brandt) lens.coefficients = {0, 0, 0, 0};
+  return {.lens = *Lens::make(lens), .size_px = {640, 360}};
+}
+
+// Of a camera of this roll (right side down) and pitch (nose up): turned about its Y, then about its X.
+Eigen::Quaterniond level_from_camera(double roll_deg, double pitch_deg) {
+  return turn_of({0, pitch_deg * kDegree, 0}) * turn_of({roll_deg * kDegree, 0, 0});
+}
+
+// An image of a world that is given by the luma in each direction (X ahead, Z down), with noise of 1.5 codes.
+cv::Mat image_of(const Camera& camera, const Eigen::Quaterniond& level_from_camera,
+                 const std::function<double(const Eigen::Vector3d&)>& luma_in) {
+  cv::Mat image(camera.size_px, CV_32F);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const auto ray = camera.lens.ray({x, y});
+      image.at<float>(y, x) = ray ? static_cast<float>(luma_in(level_from_camera * eigen_of(*ray))) : 0.0F;
+    }
+  cv::GaussianBlur(image, image, {3, 3}, 0.6);
+  cv::Mat noise(image.size(), CV_32F);
+  cv::RNG(7).fill(noise, cv::RNG::NORMAL, 0, 1.5);
+  image += noise;
+  cv::Mat out;
+  image.convertTo(out, CV_8U);
+  return out;
+}
+
+double sea_and_sky(const Eigen::Vector3d& ray) {
+  return ray.z() > 0 ? kSea : kSky - 20 * ray.z();
+}
+
+// Random grey all over, in patches of some degrees.
+double rough_ground(const Eigen::Vector3d& ray) {
+  const auto wave = [&](double a, double b, double c) { return std::sin(a * ray.y() + b * ray.z() + c * ray.x()); };
+  return 110 + 18 * wave(61, 23, 7) + 18 * wave(-37, 59, 3) + 12 * wave(113, -71, 19) + 12 * wave(17, 131, 41);
+}
+
+double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
+}
+
+Eigen::Vector3d up_in_camera(const Eigen::Quaterniond& level_from_camera) {
+  return level_from_camera.conjugate() * Eigen::Vector3d(0, 0, -1);
+}
+
+}  // namespace
+
+TEST_CASE("a sea's horizon is found to 0.1 degrees, whatever the roll, the pitch and the lens") {
+  for (const LensModel model : {LensModel::brown_conrady, LensModel::kannala_brandt})
+    for (const auto& [roll_deg, pitch_deg] : {std::pair(0.0, 0.0), {2.3, 1.0}, {-25.0, -8.0}, {40.0, 5.0}}) {
+      const Camera camera = view_camera(model);
+      const Eigen::Quaterniond turn = level_from_camera(roll_deg, pitch_deg);
+      const auto line = horizon_in(image_of(camera, turn, sea_and_sky), 1, camera, {}, 3);
+      CAPTURE(roll_deg);
+      REQUIRE(line);
+      CHECK(line->frame == 3);
+      // A row of 420 px a radian is 0.14 degrees; edges are found to parts of it.
+      CHECK(degrees_between(line->up, up_in_camera(turn)) < 0.1);
+      CHECK(line->sd_rad < 0.1 * kDegree);
+    }
+}
+
+TEST_CASE("hills over more than half of the width do not hide the rest of the horizon") {
+  const Camera camera = view_camera(LensModel::kannala_brandt);
+  const Eigen::Quaterniond turn = level_from_camera(3, 1);
+  const auto luma = [](const Eigen::Vector3d& ray) {
+    const double azimuth = std::atan2(ray.y(), ray.x());
+    const double top = azimuth > -0.1 ? 0.05 + 0.03 * std::sin(9 * azimuth) + 0.01 * std::sin(40 * azimuth) : 0;
+    if (-ray.z() < top && azimuth > -0.1) return rough_ground(ray);
+    return sea_and_sky(ray);
+  };
+  const auto line = horizon_in(image_of(camera, turn, luma), 1, camera, {}, 0);
+  REQUIRE(line);
+  CHECK(degrees_between(line->up, up_in_camera(turn)) < 0.3);  // the visible part spans 37 degrees of 87
+}
+
+TEST_CASE("without a horizon none is found: blank, rough, an upright edge, a road through rough ground") {
+  const Camera camera = view_camera(LensModel::kannala_brandt);
+  const Eigen::Quaterniond level = level_from_camera(0, 0);
+  const auto found = [&](const std::function<double(const Eigen::Vector3d&)>& luma) {
+    return horizon_in(image_of(camera, level, luma), 1, camera, {}, 0).has_value();
+  };
+  CHECK_FALSE(found([](const Eigen::Vector3d&) { return 128.0; }));
+  CHECK_FALSE(found(rough_ground));
+  CHECK_FALSE(found([](const Eigen::Vector3d& ray) { return ray.y() < 0.02 * ray.z() ? 170.0 : 120.0; }));
+  CHECK_FALSE(found(
+      [](const Eigen::Vector3d& ray) { return std::abs(ray.z() - 0.1 * ray.y()) < 0.01 ? 200.0 : rough_ground(ray); }));
+}
+
+TEST_CASE("a horizon hidden by the own body over most of the width is none") {
+  const Camera camera = view_camera(LensModel::kannala_brandt);
+  cv::Mat body(camera.size_px, CV_8UC1, cv::Scalar(0));
+  body(cv::Rect(130, 0, 510, 360)).setTo(255);
+  const Eigen::Quaterniond level = level_from_camera(0, 0);
+  CHECK_FALSE(horizon_in(image_of(camera, level, sea_and_sky), 1, camera, body, 0));
+}
+
+TEST_CASE("lines that stay in the world are its level; lines that move by parallax are not") {
+  std::vector<HorizonLine> still;
+  std::vector<HorizonLine> moving;
+  std::vector<Eigen::Quaterniond> turns;
+  for (int k = 0; k < 20; ++k) {
+    turns.push_back(level_from_camera(k, 0.5 * k));
+    still.push_back({.frame = k, .up = up_in_camera(turns.back()), .sd_rad = 0.001});
+    moving.push_back({.frame = k,
+                      .up = turns.back().conjugate() * turn_of({0, 0.01 * k, 0}) * Eigen::Vector3d(0, 0, -1),
+                      .sd_rad = 0.001});
+  }
+  const auto level = level_of(still, turns);
+  REQUIRE(level);
+  CHECK(degrees_between(level->up_in_start, {0, 0, -1}) < 1e-6);
+  CHECK(level->sd_rad > 0.3 * kDegree);  // the horizon dips by an amount that is not known
+  CHECK_FALSE(level_of(moving, turns));
+  CHECK_FALSE(level_of(std::span(still).first(4), turns));
+  CHECK_FALSE(level_of({}, turns));
+}
+
+}  // namespace sigs::test
