@@ -41,7 +41,7 @@ struct Bundle {
 
 struct BundleSettings {
   double least_sigma_rad = 1e-5;  // of an observation
-  double least_scale_rad = 1e-4;  // of weights: what agrees as well as this is not told apart, see adjust()
+  double least_scale_rad = 1e-4;  // of weights: what agrees as well as this is not distinguished, see adjust()
   double start_sigma_rad = 2e-3;  // the first round takes no observation for wrong that misses by less
   double inverse_depth_sd = 0.3;  // what is expected of landmarks beforehand, per unit of length
   double acceleration_sd = 0.3;   // change of velocity in a second, units per second
