@@ -3,7 +3,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "ego_motion/rotation_fit.h"
@@ -28,31 +27,21 @@ double variance_of(const Eigen::Matrix3d& covariance) {
   return covariance.trace() / 3;
 }
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Variance of a recorded turn: that of the differences about their medians, which are the bias, less what the images
-// add.
+// Variance of a recorded turn: that of the differences, less what the images add.
 double gyro_variance(std::span<const FrameRotation> seen, std::span<const RecordedTurn> recorded) {
-  std::array<std::vector<double>, 3> differences;
+  std::vector<double> sizes;
   double of_images = 0;
   for (std::size_t k = 1; k < seen.size(); ++k) {
     if (!recorded[k].is_known || !seen[k].is_linked) continue;
-    const Eigen::Vector3d d = seen[k].start_from_camera.conjugate() * difference(seen[k - 1], seen[k], recorded[k]);
-    for (std::size_t axis = 0; axis < 3; ++axis) differences[axis].push_back(d(static_cast<Eigen::Index>(axis)));
+    const Eigen::Vector3d d = difference(seen[k - 1], seen[k], recorded[k]);
+    for (int axis = 0; axis < 3; ++axis) sizes.push_back(std::abs(d(axis)));
     of_images += variance_of(seen[k].own_covariance) + variance_of(seen[k - 1].own_covariance);
   }
-  if (differences[0].empty()) return kUnknown_rad * kUnknown_rad;
-  of_images /= static_cast<double>(differences[0].size());
-  std::vector<double> sizes;
-  for (std::vector<double>& of_axis : differences) {
-    const double bias_rad = median_of(of_axis);
-    for (const double d : of_axis) sizes.push_back(std::abs(d - bias_rad));
-  }
-  const double sigma = 1.4826 * median_of(sizes);
+  if (sizes.empty()) return kUnknown_rad * kUnknown_rad;
+  of_images /= static_cast<double>(sizes.size()) / 3;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double sigma = 1.4826 * *middle;
   return std::max({sigma * sigma - of_images, 0.05 * sigma * sigma, kLeastTurn_rad * kLeastTurn_rad});
 }
 
