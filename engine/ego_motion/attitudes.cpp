@@ -112,6 +112,7 @@ class Run {
     r.own_covariance = found.covariance;
     r.covariance = (1 - share) * solved.covariances[a] + share * solved.covariances[b] + found.covariance;
     r.features_used = found.features_used;
+    r.has_ground = solved.ground.has_value();
     r.rate_change_radps = found.rate_change_radps;
     return r;
   }

@@ -17,7 +17,8 @@ struct FrameRotation {
   Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();     // the part that is independent from frame to frame
   Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero();  // see rotations_of
   int features_used = 0;                                        // that agree with the rotation
-  bool is_linked = false;                                       // to the frame before; frame 0 is not
+  bool has_ground = true;  // something near moves by parallax, so that what stands still is known from what drifts
+  bool is_linked = false;  // to the frame before; frame 0 is not
 };
 
 // The rotations of all frames.

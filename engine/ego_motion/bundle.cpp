@@ -70,7 +70,7 @@ class Adjustment {
       const BundleObservation& o = bundle_.observations[i];
       const Landmark& landmark = bundle_.landmarks[static_cast<std::size_t>(o.landmark)];
       projections_[i] = projection(bundle_.frames[static_cast<std::size_t>(o.frame)], landmark, o.ray);
-      if (landmark.weight > 0.1) lengths.push_back(projections_[i].residual.norm());
+      if (landmark.weight > 0.1 && landmark.trust > 0.5) lengths.push_back(projections_[i].residual.norm());
     }
     constexpr double kSigmaOfMedian = 0.8493218;  // 1 / sqrt(2 ln 2), lengths of normal errors in two directions
     // Three unknowns of each landmark and six of each frame take up part of the errors.
@@ -78,10 +78,25 @@ class Adjustment {
     const double unknown =
         3 * static_cast<double>(bundle_.landmarks.size()) + 6 * static_cast<double>(bundle_.frames.size());
     const double share = std::sqrt(std::max(0.2, 1 - unknown / std::max(1.0, all)));
-    sigma_ = std::max(settings_.least_sigma_rad, median_of(lengths) * kSigmaOfMedian / share);
+    sigma_ = std::max(settings_.least_sigma_rad, std::max(least_sigma(), median_of(lengths) * kSigmaOfMedian) / share);
+  }
+
+  // Sigma if the best three tenths of all trusted observations were the best of normal errors: the median over those
+  // that keep their weight can shrink with them, this cannot.
+  [[nodiscard]] double least_sigma() const {
+    constexpr double kShare = 0.3;
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < projections_.size(); ++i)
+      if (bundle_.landmarks[static_cast<std::size_t>(bundle_.observations[i].landmark)].trust > 0.5)
+        lengths.push_back(projections_[i].residual.norm());
+    if (lengths.empty()) return 0;
+    const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(lengths.size()));
+    std::nth_element(lengths.begin(), at, lengths.end());
+    return *at / std::sqrt(-2 * std::log(1 - kShare));
   }
 
   void weigh(double scale) {
+    scale = std::max(scale, settings_.least_scale_rad);
     constexpr double kObservation = 3;  // sigmas at which an observation has a quarter of its weight
     constexpr double kLandmark = 1.5;   // the same of a landmark's root mean square
     weights_.resize(projections_.size());
@@ -94,8 +109,9 @@ class Adjustment {
       const double weight = geman_mcclure(mean, kLandmark * kLandmark * scale * scale);
       bundle_.landmarks[l].weight = weight;
       for (std::size_t i = first_[l]; i < first_[l + 1]; ++i)
-        weights_[i] = weight * geman_mcclure(projections_[i].residual.squaredNorm(),
-                                             2 * kObservation * kObservation * scale * scale);
+        weights_[i] =
+            weight * bundle_.landmarks[l].trust *
+            geman_mcclure(projections_[i].residual.squaredNorm(), 2 * kObservation * kObservation * scale * scale);
     }
   }
 

@@ -74,7 +74,7 @@ class Estimate {
       return fail(path_, "the own body's mask is not an 8-bit grey image of the footage's size");
     const EgoMotionSettings& s = settings_;
     if (s.features < 20 || s.max_width_px < 64 || s.key_every < 2 || s.min_features < 4 || s.window_overlap < 2 ||
-        s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) || !(s.sd_growth >= 0) ||
+        s.window_keys < 2 * s.window_overlap || !(s.sd_factor > 0) || !(s.sd_growth >= 0) || !(s.sd_walk_px >= 0) ||
         (s.readout_s && !(*s.readout_s >= 0 && *s.readout_s <= 1)))
       return fail(path_, "a setting of the estimation is out of its range", ErrorKind::usage);
     return {};
@@ -230,8 +230,9 @@ class Estimate {
 
   // From what the adjustment says to what is reported: no feature is exact, and the errors of one feature in successive
   // frames are not independent. That counts where features leave the image and others take over from them, which shows
-  // as a deviation that grows beyond that of the first seconds.
-  void scale_deviations(std::vector<FrameRotation>& rotations) const {
+  // as a deviation that grows beyond that of the first seconds. Without any ground in view even all features together
+  // may drift: clouds at 1 km in a wind of 10 m/s.
+  void scale_deviations(std::vector<FrameRotation>& rotations) {
     const double factor = std::pow(settings_.sd_factor, 2);
     const double growth = std::pow(settings_.sd_growth, 2);
     constexpr double kFloor_px = 0.01;
@@ -239,11 +240,24 @@ class Estimate {
     const auto slow = [](const FrameRotation& r) { return (r.covariance - r.own_covariance).trace() / 3; };
     const auto first_key = std::min(rotations.size() - 1, static_cast<std::size_t>(settings_.key_every));
     const double at_first = slow(rotations[first_key]);
-    for (FrameRotation& r : rotations) {
+    constexpr double kClouds_radps = 0.01;
+    double clouds_rad = 0;
+    std::vector<int> without_ground;
+    for (std::size_t k = 0; k < rotations.size(); ++k) {
+      FrameRotation& r = rotations[k];
+      if (k > 0 && r.is_linked && !r.has_ground) {
+        clouds_rad += kClouds_radps * (times_s_[k] - times_s_[k - 1]);
+        without_ground.push_back(static_cast<int>(k));
+      }
+      const double walk = std::pow(settings_.sd_walk_px * seen_.pixel_rad, 2) * (times_s_[k] - times_s_[0]);
       const double grown = std::max(0.0, slow(r) - at_first) / std::max(slow(r), 1e-18);
       r.covariance = factor * r.covariance + growth * grown * (r.covariance - r.own_covariance) + floor;
+      r.covariance += Eigen::Matrix3d::Identity() * (walk + clouds_rad * clouds_rad);
       r.own_covariance = factor * r.own_covariance + floor;
     }
+    if (!without_ground.empty())
+      warn("nothing near moves by parallax, so that clouds which drift cannot be told from a turn of the camera: " +
+           ranges_text(without_ground));
   }
 
   void fill(const std::vector<FrameRotation>& of_images, const std::vector<FrameRotation>& rotations) {

@@ -3,7 +3,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "ego_motion/rotation_fit.h"
@@ -14,7 +13,7 @@ namespace sigs {
 namespace {
 
 constexpr double kBiasSd_radps = 0.03;   // of consumer gyroscopes at the start
-constexpr double kBiasWalk = 2e-4;       // rad/s in the square root of a second
+constexpr double kBiasWalk = 5e-5;       // rad/s in the square root of a second
 constexpr double kLeastTurn_rad = 1e-5;  // standard deviation of a recorded turn between frames
 constexpr double kUnknown_rad = 3.14;
 
@@ -46,44 +45,53 @@ double gyro_variance(std::span<const FrameRotation> seen, std::span<const Record
   return std::max({sigma * sigma - of_images, 0.05 * sigma * sigma, kLeastTurn_rad * kLeastTurn_rad});
 }
 
-using State =
-    Eigen::Vector3d;  // what the images are off by (rotation sought less rotation seen), minus their own drift...
-using Spread = Eigen::Matrix3d;
+// What the rotation sought is less the one seen (3), how far the images have drifted (3), both in the axes of the
+// start, and the gyroscope's bias in its own axes (3).
+using State = Eigen::Matrix<double, 9, 1>;
+using Spread = Eigen::Matrix<double, 9, 9>;
 
 struct Estimate {
   State mean = State::Zero();
   Spread spread = Spread::Zero();
 };
 
-// One axis: (e, d, b). e: the rotation sought less the one seen; d: how far the images have drifted; b: bias.
-//   between frames  e += difference - b dt;  d walks
+// (e, d, b).
+//   between frames  e += difference - R b dt, R the camera's attitude;  d and b walk
 //   at a frame      0 = e + d + noise
-class AxisSmoother {
+class Smoother {
  public:
-  void begin(double bias_sd) {
+  explicit Smoother(double bias_sd) {
     Estimate first;
-    first.spread(2, 2) = bias_sd * bias_sd;
+    first.spread.diagonal().tail<3>().setConstant(bias_sd * bias_sd);
     filtered_ = {first};
     predicted_ = {first};
-    transitions_ = {Spread::Identity()};
+    turns_ = {Eigen::Matrix3d::Zero()};
   }
 
-  void add(double step_s, double difference_rad, double turn_variance, double drift_variance, double seen_variance) {
-    Spread transition = Spread::Identity();
-    transition(0, 2) = -step_s;
+  struct Step {
+    double length_s = 0;
+    Eigen::Matrix3d start_from_camera;
+    Eigen::Vector3d difference_rad;
+    double turn_variance = 0, drift_variance = 0, seen_variance = 0;
+  };
+
+  void add(const Step& step) {
+    turns_.emplace_back(-step.length_s * step.start_from_camera);
+    const Spread transition = transition_of(turns_.back());
     Estimate next;
     next.mean = transition * filtered_.back().mean;
-    next.mean(0) += difference_rad;
+    next.mean.head<3>() += step.difference_rad;
     next.spread = transition * filtered_.back().spread * transition.transpose();
-    next.spread(0, 0) += turn_variance;
-    next.spread(1, 1) += drift_variance;
-    next.spread(2, 2) += kBiasWalk * kBiasWalk * step_s;
-    transitions_.push_back(transition);
+    next.spread.diagonal().head<3>().array() += step.turn_variance;
+    next.spread.diagonal().segment<3>(3).array() += step.drift_variance;
+    next.spread.diagonal().tail<3>().array() += kBiasWalk * kBiasWalk * step.length_s;
     predicted_.push_back(next);
-    const State h(1, 1, 0);
-    const State gain = next.spread * h / (h.dot(next.spread * h) + seen_variance);
-    next.mean -= gain * h.dot(next.mean);
-    next.spread = (next.spread - gain * h.transpose() * next.spread).eval();
+    const Eigen::Matrix<double, 9, 3> across = next.spread.leftCols<3>() + next.spread.middleCols<3>(3);
+    const Eigen::Matrix3d seen =
+        across.topRows<3>() + across.middleRows<3>(3) + Eigen::Matrix3d::Identity() * step.seen_variance;
+    const Eigen::Matrix<double, 9, 3> gain = across * seen.inverse();
+    next.mean -= gain * (next.mean.head<3>() + next.mean.segment<3>(3)).eval();
+    next.spread -= gain * across.transpose();
     next.spread = (0.5 * (next.spread + next.spread.transpose())).eval();
     filtered_.push_back(next);
   }
@@ -91,9 +99,9 @@ class AxisSmoother {
   [[nodiscard]] std::vector<Estimate> smoothed() const {
     std::vector<Estimate> out = filtered_;
     for (std::size_t k = out.size() - 1; k-- > 0;) {
-      Spread inverse_of = predicted_[k + 1].spread;
-      inverse_of.diagonal().array() += 1e-18;
-      const Spread gain = filtered_[k].spread * transitions_[k + 1].transpose() * inverse_of.inverse();
+      Spread ahead = predicted_[k + 1].spread;
+      ahead.diagonal().array() += 1e-18;
+      const Spread gain = filtered_[k].spread * transition_of(turns_[k + 1]).transpose() * ahead.inverse();
       out[k].mean += gain * (out[k + 1].mean - predicted_[k + 1].mean);
       out[k].spread += gain * (out[k + 1].spread - predicted_[k + 1].spread) * gain.transpose();
     }
@@ -101,9 +109,15 @@ class AxisSmoother {
   }
 
  private:
+  static Spread transition_of(const Eigen::Matrix3d& by_bias) {
+    Spread transition = Spread::Identity();
+    transition.block<3, 3>(0, 6) = by_bias;
+    return transition;
+  }
+
   std::vector<Estimate> filtered_;
   std::vector<Estimate> predicted_;
-  std::vector<Spread> transitions_;
+  std::vector<Eigen::Matrix3d> turns_;
 };
 
 }  // namespace
@@ -164,28 +178,25 @@ std::vector<FrameRotation> fused(std::span<const FrameRotation> seen, std::span<
   if (seen.size() < 2) return out;
   const double turn_variance = gyro_variance(seen, recorded);
   const double unknown = kUnknown_rad * kUnknown_rad;
-  std::array<AxisSmoother, 3> axes;
-  for (AxisSmoother& axis : axes) axis.begin(kBiasSd_radps);
+  Smoother smoother(kBiasSd_radps);
   for (std::size_t k = 1; k < seen.size(); ++k) {
     const bool known = recorded[k].is_known;
-    const Eigen::Vector3d d =
-        known ? difference(seen[k - 1], seen[k], recorded[k]) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     const double grown = variance_of(seen[k].covariance - seen[k].own_covariance) -
                          variance_of(seen[k - 1].covariance - seen[k - 1].own_covariance);
-    const double drift = seen[k].is_linked ? std::max(grown, 1e-14) : unknown;
-    for (int axis = 0; axis < 3; ++axis)
-      axes[static_cast<std::size_t>(axis)].add(times_s[k] - times_s[k - 1], d(axis), known ? turn_variance : unknown,
-                                               drift, variance_of(seen[k].own_covariance) + 1e-14);
+    Smoother::Step step{.length_s = times_s[k] - times_s[k - 1],
+                        .start_from_camera = seen[k].start_from_camera.toRotationMatrix(),
+                        .difference_rad = Eigen::Vector3d::Zero(),
+                        .turn_variance = known ? turn_variance : unknown,
+                        .drift_variance = seen[k].is_linked ? std::max(grown, 1e-14) : unknown,
+                        .seen_variance = variance_of(seen[k].own_covariance) + 1e-14};
+    if (known) step.difference_rad = difference(seen[k - 1], seen[k], recorded[k]);
+    smoother.add(step);
   }
-  const std::array<std::vector<Estimate>, 3> smoothed{axes[0].smoothed(), axes[1].smoothed(), axes[2].smoothed()};
+  const std::vector<Estimate> smoothed = smoother.smoothed();
   for (std::size_t k = 0; k < out.size(); ++k) {
-    Eigen::Vector3d change;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      change(static_cast<Eigen::Index>(axis)) = smoothed[axis][k].mean(0);
-      covariance(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(axis)) =
-          std::max(0.0, smoothed[axis][k].spread(0, 0));
-    }
+    const Eigen::Vector3d change = smoothed[k].mean.head<3>();
+    Eigen::Matrix3d covariance = smoothed[k].spread.topLeftCorner<3, 3>();
+    covariance.diagonal() = covariance.diagonal().cwiseMax(0.0);
     out[k].start_from_camera = (turn_of(change) * seen[k].start_from_camera).normalized();
     const Eigen::Matrix3d camera_from_start = out[k].start_from_camera.conjugate().toRotationMatrix();
     out[k].covariance = camera_from_start * covariance * camera_from_start.transpose();

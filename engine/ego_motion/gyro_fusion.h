@@ -30,9 +30,10 @@ struct RecordedTurn {
                                                 const TimeOffset& offset);
 
 // Rotations seen and recorded, joined: each by its standard deviation; the gyroscope's bias is estimated with them. A
-// linear Kalman filter and Rauch-Tung-Striebel smoother (Gelb: Applied Optimal Estimation, 1974, chapter 5) for each
-// axis of (what the images' rotation is off by, how far they have drifted, bias). Frames that are not linked to the one
-// before are bridged by the gyroscope. The noise of the gyroscope is found from its differences to what is seen.
+// linear Kalman filter and Rauch-Tung-Striebel smoother (Gelb: Applied Optimal Estimation, 1974, chapter 5) of what the
+// images' rotation is off by, how far they have drifted, and the bias about the camera's axes. Frames that are not
+// linked to the one before are bridged by the gyroscope. The noise of the gyroscope is found from its differences to
+// what is seen.
 [[nodiscard]] std::vector<FrameRotation> fused(std::span<const FrameRotation> seen, std::span<const double> times_s,
                                                std::span<const RecordedTurn> recorded);
 

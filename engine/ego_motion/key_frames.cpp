@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "ego_motion/ground_plane.h"
 #include "ego_motion/turns.h"
 
 namespace sigs {
@@ -15,6 +16,7 @@ namespace sigs {
 namespace {
 
 constexpr double kFloor_px = 0.02;      // no feature is known better
+constexpr double kScale_px = 0.2;       // features in coded footage are off by about half of it
 constexpr std::size_t kLocalKeys = 10;  // adjusted together while key frames are added
 constexpr std::size_t kAddedKeys = 3;   // between two such adjustments
 constexpr double kRateSd_radps = 2;     // of a rate that is not known from frame to frame
@@ -26,6 +28,7 @@ class KeyAdjuster {
               std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad)
       : frames_(frames), times_s_(times_s), first_values_(first_values), keys_(keys), pixel_rad_(pixel_rad) {
     bundle_settings_.least_sigma_rad = kFloor_px * pixel_rad;
+    bundle_settings_.least_scale_rad = kScale_px * pixel_rad;
   }
 
   KeyFrames solved() {
@@ -35,6 +38,7 @@ class KeyAdjuster {
       if (k % kAddedKeys == 0 || k + 1 == keys_.size()) adjust_range(k < kLocalKeys ? 0 : k + 1 - kLocalKeys, k + 1, 8);
     }
     const BundleFit fit = adjust_range(0, keys_.size(), 14);
+    result_.ground = ground_;
     result_.covariances = fit.covariances;
     result_.sigma_rad = fit.sigma_rad;
     return std::move(result_);
@@ -82,9 +86,11 @@ class KeyAdjuster {
     BundleSettings settings = bundle_settings_;
     settings.rounds = rounds;
     settings.start_sigma_rad = 4 * pixel_rad_;
+    for (Landmark& landmark : bundle.landmarks) landmark.trust = trust_of(ground_, landmark.direction);
     BundleFit fit = adjust(bundle, settings);
     std::copy(bundle.frames.begin(), bundle.frames.end(), result_.frames.begin() + static_cast<std::ptrdiff_t>(begin));
     for (std::size_t i = 0; i < ids.size(); ++i) result_.landmarks[ids[i]] = bundle.landmarks[i];
+    ground_ = ground_of(bundle.landmarks);
     return fit;
   }
 
@@ -114,6 +120,7 @@ class KeyAdjuster {
   std::span<const int> keys_;
   double pixel_rad_;
   BundleSettings bundle_settings_;
+  std::optional<Eigen::Vector3d> ground_;  // of the last adjustment
   KeyFrames result_;
 };
 
@@ -179,7 +186,7 @@ LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const B
     for (const Seen& s : seen) {
       const Projection p = projection(frame, *s.landmark, turn_of(rate * s.delay_s) * *s.ray);
       const double root = 1 / (1 + p.residual.squaredNorm() / (2 * scale * scale));
-      const double w = s.landmark->weight * root * root;
+      const double w = s.landmark->weight * s.landmark->trust * root * root;
       if (root > 0.3) ++used;
       Eigen::Matrix<double, 2, 9> by;
       // A ray that is unrolled by a larger rate moves as if the camera turned back by as much.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -16,6 +17,7 @@ struct KeyFrames {
   std::vector<Eigen::Matrix3d> covariances;     // of their rotations against the first
   std::unordered_map<int, Landmark> landmarks;  // by the feature's id
   double sigma_rad = 0;                         // of one feature in one frame, in one direction
+  std::optional<Eigen::Vector3d> ground;        // as ground_of() has it; none: nothing near shows parallax
 };
 
 // Adjusts key frames: first each few with those shortly before them, so that the first values need not be good over the

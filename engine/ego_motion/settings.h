@@ -25,9 +25,12 @@ struct EgoMotionSettings {
 
   // Factors from the adjustment's own standard deviation to the one that is reported: sd_factor of all of it, sd_growth
   // of what it grows by while features leave the image and others take over. The errors of a feature in successive
-  // frames are not independent, which the adjustment takes them to be. Fitted to synthetic flights.
-  double sd_factor = 1.2;
-  double sd_growth = 3.0;
+  // frames are not independent, which the adjustment takes them to be. What the adjustment cannot see, since it is
+  // common to features that stay in view, grows with the square root of time: sd_walk_px of the reduced image after one
+  // second. Fitted to synthetic flights.
+  double sd_factor = 1.0;
+  double sd_walk_px = 0.05;
+  double sd_growth = 4.0;
 };
 
 }  // namespace sigs

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "ego_motion/ground_plane.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/turns.h"
 #include "synthetic_rays.h"
@@ -55,6 +56,43 @@ TEST_CASE("with noise of 0.1 px the rotation is off by less than that, also when
 
 TEST_CASE("points that move together do not pull the rotation, though three of ten do") {
   CHECK(largest_error_px({.frames = 60, .moving_share = 0.3}) < 0.3);
+}
+
+TEST_CASE("clouds over two fifths of the image that the wind moves as one do not turn the camera") {
+  // In 10 s clouds at 700 m, seen 30 degrees up, move by 320 mrad at 45 m/s: 160 px.
+  CHECK(largest_error_px({.frames = 250, .clouds_m = 700}) < 0.5);
+  CHECK(largest_error_px({.frames = 250, .clouds_m = 1500, .wind_mps = 15}) < 0.5);
+  CHECK(largest_error_px({.frames = 250, .turn_radps = {0, 0, 0.2}, .clouds_m = 700}) < 0.7);
+}
+
+TEST_CASE("where clouds far up are all that is seen, it is said that nothing in view is known to stand still") {
+  const auto has_ground = [](const RayFlightSettings& settings) {
+    const RayFlight flight = ray_flight(settings);
+    return rotations_of(flight.frames, flight.times_s, settings.pixel_rad, {}).back().has_ground;
+  };
+  CHECK_FALSE(has_ground({.clouds_m = 9000, .wind_mps = 20, .pitch_rad = 0.6}));
+  CHECK(has_ground({}));
+}
+
+TEST_CASE("the ground below is told by parallax, whatever way the camera is turned") {
+  std::mt19937 chance(3);
+  std::uniform_real_distribution<double> even(-1, 1);
+  const Eigen::Vector3d down = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
+  std::vector<Landmark> landmarks;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d direction = Eigen::Vector3d(even(chance), even(chance), even(chance)).normalized();
+    const double below = direction.dot(down);
+    landmarks.push_back(
+        {.direction = direction, .inverse_depth = below > 0 ? below / 6 * (1 + 0.2 * even(chance)) : 0});
+  }
+  const auto ground = ground_of(landmarks);
+  REQUIRE(ground);
+  CHECK(ground->normalized().dot(down) > 0.999);
+  CHECK(1 / ground->norm() == doctest::Approx(6).epsilon(0.05));
+  CHECK(trust_of(ground, down) == 1);
+  CHECK(trust_of(ground, -down) < 0.1);
+  CHECK(trust_of(std::nullopt, -down) == 1);
+  CHECK_FALSE(ground_of({}));
 }
 
 TEST_CASE("a rotation is found exactly although four of ten pairs are astray") {

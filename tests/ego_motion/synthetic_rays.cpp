@@ -29,7 +29,9 @@ RayFlight ray_flight(const RayFlightSettings& s) {
   RayFlight flight;
   std::vector<Point> points;
   int next_id = 0;
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  const Eigen::Quaterniond start = turn_of({0, s.pitch_rad, 0});
+  Eigen::Quaterniond turn = start;
+  const double wind_mps = s.clouds_m > 0 ? s.wind_mps : 25.0;
   Eigen::Vector3d place(0, 0, -s.height_m);
   Eigen::Vector3d shake_before(0, 0, 0);
   for (int k = 0; k < s.frames; ++k) {
@@ -39,7 +41,7 @@ RayFlight ray_flight(const RayFlightSettings& s) {
     const Eigen::Quaterniond world_from_camera = turn * turn_of(shake);
     const double t = k / s.rate_hz;
     const auto seen_from = [&](const Point& p) {
-      const Eigen::Vector3d drift = p.moves ? Eigen::Vector3d(0, 25.0 * t, 0) : Eigen::Vector3d(0, 0, 0);
+      const Eigen::Vector3d drift = p.moves ? Eigen::Vector3d(0, wind_mps * t, 0) : Eigen::Vector3d(0, 0, 0);
       return Eigen::Vector3d(world_from_camera.conjugate() * (p.place + drift - place));
     };
     const auto is_seen = [](const Eigen::Vector3d& v) {
@@ -53,9 +55,14 @@ RayFlight ray_flight(const RayFlightSettings& s) {
       Point p{.id = next_id++, .moves = even(chance) < s.moving_share};
       // Ground below the horizon up to 8 km, hills or clouds beyond.
       const double to_ground = ray.z() > 0.01 ? s.height_m / ray.z() : 1e9;
-      const double distance = p.moves ? 1500 : std::min(to_ground, 8000 + 4000 * even(chance));
+      constexpr double kHills = 0.05;  // sine of the angle up to which the horizon hides the clouds
+      const bool cloud = s.clouds_m > 0 && ray.z() < -kHills;
+      p.moves = p.moves || cloud;
+      const double distance = cloud     ? s.clouds_m / -ray.z()
+                              : p.moves ? 1500
+                                        : std::min(to_ground, 8000 + 4000 * even(chance));
       p.place = place + distance * ray;
-      if (p.moves) p.place -= Eigen::Vector3d(0, 25.0 * t, 0);
+      if (p.moves) p.place -= Eigen::Vector3d(0, wind_mps * t, 0);
       points.push_back(p);
     }
     FrameRays rays;
@@ -71,8 +78,8 @@ RayFlight ray_flight(const RayFlightSettings& s) {
     std::sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     flight.frames.push_back(std::move(rays));
     flight.times_s.push_back(t);
-    flight.start_from_camera.push_back(world_from_camera);
-    place += world_from_camera * Eigen::Vector3d(s.speed_mps / s.rate_hz, 0, 0);
+    flight.start_from_camera.push_back(start.conjugate() * world_from_camera);
+    place += start.conjugate() * world_from_camera * Eigen::Vector3d(s.speed_mps / s.rate_hz, 0, 0);
     turn = turn * turn_of(s.turn_radps / s.rate_hz);
     shake_before = shake;
   }

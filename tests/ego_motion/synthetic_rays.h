@@ -12,7 +12,7 @@ namespace sigs::test {
 struct RayFlight {
   std::vector<FrameRays> frames;
   std::vector<double> times_s;
-  std::vector<Eigen::Quaterniond> start_from_camera;  // the truth
+  std::vector<Eigen::Quaterniond> start_from_camera;  // the truth, against frame 0
 };
 
 struct RayFlightSettings {
@@ -26,6 +26,9 @@ struct RayFlightSettings {
   Eigen::Vector3d turn_radps{0, 0, 0};  // even, about the camera's axes
   double shake_rad = 0;                 // from frame to frame
   double moving_share = 0;              // of the points that drift together, as clouds do
+  double clouds_m = 0;                  // not 0: the sky is a layer of clouds at this height above, moved by the wind
+  double wind_mps = 45;                 // to the right, of these clouds
+  double pitch_rad = 0;                 // of the optical axis, upwards
   double readout_s = 0;
   unsigned seed = 1;
 };
