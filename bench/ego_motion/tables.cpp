@@ -58,7 +58,7 @@ std::vector<Variant> variants() {
 
 void measure_cases(const accuracy::Call& call) {
   accuracy::Csv csv(call.folder / "cases.csv", std::string("case,seed,gyro,") + kValues);
-  for (const std::uint32_t seed : {1U, 2U})
+  for (const std::uint32_t seed : {1U, 2U, 3U})
     for (const std::string& kind : made::case_names()) {
       const MadeFlight flight = made_flight(call, kind, seed);
       for (const bool with_gyro : {false, true})
