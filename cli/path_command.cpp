@@ -43,7 +43,7 @@ struct PathOptions {
   bool force = false;
 };
 
-using Paths = std::vector<RecordedPath>;
+using RecordedPaths = std::vector<RecordedPath>;
 
 // "2026-05-01T12:00:00Z to 2026-05-01T12:10:00Z (10:00)"
 std::string time_span_text(const RecordedPath& path) {
@@ -82,11 +82,11 @@ bool is_called(const RecordedPath& path, const std::string& name) {
 }
 
 // Those asked for. Error usage where there is none of that name.
-Result<Paths> chosen_paths(Paths paths, const PathOptions& options) {
+Result<RecordedPaths> chosen_paths(RecordedPaths paths, const PathOptions& options) {
   if (options.name.empty()) return paths;
   constexpr std::size_t kMostNamed = 10;
   std::vector<std::string> others;
-  Paths chosen;
+  RecordedPaths chosen;
   for (RecordedPath& path : paths) {
     if (is_called(path, options.name))
       chosen.push_back(std::move(path));
@@ -106,7 +106,7 @@ std::array<std::uint8_t, 3> color_number(std::size_t index) {
   return kColors[index % kColors.size()];
 }
 
-std::vector<GeoPath> geo_paths_of(const Paths& paths) {
+std::vector<GeoPath> geo_paths_of(const RecordedPaths& paths) {
   std::vector<GeoPath> all;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const RecordedPath& path = paths[i];
@@ -122,7 +122,7 @@ std::vector<GeoPath> geo_paths_of(const Paths& paths) {
   return all;
 }
 
-std::string table_of(const Paths& paths) {
+std::string table_of(const RecordedPaths& paths) {
   std::string text = "name,icao24,time_s,utc,latitude_deg,longitude_deg,height_m\n";
   for (const RecordedPath& path : paths) {
     const std::string begin = csv_field(path.name) + ',' + csv_field(path.icao24) + ',';
@@ -141,7 +141,7 @@ Result<std::string> globe_text(const std::vector<GeoPath>& paths, const PathOpti
 }
 
 // The contents of the output, by its extension. Error usage.
-Result<std::string> converted(const Paths& paths, const PathOptions& options) {
+Result<std::string> converted(const RecordedPaths& paths, const PathOptions& options) {
   const std::string extension = lower_extension(options.out);
   if (extension == ".kml" || extension == ".czml") return globe_text(geo_paths_of(paths), options);
   if (extension == ".csv") return table_of(paths);
@@ -149,7 +149,9 @@ Result<std::string> converted(const Paths& paths, const PathOptions& options) {
 }
 
 Result<void> write(const std::string& text, const PathOptions& options) {
-  if (const Result<void> kept = check_inputs_not_overwritten({options.out}, {options.file}); !kept) return kept;
+  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{options.out}, std::vector{options.file});
+      !kept)
+    return kept;
   defer_interrupts();
   if (const Result<void> written = write_text(options.out, text, options.force); !written) return written;
   std::printf("%s\n", options.out.c_str());
@@ -173,9 +175,9 @@ Result<void> run(const PathOptions& options) {
   if (is_project_file(options.file)) return run_on_project(options);
   if (!options.out.empty())
     if (const Result<std::string> empty = converted({}, options); !empty) return fail(empty.error());
-  Result<Paths> all = read_recorded_paths(options.file);
+  Result<RecordedPaths> all = read_recorded_paths(options.file);
   if (!all) return fail(all.error());
-  const Result<Paths> paths = chosen_paths(std::move(*all), options);
+  const Result<RecordedPaths> paths = chosen_paths(std::move(*all), options);
   if (!paths) return fail(paths.error());
   for (const RecordedPath& path : *paths) print_path(path);
   if (!options.into.project.empty()) {

@@ -50,7 +50,7 @@ double gyro_variance(std::span<const FrameRotation> seen, std::span<const Record
 using State = Eigen::Matrix<double, 9, 1>;
 using Spread = Eigen::Matrix<double, 9, 9>;
 
-struct Estimate {
+struct FilterState {
   State mean = State::Zero();
   Spread spread = Spread::Zero();
 };
@@ -61,7 +61,7 @@ struct Estimate {
 class Smoother {
  public:
   explicit Smoother(double bias_sd) {
-    Estimate first;
+    FilterState first;
     first.spread.diagonal().tail<3>().setConstant(bias_sd * bias_sd);
     filtered_ = {first};
     predicted_ = {first};
@@ -78,7 +78,7 @@ class Smoother {
   void add(const Step& step) {
     turns_.emplace_back(-step.length_s * step.start_from_camera);
     const Spread transition = transition_of(turns_.back());
-    Estimate next;
+    FilterState next;
     next.mean = transition * filtered_.back().mean;
     next.mean.head<3>() += step.difference_rad;
     next.spread = transition * filtered_.back().spread * transition.transpose();
@@ -96,8 +96,8 @@ class Smoother {
     filtered_.push_back(next);
   }
 
-  [[nodiscard]] std::vector<Estimate> smoothed() const {
-    std::vector<Estimate> out = filtered_;
+  [[nodiscard]] std::vector<FilterState> smoothed() const {
+    std::vector<FilterState> out = filtered_;
     for (std::size_t k = out.size() - 1; k-- > 0;) {
       Spread ahead = predicted_[k + 1].spread;
       ahead.diagonal().array() += 1e-18;
@@ -115,8 +115,8 @@ class Smoother {
     return transition;
   }
 
-  std::vector<Estimate> filtered_;
-  std::vector<Estimate> predicted_;
+  std::vector<FilterState> filtered_;
+  std::vector<FilterState> predicted_;
   std::vector<Eigen::Matrix3d> turns_;
 };
 
@@ -192,7 +192,7 @@ std::vector<FrameRotation> fused(std::span<const FrameRotation> seen, std::span<
     if (known) step.difference_rad = difference(seen[k - 1], seen[k], recorded[k]);
     smoother.add(step);
   }
-  const std::vector<Estimate> smoothed = smoother.smoothed();
+  const std::vector<FilterState> smoothed = smoother.smoothed();
   for (std::size_t k = 0; k < out.size(); ++k) {
     const Eigen::Vector3d change = smoothed[k].mean.head<3>();
     Eigen::Matrix3d covariance = smoothed[k].spread.topLeftCorner<3, 3>();

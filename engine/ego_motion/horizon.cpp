@@ -22,7 +22,7 @@ constexpr int kStep_px = 4;            // above and below the edge, where the tw
 constexpr double kNear_rad = 0.0025;   // a candidate on the plane
 constexpr double kLeastShare = 0.25;   // of the columns, side by side
 constexpr int kGap = 4;                // a column without the edge counts as much as so many with it
-constexpr int kTrials = 600;
+constexpr int kHorizonTrials = 600;
 constexpr double kSteepest = 1.7;      // tangent of the roll
 constexpr int kAlike = 10;             // columns whose errors are alike: swell, coding, haze
 constexpr int kBand_px = 14;           // above and below the edge, where texture is compared
@@ -159,7 +159,7 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
   const int count = static_cast<int>(strong.size());
   int best = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < kHorizonTrials; ++trial) {
     const Candidate& a = *strong[static_cast<std::size_t>(chance.uniform(0, count))];
     const Candidate& b = *strong[static_cast<std::size_t>(chance.uniform(0, count))];
     const glm::dvec2 way = b.at_px - a.at_px;

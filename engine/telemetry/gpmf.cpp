@@ -7,17 +7,13 @@
 
 #include "base/text.h"
 
+#include "telemetry/binary_numbers.h"
+
 namespace sigs {
 namespace {
 
-constexpr std::size_t kHeader_bytes = 8;
+constexpr std::size_t kElementHeader_bytes = 8;
 constexpr std::size_t kMaxColumns = 255;  // a sample has at most 255 bytes
-
-std::uint64_t big_endian(std::string_view bytes) {
-  std::uint64_t number = 0;
-  for (const char byte : bytes) number = number << 8 | static_cast<unsigned char>(byte);
-  return number;
-}
 
 // Bytes of one number of a type; 0: no such type.
 int size_of_type(char type) {
@@ -124,7 +120,7 @@ GpmfLevel gpmf_level(std::string_view value, std::int64_t at) {
   while (i < value.size()) {
     const std::string_view rest = value.substr(i);
     const std::int64_t here = at + static_cast<std::int64_t>(i);
-    if (rest.size() < kHeader_bytes || !is_key(rest.substr(0, 4))) {
+    if (rest.size() < kElementHeader_bytes || !is_key(rest.substr(0, 4))) {
       if (!is_padding(rest)) level.broken_at = here;
       return level;
     }
@@ -132,18 +128,18 @@ GpmfLevel gpmf_level(std::string_view value, std::int64_t at) {
     element.size = static_cast<unsigned char>(rest[5]);
     element.repeat = static_cast<int>(big_endian(rest.substr(6, 2)));
     const std::size_t bytes = static_cast<std::size_t>(element.size) * static_cast<std::size_t>(element.repeat);
-    if (bytes > rest.size() - kHeader_bytes) {
+    if (bytes > rest.size() - kElementHeader_bytes) {
       level.broken_at = here;
       // Of elements in one that is cut off, the first may be whole.
       if (element.type == 0) {
-        element.value = rest.substr(kHeader_bytes);
+        element.value = rest.substr(kElementHeader_bytes);
         level.elements.push_back(element);
       }
       return level;
     }
-    element.value = rest.substr(kHeader_bytes, bytes);
+    element.value = rest.substr(kElementHeader_bytes, bytes);
     level.elements.push_back(element);
-    i += kHeader_bytes + (bytes + 3) / 4 * 4;
+    i += kElementHeader_bytes + (bytes + 3) / 4 * 4;
   }
   return level;
 }

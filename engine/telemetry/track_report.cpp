@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMinJump_s = 0.5;  // less may be a delay
 
-double median_interval_s(const std::vector<double>& times_s) {
+double typical_interval_s(const std::vector<double>& times_s) {
   std::vector<double> intervals_s;
   for (std::size_t i = 1; i < times_s.size(); ++i)
     if (times_s[i] > times_s[i - 1]) intervals_s.push_back(times_s[i] - times_s[i - 1]);
@@ -147,7 +147,7 @@ std::vector<ChannelReport> track_report(const Track& track) {
                          .count = static_cast<int>(channel.values.size()),
                          .first_s = channel.times_s.front(),
                          .last_s = channel.times_s.back()};
-    const double interval_s = median_interval_s(channel.times_s);
+    const double interval_s = typical_interval_s(channel.times_s);
     if (interval_s > 0) report.median_rate_hz = 1 / interval_s;
     find_gaps(report, channel.times_s, interval_s);
     find_jumps(report, channel.times_s, channel.own_times_s, interval_s);

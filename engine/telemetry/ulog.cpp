@@ -18,7 +18,7 @@
 namespace sigs {
 namespace {
 
-using Values = std::span<const double>;
+using TopicValues = std::span<const double>;
 
 constexpr double kLeastUtc_us = 946684800e6;  // the year 2000; before it, the receiver had no date
 constexpr double kUtcDrift_s = 0.5;
@@ -31,7 +31,7 @@ struct GimbalAttitude {
 };
 
 // A unit quaternion, if the numbers are nearly one. Elements w, x, y, z.
-std::optional<glm::dquat> unit_quaternion(Values wxyz) {
+std::optional<glm::dquat> unit_quaternion(TopicValues wxyz) {
   const glm::dquat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   const double length = glm::length(q);
   if (!(std::abs(length - 1) < 0.1)) return {};
@@ -48,15 +48,15 @@ bool is_not_false(double flag) {
 }
 
 // Seconds since boot; the time of the measurement if the topic has it.
-double time_of(Values v) {
+double time_of(TopicValues v) {
   return 1e-6 * (v[1] > 0 ? v[1] : v[0]);
 }
 
-class Reading {
+class UlogReading {
  public:
   [[nodiscard]] UlogReader reader() {
     return {.wanted = [](std::string_view topic) { return fields_of(topic); },
-            .take = [this](std::string_view topic, Values v) { take(topic, v); }};
+            .take = [this](std::string_view topic, TopicValues v) { take(topic, v); }};
   }
 
   Track track(const UlogContents& log, const std::filesystem::path& file);
@@ -64,7 +64,7 @@ class Reading {
  private:
   struct Topic {
     std::vector<std::string> fields;  // the first two are timestamp and timestamp_sample
-    void (Reading::*take)(Values v) = nullptr;
+    void (UlogReading::*take)(TopicValues v) = nullptr;
   };
   static const std::map<std::string, Topic, std::less<>>& topics();
 
@@ -72,18 +72,18 @@ class Reading {
     const auto found = topics().find(topic);
     return found == topics().end() ? std::vector<std::string>{} : found->second.fields;
   }
-  void take(std::string_view topic, Values v) {
+  void take(std::string_view topic, TopicValues v) {
     if (const auto found = topics().find(topic); found != topics().end()) (this->*found->second.take)(v);
   }
 
-  void take_attitude(Values v) {
+  void take_attitude(TopicValues v) {
     if (const std::optional<glm::dquat> q = unit_quaternion(v.subspan(2, 4)))
       attitude_.add(time_of(v), *q);
     else
       attitude_.leave_out("the quaternion is not of length 1", time_of(v));
   }
 
-  void take_local_position(Values v) {
+  void take_local_position(TopicValues v) {
     const double t_s = time_of(v);
     if (is_not_false(v[8]) && is_not_false(v[9]))
       local_position_.add(t_s, {v[2], v[3], v[4]});
@@ -96,21 +96,21 @@ class Reading {
     if (is_true(v[12]) && is_true(v[13]) && is_not_false(v[8])) add_place_of_reference(t_s, v);
   }
 
-  void add_place_of_reference(double t_s, Values v) {
+  void add_place_of_reference(double t_s, TopicValues v) {
     const GeodeticPosition reference{.latitude_deg = v[14], .longitude_deg = v[15], .height_m = v[16]};
     if (why_no_place(reference)) return;
     if (!reference_ || reference_->origin() != reference) reference_.emplace(reference, 0);
     referred_.add(t_s, reference_->place_of({v[2], v[3], v[4]}));
   }
 
-  void take_global_position(Values v) {
+  void take_global_position(TopicValues v) {
     const GeodeticPosition place{.latitude_deg = v[2], .longitude_deg = v[3], .height_m = v[4]};
     if (!is_not_false(v[5])) return global_.leave_out("lat_lon_valid is false", time_of(v));
     add_place(global_, time_of(v), place);
   }
 
-  void take_vehicle_gps(Values v) { take_gps(gps_, v); }
-  void take_sensor_gps(Values v) { take_gps(sensor_gps_, v); }
+  void take_vehicle_gps(TopicValues v) { take_gps(gps_, v); }
+  void take_sensor_gps(TopicValues v) { take_gps(sensor_gps_, v); }
 
   struct Gps {
     explicit Gps(const std::string& topic) : above_sea(topic), above_ellipsoid(topic), velocity(topic) {}
@@ -121,7 +121,7 @@ class Reading {
   };
 
   // Older versions have integers of 1e-7 degrees and of millimetres, newer ones degrees and metres.
-  void take_gps(Gps& gps, Values v) {
+  void take_gps(Gps& gps, TopicValues v) {
     const double t_s = time_of(v);
     const bool is_new = std::isfinite(v[6]);
     GeodeticPosition place{.latitude_deg = is_new ? v[6] : v[2] * 1e-7,
@@ -138,35 +138,35 @@ class Reading {
   }
 
   // UTC minus the time since boot, at the first fix with a date, and how far it runs away.
-  void note_utc(Values v) {
+  void note_utc(TopicValues v) {
     if (!(v[15] >= kLeastUtc_us) || !(v[10] >= 2)) return;
     const double offset_s = 1e-6 * (v[15] - v[0] - (std::isfinite(v[16]) ? v[16] : 0));
     if (!utc_minus_boot_s_) utc_minus_boot_s_ = offset_s;
     if (std::abs(offset_s - *utc_minus_boot_s_) > kUtcDrift_s && !utc_jump_s_) utc_jump_s_ = v[0] * 1e-6;
   }
 
-  void take_sensor_combined(Values v) {
+  void take_sensor_combined(TopicValues v) {
     combined_rate_.add(time_of(v), {v[2], v[3], v[4]});
     // The accelerometer was read this much later than the gyroscope; INT32_MAX: no reading.
     const double later_us = std::isfinite(v[5]) ? v[5] : 0;
     if (later_us >= 2147483647.0) return combined_force_.leave_out("no reading of the accelerometer", time_of(v));
     combined_force_.add(time_of(v) + 1e-6 * later_us, {v[6], v[7], v[8]});
   }
-  void take_angular_velocity(Values v) { rate_.add(time_of(v), {v[2], v[3], v[4]}); }
-  void take_acceleration(Values v) { force_.add(time_of(v), {v[2], v[3], v[4]}); }
+  void take_angular_velocity(TopicValues v) { rate_.add(time_of(v), {v[2], v[3], v[4]}); }
+  void take_acceleration(TopicValues v) { force_.add(time_of(v), {v[2], v[3], v[4]}); }
 
   // Flags of MAVLink's GIMBAL_DEVICE_FLAGS: 32 yaw from the nose, 64 yaw from north; neither: 16, yaw lock, decides.
-  void take_gimbal(Values v) {
+  void take_gimbal(TopicValues v) {
     const std::optional<glm::dquat> q = unit_quaternion(v.subspan(2, 4));
     if (!q) return camera_.leave_out("the quaternion is not of length 1", time_of(v));
     const unsigned flags = v[6] >= 0 && v[6] <= 65535 ? static_cast<unsigned>(v[6]) : 0;
     const bool says_frame = (flags & (32U | 64U)) != 0;
     gimbal_.push_back({time_of(v), {*q, (flags & (says_frame ? 64U : 16U)) != 0}});
   }
-  void take_mount(Values v) {
+  void take_mount(TopicValues v) {
     if (all_finite(glm::dvec3(v[2], v[3], v[4]))) mount_.push_back({time_of(v), {v[2], v[3], v[4]}});
   }
-  void take_capture(Values v) {
+  void take_capture(TopicValues v) {
     if (std::isfinite(time_of(v))) captures_s_.push_back(time_of(v));
   }
 
@@ -205,7 +205,7 @@ class Reading {
   std::optional<double> utc_jump_s_;
 };
 
-const std::map<std::string, Reading::Topic, std::less<>>& Reading::topics() {
+const std::map<std::string, UlogReading::Topic, std::less<>>& UlogReading::topics() {
   static const std::vector<std::string> kGps = {"timestamp",
                                                 "timestamp_sample",
                                                 "lat",
@@ -225,37 +225,37 @@ const std::map<std::string, Reading::Topic, std::less<>>& Reading::topics() {
                                                 "timestamp_time_relative"};
   static const std::map<std::string, Topic, std::less<>> kTopics = {
       {"vehicle_attitude",
-       {{"timestamp", "timestamp_sample", "q[0]", "q[1]", "q[2]", "q[3]"}, &Reading::take_attitude}},
+       {{"timestamp", "timestamp_sample", "q[0]", "q[1]", "q[2]", "q[3]"}, &UlogReading::take_attitude}},
       {"vehicle_local_position",
        {{"timestamp", "timestamp_sample", "x", "y", "z", "vx", "vy", "vz", "xy_valid", "z_valid", "v_xy_valid",
          "v_z_valid", "xy_global", "z_global", "ref_lat", "ref_lon", "ref_alt"},
-        &Reading::take_local_position}},
+        &UlogReading::take_local_position}},
       {"vehicle_global_position",
-       {{"timestamp", "timestamp_sample", "lat", "lon", "alt", "lat_lon_valid"}, &Reading::take_global_position}},
-      {"vehicle_gps_position", {kGps, &Reading::take_vehicle_gps}},
-      {"sensor_gps", {kGps, &Reading::take_sensor_gps}},
+       {{"timestamp", "timestamp_sample", "lat", "lon", "alt", "lat_lon_valid"}, &UlogReading::take_global_position}},
+      {"vehicle_gps_position", {kGps, &UlogReading::take_vehicle_gps}},
+      {"sensor_gps", {kGps, &UlogReading::take_sensor_gps}},
       {"sensor_combined",
        {{"timestamp", "timestamp_sample", "gyro_rad[0]", "gyro_rad[1]", "gyro_rad[2]",
          "accelerometer_timestamp_relative", "accelerometer_m_s2[0]", "accelerometer_m_s2[1]", "accelerometer_m_s2[2]"},
-        &Reading::take_sensor_combined}},
+        &UlogReading::take_sensor_combined}},
       {"vehicle_angular_velocity",
-       {{"timestamp", "timestamp_sample", "xyz[0]", "xyz[1]", "xyz[2]"}, &Reading::take_angular_velocity}},
+       {{"timestamp", "timestamp_sample", "xyz[0]", "xyz[1]", "xyz[2]"}, &UlogReading::take_angular_velocity}},
       {"vehicle_acceleration",
-       {{"timestamp", "timestamp_sample", "xyz[0]", "xyz[1]", "xyz[2]"}, &Reading::take_acceleration}},
+       {{"timestamp", "timestamp_sample", "xyz[0]", "xyz[1]", "xyz[2]"}, &UlogReading::take_acceleration}},
       {"gimbal_device_attitude_status",
-       {{"timestamp", "timestamp_sample", "q[0]", "q[1]", "q[2]", "q[3]", "device_flags"}, &Reading::take_gimbal}},
+       {{"timestamp", "timestamp_sample", "q[0]", "q[1]", "q[2]", "q[3]", "device_flags"}, &UlogReading::take_gimbal}},
       {"mount_orientation",
        {{"timestamp", "timestamp_sample", "attitude_euler_angle[0]", "attitude_euler_angle[1]",
          "attitude_euler_angle[2]"},
-        &Reading::take_mount}},
-      {"camera_capture", {{"timestamp", "timestamp_sample"}, &Reading::take_capture}},
-      {"camera_trigger", {{"timestamp", "timestamp_sample"}, &Reading::take_capture}},
+        &UlogReading::take_mount}},
+      {"camera_capture", {{"timestamp", "timestamp_sample"}, &UlogReading::take_capture}},
+      {"camera_trigger", {{"timestamp", "timestamp_sample"}, &UlogReading::take_capture}},
   };
   return kTopics;
 }
 
 // The airframe's attitude at or before a time, or its first one; none where the log has none.
-std::optional<glm::dquat> Reading::airframe_at(double t_s) const {
+std::optional<glm::dquat> UlogReading::airframe_at(double t_s) const {
   const Channel<glm::dquat>& channel = attitude_.channel();
   if (channel.empty()) return {};
   const auto after = std::upper_bound(channel.own_times_s.begin(), channel.own_times_s.end(), t_s);
@@ -263,7 +263,7 @@ std::optional<glm::dquat> Reading::airframe_at(double t_s) const {
   return channel.values[static_cast<std::size_t>(index)];
 }
 
-void Reading::make_camera() {
+void UlogReading::make_camera() {
   for (const auto& [t_s, gimbal] : gimbal_) {
     const std::optional<glm::dquat> airframe = airframe_at(t_s);
     if (gimbal.yaw_from_north)
@@ -282,7 +282,7 @@ void Reading::make_camera() {
   }
 }
 
-void Reading::choose_position(Track& track, double zero_s) {
+void UlogReading::choose_position(Track& track, double zero_s) {
   Gps& gps = gps_.above_sea.empty() ? sensor_gps_ : gps_;
   const bool by_ellipsoid = gps.has_ellipsoid && !gps.above_ellipsoid.empty();
   track.position = std::move(global_).on_axis(zero_s, track.warnings);
@@ -304,7 +304,7 @@ void Reading::choose_position(Track& track, double zero_s) {
   if (track.velocity_ned_mps.empty()) track.velocity_ned_mps = std::move(gps.velocity).on_axis(zero_s, track.warnings);
 }
 
-void Reading::add_utc(Track& track, double zero_s) {
+void UlogReading::add_utc(Track& track, double zero_s) {
   if (utc_minus_boot_s_) track.utc_at_zero_s = *utc_minus_boot_s_ + zero_s;
   if (utc_jump_s_)
     track.warnings.push_back({"time_utc_usec", "UTC and the time since boot part by more than " +
@@ -312,14 +312,14 @@ void Reading::add_utc(Track& track, double zero_s) {
                                                    short_number_text(*utc_jump_s_ - zero_s) + " s on"});
 }
 
-void Reading::add_captures(Track& track, double zero_s) const {
+void UlogReading::add_captures(Track& track, double zero_s) const {
   if (captures_s_.empty()) return;
   track.warnings.push_back(
       {"camera_capture", count_text(static_cast<std::int64_t>(captures_s_.size()), "image") + " taken, the first at " +
                              short_number_text(captures_s_.front() - zero_s) + " s; a track has no channel for them"});
 }
 
-void Reading::add_dropouts(Track& track, const UlogContents& log) {
+void UlogReading::add_dropouts(Track& track, const UlogContents& log) {
   for (std::size_t i = 0; i < std::min(log.dropouts.size(), kMaxDropouts); ++i)
     track.warnings.push_back({"dropout", "the logger lost " + short_number_text(log.dropouts[i].duration_s) +
                                              " s of all topics after " +
@@ -331,7 +331,7 @@ void Reading::add_dropouts(Track& track, const UlogContents& log) {
                                            short_number_text(sum_s) + " s"});
 }
 
-Track Reading::track(const UlogContents& log, const std::filesystem::path& file) {
+Track UlogReading::track(const UlogContents& log, const std::filesystem::path& file) {
   Track track{.file = file, .format = "PX4 ULog"};
   track.device = log.hardware + (log.software.empty() ? "" : " (PX4 " + log.software + ")");
   track.damaged = log.damaged;
@@ -363,7 +363,7 @@ bool is_ulog(std::string_view head) {
 }
 
 Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions&) {
-  Reading reading;
+  UlogReading reading;
   const Result<UlogContents> log = read_ulog_messages(bytes, file.string(), reading.reader());
   if (!log) return fail(log.error());
   Track track = reading.track(*log, file);

@@ -20,12 +20,12 @@ using namespace std::string_view_literals;
 constexpr std::string_view kMagic = "ULog\x01\x12\x35"sv;
 constexpr std::string_view kSync = "\x08\x00S\x2F\x73\x13\x20\x25\x0C\xBB\x12"sv;  // with its header
 constexpr std::string_view kTypes = "BFIMPQARDLCSO";
-constexpr std::size_t kHeader_bytes = 16;
+constexpr std::size_t kUlogHeader_bytes = 16;
 constexpr std::size_t kMessageHeader_bytes = 3;
 constexpr int kMaxNesting = 8;
 constexpr std::size_t kMaxTopic_bytes = 65535;  // a message has no more
 constexpr std::size_t kMaxFormats = 4096;
-constexpr std::size_t kMaxNamed = 10;  // warnings of one kind
+constexpr std::size_t kMaxNamedTopics = 10;  // warnings of one kind
 
 struct FieldType {
   std::string_view name;
@@ -50,7 +50,7 @@ std::optional<NumberType> number_type(std::string_view name) {
   return {};
 }
 
-struct Place {
+struct MessagePlace {
   std::size_t offset = 0;
   NumberType type = NumberType::uint8;
 };
@@ -87,7 +87,7 @@ class Layout {
     return true;
   }
 
-  [[nodiscard]] const std::vector<std::optional<Place>>& places() const { return places_; }
+  [[nodiscard]] const std::vector<std::optional<MessagePlace>>& places() const { return places_; }
 
  private:
   bool add_field(std::string_view field, const std::string& prefix, int depth) {
@@ -113,34 +113,34 @@ class Layout {
 
   void note(const std::string& name, NumberType type) {
     for (std::size_t i = 0; i < wanted_.size(); ++i)
-      if (wanted_[i] == name) places_[i] = Place{.offset = size_, .type = type};
+      if (wanted_[i] == name) places_[i] = MessagePlace{.offset = size_, .type = type};
   }
 
   const Formats& formats_;
   const std::vector<std::string>& wanted_;
-  std::vector<std::optional<Place>> places_;
+  std::vector<std::optional<MessagePlace>> places_;
   std::size_t size_ = 0;
   std::size_t fields_ = 0;
 };
 
 struct Subscription {
   std::string topic;
-  std::vector<std::optional<Place>> places;  // empty: not wanted
+  std::vector<std::optional<MessagePlace>> places;  // empty: not wanted
 };
 
-class Walk {
+class MessageWalk {
  public:
-  Walk(std::string_view bytes, const UlogReader& reader) : bytes_(bytes), reader_(reader) {}
+  MessageWalk(std::string_view bytes, const UlogReader& reader) : bytes_(bytes), reader_(reader) {}
 
   Result<UlogContents> contents(const std::string& name) {
-    if (!has_ulog_magic(bytes_) || bytes_.size() < kHeader_bytes) return fail(name, "is no ULog");
+    if (!has_ulog_magic(bytes_) || bytes_.size() < kUlogHeader_bytes) return fail(name, "is no ULog");
     const int version = static_cast<unsigned char>(bytes_[7]);
     if (version > 1) return fail(name + ": byte 7", "ULog version " + std::to_string(version) + ", known are 0 and 1");
     contents_.start_s = number_at(bytes_, 8, NumberType::uint64) * 1e-6;
-    at_ = kHeader_bytes;
+    at_ = kUlogHeader_bytes;
     while (at_ < bytes_.size()) {
       if (!next_message()) break;
-      if (!refused_.empty()) return fail(name + ": byte " + std::to_string(kHeader_bytes), refused_);
+      if (!refused_.empty()) return fail(name + ": byte " + std::to_string(kUlogHeader_bytes), refused_);
     }
     finish();
     return std::move(contents_);
@@ -185,7 +185,7 @@ class Walk {
           {where, inside ? "is no message; the rest of the file is not read" : "the file is cut off within a message"});
       return false;
     }
-    if (++skips_ <= kMaxNamed)
+    if (++skips_ <= kMaxNamedTopics)
       contents_.warnings.push_back({where, "is no message; " +
                                                count_text(static_cast<std::int64_t>(found - at_), "byte") +
                                                " skipped up to the next synchronisation message, after " +
@@ -269,7 +269,8 @@ class Walk {
 
   // Empty: the format is not defined, or makes no sense. Laid out once for each topic: a file can have many thousand
   // subscriptions.
-  const std::vector<std::optional<Place>>& places_of(const std::string& topic, const std::vector<std::string>& wanted) {
+  const std::vector<std::optional<MessagePlace>>& places_of(const std::string& topic,
+                                                            const std::vector<std::string>& wanted) {
     const auto [entry, is_first] = layouts_.try_emplace(topic);
     if (!is_first) return entry->second;
     Layout layout(formats_, wanted);
@@ -287,15 +288,15 @@ class Walk {
     const Subscription& subscription = found->second;
     if (subscription.places.empty()) return;
     values_.clear();
-    for (const std::optional<Place>& place : subscription.places)
+    for (const std::optional<MessagePlace>& place : subscription.places)
       values_.push_back(place ? number_at(body, place->offset, place->type) : number_at({}, 0, NumberType::uint8));
     if (std::isfinite(values_.front())) last_s_ = values_.front() * 1e-6;
     reader_.take(subscription.topic, values_);
   }
 
   void finish() {
-    if (skips_ > kMaxNamed)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamed), "more place") +
+    if (skips_ > kMaxNamedTopics)
+      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamedTopics), "more place") +
                                             " with bytes that are no message"});
     if (without_subscription_ > 0)
       contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(without_subscription_), "data message") +
@@ -315,7 +316,7 @@ class Walk {
   std::array<std::uint64_t, 3> appended_{};
   Formats formats_;
   std::map<std::uint64_t, Subscription> subscriptions_;
-  std::map<std::string, std::vector<std::optional<Place>>> layouts_;
+  std::map<std::string, std::vector<std::optional<MessagePlace>>> layouts_;
   std::vector<double> values_;
   double last_s_ = 0;
   std::size_t skips_ = 0;
@@ -330,7 +331,7 @@ bool has_ulog_magic(std::string_view bytes) {
 }
 
 Result<UlogContents> read_ulog_messages(std::string_view bytes, const std::string& name, const UlogReader& reader) {
-  return Walk(bytes, reader).contents(name);
+  return MessageWalk(bytes, reader).contents(name);
 }
 
 }  // namespace sigs

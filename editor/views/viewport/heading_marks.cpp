@@ -17,23 +17,23 @@ namespace {
 
 constexpr double kMinNumberGap_px = 52;  // between numbers, where text is 15 px high
 constexpr double kUp_rad = 0.002;        // a small step towards the zenith
-constexpr double kMark_px = 8;
+constexpr double kHeadingMark_px = 8;
 constexpr double kMinorMark_px = 5;
 constexpr ImU32 kBright = color::kHorizon | IM_COL32_A_MASK;
 constexpr ImU32 kDark = IM_COL32(12, 13, 16, 170);
 constexpr double kMinSpeed_mps = 0.5;
 constexpr double kSpeedSpan_s = 0.1;
 
-struct Steps {
+struct HeadingSteps {
   int number_deg;
   int mark_deg;
 };
-constexpr std::array<Steps, 5> kSteps{{{5, 1}, {10, 5}, {30, 10}, {45, 15}, {90, 30}}};
+constexpr std::array<HeadingSteps, 5> kHeadingSteps{{{5, 1}, {10, 5}, {30, 10}, {45, 15}, {90, 30}}};
 
-Steps steps_for(double number_gap_deg) {
-  for (const Steps& steps : kSteps)
+HeadingSteps steps_for(double number_gap_deg) {
+  for (const HeadingSteps& steps : kHeadingSteps)
     if (steps.number_deg >= number_gap_deg) return steps;
-  return kSteps.back();
+  return kHeadingSteps.back();
 }
 
 glm::dvec3 direction_at(double azimuth_rad, double elevation_rad) {
@@ -61,7 +61,7 @@ double number_gap_deg_of(const ImageCanvas& canvas, const FootageCamera& eye) {
 
 void draw_mark(const ImageCanvas& canvas, const HeadingMark& mark) {
   const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
-  const double length = scaled(mark.is_numbered ? kMark_px : kMinorMark_px);
+  const double length = scaled(mark.is_numbered ? kHeadingMark_px : kMinorMark_px);
   const double below = mark.is_numbered ? length * 0.4 : 0;
   const float width = scaled(mark.is_numbered ? 1.8F : 1.3F);
   const ImVec2 foot = im(at - mark.up * below);
@@ -74,8 +74,9 @@ void draw_number(const ImageCanvas& canvas, const HeadingMark& mark, bool from_n
   const std::string text = heading_text(mark.heading_deg, from_north);
   const glm::dvec2 size = label_size(text);
   const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
-  const glm::dvec2 above = at + mark.up * static_cast<double>(scaled(kMark_px + 3)) - glm::dvec2(size.x / 2, 0);
-  const glm::dvec2 below = at - mark.up * static_cast<double>(scaled(kMark_px + 3)) + glm::dvec2(-size.x / 2, size.y);
+  const glm::dvec2 above = at + mark.up * static_cast<double>(scaled(kHeadingMark_px + 3)) - glm::dvec2(size.x / 2, 0);
+  const glm::dvec2 below =
+      at - mark.up * static_cast<double>(scaled(kHeadingMark_px + 3)) + glm::dvec2(-size.x / 2, size.y);
   draw_label(canvas, labels, std::array{above, below}, text, kBright, false);
 }
 
@@ -93,7 +94,7 @@ void draw_flight_mark(const ImageCanvas& canvas, const glm::dvec2& pixel) {
 
 std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px, double reference_rad,
                                        double number_gap_deg) {
-  const Steps steps = steps_for(number_gap_deg);
+  const HeadingSteps steps = steps_for(number_gap_deg);
   std::vector<HeadingMark> marks;
   for (int heading_deg = 0; heading_deg < 360; heading_deg += steps.mark_deg) {
     const double azimuth_rad = rad_of_deg(heading_deg) - reference_rad;
