@@ -57,12 +57,28 @@ TEST_CASE("an estimate that is done is used as the camera's log, in one step of 
   CHECK(camera.track.file == "flight.attitude.csv");
   CHECK(camera.track.offset_s == 0);
   CHECK(camera.track.incomplete == IncompleteTrackChoice::use);  // two frames have no attitude
-  CHECK(camera.pitch_deg == 0.0);                                // the file has the camera's whole attitude
+  CHECK(camera.pitch_deg == -3.0);  // no horizon was found: that of the start, which the file does not know
   session.follow(document);
   CHECK(edits.take_edits().empty());
   document.apply(Edit(Undo{}));
   CHECK(document.project() == with_footage(folder.path()));
   CHECK_FALSE(document.can_undo());
+}
+
+TEST_CASE("an estimate whose level is known has the camera's whole attitude") {
+  const TemporaryFolder folder;
+  Document document(with_footage(folder.path()));
+  Edits edits;
+  EgoMotionSession session(
+      edits, [] {},
+      [](const EgoMotionRequest& request, const JobControl&) -> Result<EstimatedMotion> {
+        return EstimatedMotion{.file = request.file, .frames = 300, .level_sd_rad = 0.01};
+      });
+  session.start(document);
+  REQUIRE(ends(session, document));
+  document.apply(edits.take_edits());
+  CHECK(document.project().camera.pitch_deg == 0.0);
+  CHECK(document.project().camera.track.incomplete == IncompleteTrackChoice::refuse);
 }
 
 TEST_CASE("an estimate takes a name that is free, beside the project") {
