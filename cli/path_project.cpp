@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "base/input_file.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/options.h"
@@ -53,9 +52,7 @@ Result<Scene> scene_for_traffic(const Project& project) {
 }  // namespace
 
 bool is_project_file(const fs::path& file) {
-  if (lower_extension(file) != ".json") return false;
-  const Result<std::string> text = read_text(file, kProjectLimit_bytes);
-  return text && read_project(file).has_value();
+  return lower_extension(file) == ".json" && read_project(file).has_value();
 }
 
 Result<std::vector<GeoPath>> paths_of_project(const fs::path& file) {

@@ -13,6 +13,7 @@
 #include "project/places.h"
 #include "scene/scene_at.h"
 #include "spline/splines.h"
+#include "telemetry/log_samples.h"
 
 namespace sigs {
 
@@ -25,16 +26,6 @@ constexpr double kSlowPosition_s = 2;
 
 tl::unexpected<Problem> log_problem(std::string what, ErrorKind kind = ErrorKind::bad_project) {
   return tl::unexpected<Problem>(Problem{"camera.track.file", std::move(what), kind});
-}
-
-// Median interval between samples; 0 of a single one.
-double interval_s(const std::vector<double>& times_s) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
 }
 
 // The frames of the project on the log's time axis.
@@ -53,7 +44,7 @@ LogTimes log_times(const TrackSettings& settings, const FootageShape& footage, c
 
 // Empty where the samples cover the project's frames, give or take one sample; else what they cover.
 std::string not_covered(const std::vector<double>& times_s, const std::string& source, const LogTimes& times) {
-  const double slack_s = interval_s(times_s) + 1e-6;
+  const double slack_s = median_interval_s(times_s) + 1e-6;
   if (times_s.front() <= times.first_s + slack_s && times_s.back() >= times.last_s - slack_s) return {};
   return fmt::format("{} covers {:.3f} to {:.3f} s of the log, the project's frames {:.3f} to {:.3f} s", source,
                      times_s.front(), times_s.back(), times.first_s, times.last_s);
@@ -275,10 +266,10 @@ void warn_if_slow(const Track& track, const UsedParts& parts, std::vector<Warnin
                                                          source, step_s)});
   };
   if (parts.attitude != nullptr)
-    if (const double step_s = interval_s(parts.attitude->times_s); step_s >= kSlowAttitude_s)
+    if (const double step_s = median_interval_s(parts.attitude->times_s); step_s >= kSlowAttitude_s)
       add(parts.attitude->source, step_s);
   if (parts.places != nullptr)
-    if (const double step_s = interval_s(parts.places->times_s); step_s >= kSlowPosition_s)
+    if (const double step_s = median_interval_s(parts.places->times_s); step_s >= kSlowPosition_s)
       add(parts.places->source, step_s);
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemetry/log_samples.h"
+
 namespace sigs {
 namespace {
 
@@ -20,12 +22,6 @@ struct Description {
   GoproBlock block = {};
   GoproStream stream = {};  // names and axes
 };
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::optional<double> first_number(const GpmfElement& element) {
   const std::optional<GpmfNumbers> numbers = gpmf_numbers(element);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/text.h"
 
@@ -59,13 +60,17 @@ void LeftOutByReason::report(const std::string& source, double zero_s, std::vect
   }
 }
 
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double median_interval_s(const std::vector<double>& times_s) {
   if (times_s.size() < 2) return 0;
   std::vector<double> intervals_s(times_s.size() - 1);
   for (std::size_t i = 0; i + 1 < times_s.size(); ++i) intervals_s[i] = times_s[i + 1] - times_s[i];
-  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 2);
-  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
-  return *middle;
+  return median_of(std::move(intervals_s));
 }
 
 void warn_of_gaps(const std::vector<double>& times_s, const std::string& source, std::vector<Warning>& warnings) {

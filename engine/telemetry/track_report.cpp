@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "telemetry/csv_columns.h"
+#include "telemetry/log_samples.h"
 #include "telemetry/track_channels.h"
 
 namespace sigs {
@@ -15,14 +16,12 @@ namespace {
 
 constexpr double kMinJump_s = 0.5;  // less may be a delay
 
+// Of rising stamps alone: a clock that goes back is told of by itself.
 double typical_interval_s(const std::vector<double>& times_s) {
   std::vector<double> intervals_s;
   for (std::size_t i = 1; i < times_s.size(); ++i)
     if (times_s[i] > times_s[i - 1]) intervals_s.push_back(times_s[i] - times_s[i - 1]);
-  if (intervals_s.empty()) return 0;
-  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 2);
-  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
-  return *middle;
+  return intervals_s.empty() ? 0 : median_of(std::move(intervals_s));
 }
 
 std::string name_of_jump(double jump_s, double slack_s) {
