@@ -52,7 +52,23 @@ bool finite(const OwnBodySettings& own_body) {
 bool finite(const CameraSettings& camera) {
   return finite(camera.position_m) && finite(camera.roll_deg) && finite(camera.pitch_deg) &&
          std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) && std::isfinite(camera.track.offset_s) &&
-         finite(camera.readout_s);
+         finite(camera.readout_s) && finite(camera.exposure_s);
+}
+
+bool finite(const LightSettings& light) {
+  return finite(light.position_m) && finite(light.color) && std::isfinite(light.ambient) &&
+         finite(light.sun.azimuth_deg) && finite(light.sun.elevation_deg) && finite(light.sky_color) &&
+         finite(light.ground_color) && std::isfinite(light.exposure);
+}
+
+bool finite(const AppearanceSettings& appearance) {
+  const GrainSettings& grain = appearance.grain;
+  for (const double number : {appearance.point_spread_px, appearance.sharpening, appearance.sharpening_px,
+                              appearance.chroma_spread_px, appearance.black, appearance.saturation, grain.sd_dark,
+                              grain.sd_bright, grain.sd_chroma, grain.spread_px, grain.persistence})
+    if (!std::isfinite(number)) return false;
+  return finite(appearance.haze.visibility_m) && finite(appearance.haze.airlight_color) &&
+         finite(appearance.codec.quantiser);
 }
 
 bool finite(const GeoSettings& geo) {
@@ -60,9 +76,8 @@ bool finite(const GeoSettings& geo) {
 }
 
 bool finite(const Project& project) {
-  return finite(project.own_body) && finite(project.camera) && finite(project.geo) &&
-         finite(project.light.position_m) && finite(project.light.color) && std::isfinite(project.light.ambient) &&
-         std::isfinite(project.compositing.blur_px_per_m) &&
+  return finite(project.own_body) && finite(project.camera) && finite(project.geo) && finite(project.light) &&
+         finite(project.appearance) && std::isfinite(project.compositing.blur_px_per_m) &&
          std::all_of(project.intruders.begin(), project.intruders.end(),
                      [](const IntruderSettings& intruder) { return finite(intruder); });
 }

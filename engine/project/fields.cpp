@@ -110,6 +110,8 @@ void add_camera(FieldList list, CameraSettings& camera) {
            "a log that is damaged or does not cover all frames: an error, or its sound part is used");
   list.number("readout_s", &camera.readout_s, "s", 0, 1,
               "time from the first to the last row of the rolling shutter; null: as the log says, else 0");
+  list.number("exposure_s", &camera.exposure_s, "s", 0, 1,
+              "how long the shutter is open, for motion blur; null: as the log says, else 0");
 }
 
 void add_geo(FieldList list, GeoSettings& geo) {
@@ -124,10 +126,19 @@ void add_geo(FieldList list, GeoSettings& geo) {
 }
 
 void add_light(FieldList list, LightSettings& light) {
+  list.add("kind", choice_of(light.kind, {"point", "sun"}), "",
+           "point: the paper's lamp and ambient light; sun: parallel light, sky and ground");
   list.number("position_m", &light.position_m, "m", -1e12, 1e12,
               "where the light is, in the world; it shines every way");
   list.number("color", &light.color, "", 0, 100, "red, green, blue in linear light; 1: white faces become white");
   list.number("ambient", &light.ambient, "", 0, 1, "share of the light that comes from everywhere");
+  list.number("sun.azimuth_deg", &light.sun.azimuth_deg, "deg", -360, 360,
+              "sun: from world X to the right; null: by time and place of the camera's log");
+  list.number("sun.elevation_deg", &light.sun.elevation_deg, "deg", -90, 90,
+              "sun: above the horizon; null: by time and place of the camera's log");
+  list.number("sky_color", &light.sky_color, "", 0, 100, "sun: light of the whole sky on a face that looks up");
+  list.number("ground_color", &light.ground_color, "", 0, 100, "sun: light of the ground on a face that looks down");
+  list.number("exposure", &light.exposure, "", 0, 1000, "sun: factor of all light");
 }
 
 void add_model(FieldList list, ModelSettings& model) {
@@ -162,6 +173,33 @@ void add_compositing(FieldList list, CompositingSettings& compositing) {
            "mix light, or mix code values as the paper does (direct only)");
   list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10, "Gaussian blur: sigma a metre of distance");
   list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels an image pixel, each way");
+}
+
+void add_appearance(FieldList list, AppearanceSettings& appearance) {
+  list.number("point_spread_px", &appearance.point_spread_px, "px", 0, 20, "sigma of the lens' and the sensor's blur");
+  list.number("sharpening", &appearance.sharpening, "", 0, 5, "the camera's own: how much of the detail is added");
+  list.number("sharpening_px", &appearance.sharpening_px, "px", 0.2, 20, "sigma of the blur that detail is told by");
+  list.number("chroma_spread_px", &appearance.chroma_spread_px, "px", 0, 20,
+              "blur of the colours alone, in samples of the chroma planes");
+  list.number("black", &appearance.black, "", 0, 1, "linear light that is added to all of the intruder: flare");
+  list.number("saturation", &appearance.saturation, "", 0, 4, "of the intruder's colours; 1: as painted");
+  GrainSettings& grain = appearance.grain;
+  list.number("grain.sd_dark", &grain.sd_dark, "code", 0, 64, "noise of luma where the image is black");
+  list.number("grain.sd_bright", &grain.sd_bright, "code", 0, 64, "noise of luma where the image is white");
+  list.number("grain.sd_chroma", &grain.sd_chroma, "code", 0, 64, "noise of chroma");
+  list.number("grain.spread_px", &grain.spread_px, "px", 0, 10, "sigma over which neighbours share noise; 0: none");
+  list.number("grain.persistence", &grain.persistence, "", 0, 0.99, "correlation of the noise from frame to frame");
+  list.number("grain.seed", &grain.seed, "", 0, 2e9, "another number gives other noise of the same kind");
+  HazeSettings& haze = appearance.haze;
+  list.number("haze.visibility_m", &haze.visibility_m, "m", 1, 1e7,
+              "distance at which 5 % of the contrast is left; null: clear air");
+  list.add("haze.airlight", choice_of(haze.airlight, {"behind", "color"}), "",
+           "colour of the haze: as the footage is around the intruder, or airlight_color");
+  list.number("haze.airlight_color", &haze.airlight_color, "", 0, 100, "red, green, blue in linear light");
+  list.add("codec.match", choice_of(appearance.codec.match, {"none", "footage", "h264", "mjpeg"}), "",
+           "codec that the image around the intruder goes through once; footage: its own");
+  list.number("codec.quantiser", &appearance.codec.quantiser, "", 0, 100,
+              "QP of H.264, 0 to 51, or quality of MJPEG in percent; null: as the footage's stream says");
 }
 
 void add_output(FieldList list, ExportSettings& output) {
@@ -210,6 +248,7 @@ std::vector<Field> fields_of(Project& project) {
     }
   }
   add_compositing(FieldList(fields, "compositing."), project.compositing);
+  add_appearance(FieldList(fields, "appearance."), project.appearance);
   add_output(FieldList(fields, "export."), project.output);
   return fields;
 }

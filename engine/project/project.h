@@ -98,7 +98,8 @@ struct CameraSettings {
   std::string attitude_file;  // attitude, at each frame, of what carries the camera; empty: level
   double speed_mps = 0;       // along world X
   TrackSettings track;
-  std::optional<double> readout_s;  // of the rolling shutter, first to last row; none: as the log says, else 0
+  std::optional<double> readout_s;   // of the rolling shutter, first to last row; none: as the log says, else 0
+  std::optional<double> exposure_s;  // how long the shutter is open; none: as the log says, else 0
 
   [[nodiscard]] bool operator==(const CameraSettings&) const = default;
 };
@@ -114,11 +115,28 @@ struct GeoSettings {
   [[nodiscard]] bool operator==(const GeoSettings&) const = default;
 };
 
-// The one light source, an omnidirectional point light (paper section 3.1.2), and ambient light as a share, 0..1.
+// What lights the intruders: the paper's omnidirectional point light (section 3.1.2) with ambient light, or the sun
+// with the light of sky and ground.
+enum class LightKind { point, sun };
+
+// The sun's direction. Without azimuth and elevation it follows from the time and the place that the camera's log has.
+struct SunSettings {
+  std::optional<double> azimuth_deg;    // from world X to the right
+  std::optional<double> elevation_deg;  // above the horizon
+
+  [[nodiscard]] bool operator==(const SunSettings&) const = default;
+};
+
+// Colours are linear light: 1 makes a white face that it falls on squarely white.
 struct LightSettings {
-  glm::dvec3 position_m{-2000, 1000, -3000};  // world
-  glm::dvec3 color{1, 1, 1};
-  double ambient = 0.35;
+  LightKind kind = LightKind::point;
+  glm::dvec3 position_m{-2000, 1000, -3000};  // of the point light, world
+  glm::dvec3 color{1, 1, 1};                  // of the point light or of the sun
+  double ambient = 0.35;                      // share of the point light that comes from everywhere
+  SunSettings sun;
+  glm::dvec3 sky_color{0.25, 0.3, 0.38};      // with the sun: what the whole sky gives a face that looks up
+  glm::dvec3 ground_color{0.12, 0.12, 0.10};  // with the sun: what the ground gives a face that looks down
+  double exposure = 1;                        // with the sun: factor of all light
 
   [[nodiscard]] bool operator==(const LightSettings&) const = default;
 };
@@ -200,6 +218,57 @@ struct CompositingSettings {
   [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
 };
 
+// Random noise of the footage, in 8-bit code values, as the codec left it. Its variance is linear in brightness.
+struct GrainSettings {
+  double sd_dark = 0;      // standard deviation of luma where the image is black
+  double sd_bright = 0;    // where it is white
+  double sd_chroma = 0;    // of both chroma planes
+  double spread_px = 0;    // sigma of the Gaussian that neighbouring pixels share noise by; 0: each has its own
+  double persistence = 0;  // correlation from one frame to the next, 0..1
+  int seed = 1;
+
+  [[nodiscard]] bool operator==(const GrainSettings&) const = default;
+};
+
+// Where the haze's colour comes from: the footage around the intruder, or a colour that is given.
+enum class AirlightChoice { behind, color };
+
+// Haze in front of the intruder (Koschmieder): contrast falls by exp(-3 r / visibility_m).
+struct HazeSettings {
+  std::optional<double> visibility_m;  // at which 5 % of the contrast is left; none: clear
+  AirlightChoice airlight = AirlightChoice::behind;
+  glm::dvec3 airlight_color{0.6, 0.65, 0.7};  // linear light
+
+  [[nodiscard]] bool operator==(const HazeSettings&) const = default;
+};
+
+// One generation of compression that the image around the intruder goes through: none, the footage's own codec, or one
+// that is named.
+enum class CodecMatchChoice { none, footage, h264, mjpeg };
+
+struct CodecMatchSettings {
+  CodecMatchChoice match = CodecMatchChoice::none;
+  std::optional<double> quantiser;  // QP of H.264 (0..51) or percent of JPEG's table; none: as the stream says
+
+  [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;
+};
+
+// How the footage looks, and so how an intruder in it has to look (method direct). Each part is left out at its
+// default.
+struct AppearanceSettings {
+  double point_spread_px = 0;   // sigma of the lens' and the sensor's Gaussian
+  double sharpening = 0;        // of the camera: how much of the detail is added, 0..5
+  double sharpening_px = 1;     // sigma of the Gaussian that detail is told by
+  double chroma_spread_px = 0;  // sigma of the Gaussian over the samples of the chroma planes
+  double black = 0;             // linear light that the footage's black stands for: flare of the lens
+  double saturation = 1;        // of the intruder's colours
+  GrainSettings grain;
+  HazeSettings haze;
+  CodecMatchSettings codec;
+
+  [[nodiscard]] bool operator==(const AppearanceSettings&) const = default;
+};
+
 // Formats of the exported video and masks; automatic: the container that suits the codec.
 enum class CodecChoice { ffv1, h264, mjpeg, png };
 enum class ContainerChoice { automatic, mkv, mp4, avi };
@@ -236,6 +305,7 @@ struct Project {
   LightSettings light;
   std::vector<IntruderSettings> intruders;
   CompositingSettings compositing;
+  AppearanceSettings appearance;
   ExportSettings output;
   std::string unknown_json;
 

@@ -34,11 +34,17 @@ struct FootageShape {
 // The reverse: the frame, with fractions, at a time. Of frames with the same time the first.
 [[nodiscard]] double frame_at_time(const FootageShape& footage, double time_s);
 
-// A point light and ambient light.
+// A point light and ambient light, or the sun, sky and ground. Colours are linear; 1: a white surface that is lit
+// squarely becomes white.
 struct SceneLight {
-  glm::dvec3 position_m{0, 0, 0};  // world
-  glm::dvec3 color{1, 1, 1};       // linear; 1: a white surface facing the light becomes white
-  double ambient = 0.35;           // share that comes from everywhere, 0..1
+  LightKind kind = LightKind::point;
+  glm::dvec3 position_m{0, 0, 0};  // of the point light, world
+  glm::dvec3 color{1, 1, 1};       // of the point light or of the sun
+  double ambient = 0.35;           // share of the point light that comes from everywhere, 0..1
+  glm::dvec3 to_sun{0, 0, -1};     // unit vector, world
+  glm::dvec3 sky_color{0, 0, 0};
+  glm::dvec3 ground_color{0, 0, 0};
+  double exposure = 1;  // factor of sun, sky and ground
 };
 
 struct SceneIntruder {
@@ -88,6 +94,7 @@ struct Scene {
   std::vector<SceneIntruder> intruders;              // in the project's order
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
   CompositingSettings compositing;
+  AppearanceSettings appearance;
   FootageShape footage;
   int first_frame = 0;                          // of the footage, from 0
   int last_frame = 0;                           // included

@@ -85,8 +85,15 @@ CameraMotion steady_motion(const CameraSettings& camera) {
 Scene bare_scene(const Project& project, const FootageShape& footage) {
   return {.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
           .motion = steady_motion(project.camera),
-          .light = {project.light.position_m, project.light.color, project.light.ambient},
+          .light = {.kind = project.light.kind,
+                    .position_m = project.light.position_m,
+                    .color = project.light.color,
+                    .ambient = project.light.ambient,
+                    .sky_color = project.light.sky_color,
+                    .ground_color = project.light.ground_color,
+                    .exposure = project.light.exposure},
           .compositing = project.compositing,
+          .appearance = project.appearance,
           .footage = footage,
           .horizon_is_known = knows_horizon(project.camera)};
 }
