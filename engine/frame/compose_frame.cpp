@@ -13,6 +13,7 @@
 #include "compositor/warp.h"
 #include "frame/composite.h"
 #include "frame/render_plan.h"
+#include "frame/standing_out.h"
 #include "scene/scene_at.h"
 #include "truth/measure.h"
 
@@ -68,6 +69,13 @@ FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, co
                                 scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt)};
 }
 
+// How the image of each intruder was formed.
+void add_image_formation(const std::vector<IntruderLayers>& far_to_near, FrameTruth& truth) {
+  for (const IntruderLayers& layers : far_to_near)
+    for (IntruderTruth& intruder : truth.intruders)
+      if (intruder.id == layers.placed.id) intruder.image_formation.blur_px = layers.sigma_px;
+}
+
 // Places of the camera and of the intruders on the Earth.
 void add_places(const Scene& scene, const SceneMoment& moment, FrameTruth& truth) {
   if (!scene.earth) return;
@@ -118,8 +126,11 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
     if (!layers) return fail(layers.error());
     far_to_near.push_back(std::move(*layers));
   }
+  const std::vector<FootageLuma> footage_luma = footage_luma_of(background, far_to_near);
   ComposedFrame composed = composited(std::move(background), scene, far_to_near, context, stages);
   composed.truth = truth_of(scene, moment, frame, composed, far_to_near);
+  add_detectability(composed.truth.intruders, composed.image, footage_luma, scene);
+  add_image_formation(far_to_near, composed.truth);
   add_places(scene, moment, composed.truth);
   for (const IntruderLayers& layers : far_to_near) {
     composed.op_counts += layers.op_counts;
