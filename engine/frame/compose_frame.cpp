@@ -12,6 +12,7 @@
 #include "compositor/occlude.h"
 #include "compositor/warp.h"
 #include "frame/composite.h"
+#include "frame/occluder.h"
 #include "frame/render_plan.h"
 #include "frame/standing_out.h"
 #include "scene/scene_at.h"
@@ -104,6 +105,9 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
       layers.blurred = needs_blurred_layers(scene) ? blurred_within(layers.warped, layers.sigma_px, image)
                                                    : clipped(layers.warped, image);
     layers.occluded = occluded_by_body(layers.blurred, scene.own_body);
+    if (scene.occluder.hides(placed.distance_m()) && !layers.occluded.empty())
+      layers.occluded = occluded_by(
+          layers.occluded, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, layers.occluded.rect));
     const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
     if (!area) return fail(area.error());
     layers.whole_area_px = *area;

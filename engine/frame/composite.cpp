@@ -19,6 +19,7 @@
 #include "compositor/classic.h"
 #include "compositor/footage_light.h"
 #include "compositor/occlude.h"
+#include "frame/occluder.h"
 
 namespace sigs {
 
@@ -145,7 +146,10 @@ ClassicStages composite_classic(ComposedFrame& composed, const Scene& scene, con
   if (maps) count_classic(composed.op_counts, pinhole, stages, layers.sigma_px);
   const cv::Rect part = cv::boundingRect(stages.changed);
   if (part.empty()) return stages;
-  const cv::Mat weight = weight_of(stages.changed, scene.own_body, part);
+  cv::Mat weight = weight_of(stages.changed, scene.own_body, part);
+  if (scene.occluder.hides(layers.placed.distance_m()))
+    weight = weight.mul(1.0 - occluder_seen_from(layers.world_from_camera, scene.occluder,
+                                                 context.lens_of(compositing_camera(scene)), part));
   composed.op_counts.pixels_blended += replace_pixels(composed.image, part, stages.output(part), weight);
   const cv::Mat opacity = maps ? cv::Mat(classic_opacity(stages, *maps, layers.sigma_px, part).mul(weight)) : weight;
   add_to_mask(composed.mask, scene.footage.size_px, part, opacity);

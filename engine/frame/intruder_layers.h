@@ -16,15 +16,16 @@ namespace sigs {
 // One intruder of one frame on its way from the mesh to the image. Each member is filled by one stage, in this order.
 struct IntruderLayers {
   PlacedIntruder placed;
+  Pose<frame::World, frame::Camera> world_from_camera;
   std::optional<RowMotion> row_motion;   // of a rolling shutter; none where all rows are read at once
   std::optional<Silhouette> silhouette;  // of the model's points through the lens
   double sigma_px = 0;                   // of the blur at this distance
   std::vector<RenderedView> views;       // empty where no part of it can be in the image
   Layer warped;                          // through the lens, with the margin beyond the image that the blur needs
   Layer blurred;                         // clipped to the image; empty where too faint to change any sample
-  Layer occluded;                        // without what the own body hides; shares its samples where it hides nothing
-  double whole_area_px = 0;              // of the silhouette, the part outside the image included
-  double draw_s = 0;                     // seconds of OpenGL
+  Layer occluded;            // without what own body and occluder hide; shares its samples where they hide nothing
+  double whole_area_px = 0;  // of the silhouette, the part outside the image included
+  double draw_s = 0;         // seconds of OpenGL
   OpCounts op_counts;
 };
 

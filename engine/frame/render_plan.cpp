@@ -99,7 +99,7 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
                              const Camera& camera) {
   const auto id = static_cast<std::size_t>(placed.id);
   const Model& model = *scene.intruders[id].model;
-  IntruderLayers layers{.placed = placed};
+  IntruderLayers layers{.placed = placed, .world_from_camera = moment.world_from_camera};
   if (scene.motion.readout_s > 0) {
     const auto pose_at = [&](double since_s) { return camera_from_body_at(scene, id, moment.time_s + since_s); };
     layers.row_motion.emplace(pose_at, scene.footage.size_px.height, scene.motion.readout_s);

@@ -42,6 +42,9 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
   const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   scene.own_body = *own_body;
+  OrProblem<Occluder> occluder = scene_occluder(project, scene, files);
+  if (!occluder) return failed(occluder.error());
+  scene.occluder = *std::move(occluder);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const OrProblem<std::shared_ptr<const Model>> model = scene_model(project, i, files);
     if (!model) return failed(model.error());

@@ -85,6 +85,19 @@ struct CameraMotion {
                                                   // where the project states the world's origin on the Earth
 };
 
+// What stands in the world between the camera and intruders that are farther away than it, such as trees and hills.
+struct Occluder {
+  cv::Mat mask;                                         // CV_32FC1 of the footage's size, 0..1; empty: nothing does
+  Pose<frame::World, frame::Camera> world_from_camera;  // at the frame that the mask was made of
+  double distance_m = 0;                                // from there; 0: nearer than any intruder, and its own
+                                                        // parallax is not known
+
+  // Whether it hides what is this far away.
+  [[nodiscard]] bool hides(double intruder_distance_m) const {
+    return !mask.empty() && intruder_distance_m > distance_m;
+  }
+};
+
 // A project with everything that it names opened and checked. It does not change after it has been opened.
 struct Scene {
   Camera camera;
@@ -93,6 +106,7 @@ struct Scene {
   std::vector<std::shared_ptr<const Model>> models;  // each once, however many intruders use it; see SceneFiles
   std::vector<SceneIntruder> intruders;              // in the project's order
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
+  Occluder occluder;
   CompositingSettings compositing;
   AppearanceSettings appearance;
   FootageShape footage;

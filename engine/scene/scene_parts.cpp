@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/pose.h"
+#include "scene/scene_at.h"
 
 namespace sigs {
 
@@ -142,6 +143,19 @@ OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_
   const Result<cv::Mat> mask = files.own_body_mask(resolved(project, project.footage.own_body_mask), footage_size_px);
   if (!mask) return in_field("footage.own_body_mask", mask.error());
   return *mask;
+}
+
+OrProblem<Occluder> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files) {
+  const FootageSettings& settings = project.footage;
+  if (settings.occluder_mask.empty()) return Occluder();
+  const Result<cv::Mat> mask = files.own_body_mask(resolved(project, settings.occluder_mask), scene.footage.size_px);
+  if (!mask) return in_field("footage.occluder_mask", mask.error());
+  const auto count = static_cast<int>(scene.footage.times_s.size());
+  if (settings.occluder_frame >= count)
+    return problem("footage.occluder_frame", fmt::format("the footage has {} frames, 0 to {}", count, count - 1));
+  return Occluder{.mask = *mask,
+                  .world_from_camera = camera_at(scene.motion, time_of_frame_s(scene.footage, settings.occluder_frame)),
+                  .distance_m = settings.occluder_distance_m};
 }
 
 OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder, SceneFiles& files) {
