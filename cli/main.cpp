@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
   program.footer(kProgramFooter);
   std::vector<AddedCommand> commands;
   for (const auto add :
-       {add_export_command, add_frame_command, add_mask_command, add_dataset_command, add_evaluate_command,
+       {add_export_command, add_frame_command, add_mask_command, add_occluder_command, add_dataset_command, add_evaluate_command,
         add_check_command, add_info_command, add_telemetry_command, add_ego_motion_command, add_path_command}) {
     Command run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
@@ -57,7 +57,7 @@ int run(int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
     print_error(
         {argv[1],
-         "no such command; there are export, frame, mask, dataset, evaluate, check, info, telemetry, ego-motion "
+         "no such command; there are export, frame, mask, occluder, dataset, evaluate, check, info, telemetry, ego-motion "
          "and path",
          sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
