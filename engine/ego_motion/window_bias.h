@@ -9,7 +9,7 @@ namespace sigs {
 
 // Lucas and Kanade's method finds one shift for a whole window. Where the image also grows, turns or shears, that shift
 // is the one of a place at which the window has its gradients, not of the window's middle. From one key image to the
-// next these errors add up: a feature of the ground that doubles its size slides by a pixel or two over what it shows.
+// next these errors add up: a feature that grows by half or turns by 30 degrees slides by half a pixel.
 // The error is linear in the gradient of the displacement, to which neighbouring features are known witnesses.
 
 // The shift that the method finds at a window's middle if the image is displaced by A x there, x from the middle:
