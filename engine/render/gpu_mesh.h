@@ -10,6 +10,9 @@
 
 namespace sigs {
 
+// Makes the following draw calls leave out one side of triangles.
+void leave_out(CullFace side);
+
 // A mesh in the memory of the GPU. It belongs to the context that is current when it is created.
 class GpuMesh {
  public:
