@@ -100,7 +100,9 @@ float lit_share(vec3 facet) {
 // does not do so at grazing angles either (Lagarde and de Rousiers 2014).
 vec3 reflected_share(vec3 straight, float cosine) {
   float most = min(50.0 * max(max(straight.r, straight.g), straight.b), 1.0);
-  return straight + (most - straight) * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0);
+  float rest = 1.0 - clamp(cosine, 0.0, 1.0);
+  float squared = rest * rest;
+  return straight + (most - straight) * (squared * squared * rest);
 }
 
 // Of sky and ground, from a direction; at the horizon they pass into each other.

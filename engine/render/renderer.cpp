@@ -83,11 +83,6 @@ std::optional<glm::dmat4> clip_from_body(const Pose<frame::View, frame::Body>& v
 
 // --- Draw passes.
 
-struct PassCounts {
-  std::int64_t triangles = 0;
-  std::int64_t draw_calls = 0;
-};
-
 constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
 constexpr float kAnyOpacity = 1e9F;
 
@@ -286,7 +281,9 @@ Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const Gp
   }
   const SunView from_sun =
       sun_view_of(mesh, to_sun_in_body(light, camera_from_body), shadow_map_side(mesh, view_from_body, view));
-  if (const Result<void> drawn = sun->shadow.draw(gpu, from_sun); !drawn) return fail(drawn.error());
+  const Result<PassCounts> drawn = sun->shadow.draw(gpu, from_sun);
+  if (!drawn) return fail(drawn.error());
+  count(*drawn, counts);
   sun->shadow.bind();
   for (const Program& program : sun->programs.all)
     set_sun_light(program, light, view_from_body, view.view_from_camera, from_sun);

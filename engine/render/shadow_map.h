@@ -26,8 +26,8 @@ struct SunView {
 //   side_texels     wanted larger side of the map
 [[nodiscard]] SunView sun_view_of(const Mesh& mesh, const glm::dvec3& to_sun_in_body, int side_texels);
 
-// Side of the map for a body that is drawn with a camera: a texel is at most the size of a drawn pixel at the body's
-// middle. A power of two, so that it seldom changes from frame to frame; 128 to 2048.
+// Side of the map for a body that is drawn with a camera: a texel is as large as 1.25 drawn pixels at the body's
+// middle. In steps, so that it seldom changes from frame to frame; 128 to 2048.
 [[nodiscard]] int shadow_map_side(const Mesh& mesh, const Pose<frame::View, frame::Body>& view_from_body,
                                   const VirtualCamera& view);
 
@@ -40,7 +40,7 @@ class ShadowMap {
 
   // Draws the map of a body, in place of the one before. Error unavailable where the driver cannot draw to it. Other
   // framebuffers, viewports and programs have to be bound again afterwards.
-  [[nodiscard]] Result<void> draw(const GpuMesh& gpu, const SunView& sun);
+  [[nodiscard]] Result<PassCounts> draw(const GpuMesh& gpu, const SunView& sun);
 
   // Makes the map the texture of unit 1, which the shaders read it from.
   void bind() const;
