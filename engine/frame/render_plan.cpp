@@ -59,6 +59,19 @@ cv::Rect warp_rect_of(const std::optional<Box>& bounds, int blur_px, cv::Size im
   return bounds ? pixels_touched(*bounds, 1, grown) : grown;
 }
 
+Light light_of(const Scene& scene, const SceneMoment& moment) {
+  const SceneLight& light = scene.light;
+  if (light.kind == LightKind::point)
+    return {.p_in_camera = moment.light_in_camera, .color = light.color, .ambient = light.ambient};
+  return {.color = light.color * moment.sun_visible_share,
+          .kind = Light::Kind::sun,
+          .to_sun = moment.to_sun_in_camera,
+          .up = moment.up_in_camera,
+          .sky_color = light.sky_color,
+          .ground_color = light.ground_color,
+          .exposure = light.exposure};
+}
+
 // With the pixels that the rows of a rolling shutter look at beside.
 cv::Rect grown(const cv::Rect& rect, double shift_px) {
   const int margin_px = static_cast<int>(std::ceil(std::min(shift_px, 1e4)));
@@ -118,8 +131,7 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   const Mesh& mesh = mesh_of(scene, layers.placed);
   const double distance_m = layers.placed.distance_m();
   if (!layers.silhouette && distance_m > mesh.radius_m) return {};
-  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body),
-                  .light = {moment.light_in_camera, scene.light.color, scene.light.ambient}};
+  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body), .light = light_of(scene, moment)};
   const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
   plan.warp_rect = warp_rect_of(bounds, margin_px(layers.sigma_px), scene.footage.size_px);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;

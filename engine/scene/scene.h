@@ -38,10 +38,11 @@ struct FootageShape {
 // squarely becomes white.
 struct SceneLight {
   LightKind kind = LightKind::point;
-  glm::dvec3 position_m{0, 0, 0};  // of the point light, world
-  glm::dvec3 color{1, 1, 1};       // of the point light or of the sun
-  double ambient = 0.35;           // share of the point light that comes from everywhere, 0..1
-  glm::dvec3 to_sun{0, 0, -1};     // unit vector, world
+  glm::dvec3 position_m{0, 0, 0};                // of the point light, world
+  glm::dvec3 color{1, 1, 1};                     // of the point light or of the sun
+  double ambient = 0.35;                         // share of the point light that comes from everywhere, 0..1
+  std::optional<double> sun_azimuth_rad = {};    // from world X to the right; none: by time and place
+  std::optional<double> sun_elevation_rad = {};  // above the horizon, as it is seen; likewise (scene/scene_light.h)
   glm::dvec3 sky_color{0, 0, 0};
   glm::dvec3 ground_color{0, 0, 0};
   double exposure = 1;  // factor of sun, sky and ground

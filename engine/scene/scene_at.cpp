@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "scene/scene_light.h"
+
 namespace sigs {
 
 glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s) {
@@ -66,6 +68,13 @@ SceneMoment scene_at(const Scene& scene, int frame) {
   moment.time_s = time_of_frame_s(scene.footage, frame);
   moment.world_from_camera = camera_at(scene.motion, moment.time_s);
   moment.light_in_camera = inverse(moment.world_from_camera) * scene.light.position_m;
+  const glm::dquat camera_from_world = glm::conjugate(moment.world_from_camera.rotation);
+  moment.up_in_camera = camera_from_world * glm::dvec3(0, 0, -1);
+  if (scene.light.kind == LightKind::sun) {
+    const Sunlight sun = sunlight_at(scene, moment.time_s);
+    moment.to_sun_in_camera = camera_from_world * sun.to_sun;
+    moment.sun_visible_share = sun.visible_share;
+  }
   for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
     const Pose<frame::World, frame::Body> world_from_body =
         scene.intruders[i].trajectory.world_from_body(moment.time_s);

@@ -24,7 +24,10 @@ struct PlacedIntruder {
 struct SceneMoment {
   double time_s = 0;
   Pose<frame::World, frame::Camera> world_from_camera;
-  glm::dvec3 light_in_camera{0, 0, 0};    // position in metres, camera frame
+  glm::dvec3 light_in_camera{0, 0, 0};    // position of the point light in metres, camera frame
+  glm::dvec3 to_sun_in_camera{0, 0, -1};  // unit vector, camera frame
+  double sun_visible_share = 1;           // 0..1: of the sun's disc that is above the horizon
+  glm::dvec3 up_in_camera{0, 0, -1};      // the world's zenith: unit vector, camera frame
   std::vector<PlacedIntruder> intruders;  // far to near; equal distances by id
 };
 

@@ -77,6 +77,14 @@ std::string key_of_intruder(std::size_t intruder) {
   return fmt::format("intruders[{}]", intruder);
 }
 
+namespace {
+
+std::optional<double> rad_of_deg(const std::optional<double>& angle_deg) {
+  return angle_deg ? std::optional(sigs::rad_of_deg(*angle_deg)) : std::nullopt;
+}
+
+}  // namespace
+
 CameraMotion steady_motion(const CameraSettings& camera) {
   return {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
           .speed_mps = camera.speed_mps,
@@ -90,6 +98,8 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
                     .position_m = project.light.position_m,
                     .color = project.light.color,
                     .ambient = project.light.ambient,
+                    .sun_azimuth_rad = rad_of_deg(project.light.sun.azimuth_deg),
+                    .sun_elevation_rad = rad_of_deg(project.light.sun.elevation_deg),
                     .sky_color = project.light.sky_color,
                     .ground_color = project.light.ground_color,
                     .exposure = project.light.exposure},
