@@ -66,6 +66,12 @@ struct AttitudeDeviation {
   glm::dvec3 sd_rad{0, 0, 0};
 };
 
+// How long the shutter is open at one moment.
+struct ExposureTime {
+  double time_s = 0;
+  double exposure_s = 0;
+};
+
 // Where the camera's pose comes from, for the truth: format and quantity of a log; empty: the project's settings.
 struct PoseSource {
   std::string position;
@@ -81,6 +87,7 @@ struct CameraMotion {
   std::shared_ptr<const PiecewiseCubic> path = {};  // the camera's place in the world; null: straight on
   std::vector<AttitudeDeviation> deviations = {};   // by rising time; empty: not known
   double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once
+  std::vector<ExposureTime> exposures = {};         // by rising time; empty: not known, taken as 0
   PoseSource source = {};
   glm::bvec3 moves_with_start{true, true, true};  // whether camera.position_m moves the path along world X, Y, Z: not
                                                   // where the project states the world's origin on the Earth

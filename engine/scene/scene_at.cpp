@@ -37,6 +37,17 @@ std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& d
   return sd_rad;
 }
 
+double exposure_at(const std::vector<ExposureTime>& exposures, double time_s) {
+  if (exposures.empty()) return 0;
+  const auto after = std::upper_bound(exposures.begin(), exposures.end(), time_s,
+                                      [](double time, const ExposureTime& one) { return time < one.time_s; });
+  if (after == exposures.begin()) return after->exposure_s;
+  const auto before = std::prev(after);
+  if (after == exposures.end() || before->time_s == time_s) return before->exposure_s;
+  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
+  return glm::mix(before->exposure_s, after->exposure_s, share);
+}
+
 Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {
   Pose<frame::World, frame::Camera> pose = motion.world_from_camera_at_start;
   if (motion.path)
@@ -66,6 +77,7 @@ Pose<frame::Camera, frame::Body> camera_from_body_at(const Scene& scene, std::si
 SceneMoment scene_at(const Scene& scene, int frame) {
   SceneMoment moment;
   moment.time_s = time_of_frame_s(scene.footage, frame);
+  moment.exposure_s = exposure_at(scene.motion.exposures, moment.time_s);
   moment.world_from_camera = camera_at(scene.motion, moment.time_s);
   moment.light_in_camera = inverse(moment.world_from_camera) * scene.light.position_m;
   const glm::dquat camera_from_world = glm::conjugate(moment.world_from_camera.rotation);

@@ -88,7 +88,9 @@ std::optional<double> rad_of_deg(const std::optional<double>& angle_deg) {
 CameraMotion steady_motion(const CameraSettings& camera) {
   return {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
           .speed_mps = camera.speed_mps,
-          .readout_s = camera.readout_s.value_or(0)};
+          .readout_s = camera.readout_s.value_or(0),
+          .exposures =
+              camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{}};
 }
 
 Scene bare_scene(const Project& project, const FootageShape& footage) {
