@@ -19,6 +19,7 @@ enum class PictureType { unknown, intra, predicted, bidirectional };
 enum class QuantiserKind {
   h264,  // QP of luma of ITU-T H.264, 0..51; the step doubles every 6. Below 0 in footage of more than 8 bits
   mpeg,  // step of an 8x8 coefficient, in code values: quantiser_scale of MPEG-1 and -2, twice the one of MPEG-4 part 2
+  none,  // the codec keeps every sample
   jpeg,  // quality of the tables in percent, as the IJG library scales those of ITU-T T.81, annex K
 };
 

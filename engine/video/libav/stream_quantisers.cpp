@@ -81,6 +81,9 @@ int cut_px(int size_px) {
 std::shared_ptr<const FrameQuantisers> quantisers_of(const AVFrame& image, AVCodecID codec, const JpegTables& tables) {
   const std::string name = avcodec_get_name(codec);
   if (codec == AV_CODEC_ID_MJPEG) return jpeg_quantisers(image, tables, name);
+  if (is_lossless_codec(name))
+    return std::make_shared<const FrameQuantisers>(
+        FrameQuantisers{.codec = name, .kind = QuantiserKind::none, .type = type_of(image)});
   const AVFrameSideData* data = av_frame_get_side_data(&image, AV_FRAME_DATA_VIDEO_ENC_PARAMS);
   if (data == nullptr || image.width <= 0 || image.height <= 0) return nullptr;
   const auto& params = *reinterpret_cast<const AVVideoEncParams*>(data->data);
