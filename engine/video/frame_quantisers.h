@@ -23,6 +23,11 @@ enum class QuantiserKind {
   jpeg,  // quality of the tables in percent, as the IJG library scales those of ITU-T T.81, annex K
 };
 
+// What stands in where neither the footage nor a project states a quantiser: what x264 and most JPEG encoders use by
+// themselves.
+inline constexpr int kDefaultQp = 23;
+inline constexpr double kDefaultJpegQuality_percent = 90;
+
 // The steps of the 8x8 coefficients of a JPEG image, row by row from the lowest frequencies on; each 1..65535.
 using JpegTable = std::array<int, 64>;
 
