@@ -25,11 +25,6 @@ Grain grain_for(const GrainSettings& settings, int intruder) {
           .seed = seed};
 }
 
-int margin_px(const AppearanceSettings& appearance, PixelLayout layout) {
-  return std::max(sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
-                  chroma_spread_margin_px(layout, appearance.chroma_spread_px));
-}
-
 std::int64_t samples_of(const CodePatch& patch, int first_plane, int end_plane) {
   std::int64_t count = 0;
   for (int plane = first_plane; plane < std::min(end_plane, patch.plane_count()); ++plane)
@@ -77,6 +72,11 @@ class CodeStages {
 
 }  // namespace
 
+int code_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout) {
+  return std::max(sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
+                  chroma_spread_margin_px(layout, appearance.chroma_spread_px));
+}
+
 bool has_code_stages(const AppearanceSettings& appearance) {
   return appearance.sharpening > 0 || appearance.chroma_spread_px > 0 || !grain_for(appearance.grain, 0).is_none();
 }
@@ -85,8 +85,8 @@ Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene, co
                                  const StageDone& done) {
   const AppearanceSettings& look = scene.appearance;
   const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
-  CodePatch patch =
-      blended_patch(composed.image, layers.occluded, space, margin_px(look, composed.image.layout), scene.own_body);
+  CodePatch patch = blended_patch(composed.image, layers.occluded, space,
+                                  code_stages_margin_px(look, composed.image.layout), scene.own_body);
   CodeStages stages(patch, composed, done);
   stages.sharpened(look.sharpening, look.sharpening_px);
   stages.with_chroma_spread(look.chroma_spread_px);

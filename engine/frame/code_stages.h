@@ -14,6 +14,9 @@ namespace sigs {
 // Whether anything follows the blending: sharpening, spread of chroma, grain.
 [[nodiscard]] bool has_code_stages(const AppearanceSettings& appearance);
 
+// How far these stages carry a change beyond the layer, px.
+[[nodiscard]] int code_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout);
+
 // Called with the name of each stage that is not left out, when the frame holds its result.
 using StageDone = std::function<void(const std::string& name)>;
 

@@ -35,6 +35,7 @@ struct OpCounts {
   std::int64_t pixels_motion_blurred = 0;  // of layers, times the shifts that each is the sum of
   std::int64_t samples_filtered = 0;       // of the frame's planes: sharpening, spread of chroma
   std::int64_t samples_of_noise = 0;       // grain
+  std::int64_t pixels_coded = 0;           // by the codec match
 
   [[nodiscard]] bool operator==(const OpCounts&) const = default;
 
@@ -50,6 +51,7 @@ struct OpCounts {
     pixels_motion_blurred += more.pixels_motion_blurred;
     samples_filtered += more.samples_filtered;
     samples_of_noise += more.samples_of_noise;
+    pixels_coded += more.pixels_coded;
     return *this;
   }
 };

@@ -20,6 +20,7 @@
 #include "compositor/footage_light.h"
 #include "compositor/occlude.h"
 #include "frame/code_stages.h"
+#include "frame/codec_stage.h"
 #include "frame/occluder.h"
 
 namespace sigs {
@@ -192,6 +193,7 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
   ComposedFrame composed{.image = std::move(background)};
   const bool keep = stages == Stages::keep;
   const bool direct = scene.compositing.method == MethodChoice::direct;
+  const std::optional<CodecMatch> codec_match = codec_match_for(composed.image, scene, far_to_near);
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
   for (const IntruderLayers& layers : far_to_near) {
     if (layers.views.empty()) continue;
@@ -209,6 +211,10 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
       else
         context.classic_buffers() = std::move(classic);
     }
+  }
+  if (codec_match) {
+    if (keep) composed.stages.push_back({"uncoded", bgr_of(composed.image)});
+    composed.op_counts.pixels_coded += codec_match->apply(composed.image, composed.mask, scene.own_body);
   }
   if (keep) {
     if (!composed.mask.empty()) composed.stages.push_back({"mask", composed.mask});
