@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "appearance/quantiles.h"
 #include "appearance/straight_edges.h"
 #include "video/color_space.h"
 
@@ -45,12 +46,6 @@ struct EdgeSample {
   EdgeLevels levels;
   glm::dvec2 normal{1, 0};
   double tolerance = 1;  // code values by which a sample may differ from the model
-};
-
-// A fitted number with its standard deviation by the scatter about the fit.
-struct Fitted {
-  double value = 0;
-  double sd = 0;
 };
 
 // The sigma that fits one edge best, sharpening being known. 0.02 to 8.
