@@ -69,17 +69,18 @@ struct Level {
 struct NoiseLine {
   double dark = 0, bright = 0;
   double dark_sd = 0, bright_sd = 0;
-  bool is_level = false;  // too few brightnesses for a slope
+  bool is_level = false;  // no slope can be told
 };
 
-NoiseLine line_through(const std::vector<Level>& levels) {
-  constexpr double kNarrow = 0.25;  // of the brightness
+NoiseLine line_through(const std::vector<Level>& levels, bool is_level = false) {
+  constexpr double kNarrow = 0.25;     // of the brightness
+  constexpr double kMostUnsure = 0.7;  // deviation of an end's variance, as a share of the mean of both
   double low = 1, high = 0;
   for (const Level& level : levels) {
     low = std::min(low, level.brightness);
     high = std::max(high, level.brightness);
   }
-  NoiseLine line{.is_level = high - low < kNarrow};
+  NoiseLine line{.is_level = is_level || high - low < kNarrow};
   std::vector<double> robust(levels.size(), 1.0);
   for (int round = 0; round < 4; ++round) {
     double aa = 0, ab = 0, bb = 0, ay = 0, by = 0, total = 0;
@@ -119,6 +120,8 @@ NoiseLine line_through(const std::vector<Level>& levels) {
     line.dark_sd = scatter * (line.is_level ? line.dark : std::sqrt(usual_weight * bb / determinant));
     line.bright_sd = scatter * (line.is_level ? line.bright : std::sqrt(usual_weight * aa / determinant));
   }
+  const double sure = kMostUnsure * (line.dark + line.bright) / 2 + 0.02;
+  if (!line.is_level && std::max(line.dark_sd, line.bright_sd) > sure) return line_through(levels, true);
   return line;
 }
 
@@ -127,6 +130,8 @@ double root_of(double variance) {
 }
 
 Estimate sd_estimate(double variance, double variance_sd) {
+  constexpr double kRoundingDiffers = 0.02;  // of little noise, 1/12 is not the variance that rounding adds
+  variance_sd = std::hypot(variance_sd, kRoundingDiffers);
   const double sd = root_of(variance);
   // Of a square root; at 0 the root of the error itself.
   return {sd, sd > root_of(variance_sd) ? variance_sd / (2 * sd) : root_of(variance_sd), true, ""};
@@ -165,9 +170,10 @@ class NoiseFit {
 
   // All plain blocks are of one colour: nothing was photographed, or the codec left nothing.
   [[nodiscard]] bool is_without_noise() const {
-    double sum = 0;
-    for (const NoiseBlock* const block : plain_) sum += block->variance;
-    return sum < 2 * kNone * static_cast<double>(plain_.size());
+    constexpr double kNearlyAll = 0.8;
+    const auto even = std::count_if(plain_.begin(), plain_.end(),
+                                    [](const NoiseBlock* block) { return block->variance < 2 * kNone; });
+    return static_cast<double>(even) > kNearlyAll * static_cast<double>(plain_.size());
   }
 
   // Even the strongest texture does not move.
@@ -218,11 +224,10 @@ class NoiseFit {
   [[nodiscard]] Panel panel(const NoiseLine& line, double spread_px) const {
     const double left = block_rest(spread_px, kNoiseBlock_px).variance;
     PanelSeries all{.label = "blocks", .is_points = true}, floors{.label = "noise", .is_points = true};
-    double top = 0.5;
+    const double top = std::max(0.5, 4 * std::max(line.dark, line.bright));
     for (const Level& level : levels_) {
       floors.x.push_back(level.brightness);
       floors.y.push_back(std::max(0.0, level.variance - kRounding) / left);
-      top = std::max(top, 4 * floors.y.back());
     }
     const std::size_t every = std::max<std::size_t>(1, blocks_.size() / 3000);
     for (std::size_t i = 0; i < blocks_.size(); i += every) {
@@ -400,8 +405,8 @@ NoiseFound Noise::finish() const {
   found.sd_bright = sd_estimate(line.bright, line.bright_sd);
   found.panels.push_back(fit.panel(line, spread.value));
   found.panels.back().remark =
-      fmt::format("sd {:.2f} at black, {:.2f} at white; {} blocks without texture{}", found.sd_dark.value,
-                  found.sd_bright.value, fit.plain().size(), line.is_level ? "; too few brightnesses for a slope" : "");
+      fmt::format("sd {:.2f} at black, {:.2f} at white; {} blocks{}", found.sd_dark.value, found.sd_bright.value,
+                  fit.plain().size(), line.is_level ? "; no slope to be told" : "");
   const Fitted chroma = fit.chroma_variance();
   if (chroma.value >= 0)
     found.sd_chroma = sd_estimate(chroma.value, chroma.sd);
@@ -411,7 +416,7 @@ NoiseFound Noise::finish() const {
                                                         : "no flat parts in chroma";
   if (pairs_ == 0) {
     found.persistence.why = "one frame alone";
-  } else if (fit.stands_still()) {
+  } else if (fit.stands_still() && fit.persistence().value_or(Fitted{1, 0}).value > 0.3) {
     found.persistence.why = "the camera stands still: fixed texture and lasting noise look the same";
   } else {
     const std::optional<Fitted> persistence = fit.persistence();

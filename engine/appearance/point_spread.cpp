@@ -14,10 +14,11 @@ namespace sigs {
 
 namespace {
 
-constexpr int kEdgesAFrame = 16;
+constexpr int kEdgesAFrame = 24;
 constexpr std::size_t kMostEdges = 240;    // of which a sigma is fitted
 constexpr std::size_t kMostTogether = 30;  // fitted together
-constexpr int kFewestEdges = 12;
+constexpr int kFewestEdges = 24;
+constexpr int kFewestAgreeing = 8;
 constexpr double kLowQuantile = 0.1;
 constexpr double kNormalAtLow = 1.2816;  // the normal distribution's, at that quantile
 constexpr double kDrawn_px = 0.13;       // no lens is that sharp
@@ -49,11 +50,12 @@ std::vector<const Item*> thinned(const std::vector<Item>& items, std::size_t mos
 }  // namespace
 
 struct PointSpread::SharpEnd {
-  std::vector<const Edge*> edges;
-  std::vector<Fitted> sigmas_px;  // one for each edge
-  Fitted sigma_px;                // at the sharp end
-  double error_px = 0;            // usual error of one edge
-  EdgeShape shape;                // of the edges that agree with it
+  std::size_t edges_counted = 0;
+  std::vector<const Edge*> edges;  // as many of them as are fitted
+  std::vector<Fitted> sigmas_px;   // one for each edge
+  Fitted sigma_px;                 // at the sharp end
+  double error_px = 0;             // usual error of one edge
+  EdgeShape shape;                 // of the edges that agree with it
   std::vector<const Edge*> agreeing;
   std::vector<std::size_t> agreeing_at;  // their places in `edges`
 };
@@ -67,8 +69,10 @@ void PointSpread::add(const Frame& frame) {
   const TransferFunction transfer = transfer_function_of(frame.color.transfer).value_or(TransferFunction::srgb);
   const auto display_of = [&](double code) { return (code - lowest) / (highest - lowest); };
   for (const StraightEdge& edge : straight_edges(luma_of(frame), lowest, highest, kEdgesAFrame)) {
+    if (is_seen_again(edge.line)) continue;
     const double tolerance = std::hypot(edge.bins.noise, 0.01 * (edge.bright - edge.dark), 0.3);
-    edges_.push_back({.luma = {.bins = edge.bins,
+    edges_.push_back({.line = edge.line,
+                      .luma = {.bins = edge.bins,
                                .levels = {display_of(edge.dark), display_of(edge.bright), transfer, 1},
                                .normal = edge.line.normal,
                                .tolerance = tolerance},
@@ -76,9 +80,34 @@ void PointSpread::add(const Frame& frame) {
   }
 }
 
+bool PointSpread::is_seen_again(const EdgeLine& line) {
+  constexpr double kSamePlace_px = 2;
+  constexpr double kSameDirection = 0.995;  // cosine
+  for (Edge& edge : edges_) {
+    const glm::dvec2 off = line.at_px - edge.line.at_px;
+    if (std::abs(glm::dot(off, line.normal)) > kSamePlace_px || glm::length(off) > line.half_length_px) continue;
+    if (glm::dot(line.normal, edge.line.normal) < kSameDirection) continue;
+    ++edge.times_seen;
+    return true;
+  }
+  return false;
+}
+
+std::vector<const PointSpread::Edge*> PointSpread::counted_edges() const {
+  constexpr int kStaying = 3;
+  std::vector<const Edge*> passing, all;
+  for (const Edge& edge : edges_) {
+    all.push_back(&edge);
+    if (edge.times_seen < kStaying) passing.push_back(&edge);
+  }
+  return std::ssize(passing) >= kFewestEdges ? passing : all;
+}
+
 // Twice: sharpening is known only once the edges at the sharp end have been fitted together.
 PointSpread::SharpEnd PointSpread::sharp_end() const {
-  SharpEnd end{.edges = thinned(edges_, kMostEdges)};
+  const std::vector<const Edge*> counted = counted_edges();
+  SharpEnd end{.edges_counted = counted.size()};
+  for (const Edge* const* const edge : thinned(counted, kMostEdges)) end.edges.push_back(*edge);
   for (int round = 0; round < 2; ++round) {
     std::vector<double> values, errors;
     end.sigmas_px.clear();
@@ -108,12 +137,24 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
   return end;
 }
 
+// A horizon or a road has many edges and yet is one object, whose own softness counts each time.
+bool PointSpread::is_one_direction(const SharpEnd& end) {
+  constexpr double kMostAlike = 0.9;  // length of the mean of unit vectors at twice the edges' angles
+  glm::dvec2 sum(0);
+  for (const Edge* const edge : end.edges) {
+    const glm::dvec2 n = edge->line.normal;
+    sum += glm::dvec2(n.x * n.x - n.y * n.y, 2 * n.x * n.y);
+  }
+  return glm::length(sum) > kMostAlike * static_cast<double>(end.edges.size());
+}
+
 std::string PointSpread::why_not(const SharpEnd& end) const {
   if (frames_ == 0) return "no frame";
   if (edges_.empty()) return "no edge that is straight, isolated, strong and oblique to the rows";
   if (std::ssize(edges_) < kFewestEdges)
     return fmt::format("only {} edges that are straight, isolated and strong", edges_.size());
-  if (std::ssize(end.agreeing) < kFewestEdges / 2)
+  if (is_one_direction(end)) return "all edges lie in one direction, as those of a horizon do";
+  if (std::ssize(end.agreeing) < kFewestAgreeing)
     return fmt::format("of {} edges only {} are about as sharp as the sharpest", edges_.size(), end.agreeing.size());
   if (end.sigma_px.value < kDrawn_px && end.shape.sigma_px < kDrawn_px)
     return "edges as sharp as no lens makes them: a drawing or a screen";

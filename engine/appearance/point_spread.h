@@ -40,13 +40,18 @@ class PointSpread {
 
  private:
   struct Edge {
+    EdgeLine line;
+    int times_seen = 1;  // at the same place
     EdgeSample luma;
     std::vector<EdgeSample> chroma;  // of the planes that show the edge
   };
   struct SharpEnd;
+  [[nodiscard]] bool is_seen_again(const EdgeLine& line);
+  [[nodiscard]] std::vector<const Edge*> counted_edges() const;
   [[nodiscard]] SharpEnd sharp_end() const;
   void find_luma(PointSpreadFound& found, const SharpEnd& end) const;
   void find_chroma(PointSpreadFound& found, const SharpEnd& end) const;
+  [[nodiscard]] static bool is_one_direction(const SharpEnd& end);
   [[nodiscard]] std::string why_not(const SharpEnd& end) const;
 
   std::vector<Edge> edges_;

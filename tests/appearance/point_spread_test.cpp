@@ -52,7 +52,7 @@ TEST_CASE("sharpening of a slanted-edge target is told apart from its blur") {
     REQUIRE_MESSAGE(found.sharpening.is_known, found.sharpening.why);
     CHECK(std::abs(found.sigma_px.value - 0.8) < 0.03 * 0.8);
     CHECK(std::abs(found.sharpening.value - sharpening) < 0.04 + 0.05 * sharpening);  // its sd is 0.04
-    CHECK(std::abs(found.sharpening_px.value - 1.4) < 0.1 * 1.4);
+    CHECK(std::abs(found.sharpening_px.value - 1.4) < 0.15 * 1.4);  // of weak sharpening, its width is less sure
   }
 }
 
