@@ -61,8 +61,9 @@ struct Level {
   double brightness = 0;  // 0 black, 1 white
   double variance = 0;    // of luma, rounding and the plane's share still in it
   double weight = 0;
-  double shared = 0;  // covariance of neighbours over the variance
-  double limit = 0;   // blocks of less variance are without texture
+  double shared = 0;                           // covariance of neighbours over the variance
+  std::vector<const NoiseBlock*> blocks = {};  // without texture
+  double limit = 0;                            // blocks of less variance are without texture
 };
 
 // variance = dark * (1 - brightness) + bright * brightness
@@ -303,6 +304,25 @@ class NoiseFit {
     return plain;
   }
 
+  // Strong compression takes all noise from some blocks and leaves errors of its own in others: no variance is shared
+  // by many. The middle one is taken, where it is little.
+  [[nodiscard]] static Floor left_by_codec(const std::vector<double>& variances) {
+    constexpr double kMostLeft = 4;
+    if (std::ssize(variances) < kFewestBlocks) return {};
+    const double middle = quantile(variances, 0.5);
+    return {middle, middle < kMostLeft, static_cast<int>(variances.size() / 2)};
+  }
+
+  // Brightnesses that few blocks have and in which all of them vary much are of an object: its edges and its texture.
+  void leave_out_objects() {
+    constexpr double kMostAboveUsual = 10;
+    std::vector<double> by_blocks;
+    for (const Level& level : levels_)
+      by_blocks.insert(by_blocks.end(), level.blocks.size() / kFewestBlocks + 1, level.variance);
+    const double usual = quantile(by_blocks, 0.5);
+    std::erase_if(levels_, [&](const Level& level) { return level.variance > kMostAboveUsual * usual + 0.5; });
+  }
+
   // What neighbours share of the noise: the mean over the blocks up to reach_ times the floor.
   [[nodiscard]] double shared_by_neighbours(const std::vector<const NoiseBlock*>& blocks, bool by_change,
                                             double floor) const {
@@ -334,13 +354,19 @@ class NoiseFit {
       const Floor change = kept_.value < 0 ? Floor{} : change_floor(blocks);
       const double by_change = change.value / (1 - kept_.value);
       const bool is_by_change = change.is_shared && by_change < floor.value;
+      if (!is_by_change && !floor.is_shared) floor = left_by_codec(variances);
       if (!is_by_change && !floor.is_shared) continue;
       const double ratio = shared_by_neighbours(blocks, is_by_change, is_by_change ? change.value : floor.value);
       if (is_by_change) floor = {by_change, true, change.count};
-      levels_.push_back({brightness / static_cast<double>(blocks.size()), floor.value,
-                         static_cast<double>(std::min(200, floor.count)), ratio});
-      for (const NoiseBlock* const block : blocks) {
-        if (block->variance > reach_ * floor.value) continue;
+      Level level{brightness / static_cast<double>(blocks.size()), floor.value,
+                  static_cast<double>(std::min(200, floor.count)), ratio};
+      for (const NoiseBlock* const block : blocks)
+        if (block->variance <= reach_ * floor.value + kNone) level.blocks.push_back(block);
+      levels_.push_back(std::move(level));
+    }
+    leave_out_objects();
+    for (const Level& level : levels_) {
+      for (const NoiseBlock* const block : level.blocks) {
         plain_.push_back(block);
         repeated_ += is_repeated(*block) ? 1 : 0;
       }
