@@ -21,6 +21,7 @@
 #include "cli/path_project.h"
 #include "cli/process.h"
 #include "cli/progress.h"
+#include "cli/project_view.h"
 #include "project/json.h"
 
 namespace sigs::cli {
@@ -92,14 +93,21 @@ Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<P
   return looked;
 }
 
-Result<Appearance> found_in(const Looked& looked, const AppearanceOptions& options) {
+Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& project,
+                            const AppearanceOptions& options) {
   Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag());
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  AppearanceHints hints;
+  if (project) {
+    Result<AppearanceHints> known = hints_of(*project, footage->info());
+    if (!known) return fail(known.error());
+    hints = std::move(*known);
+  }
   Progress progress(progress_style(options.progress));
   const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                   .cancel = &interrupt_flag()};
-  Result<Appearance> found = estimate_appearance(*footage, looked.frames, control);
+  Result<Appearance> found = estimate_appearance(*footage, looked.frames, hints, control);
   progress.end();
   return found;
 }
@@ -151,6 +159,15 @@ std::string json_text(const Appearance& found) {
   return report.dump(2) + "\n";
 }
 
+std::string text_of(const AppearanceQuantity& quantity) {
+  const Estimate& estimate = quantity.estimate;
+  if (quantity.setting == "appearance.haze.visibility_m") {
+    if (!estimate.is_known) return "not known: " + estimate.why + "; clear air is taken";
+    return fmt::format("{:.0f} +- {:.0f} m", estimate.value, estimate.sd);
+  }
+  return estimate_text(estimate, quantity.unit);
+}
+
 std::string table_text(const Appearance& found) {
   std::string text =
       fmt::format("{}: {}, {}, {} used\n", found.footage.path.string(), image_size_text(found.footage.size_px),
@@ -159,7 +176,7 @@ std::string table_text(const Appearance& found) {
   const std::vector<AppearanceQuantity> quantities = quantities_of(found);
   for (const AppearanceQuantity& quantity : quantities) widest = std::max(widest, quantity.name.size());
   for (const AppearanceQuantity& quantity : quantities)
-    text += fmt::format("{:{}}  {}\n", quantity.name, widest, estimate_text(quantity.estimate, quantity.unit));
+    text += fmt::format("{:{}}  {}\n", quantity.name, widest, text_of(quantity));
   text += "\nsettings:\n";
   const Json settings = settings_of(found);
   for (const std::string& key : applied_settings(found))
@@ -229,7 +246,7 @@ Result<void> run(const AppearanceOptions& options) {
   defer_interrupts();
   Outputs outputs(options);
   if (const Result<void> free = outputs.reserve(); !free) return free;
-  const Result<Appearance> found = found_in(*looked, options);
+  const Result<Appearance> found = found_in(*looked, project, options);
   if (!found) return fail(found.error());
   if (const Result<void> written = outputs.write(*found); !written) return written;
   if (into) {

@@ -50,23 +50,29 @@ std::vector<int> with_followers(const std::vector<int>& samples, int last) {
 class Estimators {
  public:
   // next: the frame that follows directly; null: it is not there or damaged.
-  void add(const Frame& frame, const Frame* next) {
-    point_spread_.add(frame);
+  void add(const Frame& frame, const Frame* next, const View& view) {
+    point_spread_.add(frame, view.own_body);
     noise_.add(frame, next);
+    surroundings_.add(frame, view);
   }
 
-  void finish(Appearance& appearance) const {
+  void finish(Appearance& appearance, const AppearanceHints& hints) const {
     appearance.point_spread = point_spread_.finish();
     appearance.noise = noise_.finish();
+    appearance.surroundings = surroundings_.finish(hints.to_sun_in_world);
+    appearance.tone_histogram = surroundings_.tone().histogram();
+    appearance.haze_curve = surroundings_.haze().curve();
   }
 
  private:
   PointSpread point_spread_;
   Noise noise_;
+  Surroundings surroundings_;
 };
 
-Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frames, const AppearanceControl& control) {
-  Appearance appearance{.footage = footage.info()};
+Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frames, const AppearanceHints& hints,
+                             const AppearanceControl& control) {
+  Appearance appearance{.footage = footage.info(), .has_time_and_place = hints.has_time_and_place};
   const Result<std::vector<int>> samples = sample_numbers(footage.info(), frames);
   if (!samples) return fail(samples.error());
   const std::set<int> is_sample(samples->begin(), samples->end());
@@ -75,7 +81,7 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
   SampledFrames stream(footage, with_followers(*samples, last));
   std::optional<NumberedFrame> waiting;  // a sample whose follower may come
   const auto use = [&](const Frame* next) {
-    estimators.add(waiting->frame, next);
+    estimators.add(waiting->frame, next, hints.view ? hints.view(waiting->number) : View{});
     ++appearance.frames_used;
     if (control.progress) control.progress(appearance.frames_used, static_cast<int>(is_sample.size()));
     waiting.reset();
@@ -89,15 +95,15 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
     if (is_sample.contains(current.number) && !current.frame.damaged) waiting = std::move(current);
   }
   if (waiting) use(nullptr);
-  estimators.finish(appearance);
+  estimators.finish(appearance, hints);
   return appearance;
 }
 
 }  // namespace
 
 Result<Appearance> estimate_appearance(FrameSource& footage, const AppearanceFrames& frames,
-                                       const AppearanceControl& control) {
-  return guarded([&] { return estimated(footage, frames, control); }, footage.info().path.string());
+                                       const AppearanceHints& hints, const AppearanceControl& control) {
+  return guarded([&] { return estimated(footage, frames, hints, control); }, footage.info().path.string());
 }
 
 }  // namespace sigs

@@ -11,6 +11,8 @@
 #include "appearance/noise.h"
 #include "appearance/panel.h"
 #include "appearance/point_spread.h"
+#include "appearance/surroundings.h"
+#include "appearance/view.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "video/frame_source.h"
@@ -22,6 +24,13 @@ struct AppearanceFrames {
   int first = 0;
   std::optional<int> last;  // included; none: the footage's last
   int every = 0;  // each so many frames one is used, with the frame after it; 0: 24 are, spread over the range
+};
+
+// What is known besides the footage. All of it may be missing.
+struct AppearanceHints {
+  std::function<View(int frame)> view;        // of the camera at a frame; empty: nothing is known
+  std::optional<glm::dvec3> to_sun_in_world;  // unit vector, by time and place
+  bool has_time_and_place = false;            // the project knows the sun's direction at each frame by itself
 };
 
 struct AppearanceControl {
@@ -36,13 +45,17 @@ struct Appearance {
   int frames_used = 0;
   PointSpreadFound point_spread;
   NoiseFound noise;
+  SurroundingsEstimate surroundings;  // haze, tone, light, sun
+  ToneHistogram tone_histogram{};
+  HazeCurve haze_curve;
+  bool has_time_and_place = false;  // as in AppearanceHints
 };
 
 // Looks at the footage once, from its first frame used to the last; decoding runs ahead on a thread of its own. Damaged
 // frames are left out. What cannot be told says so (Estimate) and is no error.
 // Errors: usage (no such frames), cannot_read, bad_data, interrupted.
 [[nodiscard]] Result<Appearance> estimate_appearance(FrameSource& footage, const AppearanceFrames& frames,
-                                                     const AppearanceControl& control);
+                                                     const AppearanceHints& hints, const AppearanceControl& control);
 
 // One quantity of the list that users see.
 struct AppearanceQuantity {

@@ -47,6 +47,17 @@ std::vector<const Item*> thinned(const std::vector<Item>& items, std::size_t mos
   return chosen;
 }
 
+// Whether one side of an edge lies on the own body.
+bool is_near_body(const EdgeLine& line, const cv::Mat& own_body, cv::Size size) {
+  if (own_body.empty() || own_body.size() != size) return false;
+  for (const double distance_px : {-kEdgeHalfWidth_px, 0.0, kEdgeHalfWidth_px}) {
+    const glm::ivec2 at(glm::round(line.at_px + distance_px * line.normal));
+    const cv::Point pixel(std::clamp(at.x, 0, size.width - 1), std::clamp(at.y, 0, size.height - 1));
+    if (own_body.at<uchar>(pixel) > 127) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 struct PointSpread::SharpEnd {
@@ -60,7 +71,7 @@ struct PointSpread::SharpEnd {
   std::vector<std::size_t> agreeing_at;  // their places in `edges`
 };
 
-void PointSpread::add(const Frame& frame) {
+void PointSpread::add(const Frame& frame, const cv::Mat& own_body) {
   ++frames_;
   layout_ = frame.layout;
   const bool is_limited = frame.layout != PixelLayout::rgb && frame.color.range == ColorRange::limited;
@@ -69,7 +80,7 @@ void PointSpread::add(const Frame& frame) {
   const TransferFunction transfer = transfer_function_of(frame.color.transfer).value_or(TransferFunction::srgb);
   const auto display_of = [&](double code) { return (code - lowest) / (highest - lowest); };
   for (const StraightEdge& edge : straight_edges(luma_of(frame), lowest, highest, kEdgesAFrame)) {
-    if (is_seen_again(edge.line)) continue;
+    if (is_near_body(edge.line, own_body, frame.size_px()) || is_seen_again(edge.line)) continue;
     const double tolerance = std::hypot(edge.bins.noise, 0.01 * (edge.bright - edge.dark), 0.3);
     edges_.push_back({.line = edge.line,
                       .luma = {.bins = edge.bins,

@@ -35,7 +35,8 @@ struct PointSpreadFound {
 class PointSpread {
  public:
   // Frames of one clip in order, all of the same layout and colours.
-  void add(const Frame& frame);
+  //   own_body  CV_8UC1 of the frame's size, above 127: hidden, and no edge there counts; empty: nothing is
+  void add(const Frame& frame, const cv::Mat& own_body = {});
   [[nodiscard]] PointSpreadFound finish() const;
 
  private:

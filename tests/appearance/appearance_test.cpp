@@ -36,7 +36,7 @@ Appearance appearance_of(const std::vector<Frame>& frames) {
   const TemporaryFolder folder;
   Result<FrameSource> footage = FrameSource::open(clip_of(folder, frames));
   REQUIRE(footage);
-  Result<Appearance> found = estimate_appearance(*footage, {}, {});
+  Result<Appearance> found = estimate_appearance(*footage, {}, {}, {});
   REQUIRE(found);
   return *found;
 }
@@ -155,11 +155,11 @@ TEST_CASE("frames that the footage does not have are refused, and any others are
   Result<FrameSource> footage =
       FrameSource::open(clip_of(folder, std::vector<Frame>(5, even_frame(PixelLayout::yuv420, 100))));
   REQUIRE(footage);
-  CHECK(estimate_appearance(*footage, {.first = 5}, {}).error().kind == ErrorKind::usage);
-  CHECK(estimate_appearance(*footage, {.first = 3, .last = 2}, {}).error().kind == ErrorKind::usage);
-  CHECK(estimate_appearance(*footage, {.first = 4}, {})->frames_used == 1);
-  CHECK(estimate_appearance(*footage, {.every = 2}, {})->frames_used == 3);
-  CHECK(estimate_appearance(*footage, {.first = 1, .last = 100, .every = 1000000}, {})->frames_used == 1);
+  CHECK(estimate_appearance(*footage, {.first = 5}, {}, {}).error().kind == ErrorKind::usage);
+  CHECK(estimate_appearance(*footage, {.first = 3, .last = 2}, {}, {}).error().kind == ErrorKind::usage);
+  CHECK(estimate_appearance(*footage, {.first = 4}, {}, {})->frames_used == 1);
+  CHECK(estimate_appearance(*footage, {.every = 2}, {}, {})->frames_used == 3);
+  CHECK(estimate_appearance(*footage, {.first = 1, .last = 100, .every = 1000000}, {}, {})->frames_used == 1);
 }
 
 TEST_CASE("the page of plots has two panels to a row, also without a point to draw") {
