@@ -30,7 +30,7 @@ constexpr double kLeastFading = 0.9;                      // of the contrast tha
 constexpr double kMostDip_deg = 1.5, kDipStep_deg = 0.1;  // of an edge in the image below the horizon
 constexpr double kShoulderSd = 0.15;                      // of the visibility, by the shoulder that is not known
 constexpr double kColorsApart = 0.2;  // natural logarithm of the visibility in red or blue to that in all light
-constexpr double kEdgeSd = 0.3;       // and where the horizon is an edge in the image
+constexpr double kEdgeSd = 0.5;       // and where the horizon is an edge in the image
 constexpr double kWithGround = 0.5;   // of the airlight's deviation, where ground and sky agree on it
 
 double squared(double x) {

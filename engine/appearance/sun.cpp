@@ -155,4 +155,10 @@ SunEstimate Sun::finish(const std::optional<glm::dvec3>& to_sun_in_world) const 
   return sun;
 }
 
+void apply(const SunEstimate& sun, LightSettings& settings) {
+  if (sun.witness == SunWitness::given) return;
+  settings.sun.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
+  settings.sun.elevation_deg = deg_of_rad(sun.elevation_rad.value);
+}
+
 }  // namespace sigs

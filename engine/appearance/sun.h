@@ -8,6 +8,7 @@
 
 #include "appearance/estimate.h"
 #include "appearance/light_image.h"
+#include "project/project.h"
 
 namespace sigs {
 
@@ -66,5 +67,8 @@ class Sun {
   double blue_cells_ = 0, sky_cells_ = 0;
   int frames_ = 0, with_level_ = 0;
 };
+
+// The sun's direction in the settings. One that was given stays as it is there: time and place tell it at each frame.
+void apply(const SunEstimate& sun, LightSettings& settings);
 
 }  // namespace sigs
