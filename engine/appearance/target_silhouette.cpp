@@ -2,8 +2,8 @@
 #include "appearance/target_silhouette.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -19,16 +19,19 @@ constexpr double kLeastSd = 0.5;       // rounding to 8 bits alone gives 0.29
 constexpr int kLeastPixels = 12;
 constexpr int kLeastMargin_px = 22;   // as far as the codec's macroblock at the target's edge reaches, and some more
 constexpr double kLeastSpeck = 0.03;  // of the largest piece's area
+constexpr std::size_t kMostSamples = 5000;  // of the background; more change the surface by less than its deviation
 constexpr int kRefits = 4;
 constexpr double kOutlier_sd = 2.5;
 
+using Terms = cv::Matx<double, 6, 1>;
+
 // The six terms of a surface of second order at a pixel, in coordinates of about -1..1.
-std::array<double, 6> terms_at(int x, int y, cv::Size size) {
+Terms terms_at(int x, int y, cv::Size size) {
   const double u = 2.0 * x / size.width - 1, v = 2.0 * y / size.height - 1;
   return {1, u, v, u * u, u * v, v * v};
 }
 
-double median_of(std::vector<float>& values) {
+double median_of(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -41,39 +44,44 @@ struct Surface {
   double sd = 0;
 };
 
+struct Sample {
+  Terms terms;
+  double value = 0;
+};
+
+// Pixels under a mask, on a grid that leaves some kMostSamples of them.
+std::vector<Sample> samples_of(const cv::Mat& plane, const cv::Mat& around) {
+  const int every = static_cast<int>(std::sqrt(plane.total() / kMostSamples)) + 1;
+  std::vector<Sample> samples;
+  for (int y = 0; y < plane.rows; y += every)
+    for (int x = 0; x < plane.cols; x += every)
+      if (around.at<uchar>(y, x) != 0) samples.push_back({terms_at(x, y, plane.size()), plane.at<float>(y, x)});
+  return samples;
+}
+
 // Least squares over the pixels of `around`, several times, each time without what lies far off.
 Surface surface_through(const cv::Mat& plane, const cv::Mat& around) {
-  Surface surface{.values = cv::Mat(plane.size(), CV_32FC1, cv::Scalar(0))};
-  double limit = std::numeric_limits<double>::infinity();
+  const std::vector<Sample> samples = samples_of(plane, around);
+  Terms found = Terms::zeros();
+  double limit = std::numeric_limits<double>::infinity(), sd = kLeastSd;
   for (int fit = 0; fit < kRefits; ++fit) {
-    cv::Matx<double, 6, 6> normal = cv::Matx<double, 6, 6>::zeros();
-    cv::Matx<double, 6, 1> right = cv::Matx<double, 6, 1>::zeros();
-    for (int y = 0; y < plane.rows; ++y)
-      for (int x = 0; x < plane.cols; ++x) {
-        if (around.at<uchar>(y, x) == 0) continue;
-        const double value = plane.at<float>(y, x);
-        if (std::abs(value - surface.values.at<float>(y, x)) > limit) continue;
-        const auto terms = terms_at(x, y, plane.size());
-        for (int i = 0; i < 6; ++i) {
-          right(i) += terms[static_cast<std::size_t>(i)] * value;
-          for (int j = 0; j < 6; ++j)
-            normal(i, j) += terms[static_cast<std::size_t>(i)] * terms[static_cast<std::size_t>(j)];
-        }
-      }
-    for (int i = 0; i < 6; ++i) normal(i, i) += 1e-6;  // too few samples: the least surface
-    const cv::Matx<double, 6, 1> found = normal.solve(right, cv::DECOMP_CHOLESKY);
-    std::vector<float> off;
-    for (int y = 0; y < plane.rows; ++y)
-      for (int x = 0; x < plane.cols; ++x) {
-        const auto terms = terms_at(x, y, plane.size());
-        double value = 0;
-        for (int i = 0; i < 6; ++i) value += found(i) * terms[static_cast<std::size_t>(i)];
-        surface.values.at<float>(y, x) = static_cast<float>(value);
-        if (around.at<uchar>(y, x) != 0) off.push_back(std::abs(plane.at<float>(y, x) - static_cast<float>(value)));
-      }
-    surface.sd = std::max(kLeastSd, 1.4826 * median_of(off));  // of a Gaussian
-    limit = kOutlier_sd * surface.sd;
+    auto normal = 1e-6 * cv::Matx<double, 6, 6>::eye();  // too few samples: the least surface
+    Terms right = Terms::zeros();
+    for (const Sample& sample : samples) {
+      if (std::abs(sample.value - found.dot(sample.terms)) > limit) continue;
+      right += sample.value * sample.terms;
+      normal += sample.terms * sample.terms.t();
+    }
+    found = normal.solve(right, cv::DECOMP_CHOLESKY);
+    std::vector<double> off;
+    for (const Sample& sample : samples) off.push_back(std::abs(sample.value - found.dot(sample.terms)));
+    sd = std::max(kLeastSd, 1.4826 * median_of(off));  // of a Gaussian
+    limit = kOutlier_sd * sd;
   }
+  Surface surface{.values = cv::Mat(plane.size(), CV_32FC1), .sd = sd};
+  for (int y = 0; y < plane.rows; ++y)
+    for (int x = 0; x < plane.cols; ++x)
+      surface.values.at<float>(y, x) = static_cast<float>(found.dot(terms_at(x, y, plane.size())));
   return surface;
 }
 
