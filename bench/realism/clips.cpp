@@ -69,9 +69,8 @@ FrameSource opened(const fs::path& path) {
   return *std::move(source);
 }
 
-fs::path written_pinhole(cv::Size size_px, double field_rad, const fs::path& folder) {
-  const fs::path path = fs::absolute(
-      folder / ("pinhole_" + std::to_string(size_px.width) + "x" + std::to_string(size_px.height) + ".yml"));
+fs::path written_pinhole(cv::Size size_px, double field_rad, const fs::path& file) {
+  const fs::path path = fs::absolute(file);
   const double focal_px = 0.5 * size_px.width / std::tan(0.5 * field_rad);
   std::ofstream out(path);
   out << "%YAML:1.0\n---\nimage_width: " << size_px.width << "\nimage_height: " << size_px.height

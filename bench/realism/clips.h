@@ -29,8 +29,8 @@ struct RealClip {
 // Stops the program where it cannot be opened.
 [[nodiscard]] FrameSource opened(const std::filesystem::path& path);
 
-// A calibration file of a pinhole with this field of view across the image, written into the folder.
+// Writes a calibration file of a pinhole with this field of view across the image; its absolute path.
 [[nodiscard]] std::filesystem::path written_pinhole(cv::Size size_px, double field_rad,
-                                                    const std::filesystem::path& folder);
+                                                    const std::filesystem::path& file);
 
 }  // namespace sigs::bench

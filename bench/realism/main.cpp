@@ -88,13 +88,13 @@ int main(int count, char** arguments) {
   app.add_option("--jobs", options.jobs, "threads")->check(CLI::Range(1, 64));
   CLI11_PARSE(app, count, arguments);
   const fs::path folder = options.folder;
-  fs::create_directories(folder);
+  fs::create_directories(folder / "calibrations");
   std::vector<RealClip> clips = real_clips();
   std::erase_if(clips, [&](const RealClip& clip) {
     return clip.name.find(options.clip) == std::string::npos || (options.tuning_only && !clip.is_tuning);
   });
   if (clips.empty()) accuracy::stop(std::string(SIGS_TEST_DATA) + "/track: no clip with boxes");
-  const SampleOptions sampling{.folder = folder, .settings = settings_of(options), .frames_per_clip = options.frames};
+  const SampleOptions sampling{.folder = folder / "calibrations", .settings = settings_of(options), .frames_per_clip = options.frames};
   const std::vector<Sample> samples = all_samples(clips, sampling, options.jobs);
   std::vector<std::string> kinds{"moved"};
   for (const LookSettings& settings : sampling.settings) kinds.push_back(settings.name);

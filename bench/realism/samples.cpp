@@ -101,12 +101,12 @@ Box loosened(const Box& box) {
 // An aircraft of ours put into a stretch.
 class Insertion {
  public:
-  Insertion(const RealClip& clip, const Stretch& stretch, const FootageShape& shape, const SampleOptions& options,
+  Insertion(const RealClip& clip, const Stretch& stretch, const FootageShape& shape, const fs::path& calibration,
             Workplace& workplace)
       : clip_(clip), stretch_(stretch), shape_(shape), workplace_(workplace) {
     project_.file = clip.name + ".json";
     project_.footage.video = fs::absolute(clip.path).string();
-    project_.footage.calibration = written_pinhole(shape.size_px, kField_rad, options.folder).string();
+    project_.footage.calibration = calibration.string();
     const std::uint32_t seed = seed_of(clip.name, stretch.middle);
     project_.intruders.resize(1);
     project_.intruders.front().model = model_for(clip, seed_of(clip.name, 0));
@@ -198,6 +198,7 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
                                LeftOut& left_out) {
   FrameSource footage = opened(clip.path);
   const FootageShape shape = shape_of(footage.info());
+  const fs::path calibration = written_pinhole(shape.size_px, kField_rad, options.folder / (clip.name + ".yml"));
   std::vector<Sample> samples;
   const int count = static_cast<int>(clip.boxes.size());
   for (int i = 0; i < options.frames_per_clip; ++i) {
@@ -222,7 +223,7 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
                   .frame = middle,
                   .targets = {*real}};
     if (auto moved = moved_target(*stretch, *real, *place)) sample.targets.push_back(std::move(*moved));
-    Insertion insertion(clip, *stretch, shape, options, workplace);
+    Insertion insertion(clip, *stretch, shape, calibration, workplace);
     insertion.place(*place, real->look);
     sample.model = insertion.model();
     for (const LookSettings& settings : options.settings)
