@@ -13,6 +13,7 @@ namespace sigs::bench {
 struct LookSettings {
   std::string name;            // "default", "matched", "best"
   std::filesystem::path from;  // a JSON file for all clips, or a folder with CLIP.json for each; empty: the defaults
+  bool shakes = false;         // the camera's shake is known: it is taken from the real target's path
 };
 
 // Applies what the file says of light, compositing, appearance and camera.exposure_s; its other members are left alone,

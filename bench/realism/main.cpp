@@ -23,6 +23,7 @@ struct Options {
   int frames = 6;
   int jobs = 2;
   bool tuning_only = false;
+  bool shakes = false;
 };
 
 std::vector<LookSettings> settings_of(const Options& options) {
@@ -30,7 +31,7 @@ std::vector<LookSettings> settings_of(const Options& options) {
   for (const std::string& text : options.settings) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) accuracy::stop(text + ": expected NAME=FILE or NAME=FOLDER");
-    all.push_back({.name = text.substr(0, equals), .from = text.substr(equals + 1)});
+    all.push_back({.name = text.substr(0, equals), .from = text.substr(equals + 1), .shakes = options.shakes});
   }
   return all;
 }
@@ -82,6 +83,8 @@ int main(int count, char** arguments) {
       "--settings-from", options.settings,
       "NAME=FILE or NAME=FOLDER: a further way to insert, by the settings of a JSON file, or of CLIP.json in a "
       "folder; may be given several times");
+  app.add_flag("--shake", options.shakes,
+               "these move with the camera's shake, as if the project had its track; it is taken from the real target");
   app.add_option("--clip", options.clip, "clips whose name contains this alone");
   app.add_flag("--tuning", options.tuning_only, "the tuning clips alone");
   app.add_option("--frames", options.frames, "frames of each clip")->check(CLI::Range(1, 30));
@@ -94,7 +97,8 @@ int main(int count, char** arguments) {
     return clip.name.find(options.clip) == std::string::npos || (options.tuning_only && !clip.is_tuning);
   });
   if (clips.empty()) accuracy::stop(std::string(SIGS_TEST_DATA) + "/track: no clip with boxes");
-  const SampleOptions sampling{.folder = folder / "calibrations", .settings = settings_of(options), .frames_per_clip = options.frames};
+  const SampleOptions sampling{
+      .folder = folder / "calibrations", .settings = settings_of(options), .frames_per_clip = options.frames};
   const std::vector<Sample> samples = all_samples(clips, sampling, options.jobs);
   std::vector<std::string> kinds{"moved"};
   for (const LookSettings& settings : sampling.settings) kinds.push_back(settings.name);

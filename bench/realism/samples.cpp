@@ -59,14 +59,17 @@ cv::Mat surroundings(const Frame& frame, const cv::Rect& box) {
 std::optional<Target> measured(const std::string& kind, const std::vector<Frame>& frames,
                                const std::function<Box(std::size_t)>& box_in) {
   std::vector<TargetLook> looks;
+  std::optional<TargetLook> middle;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto look = target_look(frames[i], box_in(i));
     if (look) looks.push_back(*look);
-    if (i == kAround && !look) return std::nullopt;
+    if (i == kAround) middle = look;
   }
-  const auto look = target_look(frames[kAround], box_in(kAround));
-  Target target{.kind = kind, .look = *look, .image = surroundings(frames[kAround], look->box)};
-  if (looks.size() == frames.size()) add_flicker(target.look, looks);
+  if (!middle) return std::nullopt;
+  Target target{.kind = kind, .look = *middle, .image = surroundings(frames[kAround], middle->box)};
+  if (looks.size() < frames.size()) return target;
+  add_flicker(target.look, looks);
+  for (const TargetLook& look : looks) target.path_px.push_back(look.centroid_px - middle->centroid_px);
   return target;
 }
 
@@ -120,19 +123,23 @@ class Insertion {
   [[nodiscard]] std::string model() const { return fs::path(project_.intruders.front().model.file).stem().string(); }
 
   // The size so that a real target's silhouette and this one's have the same width, when both are measured alike.
-  void place(cv::Point2d middle_px, const TargetLook& real) {
+  void place(cv::Point2d middle_px, const Target& target) {
+    const TargetLook& real = target.look;
+    real_path_px_ = target.path_px;
     pose_.middle_px = middle_px;
     pose_.aspect = static_cast<double>(real.box.width) / real.box.height;
     pose_.width_px = std::max(2.0, real.box.width - 1.0);
     Project sharp = project_;
     sharp.compositing.blur_px_per_m = 0;
-    const auto target = measured_middle(sharp);
-    if (target) pose_.width_px *= std::clamp(static_cast<double>(real.box.width) / target->box.width, 0.6, 1.6);
+    const auto inserted = measured_middle(sharp);
+    if (inserted) pose_.width_px *= std::clamp(static_cast<double>(real.box.width) / inserted->box.width, 0.6, 1.6);
   }
 
   [[nodiscard]] std::optional<Target> target(const LookSettings& settings) {
+    pose_.path_px.clear();
     Project project = project_;
     apply(settings, clip_.name, project);
+    if (settings.shakes) pose_.path_px = real_path_px_;
     const Scene scene = scene_of(project);
     std::vector<Frame> frames;
     std::vector<Box> boxes;
@@ -174,6 +181,7 @@ class Insertion {
   Workplace& workplace_;
   Project project_;
   IntruderPose pose_;
+  std::vector<cv::Point2d> real_path_px_;
 };
 
 std::optional<Target> moved_target(const Stretch& stretch, const Target& real, cv::Point2d middle_px) {
@@ -224,7 +232,7 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
                   .targets = {*real}};
     if (auto moved = moved_target(*stretch, *real, *place)) sample.targets.push_back(std::move(*moved));
     Insertion insertion(clip, *stretch, shape, calibration, workplace);
-    insertion.place(*place, real->look);
+    insertion.place(*place, *real);
     sample.model = insertion.model();
     for (const LookSettings& settings : options.settings)
       if (auto target = insertion.target(settings)) sample.targets.push_back(std::move(*target));

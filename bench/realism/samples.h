@@ -19,6 +19,8 @@ struct Target {
   std::string kind;  // "real", "moved" (the real one, in another place of the same frame), or the settings' name
   TargetLook look;
   cv::Mat image;  // BGR, its surroundings
+  std::vector<cv::Point2d> path_px =
+      {};  // centroid in the successive frames against the middle one; empty: lost in one
 };
 
 // The targets of one frame: a real one and those put beside it. Those that could not be told from the background are

@@ -65,6 +65,14 @@ View chosen_view(const std::vector<glm::vec3>& points_m, const IntruderPose& pos
   return near.empty() ? nearest : near[pose.seed * std::size_t{2654435761} % near.size()];
 }
 
+// Where it is against the pose's middle, some frames before or after the pose's frame.
+cv::Point2d offset_px(const IntruderPose& pose, int frames) {
+  const int reach = static_cast<int>(pose.path_px.size()) / 2;
+  if (pose.path_px.empty()) return frames * pose.step_px;
+  const int known = std::clamp(frames, -reach, reach);
+  return pose.path_px[static_cast<std::size_t>(known + reach)] + (frames - known) * pose.step_px;
+}
+
 // The project that posed_scene() opens, its intruder somewhere.
 Project bare_project(const Project& project) {
   Project bare = project;
@@ -110,7 +118,7 @@ Result<Scene> posed_scene(const Project& project, const FootageShape& footage, S
   Result<Scene> scene = open_scene(bare, footage, files);
   if (!scene) return scene;
   for (int n = frame - kFramesAround; n <= frame + kFramesAround; ++n) {
-    const cv::Point2d at = reference_px + (n - frame) * pose.step_px;
+    const cv::Point2d at = reference_px + offset_px(pose, n - frame);
     const auto ray = lens.ray({at.x, at.y});
     if (!ray) continue;
     const double time_s = time_of_frame_s(footage, n);

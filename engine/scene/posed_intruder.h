@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "base/result.h"
 #include "scene/scene.h"
@@ -13,10 +14,13 @@ namespace sigs {
 // How an intruder is to be seen in one frame: where, how large, and how it moves in the image. This is the reverse of a
 // project, whose waypoints say where it is; it serves to compare an intruder with what footage shows.
 struct IntruderPose {
-  cv::Point2d middle_px;                       // middle of its silhouette's box
-  double width_px = 0;                         // of that box, above 0
-  double aspect = 0;                           // its width over its height; 0: any
-  cv::Point2d step_px{0, 0};                   // motion in the image from one frame to the next
+  cv::Point2d middle_px;      // middle of its silhouette's box
+  double width_px = 0;        // of that box, above 0
+  double aspect = 0;          // its width over its height; 0: any
+  cv::Point2d step_px{0, 0};  // motion in the image from one frame to the next
+  // Where it is against middle_px in successive frames, the middle one of them being the pose's; an odd number. Frames
+  // before and after go on by step_px. Empty: step_px alone.
+  std::vector<cv::Point2d> path_px = {};
   double speed_mps = 60;                       // through the world, along the nose
   double lowest_rad = 0.1, highest_rad = 1.0;  // elevations above the horizon from which one is chosen
   std::uint32_t seed = 1;                      // chooses among the views whose aspect is near enough
