@@ -2,13 +2,11 @@
 #include "realism/clips.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 
 #include "accuracy/csv.h"
-#include "base/csv.h"
+#include "comparison/target_boxes.h"
 
 namespace sigs::bench {
 
@@ -21,29 +19,7 @@ constexpr std::string_view kTuning[] = {"V_AIRPLANE_001",   "V_AIRPLANE_004",   
                                         "V_AIRPLANE_027",   "V_AIRPLANE_034",   "V_AIRPLANE_037",  "V_HELICOPTER_008",
                                         "V_HELICOPTER_013", "V_HELICOPTER_024", "V_HELICOPTER_025"};
 
-double number_of(std::string_view field) {
-  double number = std::nan("");
-  std::from_chars(field.data(), field.data() + field.size(), number);
-  return number;
-}
-
 }  // namespace
-
-std::vector<std::optional<Box>> boxes_of(const fs::path& csv) {
-  std::vector<std::optional<Box>> boxes;
-  std::ifstream in(csv);
-  std::string line;
-  for (std::getline(in, line); std::getline(in, line);) {
-    const auto fields = csv_fields(line);
-    if (fields.size() < 6) continue;
-    std::array<double, 6> numbers{};
-    for (const std::size_t i : {0U, 2U, 3U, 4U, 5U}) numbers[i] = number_of(fields[i]);
-    if (!(numbers[0] >= 0 && numbers[0] < 1e6) || !(numbers[4] > 0 && numbers[5] > 0)) continue;
-    boxes.resize(std::max(boxes.size(), static_cast<std::size_t>(numbers[0]) + 1));
-    boxes[static_cast<std::size_t>(numbers[0])] = Box{numbers[2] - 1.5, numbers[3] - 1.5, numbers[4], numbers[5]};
-  }
-  return boxes;
-}
 
 std::vector<RealClip> real_clips() {
   std::vector<RealClip> clips;
@@ -53,11 +29,13 @@ std::vector<RealClip> real_clips() {
     const std::string name = entry.path().stem().string();
     const fs::path csv = entry.path().parent_path() / (name + "_gt.csv");
     if (!fs::exists(csv)) continue;
+    const auto boxes = read_target_boxes(csv);
+    if (!boxes) accuracy::stop(boxes.error().text());
     clips.push_back({.name = name,
                      .path = entry.path(),
                      .is_helicopter = name.find("HELICOPTER") != std::string::npos,
                      .is_tuning = std::find(std::begin(kTuning), std::end(kTuning), name) != std::end(kTuning),
-                     .boxes = boxes_of(csv)});
+                     .boxes = *boxes});
   }
   std::sort(clips.begin(), clips.end(), [](const RealClip& a, const RealClip& b) { return a.name < b.name; });
   return clips;

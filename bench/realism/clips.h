@@ -23,9 +23,6 @@ struct RealClip {
 // The clips of SIGS_TEST_DATA/track with boxes, by name. The tuning clips are those of the list in clips.cpp.
 [[nodiscard]] std::vector<RealClip> real_clips();
 
-// Boxes of a CSV file frame,label,x,y,w,h with MATLAB's pixels: the centre of the first one is (1, 1).
-[[nodiscard]] std::vector<std::optional<Box>> boxes_of(const std::filesystem::path& csv);
-
 // Stops the program where it cannot be opened.
 [[nodiscard]] FrameSource opened(const std::filesystem::path& path);
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <opencv2/core.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "appearance/target_look.h"
+#include "comparison/measured_target.h"
 #include "frame/compose_context.h"
 #include "realism/clips.h"
 #include "realism/look_settings.h"
@@ -15,12 +15,11 @@
 namespace sigs::bench {
 
 // One target that was measured.
-struct Target {
+struct Target : MeasuredTarget {
   std::string kind;  // "real", "moved" (the real one, in another place of the same frame), or the settings' name
-  TargetLook look;
-  cv::Mat image;  // BGR, its surroundings
-  std::vector<cv::Point2d> path_px =
-      {};  // centroid in the successive frames against the middle one; empty: lost in one
+
+  Target(std::string kind_of_it, MeasuredTarget target)
+      : MeasuredTarget(std::move(target)), kind(std::move(kind_of_it)) {}
 };
 
 // The targets of one frame: a real one and those put beside it. Those that could not be told from the background are
