@@ -76,6 +76,9 @@ cv::Point2d offset_px(const IntruderPose& pose, int frames) {
 // The project that posed_scene() opens, its intruder somewhere.
 Project bare_project(const Project& project) {
   Project bare = project;
+  bare.footage.own_body_mask.clear();
+  bare.footage.first_frame = 0;
+  bare.footage.last_frame.reset();
   bare.intruders.resize(1);
   bare.intruders.front().trajectory = {};
   bare.intruders.front().trajectory.waypoints = {{.position_m = {1000, 0, -1000}}};

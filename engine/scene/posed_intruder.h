@@ -28,8 +28,9 @@ struct IntruderPose {
 
 // The scene of a project with its first intruder seen so in `frame`, wings level, above the camera; the others are left
 // out. The camera stands at the project's position and turns with the intruder, as if somebody held it: track,
-// attitude and speed of the project's camera are ignored. World X is the direction in which the intruder is seen.
-// Errors are those of open_scene; usage where there is no intruder; bad_project where the pixel has no ray.
+// attitude and speed of the project's camera, its own body and its range of frames are ignored. World X is the
+// direction in which the intruder is seen. Errors are those of open_scene; usage where there is no intruder;
+// bad_project where the pixel has no ray.
 [[nodiscard]] Result<Scene> posed_scene(const Project& project, const FootageShape& footage, SceneFiles& files,
                                         int frame, const IntruderPose& pose);
 
