@@ -16,6 +16,7 @@ using Command = std::function<Result<void>()>;
 // options write to.
 [[nodiscard]] Command add_appearance_command(CLI::App& program);  // sigs appearance
 [[nodiscard]] Command add_check_command(CLI::App& program);       // sigs check
+[[nodiscard]] Command add_compare_command(CLI::App& program);     // sigs compare
 [[nodiscard]] Command add_dataset_command(CLI::App& program);     // sigs dataset
 [[nodiscard]] Command add_ego_motion_command(CLI::App& program);  // sigs ego-motion
 [[nodiscard]] Command add_evaluate_command(CLI::App& program);    // sigs evaluate, with its two subcommands
