@@ -7,7 +7,7 @@ Result<Appearance> estimated_appearance(const AppearanceRequest& request, const 
   const FootageSettings& settings = request.project.footage;
   Result<FrameSource> footage = FrameSource::open(resolved(request.project, settings.video), control.cancel);
   if (!footage) return fail(footage.error());
-  return estimate_appearance(*footage, {.first = settings.first_frame, .last = settings.last_frame},
+  return estimate_appearance(*footage, {.first = settings.first_frame, .last = settings.last_frame}, {},
                              {.progress = control.progress, .cancel = control.cancel});
 }
 

@@ -73,7 +73,7 @@ glm::dvec3 value_of(const std::array<Estimate, 3>& color) {
 
 }  // namespace
 
-void Light::add(const LightImage& image) {
+void LightEstimator::add(const LightImage& image) {
   if (image.empty()) return;
   ++frames_;
   for (int y = 0; y < image.grid.size().height; ++y)
@@ -88,7 +88,7 @@ void Light::add(const LightImage& image) {
     }
 }
 
-void Light::add_sky(const glm::dvec3& light, float luma) {
+void LightEstimator::add_sky(const glm::dvec3& light, float luma) {
   const double ratio = light.b > 1e-4 ? light.r / light.b : 1;
   const auto bin = std::min(sky_.size() - 1, static_cast<std::size_t>(ratio / kRatioPerBin));
   sky_[bin].sum += light;
@@ -97,7 +97,7 @@ void Light::add_sky(const glm::dvec3& light, float luma) {
   if (std::abs(light.r - light.b) > 0.01 * light.b || std::abs(light.r - light.g) > 0.01 * light.g) ++colored_;
 }
 
-Light::Bin Light::all_sky() const {
+LightEstimator::Bin LightEstimator::all_sky() const {
   Bin all;
   for (const Bin& bin : sky_) {
     all.sum += bin.sum;
@@ -106,7 +106,7 @@ Light::Bin Light::all_sky() const {
   return all;
 }
 
-Light::Bin Light::bluest() const {
+LightEstimator::Bin LightEstimator::bluest() const {
   const double wanted = kBluest * all_sky().count;
   Bin blue;
   for (const Bin& bin : sky_) {
@@ -119,7 +119,7 @@ Light::Bin Light::bluest() const {
   return blue;
 }
 
-std::optional<std::string> Light::why_no_sky() const {
+std::optional<std::string> LightEstimator::why_no_sky() const {
   if (frames_ == 0) return "there is no frame";
   const Bin sky = all_sky();
   if (sky.count < kLeastSkyShare * cells_ || sky.count <= 0) return "no sky is seen";
@@ -128,7 +128,7 @@ std::optional<std::string> Light::why_no_sky() const {
   return std::nullopt;
 }
 
-void Light::set_ground(LightEstimate& light, double sun, double sky, double sine) const {
+void LightEstimator::set_ground(LightEstimate& light, double sun, double sky, double sine) const {
   const double falls_on_it = sun * sine + sky;
   const bool is_seen = ground_.count > kLeastGroundShare * cells_ && luminance(ground_.sum) > 0;
   if (!is_seen) {
@@ -141,7 +141,7 @@ void Light::set_ground(LightEstimate& light, double sun, double sky, double sine
   light.ground_color = known_color(mean * (held / bright), 0.3);
 }
 
-LightEstimate Light::finish(std::optional<double> sun_elevation_rad) const {
+LightEstimate LightEstimator::finish(std::optional<double> sun_elevation_rad) const {
   LightEstimate light;
   const double sine = std::sin(std::clamp(sun_elevation_rad.value_or(kSunElevation_rad), 0.0, 1.5707963));
   if (const auto why = why_no_sky()) {

@@ -34,7 +34,7 @@ struct LightEstimate {
 // Not known: everything without a sky, or where it is over-exposed or black; the strength of the sun in gray footage.
 // Where no ground is seen, it is taken to reflect 0.15 of sun and sky; where it is, what it gives is held between 0.1
 // and 0.45 of that, as all land but snow does.
-class Light {
+class LightEstimator {
  public:
   void add(const LightImage& image);
 

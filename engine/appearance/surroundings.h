@@ -35,7 +35,7 @@ class Surroundings {
   LightImageReader reader_;
   Haze haze_;
   Tone tone_;
-  Light light_;
+  LightEstimator light_;
   Sun sun_;
 };
 

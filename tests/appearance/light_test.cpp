@@ -29,7 +29,7 @@ cv::Mat sky_and_ground(const glm::dvec3& sky, const glm::dvec3& ground) {
 }
 
 LightEstimate light_of(const cv::Mat& bgr, PixelLayout layout = PixelLayout::yuv444, const View& view = {}) {
-  Light light;
+  LightEstimator light;
   light.add(LightImageReader().read(frame_of(bgr, layout), view));
   return light.finish();
 }
@@ -94,7 +94,7 @@ TEST_CASE("a white card in the sample footage's sun is as bright as the footage 
   for (const char* name : {"sample.mp4", "table1_clear.mp4"}) {
     auto footage = FrameSource::open(assets / "footage" / name);
     REQUIRE(footage);
-    Light light;
+    LightEstimator light;
     LightImageReader reader;
     const View view{.camera = &*camera, .world_from_camera = glm::dquat(1, 0, 0, 0)};
     for (int n = 0; n < footage->info().frame_count(); n += 60) light.add(reader.read(footage->read(n).value(), view));
@@ -142,6 +142,6 @@ TEST_CASE("blank, black, over-exposed, gray and rough images give finite light a
   cv::RNG random(7);
   random.fill(rough, cv::RNG::UNIFORM, 30, 200);
   CHECK_FALSE(light_of(rough).exposure.is_known);
-  check_finite(Light().finish());
+  check_finite(LightEstimator().finish());
   check_finite(light_of(cv::Mat(3, 3, CV_8UC3, cv::Scalar(200, 100, 50))));
 }

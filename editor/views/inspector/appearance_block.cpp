@@ -5,7 +5,9 @@
 #include <imgui.h>
 
 #include "editor/preview/appearance_job.h"
+#include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
+#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
