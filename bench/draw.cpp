@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Time of rendering an intruder, by its size in the image: the renderer alone, no lens and no background.
-//   bench_draw [--csv] [--supersampling N] [--samples N] [--size PX] [OBJ FORWARD UP]...
+//   bench_draw [--csv] [--supersampling N] [--samples N] [--size PX] [--sun] [OBJ FORWARD UP]...
 // The two sample models where none is named.
 
 #include <sys/resource.h>
@@ -32,6 +32,7 @@ struct Options {
   bool as_csv = false;
   double supersampling = 3;
   int samples_per_pixel = 1;
+  bool in_sun = false;
   std::vector<double> sizes_px{std::begin(kSizes_px), std::end(kSizes_px)};
 };
 
@@ -67,9 +68,13 @@ struct Cost {
 };
 
 // Nothing where the driver fails.
-std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px, double supersampling) {
-  const VirtualCamera view = view_of(size_px, supersampling);
-  const Light light{.p_in_camera = {-2000, 1000, -3000}};
+std::optional<Cost> cost_of(Renderer& renderer, const Mesh& mesh, double size_px, const Options& options) {
+  const VirtualCamera view = view_of(size_px, options.supersampling);
+  const Light light{.p_in_camera = {-2000, 1000, -3000},
+                    .kind = options.in_sun ? Light::Kind::sun : Light::Kind::point,
+                    .to_sun = {-2, 1, -3},
+                    .sky_color = glm::dvec3(0.3),
+                    .ground_color = glm::dvec3(0.1)};
   const auto draw = [&](int i) { return renderer.draw(mesh, pose_of(mesh, i % kTurns), light, view).has_value(); };
   for (int i = 0; i < kTurns; ++i)
     if (!draw(i)) return std::nullopt;
@@ -100,7 +105,7 @@ int measure(const std::vector<Named>& models, const Options& options) {
               "model", "faces", "size_px", "median_ms", "least_ms", "processor_ms", "triangles", "calls");
   for (const Named& model : models)
     for (const double size_px : options.sizes_px) {
-      const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px, options.supersampling);
+      const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px, options);
       if (!cost) return 69;
       std::printf(options.as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n"
                                  : "%-24s %8zu %8g %10.2f %10.2f %13.2f %10.0f %6.0f\n",
@@ -121,6 +126,10 @@ int main(int argc, char** argv) {
     words.erase(words.begin());
     if (option == "--csv") {
       options.as_csv = true;
+      continue;
+    }
+    if (option == "--sun") {
+      options.in_sun = true;
       continue;
     }
     const int number = words.empty() ? 0 : std::atoi(words.front().c_str());

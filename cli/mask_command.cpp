@@ -44,13 +44,9 @@ struct MaskOptions {
   std::string progress = "auto";
 };
 
-bool is_project(const fs::path& file) {
-  return lower_extension(file) == ".json";
-}
-
 // A video alone is a project with nothing else in it, at the place where the program was started.
 Result<Project> read(const ProjectOptions& options) {
-  if (is_project(options.file)) return project_of(options);
+  if (is_project_file(options.file)) return project_of(options);
   Project project;
   project.footage.video = options.file.string();
   if (const Result<void> set = set_all(project, options.settings); !set) return fail(set.error());

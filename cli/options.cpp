@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -97,6 +98,10 @@ std::string value_error(const std::string& key, const std::string& text) {
 }
 
 }  // namespace
+
+bool is_project_file(const std::filesystem::path& file) {
+  return lower_extension(file) == ".json";
+}
 
 void add_project_options(CLI::App& command, ProjectOptions& options) {
   command.add_option("PROJECT", options.file, "the project file")->required();

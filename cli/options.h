@@ -19,6 +19,9 @@ struct ProjectOptions {
   std::vector<std::string> settings;  // --set key=value
 };
 
+// Whether a file given as "a video or a project" is a project, by its extension.
+[[nodiscard]] bool is_project_file(const std::filesystem::path& file);
+
 void add_project_options(CLI::App& command, ProjectOptions& options);
 void add_set_option(CLI::App& command, ProjectOptions& options);  // --set alone
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -159,12 +160,12 @@ Result<void> write(const std::string& text, const PathOptions& options) {
 }
 
 // The encounter of a project on the globe.
-Result<void> run_on_project(const PathOptions& options) {
+Result<void> run_on_project(const Project& project, const PathOptions& options) {
   const std::string extension = lower_extension(options.out);
   if (extension != ".kml" && extension != ".czml")
     return fail(options.file.string(), "is a project; its paths are written with --out FILE.kml or FILE.czml",
                 ErrorKind::usage);
-  const Result<std::vector<GeoPath>> paths = paths_of_project(options.file);
+  const Result<std::vector<GeoPath>> paths = paths_of_project(project);
   if (!paths) return fail(paths.error());
   const Result<std::string> text = globe_text(*paths, options);
   if (!text) return fail(text.error());
@@ -172,7 +173,9 @@ Result<void> run_on_project(const PathOptions& options) {
 }
 
 Result<void> run(const PathOptions& options) {
-  if (is_project_file(options.file)) return run_on_project(options);
+  const Result<std::optional<Project>> project = project_in(options.file);
+  if (!project) return fail(project.error());
+  if (*project) return run_on_project(**project, options);
   if (!options.out.empty())
     if (const Result<std::string> empty = converted({}, options); !empty) return fail(empty.error());
   Result<RecordedPaths> all = read_recorded_paths(options.file);

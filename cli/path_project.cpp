@@ -5,13 +5,16 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "base/input_file.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "project/json.h"
+#include "project/json_reading.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
@@ -23,11 +26,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<Project> checked_project(const fs::path& file) {
-  Result<ReadProject> read = read_project(file);
+Result<Project> with_warnings_printed(Result<ReadProject> read) {
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
   return std::move(read->project);
+}
+
+Result<Project> checked_project(const fs::path& file) {
+  return with_warnings_printed(read_project(file));
+}
+
+// Whether a text is meant to be a project, be it broken: an object with a member that projects or recipes have, or,
+// where it is not JSON, one that begins as projects do.
+bool is_meant_as_project(const std::string& text) {
+  constexpr const char* kSpace = " \t\r\n";
+  const std::string_view begin = without_bom(text);
+  const std::size_t brace = begin.find_first_not_of(kSpace);
+  if (brace == std::string_view::npos || begin[brace] != '{') return false;
+  if (const Result<Json> json = parsed_json(text, "", ErrorKind::bad_project)) {
+    const auto has = [&](const char* key) { return json->contains(key); };
+    return has("sigs") || has("sigs_dataset") || has("footage") || has("intruders");
+  }
+  const std::size_t key = begin.find_first_not_of(kSpace, brace + 1);
+  return key != std::string_view::npos && begin.substr(key).starts_with("\"sigs\"");
 }
 
 // What of a scene a recorded path needs: the footage's times, the camera's log and the place on the Earth. Models and
@@ -51,18 +72,20 @@ Result<Scene> scene_for_traffic(const Project& project) {
 
 }  // namespace
 
-bool is_project_file(const fs::path& file) {
-  return lower_extension(file) == ".json" && read_project(file).has_value();
+Result<std::optional<Project>> project_in(const fs::path& file) {
+  const Result<std::string> text = read_text(file, kProjectLimit_bytes);
+  if (!text || !is_meant_as_project(*text)) return std::nullopt;
+  Result<Project> project = with_warnings_printed(parse_project(*text, file));
+  if (!project) return fail(project.error());
+  return std::move(*project);
 }
 
-Result<std::vector<GeoPath>> paths_of_project(const fs::path& file) {
-  const Result<Project> project = checked_project(file);
-  if (!project) return fail(project.error());
-  const Result<OpenedProject> opened = open_project(*project, &interrupt_flag());
+Result<std::vector<GeoPath>> paths_of_project(const Project& project) {
+  const Result<OpenedProject> opened = open_project(project, &interrupt_flag());
   if (!opened) return fail(opened.error());
   for (const Warning& warning : opened->warnings) print_warning(warning);
   if (!opened->scene.earth)
-    return fail(file.string() + ": geo",
+    return fail(project.file.string() + ": geo",
                 "does not say where on the Earth the world lies; set geo.latitude_deg, geo.longitude_deg, geo.height_m "
                 "and geo.heading_deg, or give the camera a log with positions",
                 ErrorKind::bad_project);

@@ -34,60 +34,121 @@ Ring half_ring(double s, double half_width, double top, double bottom) {
   return ring;
 }
 
+// The fuselage's outline over s.
+struct Profile {
+  SmoothCurve half_width{{{0, 0},      {0.04, 0.19},  {0.15, 0.37}, {0.4, 0.61},  {0.9, 0.93},
+                          {1.6, 1.25}, {2.4, 1.50},   {3.3, 1.72},  {4.4, 1.88},  {5.6, 1.955},
+                          {7, 1.975},  {23.5, 1.975}, {26, 1.93},   {28, 1.82},   {30, 1.62},
+                          {32, 1.33},  {34, 0.97},    {36, 0.58},   {37.2, 0.33}, {kAirlinerLength_m, 0.24}}};
+  SmoothCurve top{{{0, -0.55},
+                   {0.04, -0.38},
+                   {0.15, -0.22},
+                   {0.4, 0.0},
+                   {0.9, 0.30},
+                   {1.5, 0.58},
+                   {2.0, 0.92},
+                   {2.6, 1.36},
+                   {3.3, 1.70},
+                   {4.4, 1.95},
+                   {5.6, 2.05},
+                   {7, 2.07},
+                   {26, 2.07},
+                   {30, 2.03},
+                   {33, 1.90},
+                   {36, 1.66},
+                   {37.2, 1.52},
+                   {kAirlinerLength_m, 1.45}}};
+  SmoothCurve bottom{{{0, -0.55},
+                      {0.04, -0.73},
+                      {0.15, -0.90},
+                      {0.4, -1.10},
+                      {0.9, -1.36},
+                      {1.6, -1.59},
+                      {2.6, -1.81},
+                      {3.8, -1.97},
+                      {5.2, -2.06},
+                      {7, -2.07},
+                      {23.5, -2.07},
+                      {25.5, -1.94},
+                      {28, -1.58},
+                      {30, -1.20},
+                      {32, -0.76},
+                      {34, -0.27},
+                      {36, 0.28},
+                      {37.2, 0.70},
+                      {kAirlinerLength_m, 0.86}}};
+};
+
+const Profile& profile_of_fuselage() {
+  static const Profile profile;
+  return profile;
+}
+
+constexpr int kUnderside = 13;  // point on a half ring from which on the underside's image is used
+
+// Points [first, last] of each ring.
+std::vector<Ring> strip_of(const std::vector<Ring>& rings, int first, int last) {
+  std::vector<Ring> strip;
+  for (const Ring& ring : rings) strip.emplace_back(ring.begin() + first, ring.begin() + last + 1);
+  return strip;
+}
+
 Patch fuselage() {
-  const SmoothCurve half_width({{0, 0},      {0.04, 0.19},  {0.15, 0.37}, {0.4, 0.61},  {0.9, 0.93},
-                                {1.6, 1.25}, {2.4, 1.50},   {3.3, 1.72},  {4.4, 1.88},  {5.6, 1.955},
-                                {7, 1.975},  {23.5, 1.975}, {26, 1.93},   {28, 1.82},   {30, 1.62},
-                                {32, 1.33},  {34, 0.97},    {36, 0.58},   {37.2, 0.33}, {kAirlinerLength_m, 0.24}});
-  const SmoothCurve top({{0, -0.55},
-                         {0.04, -0.38},
-                         {0.15, -0.22},
-                         {0.4, 0.0},
-                         {0.9, 0.30},
-                         {1.5, 0.58},
-                         {2.0, 0.92},
-                         {2.6, 1.36},
-                         {3.3, 1.70},
-                         {4.4, 1.95},
-                         {5.6, 2.05},
-                         {7, 2.07},
-                         {26, 2.07},
-                         {30, 2.03},
-                         {33, 1.90},
-                         {36, 1.66},
-                         {37.2, 1.52},
-                         {kAirlinerLength_m, 1.45}});
-  const SmoothCurve bottom({{0, -0.55},
-                            {0.04, -0.73},
-                            {0.15, -0.90},
-                            {0.4, -1.10},
-                            {0.9, -1.36},
-                            {1.6, -1.59},
-                            {2.6, -1.81},
-                            {3.8, -1.97},
-                            {5.2, -2.06},
-                            {7, -2.07},
-                            {23.5, -2.07},
-                            {25.5, -1.94},
-                            {28, -1.58},
-                            {30, -1.20},
-                            {32, -0.76},
-                            {34, -0.27},
-                            {36, 0.28},
-                            {37.2, 0.70},
-                            {kAirlinerLength_m, 0.86}});
+  const Profile& profile = profile_of_fuselage();
   std::vector<Ring> rings;
   for (const double s : {0.0,  0.04, 0.15, 0.27, 0.4,  0.62, 0.9,  1.2,  1.5,  1.75,
                          2.0,  2.3,  2.6,  2.95, 3.3,  3.8,  4.4,  5.0,  5.6,  6.3,
                          7.0,  11.0, 15.0, 19.0, 23.5, 24.8, 26.0, 27.0, 28.0, 29.0,
                          30.0, 31.0, 32.0, 33.0, 34.0, 35.0, 36.0, 36.7, 37.2, kAirlinerLength_m})
-    rings.push_back(half_ring(s, half_width(s), top(s), bottom(s)));
+    rings.push_back(half_ring(s, profile.half_width(s), profile.top(s), profile.bottom(s)));
   rings.emplace_back(rings.back().size(), at(kAirlinerLength_m - 0.15, 0, 1.155));  // the exhaust of the auxiliary unit
   const int last = static_cast<int>(rings.size()) - 2;
-  const Patch left = turned_outwards(skin(
-      rings, [](const glm::dvec3& p, int, int) { return kAirlinerSides.uv(p); },
-      [&](int r, int) { return std::string(r == last ? "dark" : "fuselage"); }));
-  return both_sides(left, true);
+  const auto named = [&](const char* name) {
+    return [=](int r, int) { return std::string(r == last ? "dark" : name); };
+  };
+  const Patch sides = skin(
+      strip_of(rings, 0, kUnderside), [](const glm::dvec3& p, int, int) { return kAirlinerSides.uv(p); },
+      named("fuselage"));
+  const Patch below = skin(
+      strip_of(rings, kUnderside, 18), [](const glm::dvec3& p, int, int) { return kAirlinerUnderside.uv(p); },
+      named("underside"));
+  return both_sides(turned_outwards(joined(sides, below)), true);
+}
+
+// A place on the left side, a finger's width outside of the skin.
+glm::dvec3 outside_fuselage(double s, double z) {
+  const Profile& profile = profile_of_fuselage();
+  const double top = profile.top(s), bottom = profile.bottom(s);
+  const double height = std::clamp((2 * z - top - bottom) / (top - bottom), -1.0, 1.0);
+  const double y = profile.half_width(s) * std::sqrt(1 - height * height);
+  return at(s, std::max(y, 0.035) + 0.012, std::min(z, top) + (z > top - 0.2 ? 0.012 : 0));
+}
+
+// Panes of the cockpit's left side: rows from the sill up; each from front(z) back to rear(z).
+Patch left_panes() {
+  const auto crown = [](double z) {  // where the windscreen meets the middle
+    double low = 1.0, high = 3.3;
+    for (int i = 0; i < 40; ++i) (profile_of_fuselage().top(0.5 * (low + high)) < z ? low : high) = 0.5 * (low + high);
+    return low;
+  };
+  const auto post = [](double s, double z) { return s + 0.35 * (z - 0.8); };
+  const auto pane = [&](const auto& front, const auto& rear, double low, double high) {
+    std::vector<Ring> rows;
+    for (int r = 0; r <= 4; ++r) {
+      const double z = low + (high - low) * r / 4.0;
+      Ring row;
+      for (int i = 0; i <= 6; ++i) row.push_back(outside_fuselage(std::lerp(front(z), rear(z), i / 6.0), z));
+      rows.push_back(std::move(row));
+    }
+    return skin(
+        rows, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, "glass");
+  };
+  const auto at_post = [&](double s) { return [&post, s](double z) { return post(s, z); }; };
+  const auto rear = [](double z) { return 3.82 - 0.55 * (z - 0.58); };
+  const Patch panes =
+      joined(joined(pane(crown, at_post(2.17), 0.55, 1.16), pane(at_post(2.27), at_post(2.97), 0.55, 1.16)),
+             pane(at_post(3.07), rear, 0.58, 1.12));
+  return turned_over(panes);
 }
 
 // The bulge under the wing's centre that holds the wheels.
@@ -98,15 +159,16 @@ Patch belly_fairing() {
     Ring ring;
     for (int k = 0; k <= 16; ++k) {
       const double angle = kPi * (0.5 + k / 16.0);  // left side, belly, right side
-      ring.push_back(at(10.6 + 10.8 * t, 2.08 * swell * std::sin(angle), -1.25 + 1.28 * swell * std::cos(angle)));
+      ring.push_back(at(kFairingFront_m + kFairingLength_m * t, 2.08 * swell * std::sin(angle),
+                        -1.25 + 1.28 * swell * std::cos(angle)));
     }
-    if (i % 14 == 0) ring.assign(ring.size(), at(10.6 + 10.8 * t, 0, -1.25));
+    if (i % 14 == 0) ring.assign(ring.size(), at(kFairingFront_m + kFairingLength_m * t, 0, -1.25));
     rings.push_back(std::move(ring));
   }
   // The open upper side lies within the fuselage; a cap closes the body.
   for (Ring& ring : rings) ring.push_back(ring.front());
   return turned_outwards(skin(
-      rings, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, "belly"));
+      rings, [](const glm::dvec3& p, int, int) { return kAirlinerFairing.uv(p); }, "belly"));
 }
 
 // Leading edge sweep 27.5 degrees, 5 degrees of dihedral, a kink at the engines, and a blended winglet.
@@ -164,27 +226,25 @@ std::vector<Patch> left_engine() {
   const glm::dvec3 hub = at(10.9, kEngineY_m, -1.98);
   const glm::dmat3 straight(1.0);
   const auto place = [&](const Patch& patch) { return moved(patch, straight, hub); };
-  const Patch cowl = revolved({{-0.22, 0.92},
-                               {-0.08, 0.93},
-                               {-0.02, 0.965},
-                               {0, 1.0},
-                               {-0.03, 1.05},
-                               {-0.14, 1.105},
-                               {-0.5, 1.165},
-                               {-1.1, 1.19},
-                               {-1.9, 1.17},
-                               {-2.6, 1.09},
-                               {-3.3, 0.93},
-                               {-3.3, 0.89}},
-                              kSides, "nacelle");
-  const Patch lip = revolved({{-0.9, 0.86}, {-0.5, 0.87}, {-0.22, 0.92}}, kSides, "intake");
-  const Patch core = revolved(
-      {{-2.9, 0.89}, {-3.1, 0.66}, {-3.9, 0.52}, {-4.3, 0.44}, {-4.25, 0.36}, {-4.6, 0.2}, {-4.9, 0}}, kSides, "metal");
-  const Patch duct = revolved({{-2.9, 0.89}, {-3.3, 0.89}}, kSides, "dark");
-  Patch fan = disc(0.86, kSides, "fan");
-  fan = moved(fan, straight, {-0.9, 0, 0});
+  const Patch lip =
+      revolved({{-0.22, 0.92}, {-0.08, 0.93}, {-0.02, 0.965}, {0, 1.0}, {-0.03, 1.05}, {-0.14, 1.105}}, kSides, "lip");
+  const Patch cowl =
+      revolved({{-0.14, 1.105}, {-0.5, 1.165}, {-1.1, 1.19}, {-1.9, 1.17}, {-2.6, 1.09}, {-3.3, 0.93}, {-3.3, 0.89}},
+               kSides, "nacelle");
+  const Patch intake = revolved({{-0.9, 0.86}, {-0.5, 0.87}, {-0.22, 0.92}}, kSides, "intake");
+  const Patch core = revolved({{-2.9, 0.66}, {-3.1, 0.66}, {-3.9, 0.52}, {-4.3, 0.44}}, kSides, "metal");
+  const Patch nozzle = revolved({{-4.3, 0.44}, {-4.1, 0.36}, {-4.1, 0.27}}, kSides, "dark");
+  const Patch plug = revolved({{-4.1, 0.27}, {-4.6, 0.2}, {-4.9, 0}}, kSides, "metal");
+  const Patch duct = revolved({{-2.9, 0.66}, {-2.9, 0.89}, {-3.3, 0.89}}, kSides, "dark");
+  const Patch fan = moved(disc(0.86, kSides, "fan"), straight, {-0.9, 0, 0});
   const Patch spinner = revolved({{-0.9, 0.26}, {-0.7, 0.19}, {-0.52, 0.09}, {-0.45, 0}}, kSides, "metal");
-  return {place(cowl), place(turned_over(lip)), place(core), place(turned_over(duct)), place(fan), place(spinner)};
+  // The wall of the duct is seen from within.
+  return {place(joined(lip, cowl)),
+          place(turned_over(intake)),
+          place(joined(core, joined(nozzle, plug))),
+          place(turned_over(duct)),
+          place(fan),
+          place(spinner)};
 }
 
 Patch left_pylon() {
@@ -192,14 +252,14 @@ Patch left_pylon() {
     return WingStation{at(s, kEngineY_m, z), chord, thickness, 0, {0, 1, 0}, 0};
   };
   return wing({station(-1.35, 12.1, 4.3, 0.09), station(-0.82, 12.15, 4.6, 0.085), station(-0.60, 13.1, 3.9, 0.09)}, 6,
-              "nacelle");
+              "pylon");
 }
 
 // Fairings of the flap tracks under the trailing edge.
 Patch left_track(double y_m, double s_m, double length_m) {
   const double z = -1.42 + 0.095 * y_m + 0.0012 * y_m * y_m;
   const double front = length_m / 2.6;
-  return moved(teardrop({front, 0.16, 0.24}, 1.6, 8, "belly"), glm::dmat3(1.0), at(s_m + front, y_m, z));
+  return moved(teardrop({front, 0.18, 0.26}, 1.6, 10, "track"), glm::dmat3(1.0), at(s_m + front, y_m, z));
 }
 
 void add_both(Model& model, const Patch& left) {
@@ -207,18 +267,30 @@ void add_both(Model& model, const Patch& left) {
   model.patches.push_back(mirrored(left, false));
 }
 
+// Position lights at the wing tips and the tail, the anti-collision beacons on crown and belly; larger than they are
+// built, so that they are as bright in the image as the lamps that they stand for.
+std::vector<Patch> lights() {
+  const auto lamp = [](double s, double y, double z, double radius_m, const char* material) {
+    return moved(teardrop(glm::dvec3(radius_m), 1.5, 6, material), glm::dmat3(1.0), at(s, y, z));
+  };
+  return {lamp(19.35, 16.12, 0.55, 0.12, "light_red"),
+          lamp(19.35, -16.12, 0.55, 0.12, "light_green"),
+          lamp(20.65, 16.15, 0.56, 0.09, "light_white"),
+          lamp(20.65, -16.15, 0.56, 0.09, "light_white"),
+          lamp(kAirlinerLength_m - 0.1, 0, 1.42, 0.09, "light_white"),
+          lamp(14.0, 0, 2.10, 0.11, "light_red"),
+          lamp(16.0, 0, -2.52, 0.11, "light_red")};
+}
+
 }  // namespace
 
 Model airliner() {
-  Model model{.name = "airliner", .materials = airliner_materials(), .patches = {}, .textures = airliner_textures()};
-  model.patches = {fuselage(), belly_fairing(), fin()};
-  add_both(model, left_wing());
-  add_both(model, left_tailplane());
+  Model model{.name = "airliner", .patches = {fuselage(), belly_fairing(), fin()}, .liveries = airliner_liveries()};
+  for (const Patch& part : {left_panes(), left_wing(), left_tailplane(), left_pylon(), left_track(4.3, 15.6, 3.3),
+                            left_track(8.4, 16.9, 2.7), left_track(11.6, 18.3, 2.2)})
+    add_both(model, part);
   for (const Patch& part : left_engine()) add_both(model, part);
-  add_both(model, left_pylon());
-  add_both(model, left_track(4.3, 15.6, 3.3));
-  add_both(model, left_track(8.4, 16.9, 2.7));
-  add_both(model, left_track(11.6, 18.3, 2.2));
+  for (const Patch& lamp : lights()) model.patches.push_back(lamp);
   return model;
 }
 

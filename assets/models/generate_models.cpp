@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generate_models FOLDER writes FOLDER/airliner and FOLDER/light-aircraft.
+// generate_models FOLDER writes the sample models below FOLDER, each into a folder of its name.
 #include <cstdio>
 
 #include "model.h"
@@ -9,8 +9,8 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "usage: generate_models FOLDER\n");
     return 64;
   }
-  const std::filesystem::path folder = arguments[1];
-  const bool good = sigs::models::write_model(sigs::models::airliner(), folder / "airliner") &&
-                    sigs::models::write_model(sigs::models::light_aircraft(), folder / "light-aircraft");
-  return good ? 0 : 74;
+  using namespace sigs::models;
+  for (const auto model : {airliner, light_aircraft, helicopter, quadcopter})
+    if (!write_model(model(), arguments[1])) return 74;
+  return 0;
 }

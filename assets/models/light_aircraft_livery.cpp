@@ -5,11 +5,35 @@
 #include <cmath>
 #include <numbers>
 
+#include "finishes.h"
+#include "rotor.h"
+
 namespace sigs::models {
 
 namespace {
 
-constexpr Colour kWhite{0.94, 0.94, 0.92}, kRed{0.70, 0.07, 0.09}, kBlue{0.07, 0.16, 0.38}, kSeam{0.66, 0.66, 0.65};
+// Reflectances: white lacquer 0.8, grey 0.4, dark 0.05 to 0.1.
+struct Paint {
+  std::string name;
+  Colour body, stripe, second_stripe, letters, trim;
+};
+
+constexpr Colour kRed{0.45, 0.02, 0.03}, kBlue{0.025, 0.045, 0.13};
+
+const Paint kPaintWhite{
+    .name = "", .body = {0.80, 0.80, 0.77}, .stripe = kRed, .second_stripe = kBlue, .letters = kBlue, .trim = kRed};
+const Paint kPaintGrey{.name = "grey",
+                       .body = {0.42, 0.43, 0.45},
+                       .stripe = {0.70, 0.70, 0.70},
+                       .second_stripe = {0.10, 0.12, 0.16},
+                       .letters = {0.10, 0.12, 0.16},
+                       .trim = {0.30, 0.31, 0.33}};
+const Paint kPaintDark{.name = "dark",
+                       .body = {0.045, 0.065, 0.10},
+                       .stripe = {0.72, 0.70, 0.66},
+                       .second_stripe = {0.50, 0.33, 0.10},
+                       .letters = {0.72, 0.70, 0.66},
+                       .trim = {0.72, 0.70, 0.66}};
 
 bool within(double x, double low, double high) {
   return x >= low && x < high;
@@ -29,73 +53,121 @@ bool on_seam(const SidePoint& at) {
   return cowl || door || sill;
 }
 
-Colour fuselage_colour(const SidePoint& at) {
+Colour fuselage_colour(const Paint& paint, const SidePoint& at) {
   static const Lettering registration("EC-SIG");
-  if (on_text(registration, at, 5.08, 0.365, 0.225)) return kBlue;
+  if (on_text(registration, at, 5.08, 0.365, 0.225)) return paint.letters;
   const double above = at.z_m - stripe_z(at.back_m);
   const double slimming = 1 - 0.45 * std::clamp((at.back_m - 4.0) / 4.0, 0.0, 1.0);
-  if (within(above, -0.13 * slimming, 0.07 * slimming)) return kRed;
-  if (within(above, -0.21 * slimming, -0.16 * slimming)) return kBlue;
-  if (at.back_m < 1.5 && at.z_m < -0.31) return kRed;
-  return on_seam(at) ? kSeam : kWhite;
+  if (within(above, -0.13 * slimming, 0.07 * slimming)) return paint.stripe;
+  if (within(above, -0.21 * slimming, -0.16 * slimming)) return paint.second_stripe;
+  if (at.back_m < 1.5 && at.z_m < -0.31) return paint.trim;
+  return on_seam(at) ? 0.5 * (paint.body + grey(kSeam)) : paint.body;
 }
 
-Colour fin_colour(const SidePoint& at) {
+// The cowl's outlet for the air, soot behind the exhaust, lids, an antenna, dirt from the wheels.
+Colour underside_colour(const Paint& paint, const PlanPoint& at) {
+  const double s = at.back_m, y = std::abs(at.y_m);
+  if (within(s, 1.28, 1.52) && y < 0.26) return grey(kOpening);
+  if (std::abs(s - 1.5) < 0.02) return grey(kSeam);
+  if (within(s, 4.3, 4.75) && y < 0.03) return grey(0.1);
+  for (const double lid : {2.0, 3.5, 5.2})
+    if (std::abs(std::hypot(s - lid, y - 0.2) - 0.09) < 0.012) return grey(kSeam);
+  const Colour base = s < 1.5 ? paint.trim : paint.body;
+  const double soot = std::clamp((s - 1.2) / 0.5, 0.0, 1.0) * std::exp(-std::max(0.0, s - 1.7) / 2.2) *
+                      std::exp(-0.5 * std::pow((y - 0.22) / 0.10, 2));
+  const double dirt = s > 1.5 ? 0.25 * streaks(at.y_m, s) : 0.0;
+  return base * (1 - 0.65 * soot) * (0.95 - dirt);
+}
+
+Colour fin_colour(const Paint& paint, const SidePoint& at) {
   const double s = at.back_m + 5.1;
   const double hinge = 7.62 + 0.30 * (at.z_m - 0.3);
-  if (std::abs(s - hinge) < 0.013) return kSeam * 0.7;
+  if (std::abs(s - hinge) < 0.013) return grey(0.6 * kSeam);
   const double slant = at.z_m - 0.55 * (s - 7.4);
-  if (within(slant, 0.62, 0.86)) return kRed;
-  if (within(slant, 0.54, 0.585)) return kBlue;
-  return slant >= 0.86 ? kBlue : kWhite;
+  if (within(slant, 0.62, 0.86)) return paint.stripe;
+  if (within(slant, 0.54, 0.585)) return paint.second_stripe;
+  return slant >= 0.86 ? paint.second_stripe : paint.body;
 }
 
 double chord_at(double row) {
   return 0.5 * (1 - std::cos(std::numbers::pi * 2 * std::abs(row - 0.5)));
 }
 
-// Along the span by station: 0 centre line, 0.4 end of the flaps, 0.8 tip.
-Colour wing_colour(const glm::dvec2& place) {
-  const double chord = chord_at(place.y);
-  if (place.x > 0.66) return kRed;
-  if (within(place.x, 0.62, 0.645)) return kBlue;
-  if (std::abs(chord - 0.72) < 0.008) return kSeam * 0.75;
-  if (chord > 0.72 && (std::abs(place.x - 0.4) < 0.0015)) return kSeam * 0.7;
-  return std::abs(chord - 0.28) < 0.004 ? kSeam * 1.2 : kWhite;
+// Metres from the middle, from the share of the wing's stations (left_wing()).
+double span_at(double column) {
+  constexpr double kStations_m[] = {0.0, 0.6, 2.9, 4.2, 5.1, 5.35, 5.46, 5.5};
+  const double place = std::min(7 * column, 6.999);
+  const int i = static_cast<int>(place);
+  return kStations_m[i] + (place - i) * (kStations_m[i + 1] - kStations_m[i]);
 }
 
-Colour tailplane_colour(const glm::dvec2& place) {
-  if (place.x > 0.8) return kRed;
-  return std::abs(chord_at(place.y) - 0.58) < 0.010 ? kSeam * 0.7 : kWhite;
+bool on_wing_seam(double span_m, double chord) {
+  if (std::abs(chord - 0.72) < 0.008 && span_m < 5.1) return true;
+  return chord > 0.72 && (std::abs(span_m - 0.62) < 0.02 || std::abs(span_m - 2.95) < 0.02);
+}
+
+// Lower side: lids for the controls, the strut's fitting, the registration where `has_letters`, to be read from below
+// with the nose up.
+Colour wing_below(const Paint& paint, double span_m, double chord, bool has_letters) {
+  static const Lettering registration("EC-SIG");
+  constexpr double kChord_m = 1.63, kLetters_m = 0.60;
+  const double along = (span_m - 0.72) / (0.8 * kLetters_m * registration.aspect());
+  if (has_letters && registration.covers(along, (chord * kChord_m - 0.42) / kLetters_m)) return paint.letters;
+  if (std::hypot(span_m - 2.95, (chord - 0.36) * kChord_m) < 0.10) return grey(0.12);
+  for (const double lid : {1.2, 3.3, 3.9, 4.6})
+    if (std::abs(std::hypot(span_m - lid, (chord - 0.60) * kChord_m) - 0.07) < 0.012) return grey(kSeam);
+  if (std::abs(chord - 0.28) < 0.004) return 0.75 * paint.body;
+  return paint.body * (0.96 - 0.12 * streaks(span_m, chord));
+}
+
+Colour wing_colour(const Paint& paint, const glm::dvec2& place, bool has_letters) {
+  const double chord = chord_at(place.y), span_m = span_at(place.x);
+  if (chord < 0.012 && within(span_m, 3.1, 3.5)) return grey(0.95);  // landing light
+  if (span_m > 5.0) return paint.trim;
+  if (within(span_m, 4.86, 4.94)) return paint.second_stripe;
+  if (on_wing_seam(span_m, chord)) return grey(0.6 * kSeam);
+  if (place.y >= 0.5) return wing_below(paint, span_m, chord, has_letters);
+  return std::abs(chord - 0.28) < 0.004 ? 0.85 * paint.body : paint.body;
+}
+
+Colour tailplane_colour(const Paint& paint, const glm::dvec2& place) {
+  if (place.x > 0.8) return paint.trim;
+  return std::abs(chord_at(place.y) - 0.58) < 0.010 ? grey(0.6 * kSeam) : paint.body;
+}
+
+std::vector<MaterialSpec> materials(const Paint& paint) {
+  return together({{lacquer_image("fuselage", "fuselage.png"), lacquer_image("underside", "underside.png"),
+                    lacquer_image("fin", "fin.png"), lacquer_image("wing", "wing.png"),
+                    lacquer_image("wing_left", "wing_left.png"), lacquer_image("tailplane", "tailplane.png"),
+                    lacquer("white", paint.body), lacquer("trim", paint.trim), matt("tyre", grey(kTyre)),
+                    metal("metal", 0.20), matt("dark", grey(kOpening)), matt("interior", {0.045, 0.04, 0.035}),
+                    matt("seats", {0.09, 0.05, 0.03}), matt("crew", {0.05, 0.06, 0.10}), glass("glass", 0.35)},
+                   rotor_materials(0.06),
+                   lamps()});
+}
+
+std::vector<Texture> textures(const Paint& paint) {
+  const auto sides = [&](const glm::dvec2& p) { return fuselage_colour(paint, side_point(kLightSides, p)); };
+  const auto below = [&](const glm::dvec2& p) { return underside_colour(paint, plan_point(kLightUnderside, p)); };
+  const auto fin = [&](const glm::dvec2& p) { return fin_colour(paint, side_point(kLightFin, p)); };
+  const auto wing = [&](const glm::dvec2& p) { return wing_colour(paint, p, false); };
+  const auto wing_left = [&](const glm::dvec2& p) { return wing_colour(paint, p, true); };
+  const auto tailplane = [&](const glm::dvec2& p) { return tailplane_colour(paint, p); };
+  return {{"fuselage.png", painted({1024, 512}, sides)},
+          {"underside.png", painted({512, 96}, below)},
+          {"fin.png", painted({256, 256}, fin)},
+          {"wing.png", painted({512, 256}, wing)},
+          {"wing_left.png", painted({1024, 256}, wing_left)},
+          {"tailplane.png", painted({128, 128}, tailplane)}};
 }
 
 }  // namespace
 
-std::vector<MaterialSpec> light_aircraft_materials() {
-  return {
-      {.name = "fuselage", .specular = 0.25, .shininess = 60, .texture = "fuselage.png"},
-      {.name = "fin", .specular = 0.25, .shininess = 60, .texture = "fin.png"},
-      {.name = "wing", .specular = 0.20, .shininess = 40, .texture = "wing.png"},
-      {.name = "tailplane", .specular = 0.20, .shininess = 40, .texture = "tailplane.png"},
-      {.name = "white", .diffuse = kWhite, .specular = 0.20, .shininess = 40},
-      {.name = "red", .diffuse = kRed, .specular = 0.30, .shininess = 60},
-      {.name = "tyre", .diffuse = {0.06, 0.06, 0.06}, .specular = 0.03, .shininess = 5},
-      {.name = "dark", .diffuse = {0.05, 0.05, 0.05}, .specular = 0, .shininess = 1},
-      {.name = "interior", .diffuse = {0.20, 0.19, 0.18}, .specular = 0, .shininess = 1},
-      {.name = "seats", .diffuse = {0.33, 0.24, 0.17}, .specular = 0.02, .shininess = 5},
-      {.name = "crew", .diffuse = {0.14, 0.17, 0.25}, .specular = 0.02, .shininess = 5},
-      {.name = "glass", .diffuse = {0.12, 0.15, 0.18}, .specular = 0.60, .shininess = 120, .opacity = 0.35},
-      {.name = "propeller", .diffuse = {0.22, 0.22, 0.23}, .specular = 0.05, .shininess = 10, .opacity = 0.18},
-      {.name = "propeller_tips", .diffuse = {0.80, 0.66, 0.18}, .specular = 0.05, .shininess = 10, .opacity = 0.22}};
-}
-
-std::vector<Texture> light_aircraft_textures() {
-  const auto sides = [](const glm::dvec2& p) { return fuselage_colour(side_point(kLightSides, p)); };
-  const auto fin = [](const glm::dvec2& p) { return fin_colour(side_point(kLightFin, p)); };
-  return {{"fuselage.png", painted({1024, 512}, sides)},
-          {"fin.png", painted({256, 256}, fin)},
-          {"wing.png", painted({256, 256}, wing_colour)},
-          {"tailplane.png", painted({128, 128}, tailplane_colour)}};
+std::vector<Livery> light_aircraft_liveries() {
+  std::vector<Livery> liveries;
+  for (const Paint* paint : {&kPaintWhite, &kPaintGrey, &kPaintDark})
+    liveries.push_back({paint->name, materials(*paint), textures(*paint)});
+  return liveries;
 }
 
 }  // namespace sigs::models

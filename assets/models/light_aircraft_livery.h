@@ -13,8 +13,9 @@ namespace sigs::models {
 inline constexpr double kLightNose_m = 2.5;
 inline constexpr SideMap kLightSides{kLightNose_m, 8.3, 0.95, -0.70};
 inline constexpr SideMap kLightFin{kLightNose_m - 5.1, 3.25, 1.42, 0.22};
+inline constexpr PlanMap kLightUnderside{kLightNose_m, 8.3, 0.6};
 
-[[nodiscard]] std::vector<MaterialSpec> light_aircraft_materials();
-[[nodiscard]] std::vector<Texture> light_aircraft_textures();
+// White, grey and dark.
+[[nodiscard]] std::vector<Livery> light_aircraft_liveries();
 
 }  // namespace sigs::models

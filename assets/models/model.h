@@ -13,11 +13,11 @@ namespace sigs::models {
 
 struct MaterialSpec {
   std::string name;
-  glm::dvec3 diffuse{1, 1, 1};  // display code values 0..1
-  double specular = 0.2;        // grey, display code value
-  double shininess = 40;
-  double opacity = 1;        // MTL's d
-  std::string texture = "";  // file beside the OBJ; empty: none
+  glm::dvec3 reflectance{1, 1, 1};  // diffuse, 0..1, linear; written as display code values
+  double specular = 0;              // MTL's Ks, grey; a quarter of it is reflected
+  double shininess = 1;             // MTL's Ns
+  double opacity = 1;               // MTL's d
+  std::string texture = "";         // file, from the MTL's folder; empty: none
 };
 
 struct Texture {
@@ -25,17 +25,27 @@ struct Texture {
   cv::Mat bgr;  // CV_8UC3
 };
 
+// How a model is painted. Liveries of one model have the same names of materials.
+struct Livery {
+  std::string name = "";  // of the livery; empty: the one in the model's own folder
+  std::vector<MaterialSpec> materials;
+  std::vector<Texture> textures;
+};
+
 struct Model {
   std::string name;  // of the OBJ and the MTL, without extension
-  std::vector<MaterialSpec> materials;
   std::vector<Patch> patches;
-  std::vector<Texture> textures;
+  std::vector<Livery> liveries;  // the first one is without a name
 };
 
 [[nodiscard]] Model airliner();
 [[nodiscard]] Model light_aircraft();
+[[nodiscard]] Model helicopter();
+[[nodiscard]] Model quadcopter();
 
-// Writes NAME.obj, NAME.mtl and the textures. On an error prints it on stderr and returns false.
+// Writes NAME/NAME.obj, NAME/NAME.mtl and its textures below `folder`. Each further livery becomes a folder
+// NAME-LIVERY with an MTL and textures, and with NAME-LIVERY.obj as a symbolic link to the one OBJ: an OBJ finds its
+// MTL in the folder in which it is opened. On an error prints it on stderr and returns false.
 [[nodiscard]] bool write_model(const Model& model, const std::filesystem::path& folder);
 
 }  // namespace sigs::models

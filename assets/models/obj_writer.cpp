@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "model.h"
+#include "paint.h"
 
 namespace sigs::models {
 
@@ -38,13 +39,16 @@ std::string fixed_line(const char* tag, const std::vector<double>& numbers, int 
   return line;
 }
 
-std::string mtl_text(const Model& model) {
+std::string mtl_text(const Model& model, const Livery& livery) {
   std::ostringstream out;
-  out << "# " << model.name << ": made by generate_models, MIT licence\n";
-  for (const MaterialSpec& m : model.materials) {
-    out << "\nnewmtl " << m.name << '\n' << fixed_line("Kd", {m.diffuse.r, m.diffuse.g, m.diffuse.b}, 3) << '\n';
+  out << "# " << model.name << (livery.name.empty() ? "" : "-") << livery.name
+      << ": made by generate_models, MIT licence\n";
+  for (const MaterialSpec& m : livery.materials) {
+    // A texture is the reflectance itself.
+    const Colour diffuse = m.texture.empty() ? display_colour(m.reflectance) : Colour(1);
+    out << "\nnewmtl " << m.name << '\n' << fixed_line("Kd", {diffuse.r, diffuse.g, diffuse.b}, 3) << '\n';
     out << fixed_line("Ks", {m.specular, m.specular, m.specular}, 3) << '\n' << fixed_line("Ns", {m.shininess}, 1);
-    out << '\n' << fixed_line("d", {m.opacity}, 2) << '\n';
+    out << '\n' << fixed_line("d", {m.opacity}, 3) << '\n';
     if (!m.texture.empty()) out << "map_Kd " << m.texture << '\n';
   }
   return out.str();
@@ -61,7 +65,7 @@ class ObjText {
     std::string all = "# " + model.name + ": made by generate_models, MIT licence\n" +
                       "# metres; +x out of the nose, +y left wing, +z up; origin at the centre of gravity\n" +
                       "mtllib " + model.name + ".mtl\n" + positions_.text() + uvs_.text() + normals_.text();
-    for (const MaterialSpec& m : model.materials)
+    for (const MaterialSpec& m : model.liveries.front().materials)
       if (faces_.contains(m.name)) all += "usemtl " + m.name + '\n' + faces_.at(m.name);
     return all;
   }
@@ -101,16 +105,35 @@ bool write_picture(const std::filesystem::path& path, const cv::Mat& bgr) {
   return false;
 }
 
+bool write_livery(const Model& model, const Livery& livery, const std::filesystem::path& folder) {
+  bool good = write(folder / (model.name + ".mtl"), mtl_text(model, livery));
+  for (const Texture& texture : livery.textures) good = write_picture(folder / texture.file, texture.bgr) && good;
+  return good;
+}
+
+bool write_link(const std::filesystem::path& link, const std::filesystem::path& target) {
+  std::error_code code;
+  std::filesystem::remove(link, code);
+  std::filesystem::create_symlink(target, link, code);
+  if (code) std::fprintf(stderr, "%s: cannot be linked: %s\n", link.c_str(), code.message().c_str());
+  return !code;
+}
+
 }  // namespace
 
 bool write_model(const Model& model, const std::filesystem::path& folder) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
   ObjText obj;
   for (const Patch& patch : model.patches) obj.add(patch);
-  bool good =
-      write(folder / (model.name + ".obj"), obj.text(model)) && write(folder / (model.name + ".mtl"), mtl_text(model));
-  for (const Texture& texture : model.textures) good = write_picture(folder / texture.file, texture.bgr) && good;
+  const std::string obj_name = model.name + ".obj";
+  bool good = true;
+  for (const Livery& livery : model.liveries) {
+    const std::string name = model.name + (livery.name.empty() ? "" : "-" + livery.name);
+    std::error_code code;
+    std::filesystem::create_directories(folder / name, code);
+    good = (livery.name.empty() ? write(folder / name / obj_name, obj.text(model))
+                                : write_link(folder / name / (name + ".obj"), "../" + model.name + "/" + obj_name)) &&
+           write_livery(model, livery, folder / name) && good;
+  }
   return good;
 }
 

@@ -6,6 +6,18 @@
 
 namespace sigs::models {
 
+Colour display_colour(const Colour& reflectance) {
+  const auto coded = [](double r) { return r <= 0.0031308 ? 12.92 * r : 1.055 * std::pow(r, 1 / 2.4) - 0.055; };
+  const Colour r = glm::clamp(reflectance, 0.0, 1.0);
+  return {coded(r.r), coded(r.g), coded(r.b)};
+}
+
+double streaks(double across_m, double along_m) {
+  const double drift = across_m + 0.03 * std::sin(0.9 * along_m);
+  const double sum = std::sin(31 * drift) + std::sin(53 * drift + 1.3) + std::sin(87 * drift + 4.1 + 0.2 * along_m);
+  return std::pow(0.5 + sum / 6, 2.0);
+}
+
 cv::Mat painted(cv::Size size_px, const std::function<Colour(const glm::dvec2& place)>& colour_at) {
   constexpr int kFine = 5;
   cv::Mat bgr(size_px, CV_8UC3);
@@ -16,7 +28,7 @@ cv::Mat painted(cv::Size size_px, const std::function<Colour(const glm::dvec2& p
         const glm::dvec2 fine{(i % kFine + 0.5) / kFine, (i / kFine + 0.5) / kFine};
         sum += colour_at((glm::dvec2(x, y) + fine) / glm::dvec2(size_px.width, size_px.height));
       }
-      const Colour mean = glm::clamp(sum / double(kFine * kFine), 0.0, 1.0) * 255.0;
+      const Colour mean = display_colour(sum / double(kFine * kFine)) * 255.0;
       bgr.at<cv::Vec3b>(y, x) = {cv::saturate_cast<uchar>(mean.b), cv::saturate_cast<uchar>(mean.g),
                                  cv::saturate_cast<uchar>(mean.r)};
     }

@@ -8,11 +8,21 @@
 
 namespace sigs::models {
 
-using Colour = glm::dvec3;  // red, green, blue; display code values 0..1
+using Colour = glm::dvec3;  // red, green, blue: diffuse reflectance 0..1, linear
 
-// An image whose pixels are the mean of the colours at 5 x 5 places in each. place: x right, y down, 0..1 over the
+[[nodiscard]] inline Colour grey(double reflectance) {
+  return Colour(reflectance);
+}
+
+// Display code values 0..1 of a reflectance (sRGB, IEC 61966-2-1), as MTL files and textures have them.
+[[nodiscard]] Colour display_colour(const Colour& reflectance);
+
+// An image whose pixels are the mean of the reflectances at 5 x 5 places in each. place: x right, y down, 0..1 over the
 // image.
 [[nodiscard]] cv::Mat painted(cv::Size size_px, const std::function<Colour(const glm::dvec2& place)>& colour_at);
+
+// Dirt that the air stream draws out along a surface: 0 where clean, 1 where dirtiest, some 0.1 m wide.
+[[nodiscard]] double streaks(double across_m, double along_m);
 
 // Letters as a mask: 1 inside, 0 outside, (0, 0) the upper left corner of the text, (1, 1) its lower right.
 class Lettering {

@@ -41,6 +41,28 @@ struct SideMap {
   return paper;
 }
 
+// How a body's underside is textured from below: the nose is at the image's left edge, the left side in its upper half.
+struct PlanMap {
+  double nose_x_m = 0;      // model x at the image's left edge
+  double length_m = 1;      // from there back
+  double half_width_m = 1;  // from the image's middle to its upper edge
+
+  // Texture coordinates of a point; mirrored(patch, true) serves the right half.
+  [[nodiscard]] glm::dvec2 uv(const glm::dvec3& p_m) const {
+    return {(nose_x_m - p_m.x) / length_m, 0.5 + 0.5 * p_m.y / half_width_m};
+  }
+};
+
+// A position on the underside.
+struct PlanPoint {
+  double back_m = 0;  // behind the image's nose edge
+  double y_m = 0;     // to the left
+};
+
+[[nodiscard]] inline PlanPoint plan_point(const PlanMap& map, const glm::dvec2& place) {
+  return {place.x * map.length_m, (1 - 2 * place.y) * map.half_width_m};
+}
+
 // A position on the side of a body, as seen by a viewer of that side.
 struct SidePoint {
   bool left = true;

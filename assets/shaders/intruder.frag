@@ -3,8 +3,9 @@
 // SPDX-License-Identifier: MIT
 // Lambert and Blinn-Phong (Blinn 1977) in linear light; the result is premultiplied.
 
-// Compiled three times: without an image; with IMAGE, of which only opaque texels are touched; with IMAGE and
-// LAYERED, of which only fragments whose opacity lies within [lowest, highest) belong to the pass.
+// Compiled for each kind of surface: without an image; with IMAGE, of which only opaque texels are touched; with IMAGE
+// and LAYERED, of which only fragments whose opacity lies within [lowest, highest) belong to the pass. Each is compiled
+// for the point light and, with SUN, for sun, sky and ground. DEPTH draws depth alone, for the map of shadows.
 #ifdef IMAGE
 uniform sampler2D image;  // premultiplied; decoded from sRGB by the sampler
 #endif
@@ -14,10 +15,20 @@ uniform float highest_opacity;
 #endif
 
 uniform vec3 light_color;
-uniform float ambient;
 // A point p that may be far away is given as p * scale, with scale so small that squares fit a float.
+#ifdef SUN
+uniform vec3 to_sun;
+uniform vec3 up;
+uniform vec3 sky_color;
+uniform vec3 ground_color;
+uniform sampler2D sun_depth;   // of what the sun's light meets first: 0..1 of sun_depth_range
+uniform float sun_depth_range; // texels
+uniform mat4 texels_from_surface;  // x, y in the map, and depth away from the sun, in texels
+#else
+uniform float ambient;
 uniform vec3 light_scaled;
 uniform float light_scale;
+#endif
 uniform vec3 eye_scaled;
 uniform float eye_scale;
 
@@ -60,6 +71,70 @@ vec4 filtered(vec2 uv) {
 }
 #endif
 
+#ifdef SUN
+// Share of the sun's light that reaches the surface, 0..1: percentage-closer filtering (Reeves et al. 1987) over the
+// four nearest texels, each compared with the plane of the triangle at the middle of that texel. A plane so does not
+// shadow itself however flat the light falls in.
+//   facet  unit normal of the triangle, towards the eye
+float lit_share(vec3 facet) {
+  vec3 texel = (texels_from_surface * vec4(surface_m, 1.0)).xyz;
+  vec3 normal = mat3(texels_from_surface) * facet;
+  float size = length(normal);
+  if (!(abs(normal.z) > 1e-3 * size)) return 0.0;  // edge on
+  vec2 slope = clamp(-normal.xy / normal.z, -100.0, 100.0);
+  float bias = 0.5 + 0.05 * (abs(slope.x) + abs(slope.y));
+  vec2 corner = floor(texel.xy - 0.5);
+  vec2 share = texel.xy - 0.5 - corner;
+  ivec2 last = textureSize(sun_depth, 0) - 1;
+  vec4 lit;
+  for (int i = 0; i < 4; ++i) {
+    vec2 at = corner + vec2(i & 1, i >> 1);
+    float plane = texel.z + dot(slope, at + 0.5 - texel.xy);
+    float nearest = texelFetch(sun_depth, clamp(ivec2(at), ivec2(0), last), 0).r * sun_depth_range;
+    lit[i] = nearest >= plane - bias ? 1.0 : 0.0;
+  }
+  return mix(mix(lit.x, lit.y, share.x), mix(lit.z, lit.w, share.x), share.y);
+}
+
+// Schlick (1994): from `straight`, where the light comes squarely, to 1 at a grazing angle. What hardly reflects at all
+// does not do so at grazing angles either (Lagarde and de Rousiers 2014).
+vec3 reflected_share(vec3 straight, float cosine) {
+  float most = min(50.0 * max(max(straight.r, straight.g), straight.b), 1.0);
+  float rest = 1.0 - clamp(cosine, 0.0, 1.0);
+  float squared = rest * rest;
+  return straight + (most - straight) * (squared * squared * rest);
+}
+
+// Of sky and ground, from a direction; at the horizon they pass into each other.
+vec3 surroundings(vec3 direction) {
+  return mix(ground_color, sky_color, smoothstep(-0.1, 0.1, dot(direction, up)));
+}
+
+// Premultiplied colour and opacity. docs/how-a-frame-is-made.md has the formulas.
+vec4 sunlit(vec4 texel, float opacity, vec3 n, vec3 to_eye, float lit) {
+  bool is_glass = opacity < 1.0;
+  vec3 straight = 0.25 * surface_gloss.rgb;
+  if (is_glass) straight = min(straight, 0.04);  // refractive index 1.5: ((1.5 - 1) / (1.5 + 1))^2
+  vec3 between = unit_or(to_sun + to_eye, n);
+  float facing = lit * max(dot(n, to_sun), 0.0);
+  vec3 hemisphere = mix(ground_color, sky_color, 0.5 + 0.5 * dot(n, up));
+  vec3 matt = surface_color.rgb * texel.rgb * (hemisphere + light_color * (1.0 - straight) * facing);
+  float shininess = surface_gloss.a;
+  float lobe = (shininess + 8.0) / 8.0 * pow(max(dot(n, between), 0.0), shininess);
+  vec3 highlight = light_color * facing * lobe * reflected_share(straight, dot(to_sun, between));
+  float mirror = is_glass ? dot(reflected_share(straight, dot(n, to_eye)), vec3(1.0 / 3.0)) : 0.0;
+  vec3 light = (1.0 - mirror) * opacity * matt + texel.a * (highlight + mirror * surroundings(reflect(-to_eye, n)));
+  return vec4(light, texel.a * (opacity + mirror * (1.0 - opacity)));
+}
+#endif
+
+#ifdef DEPTH
+void main() {
+#ifdef IMAGE
+  if (texture(image, surface_uv).a < 0.5) discard;
+#endif
+}
+#else
 void main() {
 #ifdef IMAGE
   vec4 texel = filtered(surface_uv);
@@ -77,6 +152,13 @@ void main() {
 
   vec3 outside = unit_or(surface_normal, vec3(-1.0, 0.0, 0.0));
   vec3 n = gl_FrontFacing ? outside : -outside;
+#ifdef SUN
+  vec3 facet = unit_or(-cross(dFdx(surface_m), dFdy(surface_m)), n);
+  if (dot(n, facet) < 0.0) n = -n;
+  vec3 to_eye = unit_or(eye_scaled - surface_m * eye_scale, n);
+  float lit = dot(facet, to_sun) > 0.0 && dot(n, to_sun) > 0.0 ? lit_share(facet) : 0.0;
+  color = sunlit(texel, opacity, n, to_eye, lit);
+#else
   vec3 to_light = unit_or(light_scaled - surface_m * light_scale, n);
   vec3 to_eye = unit_or(eye_scaled - surface_m * eye_scale, n);
   vec3 between = unit_or(to_light + to_eye, n);
@@ -87,5 +169,7 @@ void main() {
   // A quarter: MTL writers give aircraft paint a specular colour that would outshine its own.
   float gloss = facing > 0.0 ? 0.25 * direct * pow(max(dot(n, between), 0.0), surface_gloss.a) : 0.0;
   color = vec4(light_color * opacity * (matt + surface_gloss.rgb * (gloss * texel.a)), alpha);
+#endif
   coverage = 1.0;
 }
+#endif

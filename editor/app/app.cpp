@@ -102,6 +102,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
       previewer_(PreviewLimits(), [] { Window::wake(); }),
       own_body_(edits_, [] { Window::wake(); }),
       ego_motion_(edits_, [] { Window::wake(); }),
+      appearance_(edits_, [] { Window::wake(); }),
       scoring_([] { Window::wake(); }),
       shell_(document_, settings_,
              {.samples = SIGS_PROJECTS_DIR,
@@ -185,7 +186,8 @@ void App::draw(const PreviewOutput& shown) {
                             .playing = playback_.playing(),
                             .speed = playback_.speed(),
                             .scored = scored_.get(),
-                            .ego_motion = &ego_motion_.state()};
+                            .ego_motion = &ego_motion_.state(),
+                            .appearance = &appearance_.state()};
   ask_scores(context);
   shell_.draw_menu(context);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
@@ -262,6 +264,8 @@ void App::handle(const Request& request) {
   if (std::holds_alternative<ShowOwnBody>(request)) layout_.show_own_body();
   if (std::holds_alternative<EstimateCameraMotion>(request)) ego_motion_.start(document_);
   if (std::holds_alternative<StopCameraMotion>(request)) ego_motion_.stop();
+  if (std::holds_alternative<MatchFootage>(request)) appearance_.start(document_);
+  if (std::holds_alternative<StopMatchingFootage>(request)) appearance_.stop();
   if (std::holds_alternative<ShowHorizon>(request)) layout_.show_horizon();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
@@ -297,6 +301,7 @@ void App::update(double now_s, bool something_happened) {
   scored_ = scoring_.scored();
   report_result_problems();
   ego_motion_.follow(document_);
+  appearance_.follow(document_);
   window_.begin(settings_);
   draw(shown);
   window_.end();
@@ -321,13 +326,14 @@ void App::update(double now_s, bool something_happened) {
     playback_.pause();
     own_body_.forget();
     ego_motion_.forget();
+    appearance_.forget();
     results_.clear();
     scored_.reset();
     scoring_.want({});
   }
   if (const std::optional<RecoveredMask> mask = shell_.take_recovered_mask()) own_body_.recover(*mask);
   previewer_.set_prefetch_paused(shell_.is_exporting() || own_body_.job().is_running() ||
-                                 ego_motion_.state().is_running());
+                                 ego_motion_.state().is_running() || appearance_.state().is_running());
   show_title();
   ask_preview();
   done_ = shell_.is_done();

@@ -18,6 +18,7 @@
 #include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
 #include "editor/preview/scoring.h"
+#include "editor/views/appearance/appearance_session.h"
 #include "editor/views/ego_motion/ego_motion_session.h"
 #include "editor/views/own_body/own_body_session.h"
 #include "editor/widgets/textures.h"
@@ -122,6 +123,7 @@ class App {
   Previewer previewer_;
   OwnBodySession own_body_;
   EgoMotionSession ego_motion_;
+  AppearanceSession appearance_;
   ResultFiles results_;
   Scoring scoring_;
   // Of this update; null: no results are loaded.

@@ -113,6 +113,9 @@ struct ShowHorizon {};
 // Begins to estimate the camera's motion from the footage, in the background; stops that.
 struct EstimateCameraMotion {};
 struct StopCameraMotion {};
+// Begins to find how the footage looks, in the background, to make the intruders look like it; stops that.
+struct MatchFootage {};
+struct StopMatchingFootage {};
 // A dialog that asks where the project's missing files are.
 struct ShowMissingFiles {};
 struct ToggleFullScreen {};
@@ -138,10 +141,11 @@ struct ShowMessage {
 };
 
 // What the program does, and the document does not know of: App and what it owns handle them.
-using Request = std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play,
-                             TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings,
-                             ShowAbout, ShowMissingFiles, ToggleFullScreen, EstimateCameraMotion, StopCameraMotion,
-                             LoadResults, RemoveResults, ShowResults, ClearMessages, ShowMessage>;
+using Request =
+    std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
+                 SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
+                 ToggleFullScreen, EstimateCameraMotion, StopCameraMotion, MatchFootage, StopMatchingFootage,
+                 LoadResults, RemoveResults, ShowResults, ClearMessages, ShowMessage>;
 
 // Views queue here what they want while they draw, so that the project does not change under the views that are drawn
 // after them. After that the document applies the edits and the program handles the requests, in the order in which

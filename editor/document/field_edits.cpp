@@ -19,13 +19,34 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 41> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
     {"camera.track.attitude", "Its attitude"},
     {"camera.track.incomplete", "If incomplete"},
     {"camera.readout_s", "Shutter readout"},
+    {"camera.exposure_s", "Exposure time"},
+    {"light.sun.azimuth_deg", "Sun azimuth"},
+    {"light.sun.elevation_deg", "Sun elevation"},
+    {"footage.occluder_mask", "Occluder"},
+    {"footage.occluder_frame", "Occluder frame"},
+    {"footage.occluder_distance_m", "Its distance"},
+    {"appearance.point_spread_px", "Blur"},
+    {"appearance.sharpening", "Sharpening"},
+    {"appearance.sharpening_px", "Sharpening radius"},
+    {"appearance.chroma_spread_px", "Blur of colours"},
+    {"appearance.black", "Flare"},
+    {"appearance.grain.sd_dark", "Noise, dark"},
+    {"appearance.grain.sd_bright", "Noise, bright"},
+    {"appearance.grain.sd_chroma", "Noise, colours"},
+    {"appearance.grain.spread_px", "Grain size"},
+    {"appearance.grain.persistence", "Grain persistence"},
+    {"appearance.grain.seed", "Grain seed"},
+    {"appearance.haze.visibility_m", "Visibility"},
+    {"appearance.haze.airlight_color", "Airlight colour"},
+    {"appearance.codec.match", "Codec"},
+    {"appearance.codec.quantiser", "Quantiser"},
     {"geo.height_m", "Height of z = 0"},
     {"geo.heading_deg", "Heading of X"},
     {"compositing.blur_px_per_m", "Blur with distance"},
@@ -55,7 +76,10 @@ std::string unit_text(std::string_view unit) {
 }
 
 std::string word_for_none(std::string_view key) {
-  if (key.starts_with("geo.") || key == "camera.readout_s") return "from the log";
+  if (key.starts_with("geo.") || key == "camera.readout_s" || key == "camera.exposure_s") return "from the log";
+  if (key.starts_with("light.sun.")) return "by time and place";
+  if (key == "appearance.codec.quantiser") return "the stream's";
+  if (key == "appearance.haze.visibility_m") return "clear air";
   return key.starts_with("camera.attitude_deg.") ? "not set" : "none";
 }
 

@@ -8,6 +8,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
+#include "editor/preview/appearance_job.h"
 #include "editor/preview/ego_motion_job.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/scoring.h"
@@ -56,6 +57,8 @@ struct ViewContext {
   const Scored* scored = nullptr;
   // Of the camera's motion that is estimated in the background. Null: this window has no such job.
   const EgoMotionState* ego_motion = nullptr;
+  // Of how the footage looks, likewise.
+  const AppearanceState* appearance = nullptr;
 
   [[nodiscard]] const Project& project() const { return document.project(); }
 };

@@ -79,6 +79,9 @@ void draw_edit_menu(const ViewContext& context, bool has_project) {
   const bool estimates = context.ego_motion != nullptr && context.ego_motion->is_running();
   if (item(context, "Estimate camera motion", "", has_project && !estimates)) context.edits.ask(EstimateCameraMotion{});
   if (estimates && item(context, "Stop estimating camera motion", "")) context.edits.ask(StopCameraMotion{});
+  const bool matches_footage = context.appearance != nullptr && context.appearance->is_running();
+  if (item(context, "Match the footage", "", has_project && !matches_footage)) context.edits.ask(MatchFootage{});
+  if (matches_footage && item(context, "Stop matching the footage", "")) context.edits.ask(StopMatchingFootage{});
   ImGui::Separator();
   if (item(context, "Add waypoint here", "Enter", has_project && !context.project().intruders.empty()))
     add_waypoint_here(context);

@@ -14,11 +14,43 @@ namespace sigs {
 
 namespace {
 
-// Reads and rewrites single pixels of a frame as R'G'B', in the frame's own planes. Where pixels share chroma, each is
-// read with the chroma that lies between its neighbours' samples, and adds its own to the samples that average it.
+// Where rewritten samples go: into the frame's own planes, rounded.
+class IntoFrame {
+ public:
+  explicit IntoFrame(Frame& frame) : frame_(frame) {}
+
+  void put(int plane, int y, int x, float code, float /*opacity*/) const {
+    frame_.planes[static_cast<std::size_t>(plane)].ptr<uchar>(y)[x] =
+        static_cast<uchar>(std::clamp(code, 0.0F, 255.0F) + 0.5F);
+  }
+
+ private:
+  Frame& frame_;
+};
+
+// Into the planes of a patch, as floats.
+class IntoPatch {
+ public:
+  explicit IntoPatch(CodePatch& patch) : patch_(patch) {}
+
+  void put(int plane, int y, int x, float code, float opacity) const {
+    PatchPlane& to = patch_.planes[static_cast<std::size_t>(plane)];
+    to.after.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::clamp(code, 0.0F, 255.0F);
+    to.opacity.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::min(opacity, 1.0F);
+  }
+
+ private:
+  CodePatch& patch_;
+};
+
+// Reads single pixels of a frame as R'G'B', in the frame's own planes, and puts what becomes of them into Target. Where
+// pixels share chroma, each is read with the chroma that lies between its neighbours' samples, and adds its own to the
+// samples that average it.
+template <class Target>
 class PlaneWriter {
  public:
-  explicit PlaneWriter(Frame& frame) : frame_(frame), map_(code_to_rgb(frame.layout, frame.color)) {}
+  PlaneWriter(const Frame& frame, const Target& target)
+      : frame_(frame), target_(target), map_(code_to_rgb(frame.layout, frame.color)) {}
 
   // Rewrites the pixels (x, y) of rect that have an opacity above 0; gives back how many. For each row y of rect,
   // pixels.row(y) gives an object with
@@ -38,9 +70,10 @@ class PlaneWriter {
     for (int y = rect.y; y < rect.br().y; ++y) {
       const auto row = pixels.row(y);
       for (int x = rect.x; x < rect.br().x; ++x) {
-        if (!(row.opacity(x) > 0)) continue;
-        const cv::Vec3f old_code = own_code({x, y});
-        set_own_code({x, y}, map_.from_rgb * row.over(x, rgb_of(old_code)) + map_.offset);
+        const float opacity = row.opacity(x);
+        if (!(opacity > 0)) continue;
+        const cv::Vec3f code = map_.from_rgb * row.over(x, rgb_of(own_code({x, y}))) + map_.offset;
+        for (int plane = 0; plane < frame_.plane_count(); ++plane) target_.put(plane, y, x, code[plane], opacity);
         ++count;
       }
     }
@@ -56,22 +89,24 @@ class PlaneWriter {
       const cv::Range covered = covered_part(row, {rect.x, rect.br().x});
       if (covered.empty()) continue;
       chroma.start_row(y, covered.start, covered.end);
-      count += rewrite_row(frame_.planes[0].ptr<uchar>(y), covered, row, chroma);
+      count += rewrite_row(y, covered, row, chroma);
       chroma.finish_row();
     }
-    chroma.write();
+    chroma.write(
+        [this](int plane, int y, int x, float code, float opacity) { target_.put(plane, y, x, code, opacity); });
     return count;
   }
 
   template <class Row>
-  std::int64_t rewrite_row(uchar* luma, const cv::Range& columns, const Row& row, SharedChroma& chroma) const {
+  std::int64_t rewrite_row(int y, const cv::Range& columns, const Row& row, SharedChroma& chroma) const {
+    const uchar* const luma = frame_.planes[0].ptr<uchar>(y);
     std::int64_t count = 0;
     for (int x = columns.start; x < columns.end; ++x) {
       const float opacity = row.opacity(x);
       if (!(opacity > 0)) continue;
       const cv::Vec3f old_code(luma[x], chroma.cb_at(x), chroma.cr_at(x));
       const cv::Vec3f code = map_.from_rgb * row.over(x, rgb_of(old_code)) + map_.offset;
-      luma[x] = clipped(code[0]);
+      target_.put(0, y, x, code[0], opacity);
       chroma.add(x, code[1] - old_code[1], code[2] - old_code[2], opacity);
       ++count;
     }
@@ -95,14 +130,8 @@ class PlaneWriter {
             static_cast<float>(frame_.planes[2].at<uchar>(pixel))};
   }
 
-  void set_own_code(const cv::Point& pixel, const cv::Vec3f& code) {
-    for (int plane = 0; plane < frame_.plane_count(); ++plane)
-      frame_.planes[static_cast<std::size_t>(plane)].at<uchar>(pixel) = clipped(code[plane]);
-  }
-
-  [[nodiscard]] static uchar clipped(float code) { return static_cast<uchar>(std::clamp(code, 0.0F, 255.0F) + 0.5F); }
-
-  Frame& frame_;
+  const Frame& frame_;
+  Target target_;
   CodeToRgb map_;
 };
 
@@ -145,17 +174,30 @@ struct LayerPixels {
   [[nodiscard]] LayerRow<space> row(int y) const { return {color.ptr<cv::Vec4f>(y - rect.y), rect.x, curve}; }
 };
 
-}  // namespace
-
-std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
-  if (layer.empty()) return 0;
-  ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
-  PlaneWriter planes(frame);
+template <class Target>
+std::int64_t blend_into(const Target& target, const Frame& frame, const Layer& layer, BlendSpace space) {
+  PlaneWriter<Target> planes(frame, target);
   const cv::Mat color = in_footage_primaries(layer.color, frame.color);
   const TransferCurve curve = transfer_curve_of(frame.color);
   return space == BlendSpace::linear
              ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{color, layer.rect, curve})
              : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{color, layer.rect, curve});
+}
+
+}  // namespace
+
+std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
+  if (layer.empty()) return 0;
+  ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
+  return blend_into(IntoFrame(frame), frame, layer, space);
+}
+
+CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
+                        const cv::Mat& own_body) {
+  ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
+  CodePatch patch = patch_of(frame, layer.rect, margin_px, own_body);
+  if (!layer.empty()) blend_into(IntoPatch(patch), frame, layer, space);
+  return patch;
 }
 
 namespace {
@@ -191,7 +233,7 @@ std::int64_t replace_pixels(Frame& frame, const cv::Rect& rect, const cv::Mat& b
   ENSURE((rect & cv::Rect({0, 0}, frame.size_px())) == rect);
   ENSURE(bgr.type() == CV_8UC3 && bgr.size() == rect.size());
   ENSURE(weight.type() == CV_32FC1 && weight.size() == rect.size());
-  return PlaneWriter(frame).rewrite(rect, MixedPixels{rect, bgr, weight});
+  return PlaneWriter(frame, IntoFrame(frame)).rewrite(rect, MixedPixels{rect, bgr, weight});
 }
 
 std::int64_t replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight) {

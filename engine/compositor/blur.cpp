@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
+#include "compositor/gaussian_kernel.h"
 #include "compositor/occlude.h"
 #include "compositor/resample.h"
 #include "video/color_space.h"
@@ -29,71 +30,39 @@ cv::Mat coverage_over(const cv::Rect& target, const Layer& layer) {
   return coverage;
 }
 
-// Variance of weights exp(-n^2 log_ratio) on all whole numbers n; up to a variance of 1, a dozen of them suffice.
-double variance_of_samples(double log_ratio) {
-  double sum = 0.5;
-  double moment = 0;
-  for (int n = 1; n <= 12; ++n) {
-    const double weight = std::exp(-n * n * log_ratio);
-    sum += weight;
-    moment += n * n * weight;
-  }
-  return moment / sum;
-}
-
-// For the weights exp(-n^2 log_ratio) of the pixels n away whose variance is sigma^2. From one pixel on these are the
-// Gaussian's own samples (to seven digits). A narrower Gaussian falls between the samples and would hardly blur at all:
-// the one that is sampled has to be wider.
-double log_ratio_for(double sigma_px) {
-  if (sigma_px >= 1) return 0.5 / (sigma_px * sigma_px);
-  constexpr int kHalvings = 60;
-  double low = 0.5;
-  double high = 100;  // a negligible blur
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (variance_of_samples(middle) > sigma_px * sigma_px ? low : high) = middle;
-  }
-  return low;
-}
-
-// One axis of the kernel, 2 reach + 1 samples that sum to one. Weights too small to change an 8-bit sample are 0: a
-// blur of negligible width changes no neighbour.
-cv::Mat sampled_gaussian(double sigma_px, int margin) {
-  constexpr double kMinWeight = 1e-6;
-  const double log_ratio = log_ratio_for(sigma_px);
-  cv::Mat kernel(2 * margin + 1, 1, CV_64FC1);
-  for (int n = -margin; n <= margin; ++n) {
-    const double weight = std::exp(-n * n * log_ratio);
-    kernel.at<double>(n + margin) = weight < kMinWeight ? 0 : weight;
-  }
-  kernel /= cv::sum(kernel)[0];
-  kernel.convertTo(kernel, CV_32F);
-  return kernel;
+// Exactly sigma_px along an axis without spread.
+glm::dvec2 remaining_sigma_px(double sigma_px, const glm::dvec2& spread_px2) {
+  glm::dvec2 remaining_px(sigma_px);
+  for (int axis = 0; axis < 2; ++axis)
+    if (spread_px2[axis] > 0) remaining_px[axis] = std::sqrt(std::max(sigma_px * sigma_px - spread_px2[axis], 0.0));
+  return remaining_px;
 }
 
 cv::Rect grown(const cv::Rect& rect, int by_px) {
   return {rect.x - by_px, rect.y - by_px, rect.width + 2 * by_px, rect.height + 2 * by_px};
 }
 
-cv::Mat with_border(const cv::Mat& image, int width_px) {
+cv::Mat with_border(const cv::Mat& image, int across_px, int down_px) {
   cv::Mat out;
-  cv::copyMakeBorder(image, out, width_px, width_px, width_px, width_px, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  cv::copyMakeBorder(image, out, down_px, down_px, across_px, across_px, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   return out;
 }
 
 }  // namespace
 
-int blur_margin_px(double sigma_px) {
-  ENSURE(sigma_px >= 0 && sigma_px < 1e8);
-  return static_cast<int>(std::ceil(3 * sigma_px));
+Layer blurred(const Layer& layer, double sigma_px) {
+  return blurred(layer, glm::dvec2(sigma_px));
 }
 
-Layer blurred(const Layer& layer, double sigma_px) {
-  const int margin = blur_margin_px(sigma_px);
-  if (margin == 0 || layer.empty()) return layer;
-  Layer out{grown(layer.rect, margin), with_border(layer.color, margin), with_border(layer.coverage, margin)};
-  const cv::Mat kernel = sampled_gaussian(sigma_px, margin);
-  cv::sepFilter2D(out.color, out.color, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
+Layer blurred(const Layer& layer, const glm::dvec2& sigma_px) {
+  const int across = blur_margin_px(sigma_px.x);
+  const int down = blur_margin_px(sigma_px.y);
+  if ((across == 0 && down == 0) || layer.empty()) return layer;
+  const cv::Rect rect(layer.rect.x - across, layer.rect.y - down, layer.rect.width + 2 * across,
+                      layer.rect.height + 2 * down);
+  Layer out{rect, with_border(layer.color, across, down), with_border(layer.coverage, across, down)};
+  cv::sepFilter2D(out.color, out.color, CV_32F, sampled_gaussian(sigma_px.x, across),
+                  sampled_gaussian(sigma_px.y, down), {-1, -1}, 0, cv::BORDER_CONSTANT);
   return out;
 }
 
@@ -122,8 +91,8 @@ double max_after_blur(const Layer& layer, double sigma_px) {
   return kCut * std::max({sum[0], sum[1], sum[2], sum[3]}) / (2 * std::numbers::pi * sigma_px * sigma_px);
 }
 
-Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image) {
-  if (sigma_px <= kWideSigma_px) return clipped(blurred(layer, sigma_px), image);
+Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image, const glm::dvec2& spread_px2) {
+  if (sigma_px <= kWideSigma_px) return clipped(blurred(layer, remaining_sigma_px(sigma_px, spread_px2)), image);
   constexpr double kUnbounded_px = 1e6;
   const int margin_px = static_cast<int>(std::min(std::ceil(3 * sigma_px), kUnbounded_px));
   return widely_blurred(layer, sigma_px, grown(layer.rect, margin_px) & image);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "base/image.h"
+#include "compositor/gaussian_kernel.h"
 #include "video/frame.h"
 
 namespace sigs {
@@ -14,8 +17,8 @@ namespace sigs {
 // pixels average it.
 [[nodiscard]] Layer blurred(const Layer& layer, double sigma_px);
 
-// Pixels over which the blur carries a pixel: ceil(3 sigma_px).
-[[nodiscard]] int blur_margin_px(double sigma_px);
+// The same with a sigma of its own along each axis.
+[[nodiscard]] Layer blurred(const Layer& layer, const glm::dvec2& sigma_px);
 
 // Above this sigma a blur is computed at positions a quarter of sigma apart, and the cost no longer grows with sigma.
 inline constexpr double kWideSigma_px = 16;
@@ -26,7 +29,9 @@ inline constexpr double kWideSigma_px = 16;
 [[nodiscard]] Layer widely_blurred(const Layer& layer, double sigma_px, const cv::Rect& target);
 
 // The blur of any sigma, over the pixels of `image` alone: blurred() or, above kWideSigma_px, widely_blurred().
-[[nodiscard]] Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image);
+//   spread_px2  variance along each axis that the layer has been spread by already; the blur has so much less of it
+[[nodiscard]] Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image,
+                                   const glm::dvec2& spread_px2 = {0, 0});
 
 // Upper bound of any channel of any pixel after a blur above kWideSigma_px.
 [[nodiscard]] double max_after_blur(const Layer& layer, double sigma_px);

@@ -14,4 +14,7 @@ namespace sigs {
 //   own_body  CV_32FC1 of the whole image, 0..1, or empty: the layer unchanged. The layer lies within the image.
 [[nodiscard]] Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body);
 
+// The layer times (1 - mask), for any mask over the layer's own rectangle: CV_32FC1 of its size, 0..1.
+[[nodiscard]] Layer occluded_by(const Layer& layer, const cv::Mat& mask);
+
 }  // namespace sigs

@@ -2,7 +2,6 @@
 #include "compositor/shared_chroma.h"
 
 #include <algorithm>
-#include <array>
 
 namespace sigs {
 
@@ -14,44 +13,9 @@ cv::Range chroma_range(const std::vector<ChromaShare>& shares, int begin, int en
   return {shares[static_cast<size_t>(begin)].first, last.first + (last.in_next > 0 ? 2 : 1)};
 }
 
-uchar code_of(float value) {
-  return static_cast<uchar>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
-}
-
-// What reading between samples and averaging again makes of a sample, along one axis: weights of the one before, of
-// itself and of the one after.
-using Averaging = std::array<float, 3>;
-
-std::vector<Averaging> averaging(const std::vector<ChromaTap>& taps, const std::vector<ChromaShare>& shares,
-                                 int count) {
-  std::vector<Averaging> all(static_cast<size_t>(count), {0, 0, 0});
-  const auto add = [&](int chroma, const ChromaTap& tap, float weight) {
-    if (weight == 0) return;
-    Averaging& weights = all[static_cast<size_t>(chroma)];
-    weights[static_cast<size_t>(tap.first - chroma + 1)] += weight * (1 - tap.share);
-    weights[static_cast<size_t>(tap.second - chroma + 1)] += weight * tap.share;
-  };
-  for (size_t i = 0; i < taps.size(); ++i) {
-    add(shares[i].first, taps[i], shares[i].in_first);
-    add(shares[i].first + 1, taps[i], shares[i].in_next);
-  }
-  return all;
-}
-
-// A copy of the window's samples and of one more on each side, as floats; the plane's edges repeated.
-cv::Mat with_border(const cv::Mat& plane, const cv::Rect& window) {
-  cv::Mat samples(window.height + 2, window.width + 2, CV_32FC1);
-  for (int y = 0; y < samples.rows; ++y) {
-    const uchar* const in = plane.ptr<uchar>(std::clamp(window.y + y - 1, 0, plane.rows - 1));
-    float* const out = samples.ptr<float>(y);
-    for (int x = 0; x < samples.cols; ++x) out[x] = in[std::clamp(window.x + x - 1, 0, plane.cols - 1)];
-  }
-  return samples;
-}
-
 }  // namespace
 
-SharedChroma::SharedChroma(Frame& frame, const cv::Rect& part) : frame_(frame) {
+SharedChroma::SharedChroma(const Frame& frame, const cv::Rect& part) : frame_(frame) {
   const cv::Size step = chroma_step(frame.layout);
   const cv::Size size = frame.size_px();
   const bool on_column = chroma_on_luma_column(frame.color.chroma_site);
@@ -97,32 +61,30 @@ void SharedChroma::add_row_sums(int chroma_row, float weight) {
   for (int i = 0; i < window_.width; ++i) sums[i] += weight * row_sums_[static_cast<size_t>(i)];
 }
 
-void SharedChroma::write() {
-  const std::vector<Averaging> across = averaging(column_taps_, column_shares_, frame_.planes[1].cols);
-  const std::vector<Averaging> down = averaging(row_taps_, row_shares_, frame_.planes[1].rows);
-  std::vector<float> mixed(static_cast<size_t>(window_.width) + 2);  // of three rows, by their weights
-  for (int channel = 0; channel < 2; ++channel) {
-    cv::Mat& plane = frame_.planes[static_cast<size_t>(channel) + 1];
-    const cv::Mat before = with_border(plane, window_);
-    for (int y = 0; y < window_.height; ++y) {
-      const float* const above = before.ptr<float>(y);
-      const float* const here = before.ptr<float>(y + 1);
-      const float* const below = before.ptr<float>(y + 2);
-      const Averaging& row_weights = down[static_cast<size_t>(window_.y + y)];
-      for (size_t i = 0; i < mixed.size(); ++i)
-        mixed[i] = row_weights[0] * above[i] + row_weights[1] * here[i] + row_weights[2] * below[i];
-      const cv::Vec3f* const sums = sums_.ptr<cv::Vec3f>(y);
-      uchar* const out = plane.ptr<uchar>(window_.y + y) + window_.x;
-      for (int x = 0; x < window_.width; ++x) {
-        if (!(sums[x][2] > 0)) continue;
-        const Averaging& weights = across[static_cast<size_t>(window_.x + x)];
-        const float* const near = &mixed[static_cast<size_t>(x)];
-        const float averaged = weights[0] * near[0] + weights[1] * near[1] + weights[2] * near[2];
-        const float code = here[x + 1];
-        out[x] = code_of(code + sums[x][channel] + sums[x][2] * (averaged - code));
-      }
-    }
+std::vector<SharedChroma::Averaging> SharedChroma::averaging(const std::vector<ChromaTap>& taps,
+                                                             const std::vector<ChromaShare>& shares, int count) {
+  std::vector<Averaging> all(static_cast<size_t>(count), {0, 0, 0});
+  const auto add = [&](int chroma, const ChromaTap& tap, float weight) {
+    if (weight == 0) return;
+    Averaging& weights = all[static_cast<size_t>(chroma)];
+    weights[static_cast<size_t>(tap.first - chroma + 1)] += weight * (1 - tap.share);
+    weights[static_cast<size_t>(tap.second - chroma + 1)] += weight * tap.share;
+  };
+  for (size_t i = 0; i < taps.size(); ++i) {
+    add(shares[i].first, taps[i], shares[i].in_first);
+    add(shares[i].first + 1, taps[i], shares[i].in_next);
   }
+  return all;
+}
+
+cv::Mat SharedChroma::with_border(const cv::Mat& plane, const cv::Rect& window) {
+  cv::Mat samples(window.height + 2, window.width + 2, CV_32FC1);
+  for (int y = 0; y < samples.rows; ++y) {
+    const uchar* const in = plane.ptr<uchar>(std::clamp(window.y + y - 1, 0, plane.rows - 1));
+    float* const out = samples.ptr<float>(y);
+    for (int x = 0; x < samples.cols; ++x) out[x] = in[std::clamp(window.x + x - 1, 0, plane.cols - 1)];
+  }
+  return samples;
 }
 
 }  // namespace sigs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -20,7 +21,7 @@ namespace sigs {
 class SharedChroma {
  public:
   // part: of the frame's pixels, those that may be rewritten
-  SharedChroma(Frame& frame, const cv::Rect& part);
+  SharedChroma(const Frame& frame, const cv::Rect& part);
 
   // To be called before the pixels of row y are read and added: columns begin to end - 1.
   void start_row(int y, int begin, int end);
@@ -41,8 +42,11 @@ class SharedChroma {
   // After the last pixel of the row.
   void finish_row();
 
-  // The samples as they have become, into the frame.
-  void write();
+  // The samples as they have become, for planes 1 and 2 and each row of them:
+  //   out(plane, y, x, code, opacity)  code: not rounded; opacity: sum(w a)
+  // Samples in which no covered pixel has weight are left out. The frame's own samples may be overwritten meanwhile.
+  template <class Out>
+  void write(const Out& out) const;
 
  private:
   [[nodiscard]] float between(const std::vector<float>& samples, int x) const {
@@ -53,7 +57,15 @@ class SharedChroma {
   void read_row(const cv::Mat& plane, int count, std::vector<float>& samples) const;
   void add_row_sums(int chroma_row, float weight);
 
-  Frame& frame_;
+  // What reading between samples and averaging again makes of a sample, along one axis: weights of the one before, of
+  // itself and of the one after.
+  using Averaging = std::array<float, 3>;
+  [[nodiscard]] static std::vector<Averaging> averaging(const std::vector<ChromaTap>& taps,
+                                                        const std::vector<ChromaShare>& shares, int count);
+  // A copy of the window's samples and of one more on each side, as floats; the plane's edges repeated.
+  [[nodiscard]] static cv::Mat with_border(const cv::Mat& plane, const cv::Rect& window);
+
+  const Frame& frame_;
   std::vector<ChromaTap> column_taps_;
   std::vector<ChromaTap> row_taps_;
   std::vector<ChromaShare> column_shares_;
@@ -66,5 +78,33 @@ class SharedChroma {
   std::vector<float> read_cb_;
   std::vector<float> read_cr_;
 };
+
+template <class Out>
+void SharedChroma::write(const Out& out) const {
+  const std::vector<Averaging> across = averaging(column_taps_, column_shares_, frame_.planes[1].cols);
+  const std::vector<Averaging> down = averaging(row_taps_, row_shares_, frame_.planes[1].rows);
+  std::vector<float> mixed(static_cast<size_t>(window_.width) + 2);  // of three rows, by their weights
+  for (int channel = 0; channel < 2; ++channel) {
+    const cv::Mat before = with_border(frame_.planes[static_cast<size_t>(channel) + 1], window_);
+    for (int y = 0; y < window_.height; ++y) {
+      const float* const above = before.ptr<float>(y);
+      const float* const here = before.ptr<float>(y + 1);
+      const float* const below = before.ptr<float>(y + 2);
+      const Averaging& row_weights = down[static_cast<size_t>(window_.y + y)];
+      for (size_t i = 0; i < mixed.size(); ++i)
+        mixed[i] = row_weights[0] * above[i] + row_weights[1] * here[i] + row_weights[2] * below[i];
+      const cv::Vec3f* const sums = sums_.ptr<cv::Vec3f>(y);
+      for (int x = 0; x < window_.width; ++x) {
+        if (!(sums[x][2] > 0)) continue;
+        const Averaging& weights = across[static_cast<size_t>(window_.x + x)];
+        const float* const near = &mixed[static_cast<size_t>(x)];
+        const float averaged = weights[0] * near[0] + weights[1] * near[1] + weights[2] * near[2];
+        const float code = here[x + 1];
+        out(channel + 1, window_.y + y, window_.x + x, code + sums[x][channel] + sums[x][2] * (averaged - code),
+            sums[x][2]);
+      }
+    }
+  }
+}
 
 }  // namespace sigs

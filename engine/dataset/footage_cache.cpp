@@ -50,6 +50,9 @@ class BackgroundOpener {
     if (const std::string& mask = settings.own_body_mask; !mask.empty())
       if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
         return fail_at(where + "own_body_mask", read.error());
+    if (const std::string& mask = settings.occluder_mask; !mask.empty())
+      if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
+        return fail_at(where + "occluder_mask", read.error());
     if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
       if (const auto read = read_attitude_file(attitude); !read)
         return fail_at(key_of(i) + "camera.attitude_file", read.error());

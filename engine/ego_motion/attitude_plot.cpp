@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/pose.h"
-#include "base/text.h"
+#include "telemetry/plot_axes.h"
 
 namespace sigs {
 
@@ -22,7 +22,6 @@ constexpr int kRight_px = 20;
 constexpr int kTop_px = 34;
 constexpr int kBottom_px = 34;
 const cv::Scalar kInk(60, 60, 60);
-const cv::Scalar kGrid(225, 225, 225);
 const cv::Scalar kBand(240, 210, 170);
 const cv::Scalar kLine(170, 80, 20);
 const cv::Scalar kLost(200, 200, 200);
@@ -33,27 +32,6 @@ struct Curve {
   std::vector<double> values_deg;
   std::vector<double> sd_deg;
 };
-
-// 1, 2 or 5 times a power of ten: about six steps over the range.
-double tick_step(double range) {
-  const double rough = std::max(range, 1e-9) / 6;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10 * power;
-}
-
-int decimals_of(double step) {
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-}
-
-void write(cv::Mat& image, const std::string& text, cv::Point at, bool right_aligned) {
-  constexpr double kSize = 0.45;
-  int baseline = 0;
-  const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kSize, 1, &baseline).width;
-  cv::putText(image, text, {right_aligned ? at.x - width : at.x, at.y}, cv::FONT_HERSHEY_SIMPLEX, kSize, kInk, 1,
-              cv::LINE_AA);
-}
 
 // Angles that pass 180 degrees go on beyond it.
 void unwrap(std::vector<double>& angles_deg) {
@@ -74,7 +52,7 @@ class Panel {
 
   void draw() {
     for (std::size_t k = 0; k < curve_.values_deg.size(); ++k) draw_frame(k);
-    draw_axes();
+    draw_frame_and_grid();
     std::vector<cv::Point> line;
     for (std::size_t k = 0; k < curve_.values_deg.size(); ++k)
       line.emplace_back(x_of(motion_.frames[k].time_s), y_of(curve_.values_deg[k]));
@@ -101,21 +79,17 @@ class Panel {
     cv::rectangle(image_, upper, lower, known ? kBand : kLost, cv::FILLED);
   }
 
-  void draw_axes() {
-    write(image_, std::string(curve_.name) + " [deg], band: 2 standard deviations since frame 0", {kLeft_px, 20},
-          false);
-    const double step = tick_step(high_ - low_);
-    for (double v = std::ceil(low_ / step) * step; v <= high_; v += step) {
-      cv::line(image_, {kLeft_px, y_of(v)}, {kWidth_px - kRight_px, y_of(v)}, kGrid);
-      write(image_, fixed_text(v, decimals_of(step)), {kLeft_px - 8, y_of(v) + 5}, true);
-    }
-    const double time_step = tick_step(end_s_);
-    for (double t = 0; t <= end_s_ + 1e-9; t += time_step) {
-      cv::line(image_, {x_of(t), kTop_px}, {x_of(t), kPanel_px - kBottom_px}, kGrid);
-      write(image_, fixed_text(t, decimals_of(time_step)), {x_of(t) + 12, kPanel_px - 14}, true);
-    }
-    write(image_, "time [s]", {kWidth_px - kRight_px, kPanel_px - 6}, true);
-    cv::rectangle(image_, {kLeft_px, kTop_px}, {kWidth_px - kRight_px, kPanel_px - kBottom_px}, kInk);
+  void draw_frame_and_grid() {
+    const cv::Point corner(kWidth_px - kRight_px, kPanel_px - kBottom_px);
+    std::vector<PlacedTick> x;
+    for (const Tick& tick : ticks_between(0, end_s_ + 1e-9, tick_step(end_s_))) x.push_back({tick, x_of(tick.value)});
+    std::vector<PlacedTick> y;
+    for (const Tick& tick : ticks_between(low_, high_, tick_step(high_ - low_))) y.push_back({tick, y_of(tick.value)});
+    draw_axes(image_, {kLeft_px, kTop_px}, corner, x, y,
+              {.ink = kInk, .below_px = 20, .is_centred = false, .end_px = 12});
+    draw_text(image_, std::string(curve_.name) + " [deg], band: 2 standard deviations since frame 0", {kLeft_px, 20},
+              kInk);
+    draw_text_until(image_, "time [s]", {kWidth_px - kRight_px, kPanel_px - 6}, kInk);
   }
 
   cv::Mat image_;

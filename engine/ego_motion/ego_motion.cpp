@@ -9,6 +9,7 @@
 
 #include "base/threads.h"
 #include "ego_motion/attitudes.h"
+#include "ego_motion/cloud_drift.h"
 #include "ego_motion/doubtful_frames.h"
 #include "ego_motion/features.h"
 #include "ego_motion/gyro_fusion.h"
@@ -231,7 +232,7 @@ class Estimate {
   // From what the adjustment says to what is reported: no feature is exact, and the errors of one feature in successive
   // frames are not independent. That counts where features leave the image and others take over from them, which shows
   // as a deviation that grows beyond that of the first seconds. Without any ground in view even all features together
-  // may drift: clouds at 1 km in a wind of 10 m/s.
+  // may drift (cloud_drift.h); of that a warning tells where it comes to a pixel or more.
   void scale_deviations(std::vector<FrameRotation>& rotations) {
     const double factor = std::pow(settings_.sd_factor, 2);
     const double growth = std::pow(settings_.sd_growth, 2);
@@ -240,24 +241,21 @@ class Estimate {
     const auto slow = [](const FrameRotation& r) { return (r.covariance - r.own_covariance).trace() / 3; };
     const auto first_key = std::min(rotations.size() - 1, static_cast<std::size_t>(settings_.key_every));
     const double at_first = slow(rotations[first_key]);
-    constexpr double kClouds_radps = 0.01;
-    double clouds_rad = 0;
-    std::vector<int> without_ground;
+    const std::vector<double> clouds_rad = drift_deviations(rotations, times_s_);
+    std::vector<int> doubtful;
     for (std::size_t k = 0; k < rotations.size(); ++k) {
       FrameRotation& r = rotations[k];
-      if (k > 0 && r.is_linked && !r.has_ground) {
-        clouds_rad += kClouds_radps * (times_s_[k] - times_s_[k - 1]);
-        without_ground.push_back(static_cast<int>(k));
-      }
+      if (k > 0 && clouds_rad[k] > clouds_rad[k - 1] && clouds_rad.back() > seen_.pixel_rad)
+        doubtful.push_back(static_cast<int>(k));
       const double walk = std::pow(settings_.sd_walk_px * seen_.pixel_rad, 2) * (times_s_[k] - times_s_[0]);
       const double grown = std::max(0.0, slow(r) - at_first) / std::max(slow(r), 1e-18);
       r.covariance = factor * r.covariance + growth * grown * (r.covariance - r.own_covariance) + floor;
-      r.covariance += Eigen::Matrix3d::Identity() * (walk + clouds_rad * clouds_rad);
+      r.covariance += Eigen::Matrix3d::Identity() * (walk + clouds_rad[k] * clouds_rad[k]);
       r.own_covariance = factor * r.own_covariance + floor;
     }
-    if (!without_ground.empty())
+    if (!doubtful.empty())
       warn("nothing near moves by parallax, so that clouds which drift cannot be told from a turn of the camera: " +
-           ranges_text(without_ground));
+           ranges_text(doubtful));
   }
 
   void fill(const std::vector<FrameRotation>& of_images, const std::vector<FrameRotation>& rotations) {

@@ -89,16 +89,25 @@ std::vector<cv::Point2f> FeatureTracker::predicted() const {
   return guess;
 }
 
+bool FeatureTracker::is_allowed(const cv::Point2f& reduced_px) const {
+  const cv::Point at(cvRound(reduced_px.x), cvRound(reduced_px.y));
+  return at.x >= 0 && at.y >= 0 && at.x < allowed_.cols && at.y < allowed_.rows && allowed_.at<uchar>(at) != 0;
+}
+
 void FeatureTracker::keep(const std::vector<char>& good) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!good[i]) continue;
     points_[kept] = points_[i];
     key_points_[kept] = key_points_[i];
+    responses_[kept] = responses_[i];
+    bias_[kept] = bias_[i];
     ids_[kept++] = ids_[i];
   }
   points_.resize(kept);
   key_points_.resize(kept);
+  responses_.resize(kept);
+  bias_.resize(kept);
   ids_.resize(kept);
 }
 
@@ -113,20 +122,32 @@ void FeatureTracker::follow() {
   std::vector<float> dx;
   std::vector<float> dy;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const cv::Point at(cvRound(there[i].x), cvRound(there[i].y));
-    const bool inside = at.x >= 0 && at.y >= 0 && at.x < allowed_.cols && at.y < allowed_.rows;
-    if (!found[i] || !inside || allowed_.at<uchar>(at) == 0) continue;
+    if (!found[i] || !is_allowed(there[i])) continue;
     good[i] = 1;
     dx.push_back(there[i].x - points_[i].x);
     dy.push_back(there[i].y - points_[i].y);
   }
   points_ = there;
   keep(good);
+  unbias();
   drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(median(dx), median(dy));
   std::size_t together = 0;
   for (std::size_t i = 0; i < dx.size(); ++i)
     together += std::hypot(dx[i] - drift_.x, dy[i] - drift_.y) < kApart_px + 0.5F * std::hypot(drift_.x, drift_.y);
   scattered_ = 2 * together < before;
+}
+
+// Takes out of the places what windows that grow or turn add to them.
+void FeatureTracker::unbias() {
+  const std::vector<cv::Vec4f> gradients = displacement_gradients(key_points_, points_, allowed_.size());
+  std::vector<char> good(points_.size(), 0);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const cv::Vec2f added = responses_[i] * gradients[i];
+    bias_[i] = {added[0], added[1]};
+    points_[i] -= bias_[i];
+    good[i] = is_allowed(points_[i]) ? 1 : 0;
+  }
+  keep(good);
 }
 
 // Leaves out features that do not lead back to where they were in the key frame.
@@ -139,7 +160,8 @@ void FeatureTracker::check_back() {
                            cv::OPTFLOW_USE_INITIAL_FLOW);
   std::vector<char> good(points_.size(), 0);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const cv::Point2f miss = back[i] - key_points_[i];
+    // On the way back the window shrinks by as much.
+    const cv::Point2f miss = back[i] - key_points_[i] + bias_[i];
     good[i] = found[i] && std::hypot(miss.x, miss.y) < kReturn_px ? 1 : 0;
   }
   keep(good);
@@ -175,6 +197,8 @@ void FeatureTracker::detect() {
       if (best < kLeastCorner) continue;
       points_.emplace_back(static_cast<float>(area_px.x + at.x), static_cast<float>(area_px.y + at.y));
       key_points_.push_back(points_.back());
+      responses_.emplace_back();
+      bias_.emplace_back();
       ids_.push_back(next_id_++);
     }
 }
@@ -225,6 +249,9 @@ void FeatureTracker::take_as_key(bool detects) {
   scattered_ = false;
   std::swap(key_pyramid_, new_key_pyramid_);
   key_points_ = points_;
+  bias_.assign(points_.size(), {});
+  responses_.clear();
+  for (const cv::Point2f& p : key_points_) responses_.push_back(window_response(key_pyramid_[1], p, kWindow_px / 2));
   key_count_ = points_.size();
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ego_motion/settings.h"
+#include "ego_motion/window_bias.h"
 
 namespace sigs {
 
@@ -36,11 +37,13 @@ class FeatureTracker {
  private:
   void reduce(const cv::Mat& luma);
   void follow();
+  void unbias();
   void check_back();
   void keep(const std::vector<char>& good);
   void detect();
   void take_as_key(bool detects);
   [[nodiscard]] std::vector<cv::Point2f> predicted() const;
+  [[nodiscard]] bool is_allowed(const cv::Point2f& reduced_px) const;
   [[nodiscard]] cv::Point2f full(const cv::Point2f& reduced_px) const;
 
   EgoMotionSettings settings_;
@@ -53,9 +56,11 @@ class FeatureTracker {
   std::vector<cv::Mat> key_pyramid_;      // with derivatives, which take as long as all else
   std::vector<cv::Mat> new_key_pyramid_;  // storage of the next one
   cv::Mat corner_;
-  std::vector<cv::Point2f> key_points_;  // of the same features in the key frame
-  std::size_t key_count_ = 0;            // features that the key frame had
-  std::vector<cv::Point2f> points_;      // in the reduced image
+  std::vector<cv::Point2f> key_points_;    // of the same features in the key frame
+  std::vector<WindowResponse> responses_;  // of their windows in the key frame
+  std::vector<cv::Point2f> bias_;          // what was taken out of the places in the last frame
+  std::size_t key_count_ = 0;              // features that the key frame had
+  std::vector<cv::Point2f> points_;        // in the reduced image
   std::vector<int> ids_;
   std::vector<Feature> features_;
   cv::Point2f drift_;  // of the median feature from the frame before the last to the last

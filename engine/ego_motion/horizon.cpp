@@ -31,6 +31,10 @@ constexpr double kSmooth_codes = 3;    // smooth, whatever is below
 constexpr double kAgree_rad = 0.0087;  // half a degree
 constexpr double kDip_rad = 0.0068;    // sqrt(2 h / R): the horizon's dip seen from 150 m
 constexpr int kLeastLines = 5;
+constexpr double kDeep_rad = 0.1;        // below the edge: ground with little haze
+constexpr double kHazePerWidth = 0.271;  // 2 / e^2, see horizon.h
+constexpr double kSharp_px = 2;          // width that a sharp edge seems to have by differences over two rows
+constexpr double kPeak_rad = 0.01;       // edges farther from the plane are of something else
 
 struct Candidate {
   int column = 0;
@@ -174,6 +178,68 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
   return normal;
 }
 
+// Angle below the edge's plane that a row makes there.
+double row_angle_rad(const Candidate& c, double scale, const Camera& camera, const Eigen::Vector3d& up) {
+  constexpr double kRows = 4;
+  const auto lower = camera.lens.ray({(c.at_px.x + 0.5) * scale - 0.5, (c.at_px.y + kRows + 0.5) * scale - 0.5});
+  return lower ? (up.dot(c.ray) - up.dot(eigen_of(*lower))) / kRows : 0;
+}
+
+// Mean luma of rows from `above_px` above the edge to `below_px` below it, over the edge's columns that have room.
+std::vector<double> profile_of(const cv::Mat& reduced, const std::vector<Candidate>& on_edge, const Eigen::Vector3d& up,
+                               double row_rad, int above_px, int below_px) {
+  std::vector<double> profile(static_cast<std::size_t>(above_px + below_px + 1), 0);
+  int count = 0;
+  for (const Candidate& c : on_edge) {
+    const int y = cvRound(c.at_px.y + up.dot(c.ray) / row_rad);  // on the plane
+    if (y < above_px || y + below_px >= reduced.rows) continue;
+    for (std::size_t i = 0; i < profile.size(); ++i)
+      profile[i] += reduced.at<uchar>(y - above_px + static_cast<int>(i), static_cast<int>(c.at_px.x));
+    ++count;
+  }
+  for (double& mean : profile) mean /= std::max(1, count);
+  return profile;
+}
+
+// HorizonLine::haze_rad.
+double haze_at(const cv::Mat& reduced, double scale, const Camera& camera, const std::vector<Candidate>& on_edge,
+               const Eigen::Vector3d& up) {
+  const double row_rad = row_angle_rad(on_edge[on_edge.size() / 2], scale, camera, up);
+  if (!(row_rad > 0)) return 0;
+  constexpr int kAbove_px = 2 * kStep_px;
+  const int below_px = std::clamp(cvRound(kDeep_rad / row_rad), kAbove_px, std::max(kAbove_px, reduced.rows / 4));
+  const std::vector<double> profile = profile_of(reduced, on_edge, up, row_rad, kAbove_px, below_px);
+  const auto mean = [&](std::size_t from, std::size_t count) {
+    double sum = 0;
+    for (std::size_t i = from; i < from + count; ++i) sum += profile[i];
+    return sum / static_cast<double>(count);
+  };
+  const double contrast = mean(0, kStep_px) - mean(profile.size() - kStep_px, kStep_px);
+  double slope = 0;  // codes a row
+  for (std::size_t i = kAbove_px - 2; i <= kAbove_px + 2; ++i)
+    slope = std::max(slope, (profile[i - 1] - profile[i + 1]) / 2);
+  if (!(contrast > 0) || !(slope > 0)) return 0;
+  const double width_px = std::min(contrast / slope, static_cast<double>(below_px));
+  return kHazePerWidth * row_rad * std::sqrt(std::max(0.0, width_px * width_px - kSharp_px * kSharp_px));
+}
+
+// HorizonLine::hills_rad, by the edge nearest to the plane in each column of the stretch. What lies beside the stretch
+// does not count: a coast beside the sea says nothing of the sea's horizon.
+double hills_at(const std::vector<Candidate>& candidates, const Eigen::Vector3d& up, const Stretch& stretch) {
+  double squares = 0;
+  int count = 0;
+  for (auto it = candidates.begin(); it != candidates.end();) {
+    const int column = it->column;
+    double nearest_rad = kPeak_rad;
+    for (; it != candidates.end() && it->column == column; ++it)
+      nearest_rad = std::min(nearest_rad, std::abs(up.dot(it->ray)));
+    if (column < stretch.first || column > stretch.last || nearest_rad >= kPeak_rad) continue;
+    squares += nearest_rad * nearest_rad;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(3 * squares / count) : 0;
+}
+
 }  // namespace
 
 std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
@@ -198,7 +264,16 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
     sd_rad = std::sqrt(miss2 * kAlike / std::max(solver.eigenvalues()(1), 1e-9));
   }
   if (normal.z() > 0) normal = -normal;  // Z is down
-  return HorizonLine{frame, normal, sd_rad};
+  const Stretch stretch = stretch_on(candidates, normal);
+  std::vector<Candidate> on_edge;
+  for (const Candidate& c : candidates)
+    if (is_on(c, normal, stretch) && (on_edge.empty() || on_edge.back().column < c.column)) on_edge.push_back(c);
+  if (on_edge.empty()) return std::nullopt;
+  return HorizonLine{.frame = frame,
+                     .up = normal,
+                     .sd_rad = sd_rad,
+                     .haze_rad = haze_at(reduced, scale, camera, on_edge, normal),
+                     .hills_rad = hills_at(candidates, normal, stretch)};
 }
 
 std::optional<Level> level_of(std::span<const HorizonLine> lines,
@@ -224,10 +299,13 @@ std::optional<Level> level_of(std::span<const HorizonLine> lines,
   if (level.lines < kLeastLines || 2 * level.lines < static_cast<int>(ups.size())) return std::nullopt;
   level.up_in_start = best.normalized();
   double squares = 0;
-  for (std::size_t i = 0; i < ups.size(); ++i)
-    if ((ups[i] - level.up_in_start).norm() <= kAgree_rad)
-      squares += std::max((ups[i] - level.up_in_start).squaredNorm() / 2, lines[i].sd_rad * lines[i].sd_rad);
-  // Hills bias all lines alike, so that the scatter does not shrink with their number.
+  for (std::size_t i = 0; i < ups.size(); ++i) {
+    if ((ups[i] - level.up_in_start).norm() > kAgree_rad) continue;
+    const HorizonLine& line = lines[i];
+    squares += std::max((ups[i] - level.up_in_start).squaredNorm() / 2, line.sd_rad * line.sd_rad) +
+               line.haze_rad * line.haze_rad + line.hills_rad * line.hills_rad;
+  }
+  // Haze and hills bias all lines alike, so that none of this shrinks with their number.
   level.sd_rad = std::sqrt(squares / level.lines + kDip_rad * kDip_rad);
   return level;
 }

@@ -16,12 +16,21 @@ struct HorizonLine {
   int frame = 0;
   Eigen::Vector3d up;  // unit, camera axes, normal of the circle's plane, on the side of the image's upper border
   double sd_rad = 0;   // of the fit
+  // By how much the edge may lie off the level, by the image itself; 0: by nothing.
+  double haze_rad = 0;   // below it, as far ground fades into the sky
+  double hills_rad = 0;  // above it
 };
 
 // The longest such edge below a sky. Candidates are the rows of each fifth column at which it is brighter above than
 // below by 4 codes or more; two of them define a plane, and the plane that has most columns side by side is fitted to
 // those (Fischler, Bolles 1981). Nothing where they are fewer than a quarter of the image's columns, or where what lies
 // above the edge is rougher than 0.7 of what lies below. Rolls beyond 60 degrees are not seen.
+//
+// Haze: ground at distance d shows exp(-d / visual range) of its contrast against the sky (Koschmieder 1924). Seen from
+// height h that is exp(-a / t) at the angle t below the level, with a = h / visual range. It falls most steeply at
+// t = a / 2, where the edge is found, by 4 / (a e^2) of all of it: an edge that is as wide as w (contrast over greatest
+// slope) lies 2 w / e^2 too low. Hills: heights that spread evenly from the level to the highest peak have a mean of
+// sqrt(3) times their standard deviation, which the skyline shows.
 //   reduced   CV_8UC1, the frame reduced by `scale`
 //   own_body  of the footage's size, above 127 where the own body is; may be empty
 [[nodiscard]] std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
@@ -30,7 +39,8 @@ struct HorizonLine {
 // What lines of several frames say together.
 struct Level {
   Eigen::Vector3d up_in_start;  // unit, in the axes of the camera at frame 0
-  double sd_rad = 0;  // of roll and pitch; the horizon's dip below the level, which is not known, is part of it
+  double sd_rad = 0;  // of roll and pitch; the horizon's dip below the level, which is not known, haze and hills are
+                      // part of it
   int lines = 0;      // that agree
 };
 

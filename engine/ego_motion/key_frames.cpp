@@ -16,7 +16,7 @@ namespace sigs {
 namespace {
 
 constexpr double kFloor_px = 0.02;      // no feature is known better
-constexpr double kScale_px = 0.2;       // features in coded footage are off by about half of it
+constexpr double kScale_px = 0.12;      // features in coded footage are off by about half of it
 constexpr std::size_t kLocalKeys = 10;  // adjusted together while key frames are added
 constexpr std::size_t kAddedKeys = 3;   // between two such adjustments
 constexpr double kRateSd_radps = 2;     // of a rate that is not known from frame to frame

@@ -3,15 +3,28 @@
 
 #include <utility>
 
+#include "frame/code_stages.h"
+
 namespace sigs {
+
+namespace {
+
+cv::Rect grown(const cv::Rect& rect, int margin_px) {
+  return {rect.x - margin_px, rect.y - margin_px, rect.width + 2 * margin_px, rect.height + 2 * margin_px};
+}
+
+}  // namespace
 
 std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene,
                                           const std::vector<IntruderLayers>& layers) {
   const CodecMatchSettings& settings = scene.appearance.codec;
   if (settings.match == CodecMatchChoice::none || scene.compositing.method != MethodChoice::direct) return std::nullopt;
+  const cv::Rect image({0, 0}, background.size_px());
   std::vector<cv::Rect> reaches;
   for (const IntruderLayers& intruder : layers)
-    if (!intruder.occluded.empty()) reaches.push_back(intruder.occluded.rect);
+    if (!intruder.occluded.empty())
+      reaches.push_back(grown(intruder.occluded.rect, code_stages_margin_px(scene.appearance, background.layout)) &
+                        image);
   if (reaches.empty()) return std::nullopt;
   const MatchedCodec codec = settings.match == CodecMatchChoice::h264    ? MatchedCodec::h264
                              : settings.match == CodecMatchChoice::mjpeg ? MatchedCodec::jpeg

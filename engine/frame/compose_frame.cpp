@@ -9,10 +9,15 @@
 #include "base/ensure.h"
 #include "base/stopwatch.h"
 #include "compositor/blur.h"
+#include "compositor/haze.h"
+#include "compositor/motion_blur.h"
 #include "compositor/occlude.h"
+#include "compositor/tone.h"
 #include "compositor/warp.h"
 #include "frame/composite.h"
+#include "frame/occluder.h"
 #include "frame/render_plan.h"
+#include "frame/standing_out.h"
 #include "scene/scene_at.h"
 #include "truth/measure.h"
 
@@ -24,6 +29,51 @@ namespace {
 // blur does not change; with several, the blurred opacity determines what a nearer one occludes of a farther one.
 bool needs_blurred_layers(const Scene& scene) {
   return scene.compositing.method != MethodChoice::classic || scene.intruders.size() > 1;
+}
+
+// Pixels of the image that the intruder takes up.
+cv::Rect box_in_image(const IntruderLayers& layers, cv::Size image_size_px) {
+  const cv::Rect image({0, 0}, image_size_px);
+  if (layers.silhouette && layers.silhouette->all_have_image) return pixels_touched(layers.silhouette->box, 0, image);
+  return layers.warped.rect & image;
+}
+
+// Linear light of the haze in front of an intruder. Where the footage around it is asked for, but the intruder is far
+// beyond the image or wholly over the own body, the colour of the settings.
+cv::Vec3d airlight_of(const Scene& scene, const IntruderLayers& layers, const Frame* background) {
+  const HazeSettings& haze = scene.appearance.haze;
+  const glm::dvec3& color = haze.airlight_color;
+  std::optional<cv::Vec3d> behind;
+  if (haze.airlight == AirlightChoice::behind && background != nullptr)
+    behind = airlight_around(*background, box_in_image(layers, scene.footage.size_px), scene.own_body);
+  return behind.value_or(cv::Vec3d(color.x, color.y, color.z));
+}
+
+// The warped layer in the footage's tones and behind its haze. The saturation and the black are the camera's, which the
+// airlight has already as the footage shows it: so they come before haze.
+Layer hazed_layer(const Scene& scene, const IntruderLayers& layers, const Frame* background) {
+  const AppearanceSettings& look = scene.appearance;
+  if (scene.compositing.method != MethodChoice::direct) return layers.warped;
+  const Layer in_tone = toned(layers.warped, look.saturation, look.black);
+  if (!look.haze.visibility_m) return in_tone;
+  return hazed(in_tone, haze_transmission(layers.placed.distance_m(), *look.haze.visibility_m),
+               airlight_of(scene, layers, background));
+}
+
+// Fills `moved` and `blurred`; the latter stays empty where the layer is too faint to be seen.
+void blur(const Scene& scene, const ColorInfo& footage, IntruderLayers& layers) {
+  const cv::Rect image({0, 0}, scene.footage.size_px);
+  const cv::Rect& rect = layers.hazed.rect;
+  layers.moved = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
+  layers.op_counts.pixels_motion_blurred +=
+      static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{rect.area()};
+  if (!is_visible_after_blur(layers.moved, layers.sigma_px, footage)) return;
+  if (!needs_blurred_layers(scene)) {
+    layers.blurred = clipped(layers.moved, image);
+    return;
+  }
+  layers.blurred = blurred_within(layers.moved, layers.sigma_px, image, layers.motion.spread_px2);
+  if (layers.sigma_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
 }
 
 // Unit vector away from the ground.
@@ -68,6 +118,17 @@ FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, co
                                 scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt)};
 }
 
+// How the image of each intruder was formed.
+void add_image_formation(const Scene& scene, const std::vector<IntruderLayers>& far_to_near, FrameTruth& truth) {
+  const bool is_direct = scene.compositing.method == MethodChoice::direct;
+  for (const IntruderLayers& layers : far_to_near)
+    for (IntruderTruth& intruder : truth.intruders)
+      if (intruder.id == layers.placed.id)
+        intruder.image_formation = {.blur_px = layers.sigma_px,
+                                    .motion_blur_px = layers.motion_px,
+                                    .visibility_m = is_direct ? scene.appearance.haze.visibility_m : std::nullopt};
+}
+
 // Places of the camera and of the intruders on the Earth.
 void add_places(const Scene& scene, const SceneMoment& moment, FrameTruth& truth) {
   if (!scene.earth) return;
@@ -79,7 +140,7 @@ void add_places(const Scene& scene, const SceneMoment& moment, FrameTruth& truth
 }  // namespace
 
 Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                                       ComposeContext& context, const ColorInfo& footage) {
+                                       ComposeContext& context, const ColorInfo& footage, const Frame* background) {
   LensTable& lens = context.lens_of(compositing_camera(scene));
   const std::int64_t evaluations_before = lens.evaluations();
   IntruderLayers layers = placed_layers(scene, moment, placed, lens.camera());
@@ -91,17 +152,16 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
     layers.warped = warped(layers.views, lens, plan.warp_rect, turn_of_row(layers));
-    const cv::Rect image({0, 0}, scene.footage.size_px);
-    if (is_visible_after_blur(layers.warped, layers.sigma_px, footage))
-      layers.blurred = needs_blurred_layers(scene) ? blurred_within(layers.warped, layers.sigma_px, image)
-                                                   : clipped(layers.warped, image);
+    layers.hazed = hazed_layer(scene, layers, background);
+    blur(scene, footage, layers);
     layers.occluded = occluded_by_body(layers.blurred, scene.own_body);
+    if (scene.occluder.hides(placed.distance_m()) && !layers.occluded.empty())
+      layers.occluded = occluded_by(
+          layers.occluded, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, layers.occluded.rect));
     const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
     if (!area) return fail(area.error());
     layers.whole_area_px = *area;
     layers.op_counts.pixels_warped += layers.warped.rect.area();
-    if (layers.sigma_px > 0 && needs_blurred_layers(scene))
-      layers.op_counts.pixels_blurred += layers.blurred.rect.area();
   }
   layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
   return layers;
@@ -114,12 +174,15 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   const SceneMoment moment = scene_at(scene, frame);
   std::vector<IntruderLayers> far_to_near;
   for (const PlacedIntruder& placed : moment.intruders) {
-    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context, background.color);
+    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context, background.color, &background);
     if (!layers) return fail(layers.error());
     far_to_near.push_back(std::move(*layers));
   }
-  ComposedFrame composed = composited(std::move(background), scene, far_to_near, context, stages);
+  const std::vector<FootageLuma> footage_luma = footage_luma_of(background, far_to_near);
+  ComposedFrame composed = composited(std::move(background), scene, frame, far_to_near, context, stages);
   composed.truth = truth_of(scene, moment, frame, composed, far_to_near);
+  add_detectability(composed.truth.intruders, composed.image, footage_luma, scene);
+  add_image_formation(scene, far_to_near, composed.truth);
   add_places(scene, moment, composed.truth);
   for (const IntruderLayers& layers : far_to_near) {
     composed.op_counts += layers.op_counts;

@@ -23,10 +23,11 @@ namespace sigs {
 
 // The stages of one intruder before blending, as compose_frame goes through them; for tests and measurements of single
 // stages.
-//   placed   one of moment.intruders
-//   footage  colours of the frame that it would be blended onto; they decide when a blurred intruder is too faint
+//   placed      one of moment.intruders
+//   footage     colours of the frame that it would be blended onto; they decide when a blurred intruder is too faint
+//   background  that frame, for the colour of haze; null: haze has the colour that the settings give
 [[nodiscard]] Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment,
                                                      const PlacedIntruder& placed, ComposeContext& context,
-                                                     const ColorInfo& footage = {});
+                                                     const ColorInfo& footage = {}, const Frame* background = nullptr);
 
 }  // namespace sigs

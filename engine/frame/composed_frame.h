@@ -27,12 +27,15 @@ struct OpCounts {
   std::int64_t lens_evaluations = 0;  // of the lens model: directions to pixels and pixels to directions
   std::int64_t pixels_drawn = 0;      // by OpenGL, of all virtual cameras
   std::int64_t triangles_drawn = 0;
-  std::int64_t bytes_uploaded = 0;    // to OpenGL: meshes and textures
-  std::int64_t pixels_warped = 0;     // of layers, sampled through the lens
-  std::int64_t pixels_blurred = 0;    // of layers; with the classic method of whole images too
-  std::int64_t pixels_blended = 0;    // of the frame, rewritten
-  std::int64_t pixels_converted = 0;  // of whole images, between code values and BGR
-  std::int64_t pixels_coded = 0;      // by the codec match
+  std::int64_t bytes_uploaded = 0;         // to OpenGL: meshes and textures
+  std::int64_t pixels_warped = 0;          // of layers, sampled through the lens
+  std::int64_t pixels_blurred = 0;         // of layers; with the classic method of whole images too
+  std::int64_t pixels_blended = 0;         // of the frame, rewritten
+  std::int64_t pixels_converted = 0;       // of whole images, between code values and BGR
+  std::int64_t pixels_motion_blurred = 0;  // of layers, times the shifts that each is the sum of
+  std::int64_t samples_filtered = 0;       // of the frame's planes: sharpening, spread of chroma
+  std::int64_t samples_of_noise = 0;       // grain
+  std::int64_t pixels_coded = 0;           // by the codec match
 
   [[nodiscard]] bool operator==(const OpCounts&) const = default;
 
@@ -45,6 +48,9 @@ struct OpCounts {
     pixels_blurred += more.pixels_blurred;
     pixels_blended += more.pixels_blended;
     pixels_converted += more.pixels_converted;
+    pixels_motion_blurred += more.pixels_motion_blurred;
+    samples_filtered += more.samples_filtered;
+    samples_of_noise += more.samples_of_noise;
     pixels_coded += more.pixels_coded;
     return *this;
   }
@@ -61,7 +67,8 @@ struct ComposedFrame {
   Frame image;
   // Opacity with which the intruders were composited: CV_8UC1 of the image's size, 255 opaque. At least 1 where a pixel
   // was rewritten at all; 0 where its luma has the bits of the footage (a chroma sample shared with a rewritten
-  // neighbour may differ). Empty where no pixel was rewritten.
+  // neighbour may differ). Where sharpening, spread of chroma or grain go beyond the opacity, 1. Empty where no pixel
+  // was rewritten.
   cv::Mat mask;
   FrameTruth truth;
   std::vector<Stage> stages;  // empty unless asked for

@@ -19,7 +19,9 @@
 #include "compositor/classic.h"
 #include "compositor/footage_light.h"
 #include "compositor/occlude.h"
+#include "frame/code_stages.h"
 #include "frame/codec_stage.h"
+#include "frame/occluder.h"
 
 namespace sigs {
 
@@ -67,12 +69,31 @@ void composite_direct(ComposedFrame& composed, const Scene& scene, const Intrude
   add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
 }
 
+// With the stages that follow blending, in code values. The mask has what they rewrite beyond the layer.
+void composite_with_code_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame,
+                                bool keep) {
+  StageDone done;
+  if (keep)
+    done = [&](const std::string& name) {
+      composed.stages.push_back({stage_name(name, layers, scene), bgr_of(composed.image)});
+    };
+  const Rewritten rewritten = blend_with_code_stages(composed, scene, layers, frame, done);
+  add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
+  cv::Mat mask = composed.mask(rewritten.rect);
+  cv::max(mask, rewritten.changed & 1, mask);
+  composed.op_counts.pixels_blended += cv::countNonZero(rewritten.changed);
+}
+
 void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const IntruderLayers& layers,
                         const ColorInfo& footage) {
   const cv::Size size = scene.footage.size_px;
   for (const auto& [view, layer] : layers.views)
     stages.push_back({stage_name("layer", layers, scene), shown(layer, footage, view.size_px)});
   stages.push_back({stage_name("bent", layers, scene), shown(layers.warped, footage, size)});
+  if (layers.hazed.color.data != layers.warped.color.data)
+    stages.push_back({stage_name("hazed", layers, scene), shown(layers.hazed, footage, size)});
+  if (layers.moved.color.data != layers.hazed.color.data)
+    stages.push_back({stage_name("moved", layers, scene), shown(layers.moved, footage, size)});
   stages.push_back({stage_name("blurred", layers, scene), shown(layers.blurred, footage, size)});
   stages.push_back({stage_name("hidden", layers, scene), shown(layers.occluded, footage, size)});
 }
@@ -146,7 +167,10 @@ ClassicStages composite_classic(ComposedFrame& composed, const Scene& scene, con
   if (maps) count_classic(composed.op_counts, pinhole, stages, layers.sigma_px);
   const cv::Rect part = cv::boundingRect(stages.changed);
   if (part.empty()) return stages;
-  const cv::Mat weight = weight_of(stages.changed, scene.own_body, part);
+  cv::Mat weight = weight_of(stages.changed, scene.own_body, part);
+  if (scene.occluder.hides(layers.placed.distance_m()))
+    weight = weight.mul(1.0 - occluder_seen_from(layers.world_from_camera, scene.occluder,
+                                                 context.lens_of(compositing_camera(scene)), part));
   composed.op_counts.pixels_blended += replace_pixels(composed.image, part, stages.output(part), weight);
   const cv::Mat opacity = maps ? cv::Mat(classic_opacity(stages, *maps, layers.sigma_px, part).mul(weight)) : weight;
   add_to_mask(composed.mask, scene.footage.size_px, part, opacity);
@@ -164,8 +188,8 @@ void keep_classic_stages(std::vector<Stage>& kept, const ClassicStages& stages, 
 
 }  // namespace
 
-ComposedFrame composited(Frame background, const Scene& scene, const std::vector<IntruderLayers>& far_to_near,
-                         ComposeContext& context, Stages stages) {
+ComposedFrame composited(Frame background, const Scene& scene, int frame,
+                         const std::vector<IntruderLayers>& far_to_near, ComposeContext& context, Stages stages) {
   ComposedFrame composed{.image = std::move(background)};
   const bool keep = stages == Stages::keep;
   const bool direct = scene.compositing.method == MethodChoice::direct;
@@ -174,8 +198,12 @@ ComposedFrame composited(Frame background, const Scene& scene, const std::vector
   for (const IntruderLayers& layers : far_to_near) {
     if (layers.views.empty()) continue;
     if (direct) {
-      if (!layers.occluded.empty()) composite_direct(composed, scene, layers);
       if (keep) keep_direct_stages(composed.stages, scene, layers, composed.image.color);
+      if (layers.occluded.empty()) continue;
+      if (has_code_stages(scene.appearance))
+        composite_with_code_stages(composed, scene, layers, frame, keep);
+      else
+        composite_direct(composed, scene, layers);
     } else {
       ClassicStages classic = composite_classic(composed, scene, layers, context);
       if (keep)

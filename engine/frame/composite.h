@@ -13,7 +13,8 @@ namespace sigs {
 // Composites the intruders onto the background by the scene's method, far to near. Fills image, mask, stages and
 // op_counts.
 //   background  its samples are rewritten in place, so they must not be shared
-[[nodiscard]] ComposedFrame composited(Frame background, const Scene& scene,
+//   frame       number of the frame in the footage
+[[nodiscard]] ComposedFrame composited(Frame background, const Scene& scene, int frame,
                                        const std::vector<IntruderLayers>& far_to_near, ComposeContext& context,
                                        Stages stages);
 

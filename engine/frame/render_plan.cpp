@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "compositor/blur.h"
+#include "frame/exposure_motion.h"
 
 namespace sigs {
 
@@ -46,6 +47,15 @@ bool may_span_several_views(double distance_m, double radius_m) {
   return distance_m < kRadii * radius_m;
 }
 
+// Of the Gaussian that an intruder is blurred by. The classic method knows the paper's blur by distance alone, the
+// method `plain` none.
+double sigma_px_of(const Scene& scene, double distance_m) {
+  if (scene.compositing.method == MethodChoice::plain) return 0;
+  const double by_distance_px = scene.compositing.blur_px_per_m * distance_m;
+  const double own_px = scene.compositing.method == MethodChoice::direct ? scene.appearance.point_spread_px : 0;
+  return own_px > 0 ? std::hypot(by_distance_px, own_px) : by_distance_px;
+}
+
 // How far beyond the image's edge light is rendered that the blur carries into it: all that a sigma of 100 px carries.
 // From farther away only a near intruder contributes, with a blur in which it cannot be recognised.
 int margin_px(double sigma_px) {
@@ -54,9 +64,23 @@ int margin_px(double sigma_px) {
 }
 
 // Pixels from which light of the intruder can get into the image.
-cv::Rect warp_rect_of(const std::optional<Box>& bounds, int blur_px, cv::Size image_size_px) {
-  const cv::Rect grown(-blur_px, -blur_px, image_size_px.width + 2 * blur_px, image_size_px.height + 2 * blur_px);
+cv::Rect warp_rect_of(const std::optional<Box>& bounds, cv::Size blur_px, cv::Size image_size_px) {
+  const cv::Rect grown(-blur_px.width, -blur_px.height, image_size_px.width + 2 * blur_px.width,
+                       image_size_px.height + 2 * blur_px.height);
   return bounds ? pixels_touched(*bounds, 1, grown) : grown;
+}
+
+Light light_of(const Scene& scene, const SceneMoment& moment) {
+  const SceneLight& light = scene.light;
+  if (light.kind == LightKind::point)
+    return {.p_in_camera = moment.light_in_camera, .color = light.color, .ambient = light.ambient};
+  return {.color = light.color * moment.sun_visible_share,
+          .kind = Light::Kind::sun,
+          .to_sun = moment.to_sun_in_camera,
+          .up = moment.up_in_camera,
+          .sky_color = light.sky_color,
+          .ground_color = light.ground_color,
+          .exposure = light.exposure};
 }
 
 // With the pixels that the rows of a rolling shutter look at beside.
@@ -99,7 +123,7 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
                              const Camera& camera) {
   const auto id = static_cast<std::size_t>(placed.id);
   const Model& model = *scene.intruders[id].model;
-  IntruderLayers layers{.placed = placed};
+  IntruderLayers layers{.placed = placed, .world_from_camera = moment.world_from_camera};
   if (scene.motion.readout_s > 0) {
     const auto pose_at = [&](double since_s) { return camera_from_body_at(scene, id, moment.time_s + since_s); };
     layers.row_motion.emplace(pose_at, scene.footage.size_px.height, scene.motion.readout_s);
@@ -108,8 +132,13 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
     layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
   }
   if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations = static_cast<std::int64_t>(model.points_m.size());
-  if (scene.compositing.method != MethodChoice::plain)
-    layers.sigma_px = scene.compositing.blur_px_per_m * placed.distance_m();
+  layers.sigma_px = sigma_px_of(scene, placed.distance_m());
+  if (scene.compositing.method == MethodChoice::direct && moment.exposure_s > 0) {
+    const glm::dvec2 motion_px = motion_during_exposure(scene, moment, placed, camera.lens);
+    layers.motion = motion_kernel(motion_px);
+    if (!layers.motion.shifts.empty()) layers.motion_px = std::min(glm::length(motion_px), kMaxMotion_px);
+    if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations += 2;
+  }
   return layers;
 }
 
@@ -118,10 +147,10 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   const Mesh& mesh = mesh_of(scene, layers.placed);
   const double distance_m = layers.placed.distance_m();
   if (!layers.silhouette && distance_m > mesh.radius_m) return {};
-  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body),
-                  .light = {moment.light_in_camera, scene.light.color, scene.light.ambient}};
+  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body), .light = light_of(scene, moment)};
   const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
-  plan.warp_rect = warp_rect_of(bounds, margin_px(layers.sigma_px), scene.footage.size_px);
+  const int blur_px = margin_px(layers.sigma_px);
+  plan.warp_rect = warp_rect_of(bounds, layers.motion.margin_px + cv::Size(blur_px, blur_px), scene.footage.size_px);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;
   // A body that lies within needs no clipping.
   std::optional<cv::Rect> target;

@@ -45,6 +45,17 @@ Json json_of(const Attitude& attitude) {
           {"yaw", rounded(deg_of_rad(attitude.yaw_rad))}};
 }
 
+Json appearance_of(const IntruderTruth& intruder) {
+  const ImageFormation& formation = intruder.image_formation;
+  Json appearance{{"weber_contrast", rounded(intruder.detectability->weber_contrast)},
+                  {"rms_contrast", rounded(intruder.detectability->rms_contrast)},
+                  {"signal_to_noise", rounded(intruder.detectability->signal_to_noise)},
+                  {"blur_px", rounded(formation.blur_px)},
+                  {"motion_blur_px", rounded(formation.motion_blur_px)}};
+  if (formation.visibility_m) appearance["visibility_m"] = rounded(*formation.visibility_m);
+  return appearance;
+}
+
 Json rle_of(const cv::Mat& mask, const cv::Rect& box, cv::Size image) {
   return {{"size", {image.height, image.width}}, {"counts", coco_counts(column_runs(mask, box, image))}};
 }
@@ -157,6 +168,7 @@ class CocoLabels : public LabelWriter {
     annotation["position_m"] = json_of(intruder.position_m);
     annotation["attitude_deg"] = json_of(intruder.attitude);
     if (intruder.amodal_box) annotation["amodal_bbox"] = json_of(*intruder.amodal_box);
+    if (intruder.detectability) annotation.update(appearance_of(intruder));
     return annotation;
   }
 

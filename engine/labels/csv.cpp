@@ -24,7 +24,8 @@ constexpr std::string_view kCsvHeader =
     "silhouette_x_px,silhouette_y_px,silhouette_width_px,silhouette_height_px,"
     "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted,"
     "camera_position_source,camera_attitude_source,camera_sd_x_deg,camera_sd_y_deg,camera_sd_z_deg,"
-    "camera_latitude_deg,camera_longitude_deg,camera_height_m,latitude_deg,longitude_deg,height_m\r\n";
+    "camera_latitude_deg,camera_longitude_deg,camera_height_m,latitude_deg,longitude_deg,height_m,"
+    "weber_contrast,rms_contrast,signal_to_noise,blur_px,motion_blur_px,visibility_m\r\n";
 
 // One line, field by field.
 class CsvRow {
@@ -64,6 +65,17 @@ void add_box_fields(CsvRow& row, const IntruderTruth& truth) {
   for (const double number : {box.x, box.y, box.width, box.height}) row.add(number, kLabelPixelDecimals);
 }
 
+void add_appearance_fields(CsvRow& row, const IntruderTruth& truth) {
+  if (!truth.detectability) return row.add_empty(6);
+  const Detectability& seen = *truth.detectability;
+  const ImageFormation& formation = truth.image_formation;
+  for (const double number :
+       {seen.weber_contrast, seen.rms_contrast, seen.signal_to_noise, formation.blur_px, formation.motion_blur_px})
+    row.add(number);
+  if (!formation.visibility_m) return row.add_empty(1);
+  row.add(*formation.visibility_m);
+}
+
 class CsvLabels : public LabelWriter {
  public:
   CsvLabels(TextFile file, LabelSequence sequence) : file_(std::move(file)), sequence_(std::move(sequence)) {}
@@ -98,6 +110,7 @@ class CsvLabels : public LabelWriter {
     row.add(frame.substituted ? "true" : "false");
     row.add_fields(camera_source_fields(frame.camera));
     row.add_fields(place_fields(truth.place));
+    add_appearance_fields(row, truth);
     return row.line();
   }
 

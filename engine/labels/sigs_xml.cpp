@@ -71,6 +71,17 @@ void add_box_elements(pugi::xml_node node, const IntruderTruth& truth) {
   }
 }
 
+void add_appearance(pugi::xml_node node, const IntruderTruth& truth) {
+  if (!truth.detectability) return;
+  pugi::xml_node appearance = node.append_child("appearance");
+  set(appearance, "weber_contrast", truth.detectability->weber_contrast);
+  set(appearance, "rms_contrast", truth.detectability->rms_contrast);
+  set(appearance, "signal_to_noise", truth.detectability->signal_to_noise);
+  set(appearance, "blur_px", truth.image_formation.blur_px);
+  set(appearance, "motion_blur_px", truth.image_formation.motion_blur_px);
+  if (truth.image_formation.visibility_m) set(appearance, "visibility_m", *truth.image_formation.visibility_m);
+}
+
 void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   pugi::xml_node node = frame.append_child("intruder");
   node.append_attribute("id") = truth.id;
@@ -83,6 +94,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   set_attitude(node.append_child("attitude"), truth.attitude);
   add_place(node, truth.place);
   add_box_elements(node, truth);
+  add_appearance(node, truth);
 }
 
 // The declaration, the opening tag of the document and its element "footage".

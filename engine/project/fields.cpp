@@ -60,6 +60,12 @@ void add_footage(FieldList list, FootageSettings& footage) {
   list.path("calibration", footage.calibration, true, "the camera's calibration file");
   list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye"}), "",
            "lens model of the calibration's numbers; auto: as the file says, else as they look");
+  list.path("occluder_mask", footage.occluder_mask, false,
+            "image of the footage's size, white where trees or hills hide what is farther away; empty: none");
+  list.number("occluder_frame", &footage.occluder_frame, "frame", 0, 1e9,
+              "frame that the occluder mask was made of; elsewhere it follows the camera's motion");
+  list.number("occluder_distance_m", &footage.occluder_distance_m, "m", 0, 1e7,
+              "how far the occluder is; nearer intruders are before it; 0: none is");
   list.path("own_body_mask", footage.own_body_mask, false,
             "image of the footage's size, white where the UAV's own body hides the intruder; empty: none");
   list.number("max_substituted_percent", &footage.max_substituted_percent, "%", 0, 100,

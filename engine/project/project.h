@@ -26,6 +26,10 @@ struct FootageSettings {
   std::optional<int> last_frame;  // the last one used; none: the footage's last
   std::string calibration;
   std::string own_body_mask;  // empty: none
+  // What stands in the world nearer than the intruders, such as trees: a mask of one frame. Empty: nothing.
+  std::string occluder_mask;
+  int occluder_frame = 0;          // the frame that the mask was made of, counted from 0
+  double occluder_distance_m = 0;  // intruders nearer than this are before it; 0: none is
   LensModelChoice lens_model = LensModelChoice::automatic;
   double max_substituted_percent = 1;  // of the exported frames; more damaged ones are an error
 

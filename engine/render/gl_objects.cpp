@@ -84,8 +84,8 @@ int Program::location(const char* name) const {
 void Program::set(const char* name, float value) const {
   glUniform1f(location(name), value);
 }
-void Program::set(const char* name, bool value) const {
-  glUniform1i(location(name), value ? 1 : 0);
+void Program::set(const char* name, int value) const {
+  glUniform1i(location(name), value);
 }
 void Program::set(const char* name, const glm::vec3& value) const {
   glUniform3fv(location(name), 1, glm::value_ptr(value));

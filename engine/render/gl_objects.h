@@ -24,7 +24,7 @@ class Program {
 
   // Set a uniform of the program in use. The name must be that of a uniform in the shaders.
   void set(const char* name, float value) const;
-  void set(const char* name, bool value) const;
+  void set(const char* name, int value) const;  // a sampler's texture unit too
   void set(const char* name, const glm::vec3& value) const;
   void set(const char* name, const glm::mat3& value) const;
   void set(const char* name, const glm::mat4& value) const;

@@ -176,6 +176,12 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
 
 }  // namespace
 
+void leave_out(CullFace side) {
+  if (side == CullFace::none) return glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
+  glCullFace(side == CullFace::back ? GL_BACK : GL_FRONT);
+}
+
 GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)), texture_of_material_(texture_numbers(mesh)) {
   const Mesh split = split_by_material(mesh);
   const std::vector<Surface> surfaces = surfaces_of(split);

@@ -10,6 +10,15 @@
 
 namespace sigs {
 
+// What was given to OpenGL.
+struct PassCounts {
+  std::int64_t triangles = 0;
+  std::int64_t draw_calls = 0;
+};
+
+// Makes the following draw calls leave out one side of triangles.
+void leave_out(CullFace side);
+
 // A mesh in the memory of the GPU. It belongs to the context that is current when it is created.
 class GpuMesh {
  public:

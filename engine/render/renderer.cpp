@@ -25,10 +25,11 @@
 #include "render/egl_context.h"
 #include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
+#include "render/shadow_map.h"
 
 namespace sigs {
 
-// The shaders for each kind of surface, so that none does what it does not need.
+// The shaders for each kind of surface and one kind of light, so that none does what it does not need.
 struct Programs {
   enum Kind { kPlain, kTextured, kLayered };  // assets/shaders/intruder.frag
 
@@ -82,23 +83,12 @@ std::optional<glm::dmat4> clip_from_body(const Pose<frame::View, frame::Body>& v
 
 // --- Draw passes.
 
-struct PassCounts {
-  std::int64_t triangles = 0;
-  std::int64_t draw_calls = 0;
-};
-
 constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
 constexpr float kAnyOpacity = 1e9F;
 
 Programs::Kind kind_of(const Run& run) {
   if (run.texture == kNoTexture) return Programs::kPlain;
   return run.surface == Surface::solid ? Programs::kTextured : Programs::kLayered;
-}
-
-void leave_out(CullFace side) {
-  if (side == CullFace::none) return glDisable(GL_CULL_FACE);
-  glEnable(GL_CULL_FACE);
-  glCullFace(side == CullFace::back ? GL_BACK : GL_FRONT);
 }
 
 PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::vector<Run>& runs, bool is_solid_pass,
@@ -123,12 +113,13 @@ PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::ve
 }
 
 // Error unavailable as that of Program::create().
-Result<Programs> compiled_programs() {
-  Result<Program> plain = Program::create("");
+//   light  lines that select the kind of light
+Result<Programs> compiled_programs(const std::string& light) {
+  Result<Program> plain = Program::create(light);
   if (!plain) return fail(plain.error());
-  Result<Program> textured = Program::create("#define IMAGE\n");
+  Result<Program> textured = Program::create(light + "#define IMAGE\n");
   if (!textured) return fail(textured.error());
-  Result<Program> layered = Program::create("#define IMAGE\n#define LAYERED\n");
+  Result<Program> layered = Program::create(light + "#define IMAGE\n#define LAYERED\n");
   if (!layered) return fail(layered.error());
   return Programs{{std::move(*plain), std::move(*textured), std::move(*layered)}};
 }
@@ -154,14 +145,34 @@ PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const 
   return draw_runs(programs, gpu, sorted.runs, false, false);
 }
 
+// What only frames in the sun need.
+struct SunTools {
+  Programs programs;
+  ShadowMap shadow;
+};
+
+Result<SunTools> sun_tools() {
+  Result<Programs> programs = compiled_programs("#define SUN\n");
+  if (!programs) return fail(programs.error());
+  Result<ShadowMap> shadow = ShadowMap::create();
+  if (!shadow) return fail(shadow.error());
+  return SunTools{std::move(*programs), std::move(*shadow)};
+}
+
 }  // namespace
 
 struct Renderer::State {
   EglContext context;
   Programs programs;
   Target target;
+  std::optional<SunTools> sun;  // made by the first draw() in the sun
   std::map<const Mesh*, GpuMesh> meshes;
   RenderCounts counts;
+
+  // Programs with all uniforms set but clip_from_body.
+  [[nodiscard]] Result<const Programs*> lit_programs(const Mesh& mesh, const GpuMesh& gpu,
+                                                     const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                                     const Light& light, const VirtualCamera& view);
 };
 
 namespace {
@@ -171,33 +182,6 @@ using ViewFromBody = Pose<frame::View, frame::Body>;
 
 bool is_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-// A point p = scaled / scale, where the square of the length of `scaled` fits a float.
-struct ScaledPoint {
-  glm::vec3 scaled;
-  float scale;
-};
-
-ScaledPoint scaled_point(const glm::dvec3& p) {
-  constexpr double kFar_m = 1e6;
-  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const double scale = largest > kFar_m ? kFar_m / largest : 1.0;
-  return {p * scale, static_cast<float>(scale)};
-}
-
-void set_light(const Program& program, const Light& light, const ViewFromBody& view_from_body,
-               const Pose<frame::View, frame::Camera>& view_from_camera) {
-  program.use();
-  const ScaledPoint lamp = scaled_point(view_from_camera * light.p_in_camera - view_from_body.translation_m);
-  const ScaledPoint eye = scaled_point(-view_from_body.translation_m);
-  program.set("light_color", glm::vec3(light.color));
-  program.set("ambient", static_cast<float>(std::clamp(light.ambient, 0.0, 1.0)));
-  program.set("light_scaled", lamp.scaled);
-  program.set("light_scale", lamp.scale);
-  program.set("eye_scaled", eye.scaled);
-  program.set("eye_scale", eye.scale);
-  program.set("view_from_body", glm::mat3(glm::mat3_cast(view_from_body.rotation)));
 }
 
 // Whether the eye is outside the body and all of the body lies beyond the near plane.
@@ -245,6 +229,8 @@ void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const V
   ENSURE(is_finite(view_from_body.translation_m));
   ENSURE(std::isfinite(glm::dot(view_from_body.rotation, view_from_body.rotation)));
   ENSURE(is_finite(light.p_in_camera) && is_finite(light.color) && std::isfinite(light.ambient));
+  ENSURE(is_finite(light.to_sun) && is_finite(light.up) && std::isfinite(light.exposure));
+  ENSURE(is_finite(light.sky_color) && is_finite(light.ground_color));
   ENSURE(std::isfinite(view.focal_px) && view.focal_px > 0);
   ENSURE(std::isfinite(view.center_px.x) && std::isfinite(view.center_px.y));
 }
@@ -255,10 +241,10 @@ Result<Renderer> Renderer::create(int samples_per_pixel) {
   ENSURE(samples_per_pixel >= 1 && samples_per_pixel <= 8);
   Result<EglContext> context = EglContext::create();
   if (!context) return fail(context.error());
-  Result<Programs> programs = compiled_programs();
+  Result<Programs> programs = compiled_programs("");
   if (!programs) return fail(programs.error());
-  return Renderer(
-      std::unique_ptr<State>(new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}}));
+  return Renderer(std::unique_ptr<State>(
+      new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}, {}}));
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -278,6 +264,32 @@ int Renderer::max_size_px() const {
   return kLargestView_px;
 }
 
+// In the sun the map of the body's shadows is drawn first, whatever part of the body is in the view: what is outside of
+// it casts shadows into it.
+Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const GpuMesh& gpu,
+                                                      const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                                      const Light& light, const VirtualCamera& view) {
+  const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
+  if (light.kind == Light::Kind::point) {
+    for (const Program& program : programs.all) set_point_light(program, light, view_from_body, view.view_from_camera);
+    return &programs;
+  }
+  if (!sun) {
+    Result<SunTools> made = sun_tools();
+    if (!made) return fail(made.error());
+    sun.emplace(std::move(*made));
+  }
+  const SunView from_sun =
+      sun_view_of(mesh, to_sun_in_body(light, camera_from_body), shadow_map_side(mesh, view_from_body, view));
+  const Result<PassCounts> drawn = sun->shadow.draw(gpu, from_sun);
+  if (!drawn) return fail(drawn.error());
+  count(*drawn, counts);
+  sun->shadow.bind();
+  for (const Program& program : sun->programs.all)
+    set_sun_light(program, light, view_from_body, view.view_from_camera, from_sun);
+  return &sun->programs;
+}
+
 Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                              const Light& light, const VirtualCamera& view) {
   const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
@@ -295,17 +307,18 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
   const bool from_outside = is_eye_outside(view_from_body, mesh);
   set_fixed_state();
-  for (const Program& program : state_->programs.all) set_light(program, light, view_from_body, view.view_from_camera);
+  const Result<const Programs*> programs = state_->lit_programs(mesh, gpu, camera_from_body, light, view);
+  if (!programs) return fail(programs.error());
   for (const cv::Rect& piece : pieces_of(view.size_px)) {
     const std::optional<glm::dmat4> clip = clip_from_body(view_from_body, mesh.radius_m, view, piece);
     if (!clip) return layer;
     if (const auto begun = state_->target.begin(piece.size()); !begun) return fail(begun.error());
-    for (const Program& program : state_->programs.all) {
+    for (const Program& program : (*programs)->all) {
       program.use();
       program.set("clip_from_body", glm::mat4(*clip));
     }
-    count(draw_solid(state_->programs, gpu, from_outside), state_->counts);
-    count(draw_transparent(state_->programs, gpu, sorted), state_->counts);
+    count(draw_solid(**programs, gpu, from_outside), state_->counts);
+    count(draw_transparent(**programs, gpu, sorted), state_->counts);
     state_->target.read(layer.color(piece), layer.coverage(piece));
     state_->counts.pixels_drawn += piece.area();
   }

@@ -12,20 +12,14 @@
 #include "base/result.h"
 #include "camera/virtual_camera.h"
 #include "mesh/mesh.h"
+#include "render/light.h"
 
 namespace sigs {
-
-// An omnidirectional point light (paper section 3.1.2) and the ambient light.
-struct Light {
-  glm::dvec3 p_in_camera{0, 0, 0};  // metres, camera frame
-  glm::dvec3 color{1, 1, 1};        // linear; 1: a white surface facing the light becomes white
-  double ambient = 0.35;            // 0..1: ambient light
-};
 
 // Counts of a renderer's operations since its creation.
 struct RenderCounts {
   std::int64_t pixels_drawn = 0;     // of all views
-  std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view
+  std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view and for shadows
   std::int64_t bytes_uploaded = 0;   // vertices, triangles and textures; uniforms are not counted
   std::int64_t draw_calls = 0;
 };
@@ -52,7 +46,8 @@ class Renderer {
   [[nodiscard]] const RenderCounts& counts() const;
 
   // Renders the mesh as a layer that covers the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
-  // several samples for each pixel. Solid parts come first, then glass from far to near.
+  // several samples for each pixel. Solid parts come first, then glass from far to near. In the sun the body casts
+  // shadows on itself; docs/how-a-frame-is-made.md has the formulas of both lights.
   // The mesh is uploaded at its first use and stays on the GPU until forget(). It is recognized by its address, so
   // meshes must neither move nor be destroyed before. A mesh that has changed is uploaded again; the change is
   // recognized by some thousand of its vertices and texels. Depth and position are computed relative to the camera, so

@@ -259,6 +259,16 @@ void turn_by_log(const Track& track, const UsedParts& parts, const LogTimes& tim
                                "camera.attitude_deg can state what they were"});
 }
 
+// Of the log, without samples that are no exposure times.
+std::vector<ExposureTime> exposures_of(const Channel<double>& channel, const LogTimes& times) {
+  constexpr double kMaxExposure_s = 1;
+  std::vector<ExposureTime> exposures;
+  for (std::size_t i = 0; i < channel.values.size(); ++i)
+    if (channel.values[i] >= 0 && channel.values[i] <= kMaxExposure_s)
+      exposures.push_back({times.footage_s(channel.times_s[i]), channel.values[i]});
+  return exposures;
+}
+
 void warn_if_slow(const Track& track, const UsedParts& parts, std::vector<Warning>& warnings) {
   const auto add = [&](const std::string& source, double step_s) {
     warnings.push_back({track.file.string(), fmt::format("{} has a sample only each {:.2g} s; what the camera does in "
@@ -329,6 +339,7 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
   }
   if (parts->attitude != nullptr) turn_by_log(track, *parts, times, heading_rad, flight);
   flight.motion.readout_s = project.camera.readout_s.value_or(track.readout_s.value_or(0));
+  if (!project.camera.exposure_s) flight.motion.exposures = exposures_of(track.exposure_s, times);
   if (track.utc_at_zero_s) flight.utc_at_frame_0_s = *track.utc_at_zero_s + settings.offset_s;
   return flight;
 }

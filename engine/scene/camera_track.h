@@ -37,7 +37,7 @@ void take_camera_flight(Scene& scene, CameraFlight flight);
 // camera.attitude_deg is the camera's attitude at the start.
 // World X: geo.heading_deg; else the heading of what carries the camera at frame 0, if the log has it against north;
 // else the course over ground there, if it moves by more than 1 m/s; else north, with a warning.
-// Readout: camera.readout_s, else the log's, else 0.
+// Readout: camera.readout_s, else the log's, else 0. Exposure time: likewise, by camera.exposure_s.
 //
 // A problem at camera.track.file: it cannot be read, has nothing of what the settings ask for, is damaged or does not
 // cover the project's frames (both allowed by camera.track.incomplete: use), or covers none of them.

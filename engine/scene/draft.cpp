@@ -13,6 +13,7 @@
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/plausibility.h"
+#include "scene/scene_light.h"
 #include "scene/scene_parts.h"
 
 namespace sigs {
@@ -166,7 +167,9 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
                                      draft.problems);
   take_camera_flight(
       scene, part_or_placeholder(camera_flight(clean, footage, range, files), steady_flight(clean), draft.problems));
+  scene.light = part_or_placeholder(scene_light(clean, scene), placeholder_light(scene.light), draft.problems);
   scene.own_body = part_or_placeholder(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
+  scene.occluder = part_or_placeholder(scene_occluder(clean, scene, files), Occluder(), draft.problems);
   for (std::size_t i = 0; i < clean.intruders.size(); ++i) {
     const bool has_waypoint = !clean.intruders[i].trajectory.waypoints.empty();
     draft.intruder_of_project.push_back(has_waypoint ? static_cast<int>(scene.intruders.size()) : -1);

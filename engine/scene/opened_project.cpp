@@ -15,6 +15,7 @@
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/plausibility.h"
+#include "scene/scene_light.h"
 #include "scene/scene_parts.h"
 #include "video/frame_quantisers.h"
 
@@ -40,9 +41,15 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
   OrProblem<CameraFlight> flight = camera_flight(project, footage, *range, files);
   if (!flight) return failed(flight.error());
   take_camera_flight(scene, *std::move(flight));
+  const OrProblem<SceneLight> light = scene_light(project, scene);
+  if (!light) return failed(light.error());
+  scene.light = *light;
   const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   scene.own_body = *own_body;
+  OrProblem<Occluder> occluder = scene_occluder(project, scene, files);
+  if (!occluder) return failed(occluder.error());
+  scene.occluder = *std::move(occluder);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const OrProblem<std::shared_ptr<const Model>> model = scene_model(project, i, files);
     if (!model) return failed(model.error());

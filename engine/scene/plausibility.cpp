@@ -39,17 +39,17 @@ std::string nearest_frame_text(double frame) {
   return fmt::format("frame {}", std::lround(frame));
 }
 
-void check_mask(const cv::Mat& own_body, std::vector<Problem>& issues) {
-  if (own_body.empty()) return;
+//   hider  what is white in it
+void check_mask(const cv::Mat& mask, const std::string& field, const std::string& hider, std::vector<Problem>& issues) {
+  if (mask.empty()) return;
   const double share =
-      static_cast<double>(cv::countNonZero(own_body >= kOccludingOpacity)) / static_cast<double>(own_body.total());
-  const auto add = [&](std::string what) { issues.push_back({"footage.own_body_mask", std::move(what)}); };
+      static_cast<double>(cv::countNonZero(mask >= kOccludingOpacity)) / static_cast<double>(mask.total());
+  const auto add = [&](std::string what) { issues.push_back({field, std::move(what)}); };
   if (share > kOccludesAll)
     add(fmt::format(
-        "is white in {} % of the image and hides every intruder there; white is the own body, black is what "
-        "lies behind it",
-        short_text(100 * share)));
-  else if (cv::countNonZero(own_body) == 0)
+        "is white in {} % of the image and hides every intruder there; white is {}, black is what lies behind it",
+        short_text(100 * share), hider));
+  else if (cv::countNonZero(mask) == 0)
     add("is black all over and hides nothing; it can be left out");
 }
 
@@ -172,7 +172,8 @@ std::vector<Problem> plausibility_issues(const Project& project, const Scene& sc
                                          const std::vector<int>& intruder_of_project) {
   std::vector<Problem> issues;
   for (const Warning& warning : scene.camera.warnings) issues.push_back({"footage.calibration", warning.text()});
-  check_mask(scene.own_body, issues);
+  check_mask(scene.own_body, "footage.own_body_mask", "the own body", issues);
+  check_mask(scene.occluder.mask, "footage.occluder_mask", "what stands nearer than the intruders", issues);
   if (camera_height_m(scene) < 0)
     issues.push_back({"camera.position_m", "lies below the ground; the ground is z = 0, and heights are negative z"});
   for (std::size_t i = 0; i < intruder_of_project.size(); ++i) {

@@ -38,10 +38,11 @@ struct FootageShape {
 // squarely becomes white.
 struct SceneLight {
   LightKind kind = LightKind::point;
-  glm::dvec3 position_m{0, 0, 0};  // of the point light, world
-  glm::dvec3 color{1, 1, 1};       // of the point light or of the sun
-  double ambient = 0.35;           // share of the point light that comes from everywhere, 0..1
-  glm::dvec3 to_sun{0, 0, -1};     // unit vector, world
+  glm::dvec3 position_m{0, 0, 0};                // of the point light, world
+  glm::dvec3 color{1, 1, 1};                     // of the point light or of the sun
+  double ambient = 0.35;                         // share of the point light that comes from everywhere, 0..1
+  std::optional<double> sun_azimuth_rad = {};    // from world X to the right; none: by time and place
+  std::optional<double> sun_elevation_rad = {};  // above the horizon, as it is seen; likewise (scene/scene_light.h)
   glm::dvec3 sky_color{0, 0, 0};
   glm::dvec3 ground_color{0, 0, 0};
   double exposure = 1;  // factor of sun, sky and ground
@@ -65,6 +66,12 @@ struct AttitudeDeviation {
   glm::dvec3 sd_rad{0, 0, 0};
 };
 
+// How long the shutter is open at one moment.
+struct ExposureTime {
+  double time_s = 0;
+  double exposure_s = 0;
+};
+
 // Where the camera's pose comes from, for the truth: format and quantity of a log; empty: the project's settings.
 struct PoseSource {
   std::string position;
@@ -80,9 +87,23 @@ struct CameraMotion {
   std::shared_ptr<const PiecewiseCubic> path = {};  // the camera's place in the world; null: straight on
   std::vector<AttitudeDeviation> deviations = {};   // by rising time; empty: not known
   double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once
+  std::vector<ExposureTime> exposures = {};         // by rising time; empty: not known, taken as 0
   PoseSource source = {};
   glm::bvec3 moves_with_start{true, true, true};  // whether camera.position_m moves the path along world X, Y, Z: not
                                                   // where the project states the world's origin on the Earth
+};
+
+// What stands in the world between the camera and intruders that are farther away than it, such as trees and hills.
+struct Occluder {
+  cv::Mat mask;                                         // CV_32FC1 of the footage's size, 0..1; empty: nothing does
+  Pose<frame::World, frame::Camera> world_from_camera;  // at the frame that the mask was made of
+  double distance_m = 0;                                // from there; 0: nearer than any intruder, and its own
+                                                        // parallax is not known
+
+  // Whether it hides what is this far away.
+  [[nodiscard]] bool hides(double intruder_distance_m) const {
+    return !mask.empty() && intruder_distance_m > distance_m;
+  }
 };
 
 // A project with everything that it names opened and checked. It does not change after it has been opened.
@@ -93,6 +114,7 @@ struct Scene {
   std::vector<std::shared_ptr<const Model>> models;  // each once, however many intruders use it; see SceneFiles
   std::vector<SceneIntruder> intruders;              // in the project's order
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
+  Occluder occluder;
   CompositingSettings compositing;
   AppearanceSettings appearance;
   FootageShape footage;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "scene/scene_light.h"
+
 namespace sigs {
 
 glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s) {
@@ -33,6 +35,17 @@ std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& d
     sd_rad[axis] = std::isfinite(a) && std::isfinite(b) ? glm::mix(a, b, share) : std::max(a, b);
   }
   return sd_rad;
+}
+
+double exposure_at(const std::vector<ExposureTime>& exposures, double time_s) {
+  if (exposures.empty()) return 0;
+  const auto after = std::upper_bound(exposures.begin(), exposures.end(), time_s,
+                                      [](double time, const ExposureTime& one) { return time < one.time_s; });
+  if (after == exposures.begin()) return after->exposure_s;
+  const auto before = std::prev(after);
+  if (after == exposures.end() || before->time_s == time_s) return before->exposure_s;
+  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
+  return glm::mix(before->exposure_s, after->exposure_s, share);
 }
 
 Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {
@@ -64,8 +77,16 @@ Pose<frame::Camera, frame::Body> camera_from_body_at(const Scene& scene, std::si
 SceneMoment scene_at(const Scene& scene, int frame) {
   SceneMoment moment;
   moment.time_s = time_of_frame_s(scene.footage, frame);
+  moment.exposure_s = exposure_at(scene.motion.exposures, moment.time_s);
   moment.world_from_camera = camera_at(scene.motion, moment.time_s);
   moment.light_in_camera = inverse(moment.world_from_camera) * scene.light.position_m;
+  const glm::dquat camera_from_world = glm::conjugate(moment.world_from_camera.rotation);
+  moment.up_in_camera = camera_from_world * glm::dvec3(0, 0, -1);
+  if (scene.light.kind == LightKind::sun) {
+    const Sunlight sun = sunlight_at(scene, moment.time_s);
+    moment.to_sun_in_camera = camera_from_world * sun.to_sun;
+    moment.sun_visible_share = sun.visible_share;
+  }
   for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
     const Pose<frame::World, frame::Body> world_from_body =
         scene.intruders[i].trajectory.world_from_body(moment.time_s);

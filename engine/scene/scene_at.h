@@ -23,8 +23,12 @@ struct PlacedIntruder {
 // Where everything is at one moment.
 struct SceneMoment {
   double time_s = 0;
+  double exposure_s = 0;  // how long the shutter is open, half of it before time_s
   Pose<frame::World, frame::Camera> world_from_camera;
-  glm::dvec3 light_in_camera{0, 0, 0};    // position in metres, camera frame
+  glm::dvec3 light_in_camera{0, 0, 0};    // position of the point light in metres, camera frame
+  glm::dvec3 to_sun_in_camera{0, 0, -1};  // unit vector, camera frame
+  double sun_visible_share = 1;           // 0..1: of the sun's disc that is above the horizon
+  glm::dvec3 up_in_camera{0, 0, -1};      // the world's zenith: unit vector, camera frame
   std::vector<PlacedIntruder> intruders;  // far to near; equal distances by id
 };
 
@@ -34,6 +38,10 @@ struct SceneMoment {
 
 // Standard deviation of the camera's attitude, linear between two known ones; none where none is known.
 [[nodiscard]] std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s);
+
+// How long the shutter is open: linear between two known ones, before the first and after the last as these; 0 where
+// none is known.
+[[nodiscard]] double exposure_at(const std::vector<ExposureTime>& exposures, double time_s);
 
 // Pose of the camera: on its path or, without one, straight on along world X. Its attitude is
 // world_from_carrier_at(time_s) * attitude at the start.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/pose.h"
+#include "scene/scene_at.h"
 
 namespace sigs {
 
@@ -76,10 +77,20 @@ std::string key_of_intruder(std::size_t intruder) {
   return fmt::format("intruders[{}]", intruder);
 }
 
+namespace {
+
+std::optional<double> rad_of_deg(const std::optional<double>& angle_deg) {
+  return angle_deg ? std::optional(sigs::rad_of_deg(*angle_deg)) : std::nullopt;
+}
+
+}  // namespace
+
 CameraMotion steady_motion(const CameraSettings& camera) {
   return {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
           .speed_mps = camera.speed_mps,
-          .readout_s = camera.readout_s.value_or(0)};
+          .readout_s = camera.readout_s.value_or(0),
+          .exposures =
+              camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{}};
 }
 
 Scene bare_scene(const Project& project, const FootageShape& footage) {
@@ -89,6 +100,8 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
                     .position_m = project.light.position_m,
                     .color = project.light.color,
                     .ambient = project.light.ambient,
+                    .sun_azimuth_rad = rad_of_deg(project.light.sun.azimuth_deg),
+                    .sun_elevation_rad = rad_of_deg(project.light.sun.elevation_deg),
                     .sky_color = project.light.sky_color,
                     .ground_color = project.light.ground_color,
                     .exposure = project.light.exposure},
@@ -142,6 +155,19 @@ OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_
   const Result<cv::Mat> mask = files.own_body_mask(resolved(project, project.footage.own_body_mask), footage_size_px);
   if (!mask) return in_field("footage.own_body_mask", mask.error());
   return *mask;
+}
+
+OrProblem<Occluder> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files) {
+  const FootageSettings& settings = project.footage;
+  if (settings.occluder_mask.empty()) return Occluder();
+  const Result<cv::Mat> mask = files.own_body_mask(resolved(project, settings.occluder_mask), scene.footage.size_px);
+  if (!mask) return in_field("footage.occluder_mask", mask.error());
+  const auto count = static_cast<int>(scene.footage.times_s.size());
+  if (settings.occluder_frame >= count)
+    return problem("footage.occluder_frame", fmt::format("the footage has {} frames, 0 to {}", count, count - 1));
+  return Occluder{.mask = *mask,
+                  .world_from_camera = camera_at(scene.motion, time_of_frame_s(scene.footage, settings.occluder_frame)),
+                  .distance_m = settings.occluder_distance_m};
 }
 
 OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder, SceneFiles& files) {

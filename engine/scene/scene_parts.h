@@ -46,6 +46,10 @@ using OrProblem = tl::expected<T, Problem>;
                                                                               const FootageShape& footage,
                                                                               SceneFiles& files);
 
+// Scene::occluder; without mask where the project names none.
+//   scene  its motion and footage
+[[nodiscard]] OrProblem<Occluder> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files);
+
 // Scene::own_body; empty where the project names no mask.
 [[nodiscard]] OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/pose.h"
-#include "base/text.h"
 #include "geo/local_frame.h"
+#include "telemetry/plot_axes.h"
 
 namespace sigs {
 namespace {
@@ -22,7 +23,6 @@ constexpr int kRight_px = 150;  // for the legend
 constexpr int kTop_px = 34;
 constexpr int kBottom_px = 44;
 const cv::Scalar kInk(40, 40, 40);
-const cv::Scalar kGrid(225, 225, 225);
 const cv::Scalar kColors[] = {{200, 90, 20},  {30, 100, 220}, {40, 150, 40},
                               {160, 60, 160}, {60, 160, 190}, {110, 110, 110}};
 
@@ -50,23 +50,6 @@ struct Axis {
     return first_px + (std::isfinite(share) ? static_cast<int>(std::lround(share * (last_px - first_px))) : 0);
   }
 };
-
-void put_text(cv::Mat& image, const std::string& text, cv::Point at, const cv::Scalar& color = kInk) {
-  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.45, color, 1, cv::LINE_AA);
-}
-
-int width_of(const std::string& text) {
-  int base = 0;
-  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &base).width;
-}
-
-// A round step, 1, 2 or 5 times a power of ten, of which some five fit into the range.
-double step_of(double range) {
-  const double power = std::pow(10, std::floor(std::log10(range / 5)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= range / 6) return factor * power;
-  return 10 * power;
-}
 
 Axis axis_of(const std::vector<Series>& series, const std::vector<double> Series::*numbers, int first_px, int last_px) {
   Axis axis{INFINITY, -INFINITY, first_px, last_px};
@@ -96,24 +79,13 @@ void make_same_scale(Axis& x, Axis& y) {
   widen(y, per_px);
 }
 
-std::string tick_text(double value, double step) {
-  return fixed_text(value, std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 6));
-}
-
-void draw_grid(cv::Mat& image, const Axis& x, const Axis& y) {
-  const double x_step = step_of(x.high - x.low);
-  for (double value = std::ceil(x.low / x_step) * x_step; value <= x.high; value += x_step) {
-    cv::line(image, {x.at(value), y.first_px}, {x.at(value), y.last_px}, kGrid);
-    const std::string text = tick_text(value, x_step);
-    put_text(image, text, {x.at(value) - width_of(text) / 2, y.first_px + 17});
+std::vector<PlacedTick> ticks_on(const Axis& axis) {
+  std::vector<PlacedTick> placed;
+  for (Tick& tick : ticks_between(axis.low, axis.high, tick_step(axis.high - axis.low))) {
+    const int at_px = axis.at(tick.value);
+    placed.push_back({std::move(tick), at_px});
   }
-  const double y_step = step_of(y.high - y.low);
-  for (double value = std::ceil(y.low / y_step) * y_step; value <= y.high; value += y_step) {
-    cv::line(image, {x.first_px, y.at(value)}, {x.last_px, y.at(value)}, kGrid);
-    const std::string text = tick_text(value, y_step);
-    put_text(image, text, {x.first_px - width_of(text) - 8, y.at(value) + 5});
-  }
-  cv::rectangle(image, {x.first_px, y.last_px}, {x.last_px, y.first_px}, kInk);
+  return placed;
 }
 
 // Points in the same column of pixels are drawn from the least to the greatest.
@@ -132,16 +104,16 @@ cv::Mat drawn(const Panel& panel, int height_px) {
   Axis x = axis_of(panel.series, &Series::x, kLeft_px, kWidth_px - kRight_px);
   Axis y = axis_of(panel.series, &Series::y, height_px - kBottom_px, kTop_px);
   if (panel.same_scale) make_same_scale(x, y);
-  draw_grid(image, x, y);
-  put_text(image, panel.title, {kLeft_px, kTop_px - 10});
-  put_text(image, panel.x_title, {kWidth_px - kRight_px - width_of(panel.x_title), height_px - 8});
+  draw_axes(image, {x.first_px, y.last_px}, {x.last_px, y.first_px}, ticks_on(x), ticks_on(y), {.ink = kInk});
+  draw_text(image, panel.title, {kLeft_px, kTop_px - 10}, kInk);
+  draw_text_until(image, panel.x_title, {kWidth_px - kRight_px, height_px - 8}, kInk);
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const cv::Scalar& color = kColors[i % std::size(kColors)];
     draw_series(image, panel.series[i], x, y, color);
     const int row = kTop_px + 14 + 20 * static_cast<int>(i);
     cv::line(image, {kWidth_px - kRight_px + 10, row - 4}, {kWidth_px - kRight_px + 30, row - 4}, color, 2,
              cv::LINE_AA);
-    put_text(image, panel.series[i].label, {kWidth_px - kRight_px + 36, row});
+    draw_text(image, panel.series[i].label, {kWidth_px - kRight_px + 36, row}, kInk);
   }
   return image;
 }

@@ -32,6 +32,20 @@ enum class HorizonSide { below, on, above, unknown };
   return "unknown";
 }
 
+// How well an intruder stands out in one frame (truth/detectability.h).
+struct Detectability {
+  double weber_contrast = 0;   // (L - B) / B: mean luminance of its visible pixels and of the footage there and around
+  double rms_contrast = 0;     // root of the mean of (l - B)^2 over its visible pixels, by B
+  double signal_to_noise = 0;  // difference of the means of luma, by the standard deviation of luma in the footage
+};
+
+// What was done to an intruder's image in one frame.
+struct ImageFormation {
+  double blur_px = 0;                       // sigma of its Gaussian blur
+  double motion_blur_px = 0;                // length of its way in the image while the shutter is open
+  std::optional<double> visibility_m = {};  // at which haze leaves 5 % of the contrast; none: clear air
+};
+
 // The truth of one intruder in one frame. docs/annotation-format.md has the formula of each.
 struct IntruderTruth {
   int id = 0;
@@ -47,6 +61,8 @@ struct IntruderTruth {
   HorizonSide horizon = HorizonSide::unknown;  // above or below: all of it is
   double inside_fraction = 0;                  // of the whole silhouette's area: what lies in the image, hidden or not
   std::optional<GeodeticPosition> place = {};  // of the reference point; none where the world has no place on the Earth
+  std::optional<Detectability> detectability = {};  // none where no pixel shows it
+  ImageFormation image_formation = {};
 };
 
 // What the frames are counted in, and which of them a set of labels holds.

@@ -23,21 +23,45 @@ struct Sample {
 
 Sample sample(const std::string& name) {
   const std::filesystem::path folder = source_dir() / "assets/models" / name;
-  return {folder / (name + ".obj"), read_obj_text(folder / (name + ".obj")), read_mtl_text(folder / (name + ".mtl"))};
+  const ObjText obj = read_obj_text(folder / (name + ".obj"));
+  return {folder / (name + ".obj"), obj, read_mtl_text(folder / obj.mtllib)};
 }
+
+// The liveries in a folder of their own, which have the geometry of `airliner` and `light-aircraft`.
+const std::vector<std::string> kLiveries = {"airliner-grey", "airliner-dark", "light-aircraft-grey",
+                                            "light-aircraft-dark"};
 
 std::vector<Sample> samples() {
-  return {sample("airliner"), sample("light-aircraft")};
+  return {sample("airliner"), sample("light-aircraft"), sample("helicopter"), sample("quadcopter")};
 }
 
-std::pair<glm::dvec3, glm::dvec3> bounds(const ObjText& obj) {
+std::vector<Sample> samples_and_liveries() {
+  std::vector<Sample> all = samples();
+  for (const std::string& name : kLiveries) all.push_back(sample(name));
+  return all;
+}
+
+bool is_anything(const std::string&) {
+  return true;
+}
+
+// Over the faces whose material is asked for.
+template <class IsAskedFor>
+std::pair<glm::dvec3, glm::dvec3> bounds(const ObjText& obj, const IsAskedFor& is_asked_for) {
   glm::dvec3 low(1e9), high(-1e9);
-  for (const glm::dvec3& p : obj.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const ObjText::Face& face : obj.faces)
+    for (const int corner : face.position)
+      if (is_asked_for(face.material))
+        low = glm::min(low, obj.positions[corner - 1]), high = glm::max(high, obj.positions[corner - 1]);
   return {low, high};
 }
 
+std::pair<glm::dvec3, glm::dvec3> bounds_of(const ObjText& obj, const std::string& material) {
+  return bounds(obj, [&](const std::string& name) { return name == material; });
+}
+
 void check_extent(const ObjText& obj, const glm::dvec3& truth_m) {
-  const auto [low, high] = bounds(obj);
+  const auto [low, high] = bounds(obj, is_anything);
   // 2 %: aircraft of one class differ by more than that.
   for (int k = 0; k < 3; ++k) CHECK(high[k] - low[k] == doctest::Approx(truth_m[k]).epsilon(0.02));
 }
@@ -53,6 +77,36 @@ double uv_area(const ObjText& obj, const ObjText::Face& face) {
   return b.x * c.y - b.y * c.x;
 }
 
+bool is_blade(const std::string& material) {
+  return material.starts_with("blades_");
+}
+
+// Area of the blurred blades weighted with their opacity, of one layer.
+double blade_area_m2(const Sample& s, double low_x_m, double high_x_m) {
+  double area_m2 = 0;
+  for (const ObjText::Face& face : s.obj.faces) {
+    const double x_m = s.obj.positions[face.position[0] - 1].x;
+    if (!is_blade(face.material) || x_m < low_x_m || x_m > high_x_m) continue;
+    area_m2 += 0.5 * glm::length(winding_normal(s.obj, face)) * s.mtl.materials.at(face.material).opacity;
+  }
+  return area_m2;
+}
+
+double linear(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+// Median reflectance of the crown, which lies along the upper edge of the sides' image.
+double crown_reflectance(const Sample& s, const std::string& material) {
+  const std::filesystem::path path = s.obj_path.parent_path() / s.mtl.materials.at(material).texture;
+  const cv::Mat grey = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
+  REQUIRE_FALSE(grey.empty());
+  const cv::Mat crown = grey.rowRange(0, grey.rows / 10).clone();
+  std::vector<uchar> codes(crown.begin<uchar>(), crown.end<uchar>());
+  std::ranges::nth_element(codes, codes.begin() + static_cast<long>(codes.size() / 2));
+  return linear(codes[codes.size() / 2] / 255.0);
+}
+
 }  // namespace
 
 TEST_CASE("the airliner is as large as one of the 150 seat class with its gear up") {
@@ -63,13 +117,41 @@ TEST_CASE("the light aircraft is as large as a four seater on its gear") {
   check_extent(sample("light-aircraft").obj, {8.28, 11.0, 2.72});
 }
 
+TEST_CASE("the helicopter is as large as a light one with a single engine and three blades") {
+  const Sample helicopter = sample("helicopter");
+  const auto [low, high] = bounds(helicopter.obj, is_anything);
+  // 12.94 m over both rotors; a rotor of 10.69 m; 3.34 m to its hub's top; the coned, blurred tips lie higher.
+  CHECK(high.x - low.x == doctest::Approx(12.94).epsilon(0.03));
+  double radius_m = 0;
+  for (const ObjText::Face& face : helicopter.obj.faces)
+    for (const int corner : face.position)
+      if (is_blade(face.material) && helicopter.obj.positions[corner - 1].x > -5.4)
+        radius_m = std::max(radius_m,
+                            std::hypot(helicopter.obj.positions[corner - 1].x, helicopter.obj.positions[corner - 1].y));
+  CHECK(radius_m == doctest::Approx(10.69 / 2).epsilon(0.01));
+  const auto [skid_low, skid_high] = bounds_of(helicopter.obj, "skid");
+  const auto [hub_low, hub_high] = bounds_of(helicopter.obj, "metal");
+  CHECK(hub_high.z - skid_low.z == doctest::Approx(3.6).epsilon(0.05));
+}
+
+TEST_CASE("the quadcopter measures 0.35 m from motor to motor across its middle") {
+  const Sample quadcopter = sample("quadcopter");
+  const auto [low, high] = bounds_of(quadcopter.obj, "light_red");
+  const auto [rear_low, rear_high] = bounds_of(quadcopter.obj, "light_green");
+  const glm::dvec2 front_left(0.5 * (low.x + high.x), high.y), rear_right(0.5 * (rear_low.x + rear_high.x), rear_low.y);
+  // A lamp is 12 mm across and hangs below the middle of its motor.
+  CHECK(glm::distance(front_left, rear_right) == doctest::Approx(0.35).epsilon(0.04));
+}
+
 TEST_CASE("the models are symmetric and the origin lies between nose and tail") {
   for (const Sample& s : samples()) {
-    const auto [low, high] = bounds(s.obj);
-    CHECK(low.y == doctest::Approx(-high.y).epsilon(1e-4));  // the file has four decimals
-    // The centre of gravity lies in the front half; the nose is at +x.
+    const bool is_quadcopter = s.obj.mtllib == "quadcopter.mtl";
+    const auto [body_low, body_high] = bounds_of(s.obj, is_quadcopter ? "shell" : "fuselage");
+    CHECK(body_low.y == doctest::Approx(-body_high.y).epsilon(1e-4));  // the file has four decimals
+    const auto [low, high] = bounds(s.obj, is_anything);
+    // The centre of gravity lies in the front half; the nose is at +x. A quadcopter's lies in the middle.
     CHECK(high.x > 0.25 * (high.x - low.x));
-    CHECK(high.x < 0.5 * (high.x - low.x));
+    CHECK(high.x < (is_quadcopter ? 0.52 : 0.5) * (high.x - low.x));
     CHECK(low.z < 0);
     CHECK(high.z > 0);
   }
@@ -84,7 +166,7 @@ TEST_CASE("the models stay small") {
 }
 
 TEST_CASE("every index in the models refers to an existing element") {
-  for (const Sample& s : samples()) {
+  for (const Sample& s : samples_and_liveries()) {
     const auto within = [](const std::array<int, 3>& indices, std::size_t count) {
       return std::ranges::all_of(indices, [&](int i) { return i >= 1 && i <= static_cast<int>(count); });
     };
@@ -122,17 +204,18 @@ TEST_CASE("the models are watertight and wound outwards") {
       all += count;
       open += std::max(0, count - (back == edges.end() ? 0 : back->second));
     }
-    // Windows of the cabin's lining and the discs within the engines are open; hulls are not.
+    // Windows of the cabin's lining, blurred discs and those within the engines are open; hulls are not.
     CHECK(open < 0.03 * all);
     CHECK(volume_m3 > 0);
   }
 }
 
 TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
-  for (const Sample& s : samples()) {
+  for (const Sample& s : {sample("airliner"), sample("light-aircraft"), sample("helicopter")}) {
+    const bool has_painted_fin = !s.mtl.materials.at("fin").texture.empty();
     int left = 0, right = 0;
     for (const ObjText::Face& face : s.obj.faces) {
-      if (face.material != "fuselage" && face.material != "fin") continue;
+      if (face.material != "fuselage" && (face.material != "fin" || !has_painted_fin)) continue;
       const glm::dvec3 normal = glm::normalize(winding_normal(s.obj, face));
       const double area = uv_area(s.obj, face);
       if (std::abs(normal.y) < 0.5 || std::abs(area) < 1e-6) continue;  // nearly horizontal, or without area
@@ -146,18 +229,15 @@ TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
 }
 
 TEST_CASE("every texture of the models exists and is of moderate size") {
-  for (const Sample& s : samples()) {
-    int textured = 0;
+  for (const Sample& s : samples_and_liveries()) {
     for (const auto& [name, material] : s.mtl.materials) {
       if (material.texture.empty()) continue;
-      ++textured;
       const cv::Mat image = cv::imread((s.obj_path.parent_path() / material.texture).string(), cv::IMREAD_UNCHANGED);
       REQUIRE_FALSE(image.empty());
       CHECK(image.type() == CV_8UC3);
       CHECK(image.cols <= 1024);
       CHECK(image.rows <= 512);
     }
-    CHECK(textured >= 4);
     for (const glm::dvec2& uv : s.obj.uvs) REQUIRE((uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1));
   }
 }
@@ -166,6 +246,59 @@ TEST_CASE("the glass of the light aircraft lets a third of the light through") {
   const Sample light = sample("light-aircraft");
   CHECK(light.mtl.materials.at("glass").opacity == 0.35);
   CHECK(std::ranges::count(light.obj.faces, "glass", &ObjText::Face::material) > 50);
+}
+
+TEST_CASE("the liveries of a model share its geometry and its materials, and are white, grey and dark") {
+  for (const std::string name : {"airliner", "light-aircraft"}) {
+    const Sample white = sample(name), dull = sample(name + "-grey"), dark = sample(name + "-dark");
+    for (const Sample* s : {&dull, &dark}) {
+      CHECK(std::filesystem::equivalent(s->obj_path, white.obj_path));
+      CHECK(s->mtl.materials.size() == white.mtl.materials.size());
+      for (const auto& [material, unused] : white.mtl.materials) CHECK(s->mtl.materials.contains(material));
+    }
+    // White lacquer reflects 75 to 85 %, grey 40 to 50 %, dark 10 % at most.
+    CHECK(crown_reflectance(white, "fuselage") > 0.75);
+    CHECK(crown_reflectance(white, "fuselage") < 0.85);
+    CHECK(crown_reflectance(dull, "fuselage") > 0.38);
+    CHECK(crown_reflectance(dull, "fuselage") < 0.5);
+    CHECK(crown_reflectance(dark, "fuselage") < 0.1);
+  }
+}
+
+TEST_CASE("what every model has reflects as much as the real thing") {
+  for (const Sample& s : samples_and_liveries())
+    for (const auto& [name, material] : s.mtl.materials) {
+      if (!material.texture.empty()) continue;
+      const double reflectance = linear(material.diffuse.g);
+      CHECK(reflectance <= 1);
+      if (name == "tyre") CHECK(reflectance == doctest::Approx(0.05).epsilon(0.02));
+      if (name == "glass") CHECK(reflectance < 0.03);
+      if (name == "dark" || name == "glass" || is_blade(name)) CHECK(reflectance < 0.08);
+      // The renderer reflects a quarter: 4 % of glass and lacquer; blurred blades are no glass and have no highlight.
+      if (name == "glass") CHECK(material.specular == 0.16);
+      if (is_blade(name)) CHECK(material.specular == 0);
+    }
+}
+
+TEST_CASE("a blurred disc hides as much as its blades do") {
+  // Number of blades, their mean chord, from root to tip. Opacities come in steps of up to a factor of 1.28, so a ring
+  // is off by up to an eighth.
+  CHECK(blade_area_m2(sample("light-aircraft"), -9, 9) == doctest::Approx(2 * 0.135 * 0.79).epsilon(0.06));
+  CHECK(blade_area_m2(sample("quadcopter"), -9, 9) == doctest::Approx(4 * 2 * 0.019 * 0.107).epsilon(0.06));
+  const Sample helicopter = sample("helicopter");
+  CHECK(blade_area_m2(helicopter, -5.4, 9) == doctest::Approx(3 * 0.325 * 4.6).epsilon(0.06));
+  CHECK(blade_area_m2(helicopter, -9, -5.4) == doctest::Approx(2 * 0.18 * 0.79).epsilon(0.06));
+}
+
+TEST_CASE("the red light is on the left, the green one on the right") {
+  for (const std::string name : {"airliner", "light-aircraft", "helicopter"}) {
+    const ObjText obj = sample(name).obj;
+    const auto [red_low, red_high] = bounds_of(obj, "light_red");
+    const auto [green_low, green_high] = bounds_of(obj, "light_green");
+    CHECK(red_high.y > 1.2);  // +y: left
+    CHECK(red_low.y > -0.2);  // beacons are red as well
+    CHECK(green_high.y < -1.2);
+  }
 }
 
 }  // namespace sigs::test

@@ -43,9 +43,14 @@ MtlText read_mtl_text(const std::filesystem::path& path) {
     std::istringstream words(line);
     std::string tag;
     words >> tag;
-    if (tag == "newmtl") words >> name, mtl.materials[name] = {};
-    if (tag == "d") words >> mtl.materials[name].opacity;
-    if (tag == "map_Kd") words >> mtl.materials[name].texture;
+    if (tag.empty() || tag.starts_with('#')) continue;
+    if (tag == "newmtl") words >> name;
+    MtlText::Material& material = mtl.materials[name];
+    if (tag == "Kd") words >> material.diffuse.r >> material.diffuse.g >> material.diffuse.b;
+    if (tag == "Ks") words >> material.specular;
+    if (tag == "Ns") words >> material.shininess;
+    if (tag == "d") words >> material.opacity;
+    if (tag == "map_Kd") words >> material.texture;
   }
   return mtl;
 }

@@ -25,6 +25,9 @@ struct ObjText {
 
 struct MtlText {
   struct Material {
+    glm::dvec3 diffuse{1};  // display code values
+    double specular = 0;    // of red
+    double shininess = 1;
     double opacity = 1;
     std::string texture;
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -136,4 +137,30 @@ TEST_CASE("a project without a place on the Earth has no path on a globe") {
   CHECK(run.status == 78);
   CHECK(has(run.err, "geo"));
   CHECK_FALSE(std::filesystem::exists(tiny.file("e.kml")));
+}
+
+TEST_CASE("path says what is wrong with a broken project, be it a field, its version or its brackets") {
+  const TemporaryFolder folder;
+  const auto error_of = [&](const std::string& text) {
+    write_file(folder / "p.json", text);
+    const Run run = run_sigs("path " + (folder / "p.json").string());
+    CHECK(run.status == 78);
+    CHECK(has(run.err, "p.json: "));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    return run.err;
+  };
+  CHECK(has(error_of(R"({"sigs": 1, "footage": {"video": 3}})"), "footage.video: "));
+  CHECK(has(error_of(R"({"sigs": 1, "intruders": 5})"), "intruders: "));
+  CHECK(has(error_of(R"({"sigs": 7})"), "sigs: "));
+  CHECK(has(error_of(R"({"footage": {"video": "a.mp4"}})"), "sigs: missing"));
+  CHECK(has(error_of("{\"sigs\": 1,\n \"footage\": {\"video\" \"a.mp4\"}}"), "line 2, column "));
+  CHECK(has(error_of(R"({"sigs_dataset": 1})"), "recipe"));
+}
+
+TEST_CASE("JSON that is no project and no recorded path is told to be none of the known kinds") {
+  const TemporaryFolder folder;
+  write_file(folder / "a.json", R"({"temperature": 12})");
+  const Run run = run_sigs("path " + (folder / "a.json").string());
+  CHECK(run.status == 65);
+  CHECK(has(run.err, "of no known kind"));
 }

@@ -64,7 +64,65 @@ Eigen::Vector3d up_in_camera(const Eigen::Quaterniond& level_from_camera) {
   return level_from_camera.conjugate() * Eigen::Vector3d(0, 0, -1);
 }
 
+// Flat ground under haze: by Koschmieder the contrast at the angle t below the level is exp(-a / t) of all of it.
+std::function<double(const Eigen::Vector3d&)> hazy_ground(double a_rad) {
+  return [a_rad](const Eigen::Vector3d& ray) {
+    const double below_rad = std::asin(ray.z());
+    return below_rad > 0 ? kSky - 70 * std::exp(-a_rad / below_rad) : static_cast<double>(kSky);
+  };
+}
+
+// A skyline between the level and twice `mean_rad`.
+std::function<double(const Eigen::Vector3d&)> wavy_hills(double mean_rad, double waves_a_radian) {
+  return [=](const Eigen::Vector3d& ray) {
+    const double top_rad = mean_rad * (1 + std::sin(waves_a_radian * std::atan2(ray.y(), ray.x())));
+    return std::asin(-ray.z()) < top_rad ? kSea : kSky;
+  };
+}
+
+std::optional<Level> level_by(const HorizonLine& line) {
+  const std::vector<HorizonLine> lines(6, line);
+  return level_of(lines, std::vector(static_cast<std::size_t>(line.frame) + 1, Eigen::Quaterniond::Identity()));
+}
+
 }  // namespace
+
+TEST_CASE("haze lowers the edge by half of height over visual range, and the line says so") {
+  const Camera camera = view_camera(LensModel::kannala_brandt);
+  const Eigen::Quaterniond turn = level_from_camera(2, 1);
+  for (const double a_rad : {0.008, 0.014, 0.02}) {
+    const auto line = horizon_in(image_of(camera, turn, hazy_ground(a_rad)), 1, camera, {}, 0);
+    CAPTURE(a_rad);
+    REQUIRE(line);
+    const double off_rad = degrees_between(line->up, up_in_camera(turn)) * kDegree;
+    // 1.5 rows: filters over some rows move the steepest place of a profile that has a tail on one side.
+    CHECK(std::abs(off_rad - a_rad / 2) < 0.0036);
+    // Of the contrast exp(-a / 0.1) is in sight, 0.82 for the thickest haze; a width of some rows is known to one.
+    CHECK(line->haze_rad == doctest::Approx(a_rad / 2).epsilon(0.35));
+    const auto level = level_by(*line);
+    REQUIRE(level);
+    CHECK(level->sd_rad > line->haze_rad);
+    CHECK(off_rad < 2 * level->sd_rad);
+  }
+  const auto clear = horizon_in(image_of(camera, turn, sea_and_sky), 1, camera, {}, 0);
+  REQUIRE(clear);
+  CHECK(clear->haze_rad < 0.0012);  // half a row: the lens' blur
+  CHECK(clear->hills_rad < 0.0012);
+}
+
+TEST_CASE("low hills raise the line by their mean height, which the relief of the skyline tells") {
+  const Camera camera = view_camera(LensModel::kannala_brandt);
+  const Eigen::Quaterniond turn = level_from_camera(2, 1);
+  for (const double mean_rad : {0.001, 0.0015, 0.002}) {
+    const auto line = horizon_in(image_of(camera, turn, wavy_hills(mean_rad, 30)), 1, camera, {}, 0);
+    CAPTURE(mean_rad);
+    REQUIRE(line);
+    CHECK(std::abs(degrees_between(line->up, up_in_camera(turn)) * kDegree - mean_rad) < 0.0008);  // a third of a row
+    // A sine's deviation is its amplitude over sqrt(2); a third of a row of noise is added by the edges.
+    CHECK(std::abs(line->hills_rad - mean_rad * std::sqrt(1.5)) < 0.0008);
+    CHECK(level_by(*line).value().sd_rad > std::hypot(line->hills_rad, 0.3 * kDegree));  // and the dip
+  }
+}
 
 TEST_CASE("a sea's horizon is found to 0.1 degrees, whatever the roll, the pitch and the lens") {
   for (const LensModel model : {LensModel::brown_conrady, LensModel::kannala_brandt})

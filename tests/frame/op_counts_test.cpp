@@ -76,10 +76,10 @@ ComposedFrame made(const Ball& ball, cv::Size size_px = kSize) {
 }  // namespace
 
 TEST_CASE("operation counts add up field by field") {
-  const OpCounts one{1, 2, 3, 4, 5, 6, 7, 8};
-  OpCounts sum{10, 20, 30, 40, 50, 60, 70, 80};
+  const OpCounts one{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  OpCounts sum{10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110};
   sum += one;
-  CHECK(sum == OpCounts{11, 22, 33, 44, 55, 66, 77, 88});
+  CHECK(sum == OpCounts{11, 22, 33, 44, 55, 66, 77, 88, 99, 110, 121});
 }
 
 TEST_CASE("for an intruder out of view only its position is computed") {

@@ -43,7 +43,11 @@ Scene scene_of(const Sight& sight, Scenario& scenario) {
   write_calibration(scenario.path("lens.xml"), {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1}, lens.coefficients,
                     sight.size_px, lens.model == LensModel::kannala_brandt);
   scenario.project.footage.calibration = "lens.xml";
-  scenario.project.light = {.position_m = sight.light_m, .ambient = sight.ambient};
+  scenario.project.light = {.kind = sight.light,
+                            .position_m = sight.light_m,
+                            .ambient = sight.ambient,
+                            .sun = {sight.sun_azimuth_deg, sight.sun_elevation_deg},
+                            .exposure = 0.9};
   scenario.project.compositing.supersampling = sight.supersampling;
   IntruderSettings& intruder = scenario.add((source_dir() / "assets/models" / sight.model).string(), {500, 0, -150});
   intruder.model.up = "+z";
@@ -64,6 +68,12 @@ truth::Setup setup_of(const Scene& scene, const Sight& sight) {
           .light_in_camera = moment.light_in_camera,
           .light_color = scene.light.color,
           .ambient = scene.light.ambient,
+          .in_sun = scene.light.kind == LightKind::sun,
+          .to_sun_in_camera = moment.to_sun_in_camera,
+          .up_in_camera = {0, 0, -1},  // the camera is level
+          .sky_color = scene.light.sky_color,
+          .ground_color = scene.light.ground_color,
+          .exposure = scene.light.exposure,
           .lens = sight.lens,
           .size_px = sight.size_px,
           .sigma_px = sight.sigma_px,

@@ -27,6 +27,9 @@ struct Sight {
   glm::dvec3 heading{0.35, 0.9, -0.1};  // world; the camera's axes are the world's
   glm::dvec3 light_m{-2000, 1000, -3000};
   double ambient = 0.35;
+  LightKind light = LightKind::point;
+  double sun_azimuth_deg = 160;  // from world X, which is the camera's axis, to the right
+  double sun_elevation_deg = 40;
   bool half_hidden = false;  // the own body covers what lies right of the intruder's middle
 };
 

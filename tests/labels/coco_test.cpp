@@ -104,6 +104,8 @@ TEST_CASE("coco: an annotation has the box, mask and place of the intruder") {
   truth.attitude = {rad_of_deg(10), rad_of_deg(-20), rad_of_deg(170)};
   truth.amodal_box = Box{9.25, 19.5, 6, 2.5};
   truth.horizon = HorizonSide::above;
+  truth.detectability = Detectability{-0.5, 0.75, 12};
+  truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 2, .visibility_m = 1e4};
   const Json coco = coco_of(label_sequence(), frames_of({{truth}}));
   const Json annotation = coco["annotations"][0];
   CHECK(annotation["category_id"] == 2);
@@ -118,6 +120,12 @@ TEST_CASE("coco: an annotation has the box, mask and place of the intruder") {
   CHECK(annotation["position_m"] == Json({3000.0, -4000.0, 12000.0}));
   CHECK(annotation["attitude_deg"] == Json({{"roll", 10.0}, {"pitch", -20.0}, {"yaw", 170.0}}));
   CHECK(annotation["horizon"] == "above");
+  CHECK(annotation["weber_contrast"] == -0.5);
+  CHECK(annotation["rms_contrast"] == 0.75);
+  CHECK(annotation["signal_to_noise"] == 12.0);
+  CHECK(annotation["blur_px"] == 0.45);
+  CHECK(annotation["motion_blur_px"] == 2.0);
+  CHECK(annotation["visibility_m"] == 1e4);
   CHECK(annotation["amodal_bbox"] == Json({9.75, 20.0, 6.0, 2.5}));  // from the first pixel's corner, not its middle
   CHECK(annotation["segmentation"]["size"] == Json({48, 64}));
   CHECK(annotation["segmentation"]["counts"] == coco_counts(column_runs(truth.visible, {10, 20, 3, 2}, {64, 48})));

@@ -62,6 +62,8 @@ IntruderTruth full(int id) {
   truth.attitude = {rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)};
   truth.visible_fraction = 2.0 / 3;
   truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
+  truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
+  truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
   return truth;
 }
 
@@ -106,8 +108,11 @@ TEST_CASE("every number of the XML file is in the CSV file, character by charact
       compare(intruder.child("box"), name.c_str(), "box_" + name + "_px");
       compare(intruder.child("silhouette"), name.c_str(), "silhouette_" + name + "_px");
     }
+    for (const char* name :
+         {"weber_contrast", "rms_contrast", "signal_to_noise", "blur_px", "motion_blur_px", "visibility_m"})
+      compare(intruder.child("appearance"), name, name);
   }
-  CHECK(compared == 2 * 29);
+  CHECK(compared == 2 * 35);
 }
 
 TEST_CASE("a CSV row is complete in itself: it names its clip") {

@@ -97,6 +97,24 @@ TEST_CASE("a frame read back has the values that were written") {
   check_number(camera, "yaw_deg", 30, kHalfMicro);
 }
 
+TEST_CASE("how an intruder stands out is written where it can be seen, the visibility only in haze") {
+  FrameTruth truth = some_frame();
+  CHECK_FALSE(parsed(xml_of(truth)).child("frame").child("intruder").child("appearance"));
+  truth.intruders[0].detectability = Detectability{-0.4123456789, 0.447, 7.25};
+  truth.intruders[0].image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5};
+  const pugi::xml_document clear = parsed(xml_of(truth));
+  const pugi::xml_node appearance = clear.child("frame").child("intruder").child("appearance");
+  check_number(appearance, "weber_contrast", -0.4123456789, kHalfMicro);
+  check_number(appearance, "rms_contrast", 0.447, kHalfMicro);
+  check_number(appearance, "signal_to_noise", 7.25, kHalfMicro);
+  check_number(appearance, "blur_px", 0.45, kHalfMicro);
+  check_number(appearance, "motion_blur_px", 1.5, kHalfMicro);
+  CHECK_FALSE(appearance.attribute("visibility_m"));
+  truth.intruders[0].image_formation.visibility_m = 20000;
+  const pugi::xml_document hazy = parsed(xml_of(truth));
+  check_number(hazy.child("frame").child("intruder").child("appearance"), "visibility_m", 20000, kHalfMicro);
+}
+
 TEST_CASE("an intruder read back has the values that were written") {
   const pugi::xml_document document = parsed(xml_of(some_frame()));
   const pugi::xml_node intruder = document.child("frame").child("intruder");

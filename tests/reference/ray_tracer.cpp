@@ -9,10 +9,18 @@ namespace {
 
 Lighting lighting_of(const Setup& setup) {
   const Pose<frame::Body, frame::Camera> body_from_camera = inverse(setup.camera_from_body);
-  return {.lamp_m = body_from_camera * setup.light_in_camera,
-          .eye_m = body_from_camera.translation_m,
-          .color = setup.light_color,
-          .ambient = std::clamp(setup.ambient, 0.0, 1.0)};
+  Lighting lighting{.lamp_m = body_from_camera * setup.light_in_camera,
+                    .eye_m = body_from_camera.translation_m,
+                    .color = setup.light_color,
+                    .ambient = std::clamp(setup.ambient, 0.0, 1.0)};
+  if (!setup.in_sun) return lighting;
+  lighting.is_sun = true;
+  lighting.color *= setup.exposure;
+  lighting.to_sun = body_from_camera.rotation * glm::normalize(setup.to_sun_in_camera);
+  lighting.up = body_from_camera.rotation * glm::normalize(setup.up_in_camera);
+  lighting.sky = setup.sky_color * setup.exposure;
+  lighting.ground = setup.ground_color * setup.exposure;
+  return lighting;
 }
 
 // Follows the lens' inverse from one ray to the next, which lies close by.
@@ -58,7 +66,8 @@ RayTracer::RayTracer(const Setup& setup)
       eye_in_body_m_(inverse(setup.camera_from_body).translation_m),
       lens_(setup.lens),
       body_(*setup.mesh),
-      shader_(*setup.mesh, lighting_of(setup)) {}
+      lighting_(lighting_of(setup)),
+      shader_(*setup.mesh, lighting_) {}
 
 std::vector<RayHit> RayTracer::row(const FineGrid& grid, int j) const {
   std::vector<RayHit> ray_hits(static_cast<std::size_t>(grid.count_x));
@@ -95,8 +104,26 @@ glm::dvec4 RayTracer::color_at(const Crossing& crossing, const glm::dvec3& ray_i
     point.normal += crossing.weights[k] * glm::dvec3(vertex.normal);
     point.uv += crossing.weights[k] * glm::dvec2(vertex.uv);
   }
-  point.is_front = glm::dot(glm::cross(corners[1] - corners[0], corners[2] - corners[0]), ray_in_body) < 0;
+  const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  point.is_front = glm::dot(across, ray_in_body) < 0;
+  if (!lighting_.is_sun) return shader_.shade(point);
+  point.facet = glm::normalize(point.is_front ? across : -across);
+  point.is_in_shadow = is_in_shadow(point, crossing.triangle);
   return shader_.shade(point);
+}
+
+bool RayTracer::is_in_shadow(const SurfacePoint& point, std::uint32_t triangle) const {
+  if (!(glm::dot(point.facet, lighting_.to_sun) > 0)) return true;
+  const double step_m = 1e-5 * body_.radius_m();  // off the surface: Embree's rays begin at floats
+  std::vector<Crossing> crossings;
+  body_.cross(point.p_m + step_m * point.facet, lighting_.to_sun, crossings);
+  return std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& one) {
+    if (one.triangle == triangle) return false;
+    const Triangle& hit = body_.triangle(one.triangle);
+    glm::dvec2 uv(0);
+    for (int k = 0; k < 3; ++k) uv += one.weights[k] * glm::dvec2(mesh_->vertices[hit.corners[k]].uv);
+    return shader_.stops_sun(hit.material, uv);
+  });
 }
 
 std::optional<glm::dvec2> RayTracer::image_of(const glm::dvec3& p_in_body) const {

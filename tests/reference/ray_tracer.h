@@ -42,6 +42,8 @@ class RayTracer {
  private:
   [[nodiscard]] RayHit ray_hit_along(const glm::dvec3& ray_in_camera, std::vector<Crossing>& scratch) const;
   [[nodiscard]] glm::dvec4 color_at(const Crossing& crossing, const glm::dvec3& ray_in_body) const;
+  // Whether the body keeps the sun from a place on the surface, which is on a triangle.
+  [[nodiscard]] bool is_in_shadow(const SurfacePoint& point, std::uint32_t triangle) const;
   [[nodiscard]] std::optional<glm::dvec2> image_of(const glm::dvec3& p_in_body) const;
   void add_edge(Outline& outline, std::uint32_t from, std::uint32_t to,
                 const std::vector<std::optional<glm::dvec2>>& images) const;
@@ -51,6 +53,7 @@ class RayTracer {
   glm::dvec3 eye_in_body_m_;
   ExactLens<double> lens_;
   TracedBody body_;
+  Lighting lighting_;
   Shader shader_;
 };
 

@@ -21,6 +21,12 @@ struct Setup {
   glm::dvec3 light_in_camera{0, 0, 0};  // metres
   glm::dvec3 light_color{1, 1, 1};
   double ambient = 0.35;
+  bool in_sun = false;  // light_color is then the sun's, and there are sky and ground instead of ambient light
+  glm::dvec3 to_sun_in_camera{0, 0, -1};
+  glm::dvec3 up_in_camera{0, 0, -1};
+  glm::dvec3 sky_color{0, 0, 0};
+  glm::dvec3 ground_color{0, 0, 0};
+  double exposure = 1;
   LensParameters lens;
   cv::Size size_px;     // of the image
   double sigma_px = 0;  // of the lens' blur

@@ -109,6 +109,69 @@ TEST_CASE("light that falls at 60 degrees gives half of the direct light") {
   CHECK(color_at(reference_image(setup), 160, 120)[1] == doctest::Approx(0.2 + 0.8 * 0.5).epsilon(1e-6));
 }
 
+TEST_CASE("a face in the sun has the light of sun, sky and ground, each by its cosine") {
+  const Mesh mesh = square(painted({1, 1, 1}), 2);
+  Setup setup = setup_for(mesh, {40, 0, 0}, kFocal_px, kSize);
+  setup.in_sun = true;
+  setup.light_color = {1, 0.5, 0.25};
+  setup.exposure = 0.5;
+  setup.to_sun_in_camera = {-0.5, std::sqrt(0.75), 0};
+  setup.sky_color = {0.4, 0, 0.2};
+  setup.ground_color = {0.1, 0.1, 0};
+  const cv::Vec4d upright = color_at(reference_image(setup), 160, 120);
+  // Upright it sees sky and ground alike.
+  CHECK(upright[0] == doctest::Approx(0.5 * (0.5 + 0.25)).epsilon(1e-6));
+  CHECK(upright[1] == doctest::Approx(0.5 * (0.25 + 0.05)).epsilon(1e-6));
+  CHECK(upright[2] == doctest::Approx(0.5 * (0.125 + 0.1)).epsilon(1e-6));
+  setup.to_sun_in_camera = {1, 0.1, 0};  // behind it
+  setup.up_in_camera = {-1, 0, 0};       // the camera looks down
+  CHECK(color_at(reference_image(setup), 160, 120)[0] == doctest::Approx(0.5 * 0.4).epsilon(1e-6));
+}
+
+TEST_CASE("a square before a wall shades the part of it that the sun's rays through the square meet") {
+  Mesh mesh;
+  add_square(mesh, painted({1, 1, 1}), 0, {0, 0}, 8);
+  add_square(mesh, painted({1, 1, 1}), -1, {-2, 0}, 1);  // 1 m before the wall, to the left
+  Setup setup = setup_for(mesh, {40, 0, 0}, kFocal_px, kSize);
+  setup.in_sun = true;
+  setup.to_sun_in_camera = {-1, -2, 0};  // on the way from the wall to the plate's plane it goes 2 m to the left
+  const ReferenceImage truth = reference_image(setup);
+  // The shadow is the square -0.5 .. 0.5 of the wall, 3.75 pixels either way; black, as there is no sky.
+  const double lit = 1 / std::sqrt(5.0);
+  CHECK(color_at(truth, 160, 120)[0] == 0);
+  CHECK(color_at(truth, 162, 122)[0] == 0);
+  for (const int x : {154, 166}) CHECK(color_at(truth, x, 120)[0] == doctest::Approx(lit).epsilon(1e-6));
+  for (const int y : {114, 126}) CHECK(color_at(truth, 160, y)[0] == doctest::Approx(lit).epsilon(1e-6));
+  // Its area, by the light that is missing.
+  double missing = 0;
+  for (int y = 112; y <= 128; ++y)
+    for (int x = 152; x <= 168; ++x) missing += lit - color_at(truth, x, y)[0];
+  CHECK(missing / lit == doctest::Approx(7.5 * 7.5).epsilon(0.01));
+}
+
+TEST_CASE("a pane mirrors more the flatter it is looked at, as Fresnel's equations say") {
+  Material glass = painted({0, 0, 0}, 0.2F);
+  glass.specular = {0.5F, 0.5F, 0.5F};
+  const Mesh mesh = square(glass, 2);
+  Setup setup = setup_for(mesh, {40, 0, 0}, kFocal_px, kSize);
+  setup.in_sun = true;
+  setup.light_color = {0, 0, 0};
+  setup.sky_color = setup.ground_color = {1, 1, 1};
+  double last = 0;
+  for (const double angle_deg : {0.0, 40.0, 60.0, 75.0}) {
+    const double angle = angle_deg * std::numbers::pi / 180;
+    setup.camera_from_body.rotation = glm::angleAxis(angle, glm::dvec3(0, 0, 1));
+    const double mirrored = color_at(reference_image(setup), 160, 120)[0];
+    // Fresnel's equations for unpolarised light and n = 1.5; Schlick's approximation is within 0.03 of them.
+    const double inner = std::sqrt(1 - std::pow(std::sin(angle) / 1.5, 2));
+    const double s = (std::cos(angle) - 1.5 * inner) / (std::cos(angle) + 1.5 * inner);
+    const double p = (1.5 * std::cos(angle) - inner) / (1.5 * std::cos(angle) + inner);
+    CHECK(std::abs(mirrored - (s * s + p * p) / 2) < 0.03);
+    CHECK(mirrored > last);
+    last = mirrored;
+  }
+}
+
 TEST_CASE("blur adds its variance and keeps the energy") {
   const Mesh mesh = square(painted({1, 1, 1}), 2);
   Setup setup = setup_for(mesh, {40, 0.13, 0}, kFocal_px, kSize);

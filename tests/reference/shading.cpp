@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "reference/transfer.h"
 
@@ -82,12 +83,67 @@ Shader::Shader(const Mesh& mesh, const Lighting& lighting) : lighting_(lighting)
   }
 }
 
+bool Shader::stops_sun(int material, const glm::dvec2& uv) const {
+  const ShadedMaterial& paint = materials_[static_cast<std::size_t>(material)];
+  if (paint.opacity < 1) return false;
+  return paint.texture.empty() || texture_at(paint.texture, uv).a >= 0.5;
+}
+
+namespace {
+
+// Schlick 1994, between reflectance at straight incidence and at a grazing angle.
+double fresnel(double straight, double grazing, double cosine) {
+  const double rest = 1 - std::clamp(cosine, 0.0, 1.0);
+  return straight + (grazing - straight) * rest * rest * rest * rest * rest;
+}
+
+// Unlike the sky, the strip at the horizon 6 degrees either way is of both colours.
+glm::dvec3 mirrored(const Lighting& lighting, const glm::dvec3& direction) {
+  const double s = std::clamp(5 * glm::dot(direction, lighting.up) + 0.5, 0.0, 1.0);
+  return lighting.ground + (lighting.sky - lighting.ground) * (s * s * (3 - 2 * s));
+}
+
+}  // namespace
+
+glm::dvec4 Shader::in_sun(const SurfacePoint& point, const ShadedMaterial& paint, const glm::dvec4& texture) const {
+  constexpr double kPi = std::numbers::pi;
+  const Lighting& l = lighting_;
+  const bool is_glass = paint.opacity < 1;
+  const glm::dvec3 to_eye = unit_or(l.eye_m - point.p_m, {0, 0, -1});
+  glm::dvec3 n = unit_or(point.normal, point.facet);
+  if (glm::dot(n, point.facet) < 0) n = -n;
+
+  glm::dvec3 straight = paint.specular * kGloss;
+  if (is_glass) straight = glm::min(straight, glm::dvec3(0.04));
+  const double grazing = std::min(1.0, 50 * std::max({straight.x, straight.y, straight.z}));
+
+  // Irradiance of the sun over pi, so that 1 makes a white surface white.
+  const double cosine = point.is_in_shadow ? 0 : std::max(0.0, glm::dot(n, l.to_sun));
+  const glm::dvec3 half = unit_or(l.to_sun + to_eye, n);
+  const double lobe = (paint.shininess + 8) / (8 * kPi) * std::pow(std::max(0.0, glm::dot(n, half)), paint.shininess);
+  const double half_angle = (1 + glm::dot(n, l.up)) / 2;
+  glm::dvec3 matt(0), gloss(0);
+  double mirror = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double albedo = paint.diffuse[c] * texture[c];
+    const double from_sky = l.sky[c] * half_angle + l.ground[c] * (1 - half_angle);
+    matt[c] = albedo * from_sky + (1 - straight[c]) * albedo / kPi * (l.color[c] * kPi * cosine);
+    gloss[c] = fresnel(straight[c], grazing, glm::dot(l.to_sun, half)) * lobe * (l.color[c] * kPi * cosine);
+    if (is_glass) mirror += fresnel(straight[c], grazing, glm::dot(n, to_eye)) / 3;
+  }
+  const glm::dvec3 seen = 2 * glm::dot(n, to_eye) * n - to_eye;
+  const glm::dvec3 from_surface = gloss + mirror * mirrored(l, seen);
+  return {(1 - mirror) * paint.opacity * matt + texture.a * from_surface,
+          texture.a * (1 - (1 - mirror) * (1 - paint.opacity))};
+}
+
 glm::dvec4 Shader::shade(const SurfacePoint& point) const {
   const ShadedMaterial& paint = materials_[static_cast<std::size_t>(point.material)];
   const glm::dvec4 texture = paint.texture.empty() ? glm::dvec4(1) : texture_at(paint.texture, point.uv);
   const double opacity = texture.a * paint.opacity;
   if (opacity < kSeen) return glm::dvec4(0);
 
+  if (lighting_.is_sun) return in_sun(point, paint, texture);
   const glm::dvec3 to_eye = unit_or(lighting_.eye_m - point.p_m, {0, 0, -1});
   const glm::dvec3 outside = unit_or(point.normal, point.is_front ? to_eye : -to_eye);
   const glm::dvec3 n = point.is_front ? outside : -outside;

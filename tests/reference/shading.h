@@ -18,7 +18,12 @@ struct Lighting {
   glm::dvec3 lamp_m;
   glm::dvec3 eye_m;
   glm::dvec3 color;
-  double ambient = 0;  // 0..1
+  double ambient = 0;           // 0..1
+  bool is_sun = false;          // then lamp_m and ambient have no meaning, and color is that of the sun
+  glm::dvec3 to_sun{0, 0, -1};  // unit vector
+  glm::dvec3 up{0, 0, -1};      // unit vector, to the zenith
+  glm::dvec3 sky{0, 0, 0};
+  glm::dvec3 ground{0, 0, 0};
 };
 
 // A place on the body's surface.
@@ -28,9 +33,12 @@ struct SurfacePoint {
   bool is_front = true;  // the triangle's corners run counter-clockwise as the ray sees them
   glm::dvec2 uv;         // OBJ's
   int material = 0;
+  glm::dvec3 facet{0, 0, 0};  // unit normal of the triangle, towards where the ray comes from
+  bool is_in_shadow = false;  // of the body itself, in the sun
 };
 
-// The shading model of assets/shaders/intruder.frag, in doubles: Lambert and Blinn-Phong in linear light. Images are
+// The shading model of assets/shaders/intruder.frag, in doubles: Lambert and Blinn-Phong in linear light; in the sun
+// the radiance of a surface by its reflectance (BRDF), which docs/how-a-frame-is-made.md describes. Images are
 // read by bilinear interpolation of premultiplied linear light at full size; many rays a pixel do the rest.
 class Shader {
  public:
@@ -38,6 +46,9 @@ class Shader {
 
   // Red, green, blue, opacity: premultiplied, linear. All 0 where light passes as if nothing were there.
   [[nodiscard]] glm::dvec4 shade(const SurfacePoint& point) const;
+
+  // Whether the sun's light is stopped by this place of the surface: not by glass, nor where an image is mostly clear.
+  [[nodiscard]] bool stops_sun(int material, const glm::dvec2& uv) const;
 
  private:
   struct ShadedMaterial {
@@ -47,6 +58,9 @@ class Shader {
     double opacity;
     cv::Mat texture;  // CV_32FC4, premultiplied, linear; empty: white
   };
+
+  [[nodiscard]] glm::dvec4 in_sun(const SurfacePoint& point, const ShadedMaterial& paint,
+                                  const glm::dvec4& texture) const;
 
   Lighting lighting_;
   std::vector<ShadedMaterial> materials_;

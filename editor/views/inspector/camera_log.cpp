@@ -81,7 +81,8 @@ std::string place_text(const Scene& scene) {
 
 void draw_camera(const ViewContext& context, FieldRows& rows) {
   for (const Field& field : rows.sheet().fields())
-    if (field.key.starts_with("camera.") && !field.key.starts_with("camera.track.") && field.key != "camera.readout_s")
+    if (field.key.starts_with("camera.") && !field.key.starts_with("camera.track.") &&
+        field.key != "camera.readout_s" && field.key != "camera.exposure_s")
       rows.row(field.key, look_of_camera(context, field));
   if (is_turned_by_file(context)) return;
   ImGui::Spacing();
@@ -101,6 +102,7 @@ void draw_camera_log(const ViewContext& context, FieldRows& rows) {
   };
   rows.rows("camera.track.", look_of);
   rows.row("camera.readout_s");
+  rows.row("camera.exposure_s");
   const double time_s = time_of(context, context.document.playhead());
   if (const Scene* const scene = scene_of(context))
     for (const std::string& line : lines_of_motion(scene->motion, time_s)) note(line);

@@ -95,15 +95,17 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
 }  // namespace
 
 std::string block_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 9> kBlocks{{{"footage.", "Inputs"},
-                                                                             {"camera.track.", kCameraLogBlock},
-                                                                             {"camera.readout_s", kCameraLogBlock},
-                                                                             {"geo.", kPlaceBlock},
-                                                                             {"own_body.", "Own body"},
-                                                                             {"camera.", "Camera"},
-                                                                             {"light.", "Light"},
-                                                                             {"compositing.", "Compositing"},
-                                                                             {"export.", "Export"}}};
+  constexpr std::array<std::pair<std::string_view, const char*>, 11> kBlocks{{{"footage.", "Inputs"},
+                                                                              {"camera.track.", kCameraLogBlock},
+                                                                              {"camera.readout_s", kCameraLogBlock},
+                                                                              {"camera.exposure_s", kCameraLogBlock},
+                                                                              {"geo.", kPlaceBlock},
+                                                                              {"own_body.", "Own body"},
+                                                                              {"camera.", "Camera"},
+                                                                              {"light.", "Light"},
+                                                                              {"appearance.", "Appearance"},
+                                                                              {"compositing.", "Compositing"},
+                                                                              {"export.", "Export"}}};
   for (const auto& [prefix, block] : kBlocks)
     if (key.starts_with(prefix)) return block;
   if (!key.starts_with("intruders[")) return "";

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "base/pose.h"
 #include "base/text.h"
@@ -23,6 +24,7 @@
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "scene/scene_at.h"
+#include "scene/scene_light.h"
 
 namespace sigs::editor {
 
@@ -117,12 +119,38 @@ void LightBlock::draw_presets(const ViewContext& context, const Viewpoint& viewp
   }
 }
 
+namespace {
+
+constexpr std::array<const char*, 4> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient"};
+constexpr std::array<const char*, 7> kSunKeys{"light.kind",    "light.sun.azimuth_deg", "light.sun.elevation_deg",
+                                              "light.color",   "light.sky_color",       "light.ground_color",
+                                              "light.exposure"};
+
+RowOptions look_of_light(std::string_view key) {
+  RowOptions look;
+  look.is_color = key.ends_with("color");
+  return look;
+}
+
+// Where the sun stands in the playhead's frame, wherever that comes from.
+void note_sun(const ViewContext& context) {
+  const OpenedScene* const opened = context.shown.scene.get();
+  if (opened == nullptr || opened->draft.scene.light.kind != LightKind::sun) return;
+  const Sunlight sun = sunlight_at(opened->draft.scene, time_of(context, context.document.playhead()));
+  const double bearing_deg = deg_of_rad(std::atan2(sun.to_sun.y, sun.to_sun.x));
+  const double elevation_deg = deg_of_rad(std::asin(std::clamp(-sun.to_sun.z, -1.0, 1.0)));
+  note(fmt::format("In the playhead's frame the sun stands {:.1f} deg from world X to the right, {:.1f} deg high{}",
+                   bearing_deg, elevation_deg, sun.visible_share > 0 ? "." : ": it has set."));
+}
+
+}  // namespace
+
 void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
-  rows.rows("light.", [](const Field& field) {
-    RowOptions look;
-    look.is_color = field.key == "light.color";
-    return look;
-  });
+  if (context.project().light.kind == LightKind::sun) {
+    for (const char* const key : kSunKeys) rows.row(key, look_of_light(key));
+    return note_sun(context);
+  }
+  for (const char* const key : kPointKeys) rows.row(key, look_of_light(key));
   ImGui::Spacing();
   note("As seen from the camera");
   const Viewpoint viewpoint = viewpoint_of(context);

@@ -8,7 +8,8 @@
 
 namespace sigs::editor {
 
-// The light's fields, and its bearing, elevation and distance from the camera in the playhead's frame, with presets.
+// The fields of the kind of light that the project has; of the point light also its bearing, elevation and distance
+// from the camera in the playhead's frame, with presets.
 class LightBlock {
  public:
   void draw(const ViewContext& context, FieldRows& rows);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "editor/views/timeline/deviation_band.h"
+#include "editor/views/timeline/lane_names.h"
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/ruler.h"
 #include "editor/views/timeline/visibility_strip.h"
@@ -239,32 +240,12 @@ constexpr double kMinCurve_px = 29;
 constexpr double kMaxCurve_px = 96;
 constexpr float kErrorsShare = 1.7F;  // of a curve's height: several curves, and bars below them
 
-float line_height() {
-  return font(Font::small)->FontSize;
-}
-
 float strip_height() {
-  return std::ceil(line_height() + scaled(5));
+  return std::ceil(font(Font::small)->FontSize + scaled(5));
 }
 
-// Title and value in one line; below, where there is room, what the values come to.
-void draw_lane_names(const TimelineStrip& strip, const char* title, ImVec2 low, float height, const std::string& value,
-                     const std::string& extent) {
-  ImGui::PushFont(font(Font::small));
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float right = strip.names_x + strip.names_width - scaled(8);
-  const bool two_lines = !extent.empty() && height >= 2 * line_height() + scaled(2);
-  const float text_height = line_height() * (two_lines ? 2 : 1);
-  const float y = std::floor(low.y + std::min((height - text_height) / 2, scaled(4)));
-  const float value_width = ImGui::CalcTextSize(value.c_str()).x;
-  const std::string shown_title = elided(title, right - value_width - strip.names_x - scaled(8));
-  list.AddText({strip.names_x + scaled(2), y}, color::kQuiet, shown_title.c_str());
-  list.AddText({right - value_width, y}, color::kText, value.c_str());
-  if (two_lines) {
-    const std::string shown = elided(extent, right - strip.names_x);
-    list.AddText({strip.names_x + scaled(2), y + line_height()}, faded(color::kQuiet, 0.75), shown.c_str());
-  }
-  ImGui::PopFont();
+LaneGroup group_of(Lane lane) {
+  return is_of_camera(lane) ? LaneGroup::camera : LaneGroup::intruder;
 }
 
 std::string extent_text(Lane lane, const LaneValues& values) {
@@ -289,7 +270,7 @@ void LaneRows::refresh(std::shared_ptr<const Survey> survey) {
 }
 
 bool LaneRows::shows_errors(const ViewContext& context) const {
-  return shows_errors_ && ErrorLane::has_any(context);
+  return shows_errors_ && ErrorLane::has_any(context) && !(camera_turns_ && groups_.is_folded(LaneGroup::intruder));
 }
 
 void LaneRows::draw_chooser(const ViewContext& context) {
@@ -307,12 +288,13 @@ void LaneRows::draw_chooser(const ViewContext& context) {
 }
 
 bool LaneRows::is_drawn(const LaneState& lane) const {
-  return lane.is_shown && (camera_turns_ || !is_of_camera(lane.style.lane));
+  if (!camera_turns_) return lane.is_shown && !is_of_camera(lane.style.lane);
+  return lane.is_shown && !groups_.is_folded(group_of(lane.style.lane));
 }
 
 float LaneRows::curve_height(float room_px, bool with_errors) const {
   float shares = with_errors ? kErrorsShare : 0;
-  float for_curves = room_px;
+  float for_curves = room_px - (camera_turns_ ? kLaneGroups * LaneGroups::height() : 0);
   for (const LaneState& lane : lanes_) {
     if (!is_drawn(lane)) continue;
     if (lane.style.kind == LaneKind::strip)
@@ -361,6 +343,31 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
   draw_row_line(list, row.strip, high.y - 1);
 }
 
+float LaneRows::height_of(LaneGroup group, float curve, bool with_errors) const {
+  float height = with_errors && group == LaneGroup::intruder ? std::floor(curve * kErrorsShare) : 0;
+  for (const LaneState& lane : lanes_)
+    if (is_drawn(lane) && group_of(lane.style.lane) == group)
+      height += lane.style.kind == LaneKind::strip ? strip_height() : curve;
+  return height;
+}
+
+void LaneRows::draw_group(const ViewContext& context, const TimelineStrip& strip, LaneGroup group, float y, float curve,
+                          RulerRow& ruler) {
+  if (group == LaneGroup::intruder && shows_errors(context)) {
+    const float height = std::floor(curve * kErrorsShare);
+    errors_.draw(context, strip, y, height, ruler);
+    y += height;
+  }
+  for (const LaneState& lane : lanes_) {
+    if (!is_drawn(lane) || group_of(lane.style.lane) != group) continue;
+    const float height = lane.style.kind == LaneKind::strip ? strip_height() : curve;
+    ImGui::PushID(lane.style.title);
+    draw_lane(context, {.strip = strip, .lane = lane, .top_y = y, .height = height}, ruler);
+    ImGui::PopID();
+    y += height;
+  }
+}
+
 void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler) {
   // While the log is shifted, so far that it covers no frame, its lanes stay under the mouse.
   const bool turns = context.shown.scene && !context.shown.scene->draft.scene.motion.turns.empty();
@@ -372,21 +379,14 @@ void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, floa
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const bool with_errors = shows_errors(context);
   const float curve = curve_height(room_px, with_errors);
-  float y = start.y;
-  if (with_errors) {
-    const float height = std::floor(curve * kErrorsShare);
-    errors_.draw(context, strip, y, height, ruler);
-    y += height;
-  }
-  for (const LaneState& lane : lanes_) {
-    if (!is_drawn(lane)) continue;
-    const float height = lane.style.kind == LaneKind::strip ? strip_height() : curve;
-    ImGui::PushID(lane.style.title);
-    draw_lane(context, {.strip = strip, .lane = lane, .top_y = y, .height = height}, ruler);
-    ImGui::PopID();
-    y += height;
-  }
-  ImGui::SetCursorScreenPos({start.x, y});
+  const float header = camera_turns_ ? LaneGroups::height() : 0;
+  const float camera_y = start.y + header + height_of(LaneGroup::intruder, curve, with_errors);
+  const float end_y = camera_y + header + height_of(LaneGroup::camera, curve, with_errors);
+  if (camera_turns_) groups_.update(context, strip, {start.y, camera_y}, end_y);
+  draw_group(context, strip, LaneGroup::intruder, start.y + header, curve, ruler);
+  draw_group(context, strip, LaneGroup::camera, camera_y + header, curve, ruler);
+  if (camera_turns_) groups_.draw(strip);
+  ImGui::SetCursorScreenPos({start.x, end_y});
 }
 
 }  // namespace sigs::editor

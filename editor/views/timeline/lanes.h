@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "editor/views/timeline/error_lane.h"
+#include "editor/views/timeline/lane_groups.h"
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/offset_drag.h"
 #include "editor/views/timeline/ruler.h"
@@ -12,7 +13,8 @@
 namespace sigs::editor {
 
 // How far the current intruder is, how large it looks, what hides it and how it flies, frame by frame; above that how
-// well trackers follow it, where their results are loaded, and below how the camera turns, where a file turns it.
+// well trackers follow it, where their results are loaded, and below how the camera turns, where a file turns it: then
+// both groups have a header, which is always in sight.
 // Pressing or dragging on a lane moves the playhead; with Alt on a lane of the camera it shifts the log in time.
 class LaneRows {
  public:
@@ -39,16 +41,21 @@ class LaneRows {
   // Takes the values of another survey; null: none is known.
   void refresh(std::shared_ptr<const Survey> survey);
   [[nodiscard]] bool shows_errors(const ViewContext& context) const;
-  // Of one curve, in screen pixels.
+  // Of one curve, in screen pixels; with room for all lanes that are drawn, folded groups left out.
   [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
-  // Hidden are those that are not ticked, and those of a camera that nothing turns.
+  // Hidden are those that are not ticked, of a folded group, and of a camera that nothing turns.
   [[nodiscard]] bool is_drawn(const LaneState& lane) const;
+  // Those of one group from y downwards.
+  void draw_group(const ViewContext& context, const TimelineStrip& strip, LaneGroup group, float y, float curve,
+                  RulerRow& ruler);
+  [[nodiscard]] float height_of(LaneGroup group, float curve, bool with_errors) const;
   void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler);
 
   std::vector<LaneState> lanes_;  // one for each of lane_styles(), in its order
   bool shows_errors_ = true;      // where there are any
   ErrorLane errors_;
   std::shared_ptr<const Survey> survey_;  // of the current intruder
+  LaneGroups groups_;                     // have headers where the camera has lanes
   OffsetDrag offset_;
   bool camera_turns_ = false;  // in this update
 };

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "editor/widgets/texts.h"
+#include "scene/scene_light.h"
 
 namespace sigs::editor {
 
@@ -145,15 +147,14 @@ bool is_marked_at_edge(const WorldCanvas& canvas, const glm::dvec3& light_m) {
   return !canvas.in_sight(light_m, -static_cast<double>(scaled(12)));
 }
 
-void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::dvec3& light_m, double distance_m,
-                         bool selected, ImU32 color) {
+void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::dvec3& light_m, const std::string& text,
+                         ImU32 color) {
   const glm::dvec2 direction = direction_to(canvas.eye(), light_m);
   const glm::dvec2 across{-direction.y, direction.x};
   const glm::dvec2 tip = at + direction * static_cast<double>(scaled(17));
   const glm::dvec2 neck = tip - direction * static_cast<double>(scaled(6));
   const double half = scaled(4.5);
   canvas.list().AddTriangleFilled(im(tip), im(neck + across * half), im(neck - across * half), color);
-  const std::string text = "light " + distance_text(distance_m) + (selected ? "  (F: in sight)" : "");
   const bool on_right = at.x > (canvas.rect().low.x + canvas.rect().high.x) / 2;
   ImFont* face = font(Font::small);
   const double width = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str()).x;
@@ -191,6 +192,16 @@ void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& sha
   shapes.keep_only(world.moment.bodies);
 }
 
+glm::dvec3 shown_light_m(const WorldContext& world) {
+  constexpr double kAway_m = 1e7;
+  const LightSettings& light = world.context.project().light;
+  if (light.kind == LightKind::point) return light.position_m;
+  const OpenedScene* const opened = world.context.shown.scene.get();
+  const glm::dvec3 to_sun =
+      opened != nullptr ? sunlight_at(opened->draft.scene, world.moment.time_s).to_sun : glm::dvec3(0, 0, -1);
+  return world.moment.world_from_camera.translation_m + kAway_m * to_sun;
+}
+
 glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m) {
   if (!is_marked_at_edge(canvas, light_m)) return *canvas.in_sight(light_m);
   const glm::dvec2 middle = (canvas.rect().low + canvas.rect().high) / 2.0;
@@ -202,15 +213,17 @@ glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m) {
 }
 
 void draw_light(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered) {
-  const glm::dvec3& light_m = world.context.project().light.position_m;
+  const glm::dvec3 light_m = shown_light_m(world);
+  const bool is_sun = world.context.project().light.kind == LightKind::sun;
   const bool is_selected = world.context.document.selection().kind == Selected::light;
   const bool highlighted = is_selected || hovered.kind == Selected::light;
   const ImU32 color = highlighted ? color::kAccent : color::kLight;
   const glm::dvec2 at = light_mark(canvas, light_m);
   if (is_marked_at_edge(canvas, light_m)) {
     const double distance_m = glm::distance(light_m, world.moment.world_from_camera.translation_m);
-    draw_arrow_to_light(canvas, at, light_m, distance_m, is_selected, color);
-  } else {
+    const std::string text = "light " + distance_text(distance_m) + (is_selected ? "  (F: in sight)" : "");
+    draw_arrow_to_light(canvas, at, light_m, is_sun ? "sun" : text, color);
+  } else if (!is_sun) {
     draw_drop_line(canvas, light_m, color);
   }
   draw_sun(canvas.list(), at, color);

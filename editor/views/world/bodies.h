@@ -25,6 +25,10 @@ class BodyShapes {
 // too small to be visible. With drop line and distance to the camera.
 void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& shapes, const Selection& hovered);
 
+// Where the light is drawn: the point light at its position, the sun far away in its direction at the playhead (straight
+// up while no scene is open).
+[[nodiscard]] glm::dvec3 shown_light_m(const WorldContext& world);
+
 // A sun where the light stands, or at the edge an arrow to it where it stands elsewhere.
 void draw_light(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered);
 // Where the sun or the arrow is on the screen.

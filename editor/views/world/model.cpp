@@ -263,7 +263,8 @@ std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const Wor
   for (const glm::dvec3& point_m : model.camera_path.points_m) points_m.push_back(point_m + path_shift_m(context));
   for (const IntruderSettings& intruder : context.project().intruders)
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints) points_m.push_back(waypoint.position_m);
-  if (document.selection().kind == Selected::light) points_m.push_back(context.project().light.position_m);
+  if (document.selection().kind == Selected::light && context.project().light.kind == LightKind::point)
+    points_m.push_back(context.project().light.position_m);
   for (const WorldCurve& curve : model.curves) {
     const std::vector<glm::dvec3> flown_m = stretch(curve.samples, curve.range_first, curve.range_last);
     points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());

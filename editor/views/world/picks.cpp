@@ -59,7 +59,7 @@ Offers things_offered(const WorldCanvas& canvas, const WorldContext& world) {
     offers.add({Selected::intruder, body.intruder, 0}, canvas, body.world_from_body.translation_m);
   offers.add({Selected::camera, 0, 0}, canvas, world.moment.world_from_camera.translation_m);
   offers.what.push_back({Selected::light, 0, 0});
-  offers.points.push_back({light_mark(canvas, world.context.project().light.position_m), 1e9});
+  offers.points.push_back({light_mark(canvas, shown_light_m(world)), 1e9});
   return offers;
 }
 
@@ -123,7 +123,8 @@ std::optional<Movable> movable(const WorldContext& world) {
 
 std::optional<Movable> movable(const WorldContext& world, const Selection& what) {
   const Project& project = world.context.project();
-  if (what.kind == Selected::light) return Movable{what, "Light", project.light.position_m};
+  if (what.kind == Selected::light && project.light.kind == LightKind::point)
+    return Movable{what, "Light", project.light.position_m};
   if (what.kind == Selected::camera && glm::any(movable_axes(world.context)))
     return Movable{what, "Camera", world.moment.world_from_camera.translation_m};
   if (const WaypointSettings* waypoint = waypoint_of(project, what))

@@ -88,6 +88,10 @@ std::optional<Selection> WorldMenu::draw_items(const WorldContext& world) const 
       }
       [[fallthrough]];
     case Selected::light:
+      if (!movable(world, what)) {
+        ImGui::TextDisabled("The inspector has the sun's direction.");
+        return std::nullopt;
+      }
       return ImGui::MenuItem("Type its position ...", "N") ? std::optional(what) : std::nullopt;
     case Selected::intruder:
       if (ImGui::MenuItem("Add a waypoint here", "Enter")) add_waypoint_here(world.context);

@@ -31,16 +31,29 @@ void write_rolling_log(const fs::path& file) {
   }
 }
 
+fs::path put_turned_project(const fs::path& folder) {
+  write_rolling_log(folder / "flight.csv");
+  Json content = sample_project("head-on");
+  content["camera"]["track"] = {{"file", "flight.csv"}, {"offset_s", 1.5}};
+  return put(content, folder / "head-on.json");
+}
+
+constexpr double kWindow_px = 960;  // height
+
+// Above the window's lower edge and below what is drawn at the timeline's top.
+bool is_in_sight(EditorDriver& editor, const std::string& name) {
+  const ScreenPlace place = editor.place(name);
+  const ScreenPlace ruler = editor.place("timeline/ruler");
+  return place.y >= ruler.y + ruler.height && place.y + place.height <= kWindow_px;
+}
+
 }  // namespace
 
 TEST_CASE("where a log turns the camera its lanes are there, and Alt + drag on one shifts the log in time") {
   if (!can_drive_windows()) return;
   UiTest ui_test("camera-lanes", {{"timeline_height", 420}});
   EditorDriver& editor = ui_test.editor();
-  write_rolling_log(ui_test.folder() / "flight.csv");
-  Json content = sample_project("head-on");
-  content["camera"]["track"] = {{"file", "flight.csv"}, {"offset_s", 1.5}};
-  const fs::path project = put(content, ui_test.folder() / "head-on.json");
+  const fs::path project = put_turned_project(ui_test.folder());
   editor.start({project.string()});
   editor.wait_for_image();
   const ScreenPlace roll = editor.place("timeline/lane/Camera roll");
@@ -55,6 +68,39 @@ TEST_CASE("where a log turns the camera its lanes are there, and Alt + drag on o
   CHECK(offset_s > 0.5);
   ui_test.edit([&] { editor.key("ctrl+z"); });
   CHECK(ui_test.saved(project)["camera"]["track"]["offset_s"].get<double>() == 1.5);
+}
+
+TEST_CASE("in a timeline of the usual height one press brings the camera's lanes into sight, another folds them") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("lane-groups");
+  EditorDriver& editor = ui_test.editor();
+  editor.start({put_turned_project(ui_test.folder()).string()});
+  editor.wait_for_image();
+  ui_test.wait_for_place("timeline/group/Camera");
+  CHECK(is_in_sight(editor, "timeline/group/Camera"));
+  CHECK_FALSE(is_in_sight(editor, "timeline/lane/Camera yaw"));
+  ui_test.image("at first");
+
+  editor.click("timeline/group/Camera");
+  for (const char* lane : {"Camera roll", "Camera pitch", "Camera yaw"})
+    CHECK(is_in_sight(editor, std::string("timeline/lane/") + lane));
+  CHECK(is_in_sight(editor, "timeline/group/Intruder"));
+  ui_test.image("camera");
+  const double roll_height = editor.place("timeline/lane/Camera roll").height;
+
+  editor.click("timeline/group/Intruder");  // back, as its lanes are out of sight
+  CHECK(is_in_sight(editor, "timeline/lane/Distance"));
+  editor.click("timeline/group/Intruder");  // folded
+  editor.wait_for("higher curves of the camera alone", [&](const Json& now) {
+    return !shows(now, "timeline/lane/Distance") &&
+           now["places"]["timeline/lane/Camera roll"][3].get<double>() >= roll_height;
+  });
+  for (const char* lane : {"Camera roll", "Camera pitch", "Camera yaw"})
+    CHECK(is_in_sight(editor, std::string("timeline/lane/") + lane));
+  ui_test.image("intruder folded");
+  editor.click("timeline/group/Camera");
+  editor.wait_for("no lane at all", [&](const Json& now) { return !shows(now, "timeline/lane/Camera roll"); });
+  CHECK_FALSE(is_unsaved(editor.state()));
 }
 
 TEST_CASE("a person hides lanes of the timeline and shows others, without changing the project") {

@@ -136,3 +136,12 @@ TEST_CASE("a deleted waypoint cannot be moved") {
   REQUIRE(movable(it.world, {Selected::waypoint, 0, 1}).has_value());
   CHECK(movable(it.world, {Selected::waypoint, 0, 1})->at_m == glm::dvec3(400, 100, -150));
 }
+
+TEST_CASE("the sun is not where the point light would be, and cannot be moved") {
+  Project project = crossing();
+  project.light.kind = LightKind::sun;
+  project.light.sun = {90, 30};
+  Bystander it(project);
+  CHECK(it.pick(it.on_screen({200, 300, -150})).what.kind != Selected::light);
+  CHECK_FALSE(movable(it.world, {Selected::light, 0, 0}).has_value());
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "video/frame_source.h"
+
+namespace sigs::bench {
+
+// A clip of a real aircraft with a box in each frame.
+struct RealClip {
+  std::string name;
+  std::filesystem::path path;
+  bool is_helicopter = false;
+  bool is_tuning = false;                 // settings may be chosen by it; false: it only tells how good they are
+  std::vector<std::optional<Box>> boxes;  // loose, by frame; none: no aircraft
+};
+
+// The clips of SIGS_TEST_DATA/track with boxes, by name. The tuning clips are those of the list in clips.cpp.
+[[nodiscard]] std::vector<RealClip> real_clips();
+
+// Stops the program where it cannot be opened.
+[[nodiscard]] FrameSource opened(const std::filesystem::path& path);
+
+// Writes a calibration file of a pinhole with this field of view across the image; its absolute path.
+[[nodiscard]] std::filesystem::path written_pinhole(cv::Size size_px, double field_rad,
+                                                    const std::filesystem::path& file);
+
+}  // namespace sigs::bench

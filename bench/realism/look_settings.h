@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "project/project.h"
+
+namespace sigs::bench {
+
+// One way to set how an inserted aircraft looks.
+struct LookSettings {
+  std::string name;            // "default", "matched", "best"
+  std::filesystem::path from;  // a JSON file for all clips, or a folder with CLIP.json for each; empty: the defaults
+  bool shakes = false;         // the camera's shake is known: it is taken from the real target's path
+};
+
+// Applies what the file says of light, compositing, appearance and camera.exposure_s; its other members are left alone,
+// so that whole projects can be given. Stops the program where a file is not there or a setting is not known.
+void apply(const LookSettings& settings, const std::string& clip, Project& project);
+
+}  // namespace sigs::bench

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "comparison/measured_target.h"
+#include "frame/compose_context.h"
+#include "realism/clips.h"
+#include "realism/look_settings.h"
+#include "scene/scene_files.h"
+
+namespace sigs::bench {
+
+// One target that was measured.
+struct Target : MeasuredTarget {
+  std::string kind;  // "real", "moved" (the real one, in another place of the same frame), or the settings' name
+
+  Target(std::string kind_of_it, MeasuredTarget target)
+      : MeasuredTarget(std::move(target)), kind(std::move(kind_of_it)) {}
+};
+
+// The targets of one frame: a real one and those put beside it. Those that could not be told from the background are
+// missing.
+struct Sample {
+  std::string clip;
+  bool is_helicopter = false, is_tuning = false;
+  int frame = 0;
+  std::string model;            // of the inserted ones
+  std::vector<Target> targets;  // the real one first
+};
+
+struct SampleOptions {
+  std::filesystem::path folder;        // for calibrations
+  std::vector<LookSettings> settings;  // one inserted target for each
+  int frames_per_clip = 6;
+};
+
+// Why frames of a clip gave no sample.
+struct LeftOut {
+  int not_found = 0;  // the real target does not differ from its background
+  int cut = 0;        // ... or goes on beyond its box: a condensation trail, or an object behind it
+  int no_place = 0;   // there is no other place of its size
+};
+
+// What a thread keeps from clip to clip.
+struct Workplace {
+  ComposeContext context;
+  SceneFiles files;
+};
+
+// Evenly spread frames of a clip, each with the three before and after it.
+[[nodiscard]] std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& options, Workplace& workplace,
+                                             LeftOut& left_out);
+
+}  // namespace sigs::bench

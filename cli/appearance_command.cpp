@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "appearance/appearance.h"
+#include "base/paths.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/path_project.h"
+#include "cli/process.h"
+#include "cli/progress.h"
+#include "cli/project_view.h"
+#include "project/json.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kAppearanceFooter =
+    "Examples:\n"
+    "  sigs appearance flight.mp4\n"
+    "  sigs appearance flight.mp4 --out settings.json --plot appearance.png\n"
+    "  sigs appearance encounter.json --into encounter.json";
+
+struct AppearanceOptions {
+  fs::path file;
+  std::string frames;  // "A-B"; empty: all
+  int every = 0;
+  fs::path out;   // empty: not written
+  fs::path plot;  // likewise
+  fs::path into;
+  bool json = false;
+  bool force = false;
+  std::string progress = "auto";
+};
+
+// Before anything is read. Errors usage, cannot_create.
+Result<void> check_names(const AppearanceOptions& options) {
+  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
+    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
+  if (!options.out.empty() && !options.plot.empty() && canonical_name(options.out) == canonical_name(options.plot))
+    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
+  std::vector<fs::path> inputs{options.file};
+  if (!options.into.empty()) inputs.push_back(options.into);
+  for (const auto& [option, path] : {std::pair("--out ", options.out), std::pair("--plot ", options.plot)}) {
+    if (path.empty()) continue;
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
+      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+Result<Project> project_in(const fs::path& file) {
+  Result<ReadProject> read = read_project(file);
+  if (!read) return fail(read.error());
+  for (const Warning& warning : read->warnings) print_warning(warning);
+  return std::move(read->project);
+}
+
+// The video to look at, and which frames of it.
+struct Looked {
+  fs::path video;
+  AppearanceFrames frames;
+};
+
+Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<Project>& project) {
+  Looked looked{.video = options.file, .frames = {.every = options.every}};
+  if (project) {
+    looked.video = resolved(*project, project->footage.video);
+    looked.frames.first = project->footage.first_frame;
+    looked.frames.last = project->footage.last_frame;
+  }
+  if (options.frames.empty()) return looked;
+  const Result<FrameRange> range = frame_range_of(options.frames);
+  if (!range) return fail(range.error());
+  looked.frames.first = range->first;
+  looked.frames.last = range->last;
+  return looked;
+}
+
+Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& project,
+                            const AppearanceOptions& options) {
+  Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag());
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  AppearanceHints hints;
+  if (project) {
+    Result<AppearanceHints> known = hints_of(*project, footage->info());
+    if (!known) return fail(known.error());
+    hints = std::move(*known);
+  }
+  Progress progress(progress_style(options.progress));
+  const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                                  .cancel = &interrupt_flag()};
+  Result<Appearance> found = estimate_appearance(*footage, looked.frames, hints, control);
+  progress.end();
+  return found;
+}
+
+// "a.b" in nested objects.
+Json::json_pointer place_of(const std::string& key) {
+  std::string pointer = "/" + key;
+  for (char& letter : pointer)
+    if (letter == '.') letter = '/';
+  return Json::json_pointer(pointer);
+}
+
+// What apply() sets, by its keys, nested as in a project file.
+Json settings_of(const Appearance& found) {
+  Project project;
+  apply(found, project);
+  const Json all = Json::parse(text_of(project));
+  Json settings;
+  for (const std::string& key : applied_settings(found)) {
+    const Json::json_pointer at = place_of(key);
+    settings[at] = all.at(at);
+  }
+  return settings;
+}
+
+Json number_or_null(bool is_there, double number) {
+  return is_there ? Json(number) : Json();
+}
+
+// Everything, for programs.
+std::string json_text(const Appearance& found) {
+  Json report;
+  report["video"] = found.footage.path.string();
+  report["width_px"] = found.footage.size_px.width;
+  report["height_px"] = found.footage.size_px.height;
+  report["codec"] = found.footage.codec;
+  report["frames_used"] = found.frames_used;
+  for (const AppearanceQuantity& quantity : quantities_of(found)) {
+    const Estimate& estimate = quantity.estimate;
+    report["quantities"].push_back({{"name", quantity.name},
+                                    {"unit", quantity.unit},
+                                    {"value", estimate.value},
+                                    {"sd", number_or_null(estimate.is_known, estimate.sd)},
+                                    {"is_known", estimate.is_known},
+                                    {"why", estimate.why},
+                                    {"setting", quantity.setting.empty() ? Json() : Json(quantity.setting)}});
+  }
+  report["settings"] = settings_of(found);
+  return report.dump(2) + "\n";
+}
+
+std::string text_of(const AppearanceQuantity& quantity) {
+  const Estimate& estimate = quantity.estimate;
+  if (quantity.setting == "appearance.haze.visibility_m") {
+    if (!estimate.is_known) return "not known: " + estimate.why + "; clear air is taken";
+    return fmt::format("{:.0f} +- {:.0f} m", estimate.value, estimate.sd);
+  }
+  return estimate_text(estimate, quantity.unit);
+}
+
+std::string table_text(const Appearance& found) {
+  std::string text =
+      fmt::format("{}: {}, {}, {} used\n", found.footage.path.string(), image_size_text(found.footage.size_px),
+                  found.footage.codec, count_text(found.frames_used, "frame"));
+  std::size_t widest = 0;
+  const std::vector<AppearanceQuantity> quantities = quantities_of(found);
+  for (const AppearanceQuantity& quantity : quantities) widest = std::max(widest, quantity.name.size());
+  for (const AppearanceQuantity& quantity : quantities)
+    text += fmt::format("{:{}}  {}\n", quantity.name, widest, text_of(quantity));
+  text += "\nsettings:\n";
+  const Json settings = settings_of(found);
+  for (const std::string& key : applied_settings(found))
+    text += fmt::format("{} = {}\n", key, settings.at(place_of(key)).dump());
+  return text;
+}
+
+// The names are taken before the footage is read, so that what stands in their way shows at once.
+class Outputs {
+ public:
+  explicit Outputs(const AppearanceOptions& options)
+      : options_(options),
+        staged_(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
+
+  Result<void> reserve() {
+    for (const auto& [path, place] : {std::pair(options_.out, &out_), std::pair(options_.plot, &plot_)}) {
+      if (path.empty()) continue;
+      const Result<fs::path> added = staged_.add_file(path);
+      if (!added) return fail(added.error());
+      *place = *added;
+    }
+    return {};
+  }
+
+  Result<void> write(const Appearance& found) {
+    if (!out_.empty())
+      if (const Result<void> done = write_bytes(out_, settings_of(found).dump(2) + "\n"); !done) return done;
+    if (!plot_.empty()) {
+      std::vector<uchar> bytes;
+      cv::imencode(".png", panel_page(panels_of(found)), bytes);
+      if (const Result<void> done = write_bytes(plot_, {bytes.begin(), bytes.end()}); !done) return done;
+    }
+    return staged_.commit();
+  }
+
+ private:
+  Result<void> write_bytes(const fs::path& path, const std::string& bytes) {
+    std::ofstream out(path, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) return fail(staged_.with_final_names({path.string(), "could not be written", ErrorKind::write_failed}));
+    return {};
+  }
+
+  const AppearanceOptions& options_;
+  StagedOutputs staged_;
+  fs::path out_;  // temporary names
+  fs::path plot_;
+};
+
+Result<void> run(const AppearanceOptions& options) {
+  if (const Result<void> named = check_names(options); !named) return named;
+  std::optional<Project> project;
+  if (is_project_file(options.file)) {
+    Result<Project> read = project_in(options.file);
+    if (!read) return fail(read.error());
+    project = std::move(*read);
+  }
+  std::optional<Project> into;
+  if (!options.into.empty()) {
+    Result<Project> read = project_in(options.into);
+    if (!read) return fail(read.error());
+    into = std::move(*read);
+  }
+  const Result<Looked> looked = looked_at(options, project);
+  if (!looked) return fail(looked.error());
+  defer_interrupts();
+  Outputs outputs(options);
+  if (const Result<void> free = outputs.reserve(); !free) return free;
+  const Result<Appearance> found = found_in(*looked, project, options);
+  if (!found) return fail(found.error());
+  if (const Result<void> written = outputs.write(*found); !written) return written;
+  if (into) {
+    apply(*found, *into);
+    if (const Result<void> saved = write_project(*into, options.into, true); !saved) return saved;
+  }
+  std::fputs((options.json ? json_text(*found) : table_text(*found)).c_str(), stdout);
+  return {};
+}
+
+}  // namespace
+
+Command add_appearance_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("appearance", "find how footage looks: blur, noise, haze, light");
+  const auto options = std::make_shared<AppearanceOptions>();
+  command->add_option("FILE", options->file, "the footage, or a project")->required()->check(not_empty());
+  command->add_option("--frames", options->frames, "only these frames, first and last, both included")
+      ->option_text("A-B");
+  command->add_option("--every", options->every, "use one of so many frames; 0: 24 frames, spread over all")
+      ->option_text("N")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--out", options->out, "write the settings that follow, as JSON")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_option("--into", options->into, "put the settings into this project, which is rewritten")
+      ->option_text("PROJECT")
+      ->check(not_empty());
+  command->add_option("--plot", options->plot, "draw why; a PNG")->option_text("FILE")->check(output_path());
+  command->add_flag("--json", options->json, "print all of it as JSON");
+  command->add_flag("--force", options->force, "overwrite what is there");
+  add_progress_option(*command, options->progress);
+  command->footer(kAppearanceFooter);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sigs::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "cli/project_view.h"
+
+#include <optional>
+#include <utility>
+
+#include "cli/options.h"
+#include "project/validate.h"
+#include "scene/camera_track.h"
+#include "scene/opened_project.h"
+#include "scene/scene_at.h"
+
+namespace sigs::cli {
+
+namespace {
+
+struct KnownCamera {
+  Scene scene;
+  bool has_calibration = false;
+  cv::Mat own_body;  // CV_8UC1
+};
+
+View view_at(const KnownCamera& known, int frame) {
+  const double time_s = time_of_frame_s(known.scene.footage, frame);
+  const Pose<frame::World, frame::Camera> pose = camera_at(known.scene.motion, time_s);
+  View view{.camera = known.has_calibration ? &known.scene.camera : nullptr, .own_body = known.own_body};
+  if (known.scene.horizon_is_known) view.world_from_camera = pose.rotation;
+  if (pose.translation_m.z < 0) view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
+  return view;
+}
+
+}  // namespace
+
+Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage) {
+  const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
+  const auto known = std::make_shared<KnownCamera>(KnownCamera{.scene = bare_scene(project, shape_of(footage))});
+  Scene& scene = known->scene;
+  const OrProblem<FrameRange> range = scene_range(project.footage, scene.footage);
+  if (!range) return failed(range.error());
+  SceneFiles files;
+  if (!project.footage.calibration.empty()) {
+    OrProblem<Camera> camera = scene_camera(project, footage.size_px, files);
+    if (!camera) return failed(camera.error());
+    scene.camera = *std::move(camera);
+    known->has_calibration = true;
+  }
+  OrProblem<CameraFlight> flight = camera_flight(project, scene.footage, *range, files);
+  if (!flight) return failed(flight.error());
+  take_camera_flight(scene, *std::move(flight));
+  const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
+  if (!own_body) return failed(own_body.error());
+  if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
+  for (const Warning& warning : scene.warnings) print_warning(warning);
+  return AppearanceHints{.view = [known](int frame) { return view_at(*known, frame); },
+                         .has_time_and_place = scene.earth && scene.utc_at_frame_0_s};
+}
+
+}  // namespace sigs::cli

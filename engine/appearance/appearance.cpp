@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "appearance/appearance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "appearance/sampled_frames.h"
+#include "base/threads.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kSamples = 24;  // error against run time: docs/appearance.md
+
+// First frames of the pairs that are looked at.
+Result<std::vector<int>> sample_numbers(const VideoInfo& info, const AppearanceFrames& frames) {
+  const int last = std::min(frames.last.value_or(info.frame_count() - 1), info.frame_count() - 1);
+  if (frames.first < 0 || frames.first > last)
+    return fail(info.path.string(),
+                fmt::format("frames {} to {} are asked for, and there are {} frames, 0 to {}", frames.first,
+                            frames.last.value_or(last), info.frame_count(), info.frame_count() - 1),
+                ErrorKind::usage);
+  const int count = last - frames.first + 1;
+  std::vector<int> numbers;
+  if (frames.every > 0) {
+    for (int n = frames.first; n <= last && n >= 0; n += frames.every) numbers.push_back(n);
+    return numbers;
+  }
+  // In the middles of equal parts, so that nothing depends on a clip's first and last frame.
+  const int samples = std::min(kSamples, std::max(1, count - 1));
+  for (int i = 0; i < samples; ++i)
+    numbers.push_back(frames.first + static_cast<int>((2LL * i + 1) * (count - 1) / (2LL * samples)));
+  return numbers;
+}
+
+// Each sample and the frame after it, each once, in order.
+std::vector<int> with_followers(const std::vector<int>& samples, int last) {
+  std::set<int> numbers;
+  for (const int n : samples) {
+    numbers.insert(n);
+    if (n < last) numbers.insert(n + 1);
+  }
+  return {numbers.begin(), numbers.end()};
+}
+
+// All estimators, fed with the same frames.
+class Estimators {
+ public:
+  // next: the frame that follows directly; null: it is not there or damaged.
+  void add(const Frame& frame, const Frame* next, const View& view) {
+    point_spread_.add(frame, view.own_body);
+    noise_.add(frame, next);
+    surroundings_.add(frame, view);
+  }
+
+  void finish(Appearance& appearance, const AppearanceHints& hints) const {
+    appearance.point_spread = point_spread_.finish();
+    appearance.noise = noise_.finish();
+    appearance.surroundings = surroundings_.finish(hints.to_sun_in_world);
+    appearance.tone_histogram = surroundings_.tone().histogram();
+    appearance.haze_curve = surroundings_.haze().curve();
+  }
+
+ private:
+  PointSpread point_spread_;
+  Noise noise_;
+  Surroundings surroundings_;
+};
+
+Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frames, const AppearanceHints& hints,
+                             const AppearanceControl& control) {
+  Appearance appearance{.footage = footage.info(), .has_time_and_place = hints.has_time_and_place};
+  const Result<std::vector<int>> samples = sample_numbers(footage.info(), frames);
+  if (!samples) return fail(samples.error());
+  const std::set<int> is_sample(samples->begin(), samples->end());
+  const int last = std::min(frames.last.value_or(footage.info().frame_count() - 1), footage.info().frame_count() - 1);
+  Estimators estimators;
+  SampledFrames stream(footage, with_followers(*samples, last));
+  std::optional<NumberedFrame> waiting;  // a sample whose follower may come
+  const auto use = [&](const Frame* next) {
+    estimators.add(waiting->frame, next, hints.view ? hints.view(waiting->number) : View{});
+    ++appearance.frames_used;
+    if (control.progress) control.progress(appearance.frames_used, static_cast<int>(is_sample.size()));
+    waiting.reset();
+  };
+  while (std::optional<Result<NumberedFrame>> frame = stream.next()) {
+    if (!*frame) return fail(frame->error());
+    if (control.cancel != nullptr && *control.cancel)
+      return fail(footage.info().path.string(), "interrupted", ErrorKind::interrupted);
+    NumberedFrame& current = **frame;
+    if (waiting) use(current.number == waiting->number + 1 && !current.frame.damaged ? &current.frame : nullptr);
+    if (is_sample.contains(current.number) && !current.frame.damaged) waiting = std::move(current);
+  }
+  if (waiting) use(nullptr);
+  estimators.finish(appearance, hints);
+  return appearance;
+}
+
+}  // namespace
+
+Result<Appearance> estimate_appearance(FrameSource& footage, const AppearanceFrames& frames,
+                                       const AppearanceHints& hints, const AppearanceControl& control) {
+  return guarded([&] { return estimated(footage, frames, hints, control); }, footage.info().path.string());
+}
+
+}  // namespace sigs

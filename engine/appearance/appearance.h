@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "appearance/estimate.h"
+#include "appearance/noise.h"
+#include "appearance/panel.h"
+#include "appearance/point_spread.h"
+#include "appearance/surroundings.h"
+#include "appearance/view.h"
+#include "base/result.h"
+#include "project/project.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+// Which frames are looked at.
+struct AppearanceFrames {
+  int first = 0;
+  std::optional<int> last;  // included; none: the footage's last
+  int every = 0;  // each so many frames one is used, with the frame after it; 0: 24 are, spread over the range
+};
+
+// What is known besides the footage. All of it may be missing.
+struct AppearanceHints {
+  std::function<View(int frame)> view;        // of the camera at a frame; empty: nothing is known
+  std::optional<glm::dvec3> to_sun_in_world;  // unit vector, by time and place
+  bool has_time_and_place = false;            // the project knows the sun's direction at each frame by itself
+};
+
+struct AppearanceControl {
+  std::function<void(int done, int total)> progress;  // frames; called on the calling thread
+  const std::atomic<bool>* cancel = nullptr;          // set to true: ends soon with the error `interrupted`
+};
+
+// How footage looks. Each estimator has a class in a header of its own; add its findings here, call it in
+// `Estimators` of appearance.cpp, list its quantities in quantities_of() and its settings in apply().
+struct Appearance {
+  VideoInfo footage;
+  int frames_used = 0;
+  PointSpreadFound point_spread;
+  NoiseFound noise;
+  SurroundingsEstimate surroundings;  // haze, tone, light, sun
+  ToneHistogram tone_histogram{};
+  HazeCurve haze_curve;
+  bool has_time_and_place = false;  // as in AppearanceHints
+};
+
+// Looks at the footage once, from its first frame used to the last; decoding runs ahead on a thread of its own. Damaged
+// frames are left out. What cannot be told says so (Estimate) and is no error.
+// Errors: usage (no such frames), cannot_read, bad_data, interrupted.
+[[nodiscard]] Result<Appearance> estimate_appearance(FrameSource& footage, const AppearanceFrames& frames,
+                                                     const AppearanceHints& hints, const AppearanceControl& control);
+
+// One quantity of the list that users see.
+struct AppearanceQuantity {
+  std::string name;  // "point spread"
+  std::string unit;  // may be empty
+  Estimate estimate;
+  std::string setting;  // key of the project's setting that takes it; empty: none does
+};
+[[nodiscard]] std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance);
+
+// Drawings that show why.
+[[nodiscard]] std::vector<Panel> panels_of(const Appearance& appearance);
+
+// Makes intruders look like the footage: sets `appearance` and, where it was found, `light` of a project, and switches
+// off compositing.blur_px_per_m, the paper's blur, in place of which the point spread stands. What is not known gets
+// its estimate's default. Values are rounded to three digits and held in their settings' ranges. The grain's seed
+// stays.
+void apply(const Appearance& appearance, Project& project);
+
+// The keys of the settings that apply() writes, in the order of the project file.
+[[nodiscard]] std::vector<std::string> applied_settings(const Appearance& appearance);
+
+}  // namespace sigs

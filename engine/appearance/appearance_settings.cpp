@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "appearance/appearance.h"
+#include "base/pose.h"
+#include "project/fields.h"
+
+namespace sigs {
+
+namespace {
+
+// To three digits; more would not be honest, and settings are read by people.
+double rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return 0;
+  const double scale = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * scale) / scale;
+}
+
+// Of a codec whose quantiser can be matched.
+bool is_matched(const std::string& codec) {
+  return codec == "h264" || codec == "mjpeg";
+}
+
+Estimate in_degrees(const Estimate& rad) {
+  return {deg_of_rad(rad.value), deg_of_rad(rad.sd), rad.is_known, rad.why};
+}
+
+void add_color(std::vector<AppearanceQuantity>& list, const std::string& name, const std::array<Estimate, 3>& color,
+               const std::string& setting) {
+  const char* const kParts[] = {", red", ", green", ", blue"};
+  for (std::size_t k = 0; k < 3; ++k) list.push_back({name + kParts[k], "", color[k], setting});
+}
+
+void apply_haze(const HazeEstimate& haze, HazeSettings& settings) {
+  settings = {};
+  if (!haze.visibility_m.is_known) return;
+  settings.visibility_m = haze.visibility_m.value;
+  if (!haze.airlight[0].is_known) return;
+  settings.airlight = AirlightChoice::color;
+  settings.airlight_color = {haze.airlight[0].value, haze.airlight[1].value, haze.airlight[2].value};
+}
+
+void apply_sun(const SunEstimate& sun, bool has_time_and_place, SunSettings& settings) {
+  if (has_time_and_place) {
+    settings = {};  // by time and place, at each frame
+    return;
+  }
+  if (sun.azimuth_rad.is_known || !settings.azimuth_deg) settings.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
+  if (sun.elevation_rad.is_known || !settings.elevation_deg)
+    settings.elevation_deg = deg_of_rad(sun.elevation_rad.value);
+}
+
+// To three digits, and within what a user may set.
+void hold_in_ranges(Project& project) {
+  for (const Field& field : fields_of(project)) {
+    if (!field.key.starts_with("appearance.") && !field.key.starts_with("light.")) continue;
+    const auto held = [&](double value) { return std::clamp(rounded(value), field.minimum, field.maximum); };
+    if (double* const* const number = std::get_if<double*>(&field.value)) **number = held(**number);
+    if (std::optional<double>* const* const maybe = std::get_if<std::optional<double>*>(&field.value))
+      if (*maybe != nullptr && (*maybe)->has_value()) **maybe = held(***maybe);
+    if (glm::dvec3* const* const color = std::get_if<glm::dvec3*>(&field.value))
+      for (int k = 0; k < 3; ++k) (**color)[k] = held((**color)[k]);
+  }
+}
+
+bool light_is_known(const Appearance& appearance) {
+  return appearance.surroundings.light.sky_color[0].is_known;
+}
+
+Panel tone_panel(const Appearance& appearance) {
+  const ToneEstimate& tone = appearance.surroundings.tone;
+  PanelSeries share{.label = "share of the footage"};
+  for (std::size_t level = 0; level < appearance.tone_histogram.size(); ++level) {
+    share.x.push_back(static_cast<double>(level) / 255);
+    share.y.push_back(appearance.tone_histogram[level]);
+  }
+  return {.title = "tones",
+          .x_title = "luma, 0 black, 1 white",
+          .series = {std::move(share)},
+          .remark = "black " + estimate_text(tone.black, "") + "; white " + estimate_text(tone.white, "")};
+}
+
+Panel haze_panel(const Appearance& appearance) {
+  const HazeCurve& curve = appearance.haze_curve;
+  return {.title = "luminance of the ground, linear",
+          .x_title = "distance, m",
+          .series = {{"ground", curve.distance_m, curve.ground_luminance, true},
+                     {"fit", curve.distance_m, curve.fitted_luminance}},
+          .remark = "visibility " + estimate_text(appearance.surroundings.haze.visibility_m, "m")};
+}
+
+Panel light_panel(const Appearance& appearance) {
+  const LightEstimate& light = appearance.surroundings.light;
+  Panel panel{.title = "light of sun, sky and ground, linear, exposure included",
+              .x_title = "0 red, 1 green, 2 blue",
+              .remark = "exposure " + estimate_text(light.exposure, "")};
+  const std::pair<const char*, const std::array<Estimate, 3>*> kColors[] = {
+      {"sun", &light.sun_color}, {"sky", &light.sky_color}, {"ground", &light.ground_color}};
+  for (const auto& [name, color] : kColors) {
+    PanelSeries series{.label = name, .x = {0, 1, 2}};
+    for (const Estimate& part : *color) series.y.push_back(part.value * light.exposure.value);
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
+  const PointSpreadFound& sharp = appearance.point_spread;
+  const NoiseFound& noise = appearance.noise;
+  std::vector<AppearanceQuantity> list{
+      {"point spread", "px", sharp.sigma_px, "appearance.point_spread_px"},
+      {"sharpening", "", sharp.sharpening, "appearance.sharpening"},
+      {"sharpening's width", "px", sharp.sharpening_px, "appearance.sharpening_px"},
+      {"chroma spread", "px of chroma", sharp.chroma_spread_px, "appearance.chroma_spread_px"},
+      {"noise at black", "codes", noise.sd_dark, "appearance.grain.sd_dark"},
+      {"noise at white", "codes", noise.sd_bright, "appearance.grain.sd_bright"},
+      {"noise of chroma", "codes", noise.sd_chroma, "appearance.grain.sd_chroma"},
+      {"noise's spread", "px", noise.spread_px, "appearance.grain.spread_px"},
+      {"noise's persistence", "", noise.persistence, "appearance.grain.persistence"}};
+  const auto& [haze, tone, light, sun] = appearance.surroundings;
+  list.push_back({"black", "", tone.black, "appearance.black"});
+  list.push_back({"white", "", tone.white, ""});
+  list.push_back({"saturation", "", tone.saturation, "appearance.saturation"});
+  list.push_back({"visibility", "m", haze.visibility_m, "appearance.haze.visibility_m"});
+  add_color(list, "airlight", haze.airlight, "appearance.haze.airlight_color");
+  list.push_back({"exposure", "", light.exposure, "light.exposure"});
+  list.push_back({"sun's share", "", light.sun_share, ""});
+  add_color(list, "sun", light.sun_color, "light.color");
+  add_color(list, "sky", light.sky_color, "light.sky_color");
+  add_color(list, "ground", light.ground_color, "light.ground_color");
+  list.push_back({"sun's azimuth", "deg", in_degrees(sun.azimuth_rad), "light.sun.azimuth_deg"});
+  list.push_back({"sun's elevation", "deg", in_degrees(sun.elevation_rad), "light.sun.elevation_deg"});
+  return list;
+}
+
+std::vector<Panel> panels_of(const Appearance& appearance) {
+  std::vector<Panel> panels = appearance.point_spread.panels;
+  panels.insert(panels.end(), appearance.noise.panels.begin(), appearance.noise.panels.end());
+  panels.push_back(tone_panel(appearance));
+  panels.push_back(haze_panel(appearance));
+  panels.push_back(light_panel(appearance));
+  return panels;
+}
+
+std::vector<std::string> applied_settings(const Appearance& appearance) {
+  std::vector<std::string> keys;
+  if (light_is_known(appearance)) keys.emplace_back("light.kind");
+  const auto add = [&](const std::string& part) {
+    for (const AppearanceQuantity& quantity : quantities_of(appearance))
+      if (quantity.setting.starts_with(part) && (keys.empty() || keys.back() != quantity.setting))
+        keys.push_back(quantity.setting);
+  };
+  if (light_is_known(appearance)) add("light.");
+  keys.emplace_back("compositing.blur_px_per_m");
+  add("appearance.");
+  keys.emplace_back("appearance.haze.airlight");
+  keys.emplace_back("appearance.codec.match");
+  return keys;
+}
+
+void apply(const Appearance& appearance, Project& project) {
+  project.compositing.blur_px_per_m = 0;
+  for (const Field& field : fields_of(project))
+    for (const AppearanceQuantity& quantity : quantities_of(appearance))
+      if (quantity.setting == field.key && field.key.starts_with("appearance."))
+        if (double* const* const number = std::get_if<double*>(&field.value)) **number = quantity.estimate.value;
+  const SurroundingsEstimate& around = appearance.surroundings;
+  apply_haze(around.haze, project.appearance.haze);
+  if (light_is_known(appearance)) {
+    apply(around.light, project.light);
+    apply_sun(around.sun, appearance.has_time_and_place, project.light.sun);
+  }
+  project.appearance.codec.match =
+      is_matched(appearance.footage.codec) ? CodecMatchChoice::footage : CodecMatchChoice::none;
+  hold_in_ranges(project);
+}
+
+}  // namespace sigs

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "appearance/estimate.h"
+#include "appearance/light_image.h"
+#include "project/project.h"
+
+namespace sigs {
+
+enum class SunWitness { none, given, shadows, sky };
+
+// Where the sun is, rad. Azimuth from world X to the right, elevation above the horizon (SunSettings, in rad).
+struct SunEstimate {
+  Estimate azimuth_rad;                   // not known: to the right of world X, so that half of what is seen is lit
+  Estimate elevation_rad;                 // not known: 40 degrees
+  SunWitness witness = SunWitness::none;  // of the azimuth
+};
+
+// The unit vector towards the sun, world axes (Z down).
+[[nodiscard]] glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad);
+
+// Finds the sun's direction. It needs the camera's calibration and the level (an attitude, or a skyline: world X is
+// then the camera's heading). Two witnesses:
+//
+// shadows  The ground ahead, at depressions of 24 to 60 degrees, is laid flat. Dark long patches on it that lie by
+//          themselves are shadows; their common direction is the sun's azimuth, but for its sense, which the ends
+//          tell: at one stands what casts the shadow, the other one is bare ground. Known where 10 patches or more are
+//          there and three quarters of them agree.
+// sky      A clear sky is brighter around the sun: CIE's standard clear sky (ISO 15469, type 12) is fitted to the
+//          luminance of the sky by azimuth, with a free factor for each elevation. Known where it explains 0.8 of the
+//          differences and these are more than lenses give. It alone tells the elevation.
+//
+// Both are unsure: their deviations are tens of degrees unless the patches are many. A direction that is given (by time
+// and place) stands before both.
+class Sun {
+ public:
+  // image: of this frame.
+  void add(const Frame& frame, const LightImage& image);
+  [[nodiscard]] SunEstimate finish(const std::optional<glm::dvec3>& to_sun_in_world = std::nullopt) const;
+
+  // A dark patch on the ground.
+  struct Patch {
+    double direction_rad = 0;  // of its axis, from world X to the right, modulo a half turn
+    double weight = 0;
+    double sense = 0;  // above 0: what casts it stands at its beginning, so that it points away from the sun
+  };
+  static constexpr int kAzimuths = 72, kElevations = 14;  // of 5 degrees each
+
+ private:
+  struct SkyBin {
+    double sum = 0, count = 0;
+    double from_axis = 0;  // sum of angles
+  };
+
+  void add_sky(const LightImage& image, const glm::dquat& world_from_camera);
+  void add_ground(const Frame& frame, const LightImage& image, const glm::dquat& world_from_camera);
+  void set_by_shadows(SunEstimate& sun) const;
+  void set_by_sky(SunEstimate& sun) const;
+
+  std::array<std::array<SkyBin, kAzimuths>, kElevations> sky_{};
+  std::vector<Patch> patches_;
+  double blue_cells_ = 0, sky_cells_ = 0;
+  int frames_ = 0, with_level_ = 0;
+};
+
+// The sun's direction in the settings. One that was given stays as it is there: time and place tell it at each frame.
+void apply(const SunEstimate& sun, LightSettings& settings);
+
+}  // namespace sigs

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "appearance/target_silhouette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "video/chroma.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kThreshold_sd = 4.5;
+constexpr double kLeastThreshold = 5;  // code values: below it, blocks of the codec would be taken for the target
+constexpr double kLeastSd = 0.5;       // rounding to 8 bits alone gives 0.29
+constexpr int kLeastPixels = 12;
+constexpr int kLeastMargin_px = 22;   // as far as the codec's macroblock at the target's edge reaches, and some more
+constexpr double kLeastSpeck = 0.03;  // of the largest piece's area
+constexpr std::size_t kMostSamples = 5000;  // of the background; more change the surface by less than its deviation
+constexpr int kRefits = 4;
+constexpr double kOutlier_sd = 2.5;
+
+using Terms = cv::Matx<double, 6, 1>;
+
+// The six terms of a surface of second order at a pixel, in coordinates of about -1..1.
+Terms terms_at(int x, int y, cv::Size size) {
+  const double u = 2.0 * x / size.width - 1, v = 2.0 * y / size.height - 1;
+  return {1, u, v, u * u, u * v, v * v};
+}
+
+double median_of(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// A background's surface, and how the samples that it was fitted to scatter about it.
+struct Surface {
+  cv::Mat values;  // CV_32FC1
+  double sd = 0;
+};
+
+struct Sample {
+  Terms terms;
+  double value = 0;
+};
+
+// Pixels under a mask, on a grid that leaves some kMostSamples of them.
+std::vector<Sample> samples_of(const cv::Mat& plane, const cv::Mat& around) {
+  const int every = static_cast<int>(std::sqrt(plane.total() / kMostSamples)) + 1;
+  std::vector<Sample> samples;
+  for (int y = 0; y < plane.rows; y += every)
+    for (int x = 0; x < plane.cols; x += every)
+      if (around.at<uchar>(y, x) != 0) samples.push_back({terms_at(x, y, plane.size()), plane.at<float>(y, x)});
+  return samples;
+}
+
+// Least squares over the pixels of `around`, several times, each time without what lies far off.
+Surface surface_through(const cv::Mat& plane, const cv::Mat& around) {
+  const std::vector<Sample> samples = samples_of(plane, around);
+  Terms found = Terms::zeros();
+  double limit = std::numeric_limits<double>::infinity(), sd = kLeastSd;
+  for (int fit = 0; fit < kRefits; ++fit) {
+    auto normal = 1e-6 * cv::Matx<double, 6, 6>::eye();  // too few samples: the least surface
+    Terms right = Terms::zeros();
+    for (const Sample& sample : samples) {
+      if (std::abs(sample.value - found.dot(sample.terms)) > limit) continue;
+      right += sample.value * sample.terms;
+      normal += sample.terms * sample.terms.t();
+    }
+    found = normal.solve(right, cv::DECOMP_CHOLESKY);
+    std::vector<double> off;
+    for (const Sample& sample : samples) off.push_back(std::abs(sample.value - found.dot(sample.terms)));
+    sd = std::max(kLeastSd, 1.4826 * median_of(off));  // of a Gaussian
+    limit = kOutlier_sd * sd;
+  }
+  Surface surface{.values = cv::Mat(plane.size(), CV_32FC1), .sd = sd};
+  for (int y = 0; y < plane.rows; ++y)
+    for (int x = 0; x < plane.cols; ++x)
+      surface.values.at<float>(y, x) = static_cast<float>(found.dot(terms_at(x, y, plane.size())));
+  return surface;
+}
+
+// Luma, and for colour Cb and Cr at luma's resolution, over a part of the image.
+std::vector<cv::Mat> planes_of(const Frame& frame, const cv::Rect& patch) {
+  if (frame.layout == PixelLayout::rgb)
+    return planes_of(frame_of_bgr(bgr_of(frame), PixelLayout::yuv444, {.range = ColorRange::full}), patch);
+  std::vector<cv::Mat> planes(static_cast<std::size_t>(frame.plane_count()));
+  frame.planes[0](patch).convertTo(planes[0], CV_32F);
+  const cv::Size step = chroma_step(frame.layout);
+  const auto columns = chroma_taps(frame.size_px().width, step.width, chroma_on_luma_column(frame.color.chroma_site));
+  const auto rows = chroma_taps(frame.size_px().height, step.height, chroma_on_luma_row(frame.color.chroma_site));
+  for (std::size_t p = 1; p < planes.size(); ++p) {
+    planes[p].create(patch.size(), CV_32FC1);
+    for (int y = 0; y < patch.height; ++y)
+      for (int x = 0; x < patch.width; ++x) {
+        const ChromaTap& column = columns[static_cast<std::size_t>(patch.x + x)];
+        const ChromaTap& row = rows[static_cast<std::size_t>(patch.y + y)];
+        const auto across = [&](int line) {
+          const auto* const samples = frame.planes[p].ptr<uchar>(line);
+          return samples[column.first] +
+                 column.share * static_cast<float>(samples[column.second] - samples[column.first]);
+        };
+        const float upper = across(row.first);
+        planes[p].at<float>(y, x) = upper + row.share * (across(row.second) - upper);
+      }
+  }
+  return planes;
+}
+
+// The pieces of a mask that are no specks.
+cv::Mat without_specks(const cv::Mat& mask) {
+  cv::Mat labels, statistics, centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8);
+  int largest = 0;
+  for (int i = 1; i < count; ++i) largest = std::max(largest, statistics.at<int>(i, cv::CC_STAT_AREA));
+  cv::Mat kept = cv::Mat::zeros(mask.size(), CV_8UC1);
+  for (int i = 1; i < count; ++i) {
+    const int area = statistics.at<int>(i, cv::CC_STAT_AREA);
+    if (area >= 3 && area >= kLeastSpeck * largest) kept.setTo(255, labels == i);
+  }
+  return kept;
+}
+
+bool is_on_edge_of(const cv::Mat& mask, const cv::Rect& inner) {
+  const cv::Mat within = mask(inner);
+  return cv::countNonZero(within.row(0)) + cv::countNonZero(within.row(within.rows - 1)) +
+             cv::countNonZero(within.col(0)) + cv::countNonZero(within.col(within.cols - 1)) >
+         0;
+}
+
+// The target within `inner`, a rectangle of the image.
+std::optional<TargetSilhouette> silhouette_in(const Frame& frame, const cv::Rect& inner) {
+  const cv::Rect image({0, 0}, frame.size_px());
+  const int margin_px = std::max(kLeastMargin_px, std::max(inner.width, inner.height) * 35 / 100);
+  const cv::Rect wanted(inner.x - margin_px, inner.y - margin_px, inner.width + 2 * margin_px,
+                        inner.height + 2 * margin_px);
+  TargetSilhouette found{.patch = wanted & image};
+  if (2 * (found.patch.area() - inner.area()) < wanted.area() - inner.area()) return std::nullopt;
+  const cv::Rect inner_in_patch = inner - found.patch.tl();
+  const std::vector<cv::Mat> planes = planes_of(frame, found.patch);
+  cv::Mat around(found.patch.size(), CV_8UC1, cv::Scalar(255));
+  around(inner_in_patch).setTo(0);
+  const Surface luma = surface_through(planes[0], around);
+  found.difference = planes[0] - luma.values;
+  found.background_sd = luma.sd;
+  cv::Mat differs = cv::Mat::zeros(found.patch.size(), CV_8UC1);
+  const cv::Mat inside = cv::abs(found.difference(inner_in_patch)) > std::max(kLeastThreshold, kThreshold_sd * luma.sd);
+  inside.copyTo(differs(inner_in_patch));
+  found.mask = without_specks(differs);
+  if (cv::countNonZero(found.mask) < kLeastPixels) return std::nullopt;
+  found.is_cut = is_on_edge_of(found.mask, inner_in_patch);
+  found.box = cv::boundingRect(found.mask) + found.patch.tl();
+  found.background = cv::mean(luma.values, found.mask)[0];
+  cv::distanceTransform(found.mask == 0, found.distance_px, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  if (planes.size() == 3) {
+    const Surface cb = surface_through(planes[1], around), cr = surface_through(planes[2], around);
+    found.cb = planes[1];
+    found.cr = planes[2];
+    found.cb_difference = planes[1] - cb.values;
+    found.cr_difference = planes[2] - cr.values;
+    found.chroma_sd = std::max(cb.sd, cr.sd);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<TargetSilhouette> target_silhouette(const Frame& frame, const Box& box) {
+  const cv::Rect image({0, 0}, frame.size_px());
+  if (!(box.width > 0 && box.height > 0) || !std::isfinite(box.x + box.y + box.width + box.height)) return std::nullopt;
+  const cv::Rect loose = pixels_touched(box, 2, image);
+  if (loose.width < 3 || loose.height < 3) return std::nullopt;
+  const auto first = silhouette_in(frame, loose);
+  if (!first) return std::nullopt;
+  // Again with the box of what was found: whoever drew the loose box has no say in what counts as surroundings.
+  const cv::Rect tight = first->box;
+  const cv::Rect grown = cv::Rect(tight.x - 3, tight.y - 3, tight.width + 6, tight.height + 6) & image;
+  auto second = silhouette_in(frame, grown);
+  if (second) second->is_cut = first->is_cut;
+  return second;
+}
+
+}  // namespace sigs

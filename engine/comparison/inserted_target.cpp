@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "comparison/inserted_target.h"
+
+#include <algorithm>
+
+#include "frame/compose_frame.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr double kLoose = 1.2;  // of an inserted target's box, as the real ones' boxes are loose
+constexpr double kLooseMargin_px = 3;
+constexpr double kMostResizing = 1.6;  // of the first guess: a silhouette that is only told in part is not trusted more
+
+Box loosened(const Box& box) {
+  const double by_x = 0.5 * (kLoose - 1) * box.width + kLooseMargin_px;
+  const double by_y = 0.5 * (kLoose - 1) * box.height + kLooseMargin_px;
+  return {box.x - by_x, box.y - by_y, box.width + 2 * by_x, box.height + 2 * by_y};
+}
+
+cv::Point2d middle_of(const Box& box) {
+  return {box.x + box.width / 2, box.y + box.height / 2};
+}
+
+}  // namespace
+
+Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch, const FootageShape& shape,
+                                  const MeasuredTarget& real, cv::Point2d middle_px, std::uint32_t seed,
+                                  SceneFiles& files, ComposeContext& context) {
+  Insertion insertion(stretch, shape, files, context);
+  insertion.real_path_px_ = real.path_px;
+  IntruderPose& pose = insertion.pose_;
+  pose.middle_px = middle_px;
+  pose.aspect = static_cast<double>(real.look.box.width) / real.look.box.height;
+  pose.width_px = std::max(2.0, real.look.box.width - 1.0);
+  pose.seed = seed;
+  if (stretch.reach() > 0)
+    pose.step_px = (middle_of(stretch.boxes.back()) - middle_of(stretch.boxes.front())) / (2.0 * stretch.reach());
+  // A silhouette by threshold is wider or narrower than the outline: both are to be the same by threshold.
+  Project sharp = project;
+  sharp.compositing.blur_px_per_m = 0;
+  sharp.appearance = {};
+  const auto middle = static_cast<std::size_t>(stretch.reach());
+  const Result<Composed> first = insertion.composed_between(sharp, middle, middle + 1);
+  if (!first) return fail(first.error());
+  if (const auto look = first->frames.empty() ? std::nullopt : target_look(first->frames[0], first->boxes[0]))
+    pose.width_px *=
+        std::clamp(static_cast<double>(real.look.box.width) / look->box.width, 1 / kMostResizing, kMostResizing);
+  return insertion;
+}
+
+Result<Insertion::Composed> Insertion::composed(const Project& project, CameraShake shake) {
+  pose_.path_px = shake == CameraShake::as_real_target ? real_path_px_ : std::vector<cv::Point2d>();
+  return composed_between(project, 0, stretch_->frames.size());
+}
+
+Result<Insertion::Composed> Insertion::composed_between(const Project& project, std::size_t first, std::size_t end) {
+  const Result<Scene> scene = posed_scene(project, shape_, *files_, stretch_->middle, pose_);
+  if (!scene) return fail(scene.error());
+  Composed all;
+  for (std::size_t i = first; i < end; ++i) {
+    Result<ComposedFrame> one = compose_frame(*scene, stretch_->middle - stretch_->reach() + static_cast<int>(i),
+                                              stretch_->frames[i], *context_);
+    if (!one) return fail(one.error());
+    const auto& box = one->truth.intruders.front().amodal_box;
+    if (!box) return Composed{};
+    all.boxes.push_back(loosened(*box));
+    all.frames.push_back(std::move(one->image));
+  }
+  for (const auto& model : scene->models) context_->forget(model->mesh);
+  return all;
+}
+
+Result<std::optional<MeasuredTarget>> Insertion::target(const Project& project, CameraShake shake) {
+  const Result<Composed> all = composed(project, shake);
+  if (!all) return fail(all.error());
+  if (all->frames.empty()) return std::optional<MeasuredTarget>();
+  return measured_target(all->frames, all->boxes);
+}
+
+}  // namespace sigs

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "frame/code_stages.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "compositor/blend.h"
+#include "compositor/chroma_spread.h"
+#include "compositor/code_patch.h"
+#include "compositor/grain.h"
+#include "compositor/sharpen.h"
+
+namespace sigs {
+
+namespace {
+
+// Noise of each intruder of its own: where one shows through another, both are there.
+Grain grain_for(const GrainSettings& settings, int intruder) {
+  const auto seed = static_cast<std::uint64_t>(settings.seed) + (static_cast<std::uint64_t>(intruder) << 32);
+  return {.sd_dark = settings.sd_dark,
+          .sd_bright = settings.sd_bright,
+          .sd_chroma = settings.sd_chroma,
+          .spread_px = settings.spread_px,
+          .persistence = settings.persistence,
+          .seed = seed};
+}
+
+std::int64_t samples_of(const CodePatch& patch, int first_plane, int end_plane) {
+  std::int64_t count = 0;
+  for (int plane = first_plane; plane < std::min(end_plane, patch.plane_count()); ++plane)
+    count += patch.planes[static_cast<std::size_t>(plane)].rect.area();
+  return count;
+}
+
+// The stages in their order, each with the operations that it takes.
+class CodeStages {
+ public:
+  CodeStages(CodePatch& patch, ComposedFrame& composed, const StageDone& done)
+      : patch_(patch), composed_(composed), done_(done) {}
+
+  void sharpened(double amount, double sigma_px) {
+    if (amount == 0) return;
+    sharpen(patch_, amount, sigma_px);
+    composed_.op_counts.samples_filtered += samples_of(patch_, 0, 1);
+    tell("sharpened");
+  }
+
+  void with_chroma_spread(double sigma_samples) {
+    if (sigma_samples == 0 || patch_.plane_count() == 1) return;
+    spread_chroma(patch_, sigma_samples);
+    composed_.op_counts.samples_filtered += samples_of(patch_, patch_.layout == PixelLayout::rgb ? 0 : 1, 3);
+    tell("chroma_spread");
+  }
+
+  void with_grain(const Grain& grain, int number) {
+    if (grain.is_none()) return;
+    composed_.op_counts.samples_of_noise += add_grain(patch_, grain, number);
+    tell("grain");
+  }
+
+ private:
+  void tell(const char* name) {
+    if (!done_) return;
+    (void)write_patch(patch_, composed_.image);
+    done_(name);
+  }
+
+  CodePatch& patch_;
+  ComposedFrame& composed_;
+  const StageDone& done_;
+};
+
+}  // namespace
+
+int code_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout) {
+  return std::max(sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
+                  chroma_spread_margin_px(layout, appearance.chroma_spread_px));
+}
+
+bool has_code_stages(const AppearanceSettings& appearance) {
+  return appearance.sharpening > 0 || appearance.chroma_spread_px > 0 || !grain_for(appearance.grain, 0).is_none();
+}
+
+Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int number,
+                                 const StageDone& done) {
+  const AppearanceSettings& look = scene.appearance;
+  const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
+  CodePatch patch = blended_patch(composed.image, layers.occluded, space,
+                                  code_stages_margin_px(look, composed.image.layout), scene.own_body);
+  CodeStages stages(patch, composed, done);
+  stages.sharpened(look.sharpening, look.sharpening_px);
+  stages.with_chroma_spread(look.chroma_spread_px);
+  stages.with_grain(grain_for(look.grain, layers.placed.id), number);
+  return {patch.planes[0].rect, write_patch(patch, composed.image)};
+}
+
+}  // namespace sigs

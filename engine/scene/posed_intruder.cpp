@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "scene/posed_intruder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scene/opened_project.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kFramesAround = 10;    // before and after the frame: path and camera are laid out
+constexpr double kNearAspect = 0.1;  // logarithm of the ratio to the wanted aspect
+constexpr double kStep_rad = std::numbers::pi / 24;
+
+// A direction from which an intruder with level wings is seen, and its box from there at a distance of 1 m times the
+// focal length, in metres.
+struct View {
+  double elevation_rad = 0;  // of the line of sight
+  double yaw_rad = 0;        // of the nose, from the line of sight to the right
+  cv::Rect2d box_m;          // right and down
+
+  [[nodiscard]] double aspect() const { return box_m.width / box_m.height; }
+};
+
+glm::dvec3 along(double heading_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(heading_rad), std::cos(elevation_rad) * std::sin(heading_rad),
+          -std::sin(elevation_rad)};
+}
+
+View view_from(const std::vector<glm::vec3>& points_m, double elevation_rad, double yaw_rad) {
+  cv::Point2d low(1e300, 1e300), high(-1e300, -1e300);
+  for (const glm::dvec3 point : points_m) {
+    const glm::dvec3 turned = glm::angleAxis(yaw_rad, glm::dvec3(0, 0, 1)) * point;
+    const cv::Point2d at(turned.y, std::sin(elevation_rad) * turned.x + std::cos(elevation_rad) * turned.z);
+    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+  }
+  return {elevation_rad, yaw_rad, cv::Rect2d(low, high)};
+}
+
+// The smallest turn that takes one unit vector to another, which is not opposite.
+glm::dquat turn_between(const glm::dvec3& from, const glm::dvec3& to) {
+  return glm::normalize(glm::dquat(1 + glm::dot(from, to), glm::cross(from, to)));
+}
+
+// One of those whose aspect is near the wanted one, else the nearest.
+View chosen_view(const std::vector<glm::vec3>& points_m, const IntruderPose& pose) {
+  std::vector<View> near;
+  View nearest;
+  double least = 1e300;
+  for (double elevation = pose.lowest_rad; elevation <= pose.highest_rad; elevation += kStep_rad)
+    for (double yaw = 0; yaw < 2 * std::numbers::pi; yaw += kStep_rad) {
+      const View view = view_from(points_m, elevation, yaw);
+      const double off = pose.aspect > 0 ? std::abs(std::log(view.aspect() / pose.aspect)) : 0;
+      if (off < kNearAspect) near.push_back(view);
+      if (off < least) {
+        least = off;
+        nearest = view;
+      }
+    }
+  return near.empty() ? nearest : near[pose.seed * std::size_t{2654435761} % near.size()];
+}
+
+// Where it is against the pose's middle, some frames before or after the pose's frame.
+cv::Point2d offset_px(const IntruderPose& pose, int frames) {
+  const int reach = static_cast<int>(pose.path_px.size()) / 2;
+  if (pose.path_px.empty()) return frames * pose.step_px;
+  const int known = std::clamp(frames, -reach, reach);
+  return pose.path_px[static_cast<std::size_t>(known + reach)] + (frames - known) * pose.step_px;
+}
+
+// The project that posed_scene() opens, its intruder somewhere.
+Project bare_project(const Project& project) {
+  Project bare = project;
+  bare.footage.own_body_mask.clear();
+  bare.footage.first_frame = 0;
+  bare.footage.last_frame.reset();
+  bare.intruders.resize(1);
+  bare.intruders.front().trajectory = {};
+  bare.intruders.front().trajectory.waypoints = {{.position_m = {1000, 0, -1000}}};
+  bare.camera = {.position_m = project.camera.position_m, .exposure_s = project.camera.exposure_s};
+  bare.camera.roll_deg = 0;
+  bare.camera.pitch_deg = 0;
+  return bare;
+}
+
+}  // namespace
+
+Result<Scene> posed_scene(const Project& project, const FootageShape& footage, SceneFiles& files, int frame,
+                          const IntruderPose& pose) {
+  if (project.intruders.empty())
+    return fail(project.file.string() + ": intruders", "is empty; name one with its model", ErrorKind::usage);
+  Project bare = bare_project(project);
+  const Result<Scene> first = open_scene(bare, footage, files);
+  if (!first) return fail(first.error());
+  const Lens& lens = first->camera.lens;
+  const View view = chosen_view(first->intruders.front().model->outermost_m, pose);
+  const auto middle = lens.ray({pose.middle_px.x, pose.middle_px.y});
+  if (!middle)
+    return fail(project.footage.calibration, "has no ray for a pixel at which an intruder is wanted",
+                ErrorKind::bad_project);
+  const double distance_m = lens.pixels_per_radian(*middle) * view.box_m.width / pose.width_px;
+  const double m_per_px = view.box_m.width / pose.width_px;
+  const cv::Point2d box_middle_m = 0.5 * (view.box_m.tl() + view.box_m.br());
+  const cv::Point2d reference_px = pose.middle_px - box_middle_m / m_per_px;
+
+  const glm::dvec3 start_m = project.camera.position_m;
+  const glm::dvec3 there_m = start_m + distance_m * along(0, view.elevation_rad);
+  const double middle_s = time_of_frame_s(footage, frame);
+  const auto position_at = [&](double time_s) {
+    return there_m + pose.speed_mps * (time_s - middle_s) * along(view.yaw_rad, 0);
+  };
+  std::vector<WaypointSettings>& waypoints = bare.intruders.front().trajectory.waypoints;
+  waypoints.clear();
+  for (const int n : {frame - kFramesAround, frame + kFramesAround})
+    waypoints.push_back({.frame = n, .position_m = position_at(time_of_frame_s(footage, n))});
+  Result<Scene> scene = open_scene(bare, footage, files);
+  if (!scene) return scene;
+  for (int n = frame - kFramesAround; n <= frame + kFramesAround; ++n) {
+    const cv::Point2d at = reference_px + offset_px(pose, n - frame);
+    const auto ray = lens.ray({at.x, at.y});
+    if (!ray) continue;
+    const double time_s = time_of_frame_s(footage, n);
+    const glm::dvec3 towards = glm::normalize(position_at(time_s) - start_m);
+    // The camera without roll as far as it can be, then the small turn that is left.
+    const glm::dquat level = glm::angleAxis(view.elevation_rad - std::asin(-ray->z), glm::dvec3(0, 1, 0));
+    const glm::dquat turn = turn_between(level * *ray, towards) * level;
+    scene->motion.turns.push_back({.time_s = time_s, .world_from_carrier = turn});
+  }
+  return scene;
+}
+
+}  // namespace sigs

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/scene.h"
+#include "scene/scene_files.h"
+
+namespace sigs {
+
+// How an intruder is to be seen in one frame: where, how large, and how it moves in the image. This is the reverse of a
+// project, whose waypoints say where it is; it serves to compare an intruder with what footage shows.
+struct IntruderPose {
+  cv::Point2d middle_px;      // middle of its silhouette's box
+  double width_px = 0;        // of that box, above 0
+  double aspect = 0;          // its width over its height; 0: any
+  cv::Point2d step_px{0, 0};  // motion in the image from one frame to the next
+  // Where it is against middle_px in successive frames, the middle one of them being the pose's; an odd number. Frames
+  // before and after go on by step_px. Empty: step_px alone.
+  std::vector<cv::Point2d> path_px = {};
+  double speed_mps = 60;                       // through the world, along the nose
+  double lowest_rad = 0.1, highest_rad = 1.0;  // elevations above the horizon from which one is chosen
+  std::uint32_t seed = 1;                      // chooses among the views whose aspect is near enough
+};
+
+// The scene of a project with its first intruder seen so in `frame`, wings level, above the camera; the others are left
+// out. The camera stands at the project's position and turns with the intruder, as if somebody held it: track,
+// attitude and speed of the project's camera, its own body and its range of frames are ignored. World X is the
+// direction in which the intruder is seen. Errors are those of open_scene; usage where there is no intruder;
+// bad_project where the pixel has no ray.
+[[nodiscard]] Result<Scene> posed_scene(const Project& project, const FootageShape& footage, SceneFiles& files,
+                                        int frame, const IntruderPose& pose);
+
+}  // namespace sigs

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "appearance/noise.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "appearance/grain_model.h"
+#include "support/test_data.h"
+#include "video/frame_source.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+struct Added {
+  double sd_dark = 2, sd_bright = 2;  // variance linear in brightness between them
+  double sd_chroma = 0;
+  double spread_px = 0;
+  double persistence = 0;
+};
+
+// Normal noise of variance 1, blurred by OpenCV; each frame keeps part of the one before (autoregressive).
+class NoiseField {
+ public:
+  NoiseField(cv::Size size, const Added& added, int seed) : added_(added), random_(static_cast<std::uint64_t>(seed)) {
+    last_ = fresh(size);
+  }
+  cv::Mat next() {
+    const double kept = added_.persistence;
+    last_ = kept * last_ + std::sqrt(1 - kept * kept) * fresh(last_.size());
+    return last_;
+  }
+
+ private:
+  cv::Mat fresh(cv::Size size) {
+    cv::Mat noise(size, CV_32FC1);
+    random_.fill(noise, cv::RNG::NORMAL, 0, 1);
+    if (added_.spread_px > 0) {
+      cv::GaussianBlur(noise, noise, {}, added_.spread_px);
+      cv::Scalar mean, deviation;
+      cv::meanStdDev(noise, mean, deviation);
+      noise /= deviation[0];
+    }
+    return noise;
+  }
+  Added added_;
+  cv::RNG random_;
+  cv::Mat last_;
+};
+
+// Adds noise to the frame; 16 black, 235 white.
+void add_noise(Frame& frame, const Added& added, NoiseField& luma, NoiseField& chroma) {
+  const cv::Mat noise = luma.next();
+  cv::Mat& plane = frame.planes[0];
+  for (int y = 0; y < plane.rows; ++y) {
+    for (int x = 0; x < plane.cols; ++x) {
+      const double b = (plane.at<uchar>(y, x) - 16) / 219.0;
+      const double variance = added.sd_dark * added.sd_dark * (1 - b) + added.sd_bright * added.sd_bright * b;
+      plane.at<uchar>(y, x) =
+          cv::saturate_cast<uchar>(plane.at<uchar>(y, x) + std::sqrt(std::max(variance, 0.0)) * noise.at<float>(y, x));
+    }
+  }
+  for (const int c : {1, 2}) {
+    cv::Mat sum;
+    frame.planes[c].convertTo(sum, CV_32F);
+    sum += added.sd_chroma * chroma.next();
+    sum.convertTo(frame.planes[c], CV_8U);
+  }
+}
+
+// Half as large each way and blurred, so that nothing is left of its own noise and its finest texture: 640x480.
+Frame halved(const Frame& frame) {
+  Frame half = frame;
+  for (cv::Mat& plane : half.planes) {
+    cv::resize(plane, plane, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::GaussianBlur(plane, plane, {}, 1.2);
+  }
+  return half;
+}
+
+NoiseFound found_in_sample(const Added& added) {
+  Result<FrameSource> footage = FrameSource::open(source_dir() / "assets/footage/sample.mp4");
+  REQUIRE(footage);
+  Noise noise;
+  NoiseField luma({640, 480}, added, 7), chroma({320, 240}, {.persistence = added.persistence}, 8);
+  for (int n = 0; n < 12; n += 4) {
+    Frame first = halved(footage->read(n).value());
+    Frame second = halved(footage->read(n + 1).value());
+    add_noise(first, added, luma, chroma);
+    add_noise(second, added, luma, chroma);
+    noise.add(first, &second);
+  }
+  return noise.finish();
+}
+
+// A ramp of brightness with noise.
+Frame ramp(const Added& added, NoiseField& luma, NoiseField& chroma) {
+  Frame frame = blank_frame(PixelLayout::yuv420, {640, 320}, {});
+  for (int x = 0; x < 640; ++x) frame.planes[0].col(x).setTo(30 + x * 190 / 640);
+  frame.planes[1].setTo(120);
+  frame.planes[2].setTo(130);
+  add_noise(frame, added, luma, chroma);
+  return frame;
+}
+
+NoiseFound found_on_ramp(const Added& added) {
+  Noise noise;
+  NoiseField luma({640, 320}, added, 3), chroma({320, 160}, {.persistence = added.persistence}, 4);
+  for (int n = 0; n < 3; ++n) {
+    const Frame first = ramp(added, luma, chroma);
+    const Frame second = ramp(added, luma, chroma);
+    noise.add(first, &second);
+  }
+  return noise.finish();
+}
+
+}  // namespace
+
+TEST_CASE("noise added to synthetic footage is found within 10 percent over brightness") {
+  for (const Added& added : {Added{2.5, 2.5}, Added{4, 2}, Added{2, 3.5}}) {
+    const NoiseFound found = found_in_sample(added);
+    CAPTURE(added.sd_dark);
+    CAPTURE(found.sd_dark.value);
+    CAPTURE(found.sd_bright.value);
+    CAPTURE(found.sd_bright.sd);
+    CAPTURE(found.spread_px.value);
+    CAPTURE(found.persistence.value);
+    REQUIRE_MESSAGE(found.sd_dark.is_known, found.sd_dark.why);
+    for (const double b : {0.2, 0.4, 0.6, 0.8}) {
+      const auto sd_at = [b](double dark, double bright) {
+        return std::sqrt(dark * dark * (1 - b) + bright * bright * b);
+      };
+      const double true_sd = sd_at(added.sd_dark, added.sd_bright);
+      CHECK(std::abs(sd_at(found.sd_dark.value, found.sd_bright.value) - true_sd) < 0.1 * true_sd);
+    }
+    CHECK(found.spread_px.value < 0.35);    // white noise: neighbours share 2 percent at 0.35
+    CHECK(found.persistence.value < 0.15);  // clouds that hardly move look like noise that lasts
+  }
+}
+
+TEST_CASE("noise that neighbours share, and that lasts, is told so") {
+  for (const double spread_px : {0.6, 1.0, 1.3}) {
+    const NoiseFound found = found_on_ramp({.sd_dark = 3, .sd_bright = 3, .spread_px = spread_px});
+    CAPTURE(spread_px);
+    CHECK(std::abs(found.spread_px.value - spread_px) <
+          0.13 * spread_px);  // wide noise is partly taken for brightness that varies
+    CHECK(std::abs(found.sd_dark.value - 3) < 0.3);
+    CHECK(std::abs(found.sd_bright.value - 3) < 0.3);
+  }
+  for (const double persistence : {0.3, 0.7}) {
+    const NoiseFound found =
+        found_on_ramp({.sd_dark = 3, .sd_bright = 2, .sd_chroma = 1.5, .persistence = persistence});
+    REQUIRE_MESSAGE(found.persistence.is_known, found.persistence.why);
+    CHECK(std::abs(found.persistence.value - persistence) < 0.05);
+    CHECK(std::abs(found.sd_chroma.value - 1.5) < 0.15);
+  }
+}
+
+TEST_CASE("the rest of blurred noise in a block is as many random blocks have it") {
+  cv::RNG random(5);
+  for (const double spread_px : {0.0, 0.8, 1.6}) {
+    cv::Mat noise(1600, 1600, CV_32FC1);
+    random.fill(noise, cv::RNG::NORMAL, 0, 1);
+    if (spread_px > 0) cv::GaussianBlur(noise, noise, {}, spread_px);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(noise, mean, deviation);
+    noise /= deviation[0];
+    double squares = 0, products = 0;
+    // The plane by OpenCV's least squares.
+    cv::Mat design(256, 3, CV_32FC1), inverse;
+    for (int i = 0; i < 256; ++i) {
+      design.at<float>(i, 0) = 1;
+      design.at<float>(i, 1) = static_cast<float>(i % 16);
+      design.at<float>(i, 2) = static_cast<float>(i / 16);
+    }
+    cv::invert(design, inverse, cv::DECOMP_SVD);
+    for (int y = 0; y < 1600; y += 16) {
+      for (int x = 0; x < 1600; x += 16) {
+        const cv::Mat block = noise(cv::Rect(x, y, 16, 16)).clone().reshape(1, 256);
+        const cv::Mat rest = cv::Mat(block - design * (inverse * block)).reshape(1, 16);
+        squares += rest.dot(rest);
+        products += rest.colRange(0, 15).clone().dot(rest.colRange(1, 16).clone());
+      }
+    }
+    const BlockRest expected = block_rest(spread_px, 16);
+    CHECK(expected.variance == doctest::Approx(squares / 10000 / 253).epsilon(0.02));  // 10,000 blocks
+    CHECK(std::abs(expected.correlation - products / 10000 / 240) < 0.01);
+  }
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "base/input_file.h"
+#include "cli/program.h"
+#include "cli/tiny_project.h"
+#include "support/files.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+std::string sample() {
+  return (source_dir() / "assets/footage/sample.mp4").string();
+}
+
+}  // namespace
+
+TEST_CASE("how footage looks is printed as a table, written as settings and drawn as a PNG") {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "settings.json").string();
+  const std::string plot = (folder / "page.png").string();
+  const Run run = run_sigs("appearance " + sample() + " --frames 0-40 --every 10 --out " + out + " --plot " + plot);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(has(run.out, "5 frames used"), run.out);
+  for (const char* const name : {"point spread", "noise at black", "airlight", "exposure", "settings:"})
+    CHECK_MESSAGE(has(run.out, name), run.out);
+  const nlohmann::json settings = json_of(out);
+  CHECK(settings["appearance"]["codec"]["match"] == "footage");
+  CHECK(settings["appearance"]["grain"]["sd_dark"].is_number());
+  CHECK(settings["compositing"]["blur_px_per_m"] == 0);
+  CHECK(settings["light"]["kind"] == "sun");
+  CHECK_FALSE(settings.contains("footage"));
+  const cv::Mat page = cv::imread(plot);
+  CHECK(page.cols == 1200);
+  CHECK(page.rows >= 720);
+  const Run again = run_sigs("appearance " + sample() + " --frames 0-1 --out " + out);
+  CHECK(again.status == 73);
+  CHECK(json_of(out) == settings);
+}
+
+TEST_CASE("the same as JSON says of each quantity whether it is known, and why not") {
+  const Run run = run_sigs("appearance " + sample() + " --frames 3 --json");
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  const nlohmann::json report = nlohmann::json::parse(run.out);
+  CHECK(report["frames_used"] == 1);
+  CHECK(report["codec"] == "h264");
+  REQUIRE(report["quantities"].size() > 10);
+  for (const nlohmann::json& quantity : report["quantities"]) {
+    CAPTURE(quantity.dump());
+    CHECK(quantity["is_known"].get<bool>() == quantity["why"].get<std::string>().empty());
+    CHECK(quantity["is_known"].get<bool>() == quantity["sd"].is_number());
+  }
+  CHECK(report["settings"].contains("appearance"));
+}
+
+TEST_CASE("what is found goes into a project whose other settings stay") {
+  const TinyProject tiny;
+  nlohmann::json before = json_of(tiny.project());
+  before["my_note"] = "keep this";
+  write_file(tiny.project(), before.dump(2));
+  const Run run = run_sigs("appearance " + sample() + " --frames 0-10 --into " + tiny.project());
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  const nlohmann::json after = json_of(tiny.project());
+  CHECK(after["my_note"] == "keep this");
+  CHECK(after["appearance"]["codec"]["match"] == "footage");
+  CHECK(after["light"]["kind"] == "sun");
+  CHECK(after["intruders"].size() == before["intruders"].size());
+  CHECK(after["footage"]["video"] == before["footage"]["video"]);
+  CHECK(run_sigs("appearance " + tiny.project()).status == 0);  // its own footage: 64x48
+}
+
+TEST_CASE("a wrong request of appearance is refused and nothing is written") {
+  const TemporaryFolder folder;
+  const std::string png = (folder / "a.png").string();
+  CHECK(run_sigs("appearance " + sample() + " --plot " + (folder / "a.svg").string()).status == 64);
+  CHECK(run_sigs("appearance " + sample() + " --out " + png + " --plot " + png).status == 64);
+  CHECK(run_sigs("appearance " + sample() + " --frames 500 --plot " + png).status == 64);
+  CHECK(run_sigs("appearance " + sample() + " --frames 3-x --plot " + png).status == 64);
+  CHECK(run_sigs("appearance " + sample() + " --out " + sample() + " --force").status == 73);
+  CHECK(run_sigs("appearance missing.mp4 --plot " + png).status == 66);
+  CHECK(run_sigs("appearance " + sample() + " --into missing.json --plot " + png).status == 66);
+  write_file(folder / "text.mp4", "no video");
+  CHECK(run_sigs("appearance " + (folder / "text.mp4").string() + " --plot " + png).status != 0);
+  CHECK_FALSE(std::filesystem::exists(png));
+}

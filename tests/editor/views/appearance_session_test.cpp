@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/appearance/appearance_session.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <thread>
+
+using namespace sigs;
+using namespace sigs::editor;
+
+namespace {
+
+Project hazy_project() {
+  Project project;
+  project.file = "/flights/flight.json";
+  project.footage.video = "flight.mp4";
+  project.appearance.point_spread_px = 7;
+  return project;
+}
+
+Result<Appearance> quick_look(const AppearanceRequest&, const JobControl&) {
+  Appearance found;
+  found.frames_used = 24;
+  found.point_spread.point_spread_px = {.value = 0.62, .sd = 0.03, .is_known = true};
+  return found;
+}
+
+Result<Appearance> endless_look(const AppearanceRequest&, const JobControl& control) {
+  while (!*control.cancel) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return fail("", "stopped", ErrorKind::interrupted);
+}
+
+bool has_ended(AppearanceSession& session, const Document& document) {
+  for (int i = 0; i < 20000; ++i) {
+    session.follow(document);
+    if (!session.state().is_running()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a look at the footage sets the project's appearance in one step of undo") {
+  Document document(hazy_project());
+  Edits edits;
+  AppearanceSession session(
+      edits, [] {}, quick_look);
+  session.start(document);
+  REQUIRE(has_ended(session, document));
+  document.apply(edits.take_edits());
+  CHECK(document.project().appearance.point_spread_px == doctest::Approx(0.62));
+  session.follow(document);
+  CHECK(edits.take_edits().empty());  // once
+  document.apply(Edit(Undo{}));
+  CHECK(document.project() == hazy_project());
+  CHECK_FALSE(document.can_undo());
+}
+
+TEST_CASE("a look that is stopped, fails or lacks footage changes nothing") {
+  Document document(hazy_project());
+  Edits edits;
+  AppearanceSession session(
+      edits, [] {}, endless_look);
+  session.start(document);
+  session.stop();
+  REQUIRE(has_ended(session, document));
+  CHECK(session.state().phase == JobPhase::cancelled);
+  CHECK(edits.take_edits().empty());
+
+  AppearanceSession failing(
+      edits, [] {},
+      [](const AppearanceRequest&, const JobControl&) -> Result<Appearance> { return fail("flight.mp4", "is gone"); });
+  failing.start(document);
+  REQUIRE(has_ended(failing, document));
+  CHECK(edits.take_edits().empty());
+  const std::vector<Request> requests = edits.take_requests();
+  REQUIRE(requests.size() == 1);
+  CHECK(std::get<ShowMessage>(requests[0]).text.find("is gone") != std::string::npos);
+
+  const Document empty;
+  session.start(empty);
+  CHECK_FALSE(session.state().is_running());
+  CHECK(std::get<ShowMessage>(edits.take_requests().at(0)).is_error);
+}
+
+TEST_CASE("another video stops a look at the one before") {
+  Document document(hazy_project());
+  Edits edits;
+  AppearanceSession session(
+      edits, [] {}, endless_look);
+  session.start(document);
+  session.follow(document);
+  CHECK(session.state().is_running());
+  edits.change("set footage", [](Project& project) { project.footage.video = "other.mp4"; });
+  document.apply(edits.take_edits());
+  REQUIRE(has_ended(session, document));
+  CHECK(edits.take_edits().empty());
+}
