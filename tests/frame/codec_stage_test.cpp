@@ -36,7 +36,6 @@ void fly(Scenario& scenario, CodecMatchChoice match) {
   intruder.trajectory.waypoints = {{.frame = 0, .position_m = {70, -45, -160}},
                                    {.frame = kFrames, .position_m = {80, 30, -148}}};
   scenario.project.appearance.codec.match = match;
-  scenario.project.footage.video = scenario.path("footage.mp4").string();
   scenario.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video};
 }
 
@@ -63,6 +62,7 @@ TEST_CASE("with the codec match an export has the same bytes on one thread, on f
   Scenario scenario({326, 242}, kFrames);
   if (!write_h264(scenario.path("footage.mp4"))) return;
   fly(scenario, CodecMatchChoice::footage);
+  scenario.project.footage.video = scenario.path("footage.mp4").string();
   const RawVideo alone = exported(scenario, 1);
   CHECK(same_images(alone, exported(scenario, 4)));
   Result<OpenedProject> opened = open_project(scenario.project, nullptr);
@@ -111,8 +111,8 @@ TEST_CASE("only the direct method, and only where asked, goes through a codec; l
   scenario.project.compositing.method = MethodChoice::direct;
   CHECK(quantisers_for(scenario.project) == Quantisers::read);
   CHECK(composed(scenario.opened(), 3, background).op_counts.pixels_coded > 0);
-  write_footage(scenario.path("footage.mp4"), {320, 240}, 2, PixelLayout::yuv420);
-  Result<FrameSource> source = FrameSource::open(scenario.path("footage.mp4"), nullptr, Quantisers::read);
+  write_footage(scenario.path("lossless.mkv"), {320, 240}, 2, PixelLayout::yuv420);
+  Result<FrameSource> source = FrameSource::open(scenario.path("lossless.mkv"), nullptr, Quantisers::read);
   REQUIRE(source.has_value());
   CHECK(composed(scenario.opened(), 1, source->read(1).value()).op_counts.pixels_coded == 0);
 }
