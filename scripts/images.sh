@@ -31,6 +31,11 @@ ffmpeg -v error -y "${stages[@]}" -filter_complex "
   [s0][s1][s2][s3]hstack=4[upper];[s4][s5][s6][s7]hstack=4[lower];[upper][lower]vstack" \
   -q:v 4 docs/images/classic-stages.jpg
 
+# The sample models: part of frame 100 of the project that has them all, enlarged.
+"$build"/sigs frame projects/liveries/liveries.json --frame 100 --out "$work" >/dev/null
+ffmpeg -v error -y -i "$work/frame_100.png" -vf "crop=900:420:200:150,scale=1350:-1:flags=neighbor" -q:v 4 \
+  docs/images/models.jpg
+
 # The editor, as a test drives it.
 "$build"/test_editor_ui_test --test-case='a person authors*,a person finds the own body*,a person loads trackers*' >"$work/ui_test.log" || {
   cat "$work/ui_test.log"
