@@ -76,6 +76,22 @@ void draw(const std::vector<Sample>& samples, const std::vector<std::string>& ki
   }
 }
 
+// The paper's figures 7 to 13 (a real intruder beside a simulated one, seven times) with the last of the ways to
+// insert: held-out clips, one sample of each, the largest targets first.
+void draw_paper_figures(const std::vector<Sample>& samples, const std::string& kind, const fs::path& file) {
+  constexpr std::size_t kFigures = 7;
+  std::map<std::string, const Sample*> by_clip;
+  for (const Sample& sample : samples)
+    if (!sample.is_tuning && target_of(sample, kind) != nullptr) by_clip.emplace(sample.clip, &sample);
+  std::vector<const Sample*> chosen;
+  for (const auto& [clip, sample] : by_clip) chosen.push_back(sample);
+  std::sort(chosen.begin(), chosen.end(), [](const Sample* a, const Sample* b) {
+    return a->targets.front().look.box.width > b->targets.front().look.box.width;
+  });
+  chosen.resize(std::min(kFigures, chosen.size()));
+  if (!chosen.empty()) draw_sheet(chosen, {"real", kind}, file);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -120,4 +136,5 @@ int main(int count, char** arguments) {
   const std::vector<ByCertainty> certain = write_aucs(samples, kinds, folder);
   write_medians(samples, kinds, folder / "medians.md");
   draw(samples, kinds, certain, folder);
+  draw_paper_figures(samples, kinds.back(), folder / "figures_7_to_13.png");
 }
