@@ -16,7 +16,7 @@ namespace {
 constexpr double kThreshold_sd = 4.5;
 constexpr double kLeastThreshold = 5;  // code values: below it, blocks of the codec would be taken for the target
 constexpr double kLeastSd = 0.5;       // rounding to 8 bits alone gives 0.29
-constexpr int kLeastPixels = 12;
+constexpr int kMinPixels = 12;
 constexpr int kLeastMargin_px = 22;   // as far as the codec's macroblock at the target's edge reaches, and some more
 constexpr double kLeastSpeck = 0.03;  // of the largest piece's area
 constexpr std::size_t kMostSamples = 5000;  // of the background; more change the surface by less than its deviation
@@ -165,7 +165,7 @@ std::optional<TargetSilhouette> silhouette_in(const Frame& frame, const cv::Rect
   const Pieces pieces = pieces_of(differs, inner_in_patch);
   found.mask = pieces.mask;
   found.is_cut = pieces.is_cut;
-  if (cv::countNonZero(found.mask) < kLeastPixels) return std::nullopt;
+  if (cv::countNonZero(found.mask) < kMinPixels) return std::nullopt;
   found.box = cv::boundingRect(found.mask) + found.patch.tl();
   found.background = cv::mean(luma.values, found.mask)[0];
   cv::distanceTransform(found.mask == 0, found.distance_px, cv::DIST_L2, cv::DIST_MASK_PRECISE);
