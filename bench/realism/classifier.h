@@ -23,7 +23,7 @@ enum class ClassifierKind { random_forest, logistic_regression };
                                                       const std::vector<int>& columns, ClassifierKind kind);
 
 // Area under the receiver operating characteristic: the probability that a real example has a higher score than an
-// inserted one, ties by half. 0.5: they cannot be told apart.
+// inserted one, ties by half. 0.5: they look alike.
 struct Auc {
   double value = 0.5;
   double low = 0.5, high = 0.5;  // 95 % of 1000 bootstrap samples of whole clips

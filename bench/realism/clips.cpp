@@ -41,6 +41,34 @@ std::vector<RealClip> real_clips() {
   return clips;
 }
 
+std::vector<RealClip> real_stills() {
+  struct Still {
+    const char* file;
+    bool is_helicopter;
+    Box box;
+  };
+  const Still stills[] = {{"aot/15381490281703842112e5011ded15a4222a04ffa4dcb685ed6.png", true, {1050, 895, 170, 98}},
+                          {"aot/154167201745887282662af6af3d53d4167b1c5c19a7f14da64.png", true, {1218, 510, 175, 105}},
+                          {"aot/1550850461146820501055830f864484ca784d21ddee8f8f1de.png", true, {1795, 295, 130, 130}},
+                          {"aot/156276748080089747525d827e4ddb446d3add626c8e2a76b62.png", false, {1005, 1092, 145, 92}},
+                          {"skylink/skylink_0.jpeg", false, {662, 340, 100, 52}},
+                          {"skylink/skylink_2.jpeg", false, {528, 478, 92, 66}},
+                          {"skylink/skylink_3.jpeg", false, {618, 525, 112, 52}},
+                          {"skylink/skylink_5.jpeg", false, {634, 248, 100, 72}}};
+  std::vector<RealClip> clips;
+  for (const Still& still : stills) {
+    const fs::path path = fs::path(SIGS_TEST_DATA) / "stills" / still.file;
+    if (!fs::exists(path)) continue;
+    const std::string folder = path.parent_path().filename().string();
+    clips.push_back({.name = folder + "_" + std::to_string(clips.size()),
+                     .path = path,
+                     .is_helicopter = still.is_helicopter,
+                     .is_still = true,
+                     .boxes = {still.box}});
+  }
+  return clips;
+}
+
 FrameSource opened(const fs::path& path) {
   Result<FrameSource> source = FrameSource::open(path);
   if (!source) accuracy::stop(source.error().text());

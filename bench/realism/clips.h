@@ -16,12 +16,17 @@ struct RealClip {
   std::string name;
   std::filesystem::path path;
   bool is_helicopter = false;
+  bool is_still = false;                  // a single image
   bool is_tuning = false;                 // settings may be chosen by it; false: it only tells how good they are
   std::vector<std::optional<Box>> boxes;  // loose, by frame; none: no aircraft
 };
 
 // The clips of SIGS_TEST_DATA/track with boxes, by name. The tuning clips are those of the list in clips.cpp.
 [[nodiscard]] std::vector<RealClip> real_clips();
+
+// The stills of SIGS_TEST_DATA/stills as clips of one frame each, with boxes drawn by hand: four raw gray images of a
+// camera aloft (Airborne Object Tracking), four JPEG images of a towed glider's nose camera.
+[[nodiscard]] std::vector<RealClip> real_stills();
 
 // Stops the program where it cannot be opened.
 [[nodiscard]] FrameSource opened(const std::filesystem::path& path);

@@ -10,6 +10,7 @@
 #include "realism/report.h"
 #include "realism/samples.h"
 #include "realism/sheets.h"
+#include "realism/trackers.h"
 
 namespace {
 
@@ -24,6 +25,8 @@ struct Options {
   int jobs = 2;
   bool tuning_only = false;
   bool shakes = false;
+  bool stills = false;
+  bool trackers = false;
 };
 
 std::vector<LookSettings> settings_of(const Options& options) {
@@ -73,6 +76,22 @@ void draw(const std::vector<Sample>& samples, const std::vector<std::string>& ki
   }
 }
 
+// The paper's figures 7 to 13 (a real intruder beside a simulated one, seven times) with the last of the ways to
+// insert: held-out clips, one sample of each, the largest targets first.
+void draw_paper_figures(const std::vector<Sample>& samples, const std::string& kind, const fs::path& file) {
+  constexpr std::size_t kFigures = 7;
+  std::map<std::string, const Sample*> by_clip;
+  for (const Sample& sample : samples)
+    if (!sample.is_tuning && target_of(sample, kind) != nullptr) by_clip.emplace(sample.clip, &sample);
+  std::vector<const Sample*> chosen;
+  for (const auto& [clip, sample] : by_clip) chosen.push_back(sample);
+  std::sort(chosen.begin(), chosen.end(), [](const Sample* a, const Sample* b) {
+    return a->targets.front().look.box.width > b->targets.front().look.box.width;
+  });
+  chosen.resize(std::min(kFigures, chosen.size()));
+  if (!chosen.empty()) draw_sheet(chosen, {"real", kind}, file);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -87,18 +106,24 @@ int main(int count, char** arguments) {
                "these move with the camera's shake, as if the project had its track; it is taken from the real target");
   app.add_option("--clip", options.clip, "clips whose name contains this alone");
   app.add_flag("--tuning", options.tuning_only, "the tuning clips alone");
+  app.add_flag("--stills", options.stills, "the stills in place of the clips");
+  app.add_flag("--trackers", options.trackers, "instead: how OpenCV's trackers follow real and inserted targets");
   app.add_option("--frames", options.frames, "frames of each clip")->check(CLI::Range(1, 30));
   app.add_option("--jobs", options.jobs, "threads")->check(CLI::Range(1, 64));
   CLI11_PARSE(app, count, arguments);
   const fs::path folder = options.folder;
   fs::create_directories(folder / "calibrations");
-  std::vector<RealClip> clips = real_clips();
+  std::vector<RealClip> clips = options.stills ? real_stills() : real_clips();
   std::erase_if(clips, [&](const RealClip& clip) {
     return clip.name.find(options.clip) == std::string::npos || (options.tuning_only && !clip.is_tuning);
   });
   if (clips.empty()) accuracy::stop(std::string(SIGS_TEST_DATA) + "/track: no clip with boxes");
   const SampleOptions sampling{
       .folder = folder / "calibrations", .settings = settings_of(options), .frames_per_clip = options.frames};
+  if (options.trackers) {
+    compare_trackers(clips, sampling, options.jobs, folder);
+    return 0;
+  }
   const std::vector<Sample> samples = all_samples(clips, sampling, options.jobs);
   std::vector<std::string> kinds{"moved"};
   for (const LookSettings& settings : sampling.settings) kinds.push_back(settings.name);
@@ -111,4 +136,5 @@ int main(int count, char** arguments) {
   const std::vector<ByCertainty> certain = write_aucs(samples, kinds, folder);
   write_medians(samples, kinds, folder / "medians.md");
   draw(samples, kinds, certain, folder);
+  draw_paper_figures(samples, kinds.back(), folder / "figures_7_to_13.png");
 }

@@ -32,29 +32,6 @@ ModelSettings model_for(const RealClip& clip, std::uint32_t seed) {
   return fs::exists(chosen.file) ? chosen : aircraft[seed % 2];
 }
 
-// Seed of a sample: the same whatever else is measured.
-std::uint32_t seed_of(const std::string& text, int frame) {
-  std::uint32_t hash = 2166136261U;  // FNV-1a
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
-  hash = (hash ^ static_cast<std::uint32_t>(frame)) * 16777619U;
-  return hash ^ (hash >> 15);
-}
-
-template <class Value>
-Value expected(Result<Value> result) {
-  if (!result) accuracy::stop(result.error().text());
-  return *std::move(result);
-}
-
-Project project_of(const RealClip& clip, const fs::path& calibration) {
-  Project project{.file = clip.name + ".json"};
-  project.footage.video = fs::absolute(clip.path).string();
-  project.footage.calibration = calibration.string();
-  project.intruders.resize(1);
-  project.intruders.front().model = model_for(clip, seed_of(clip.name, 0));
-  return project;
-}
-
 std::optional<MeasuredTarget> moved_target(const Stretch& stretch, const MeasuredTarget& real, cv::Point2d middle_px) {
   // Chroma samples move by whole ones.
   const cv::Point2d now = 0.5 * cv::Point2d(real.look.box.tl() + real.look.box.br());
@@ -73,25 +50,40 @@ std::optional<MeasuredTarget> moved_target(const Stretch& stretch, const Measure
 
 }  // namespace
 
+std::uint32_t seed_of(const std::string& text, int frame) {
+  std::uint32_t hash = 2166136261U;  // FNV-1a
+  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
+  hash = (hash ^ static_cast<std::uint32_t>(frame)) * 16777619U;
+  return hash ^ (hash >> 15);
+}
+
+Project project_of(const RealClip& clip, cv::Size size_px, const fs::path& folder) {
+  Project project{.file = clip.name + ".json"};
+  project.footage.video = fs::absolute(clip.path).string();
+  project.footage.calibration = written_pinhole(size_px, kField_rad, folder / (clip.name + ".yml")).string();
+  project.intruders.resize(1);
+  project.intruders.front().model = model_for(clip, seed_of(clip.name, 0));
+  return project;
+}
+
 std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& options, Workplace& workplace,
                                LeftOut& left_out) {
   FrameSource footage = opened(clip.path);
   const FootageShape shape = shape_of(footage.info());
-  const Project project =
-      project_of(clip, written_pinhole(shape.size_px, kField_rad, options.folder / (clip.name + ".yml")));
+  const Project project = project_of(clip, shape.size_px, options.folder);
   std::vector<Sample> samples;
   const int count = static_cast<int>(clip.boxes.size());
   for (int i = 0; i < options.frames_per_clip; ++i) {
-    const int middle = (2 * i + 1) * count / (2 * options.frames_per_clip);
+    const int middle = clip.is_still ? 0 : (2 * i + 1) * count / (2 * options.frames_per_clip);
     const auto stretch = expected(stretch_around(footage, clip.boxes, middle));
-    if (!stretch || stretch->reach() == 0) continue;
+    if (!stretch || (stretch->reach() == 0 && !clip.is_still)) continue;
     const auto real = measured_target(stretch->frames, stretch->boxes);
     if (!real || real->look.is_cut) {
       ++(real ? left_out.cut : left_out.not_found);
       continue;
     }
     const cv::Size wanted(real->look.box.width + 8, std::max(real->look.box.height, real->look.box.width / 2) + 8);
-    const std::uint32_t seed = seed_of(clip.name, middle);
+    const std::uint32_t seed = seed_of(clip.name, clip.is_still ? i : middle);
     const auto place = similar_place(stretch->middle_frame(), stretch->middle_box(), wanted, seed);
     if (!place) {
       ++left_out.no_place;
@@ -100,7 +92,7 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
     Sample sample{.clip = clip.name,
                   .is_helicopter = clip.is_helicopter,
                   .is_tuning = clip.is_tuning,
-                  .frame = middle,
+                  .frame = clip.is_still ? i : middle,
                   .model = fs::path(project.intruders.front().model.file).stem().string(),
                   .targets = {{"real", *real}}};
     if (auto moved = moved_target(*stretch, *real, *place)) sample.targets.push_back({"moved", std::move(*moved)});

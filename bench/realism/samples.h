@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/csv.h"
 #include "comparison/measured_target.h"
 #include "frame/compose_context.h"
 #include "realism/clips.h"
@@ -27,7 +28,7 @@ struct Target : MeasuredTarget {
 struct Sample {
   std::string clip;
   bool is_helicopter = false, is_tuning = false;
-  int frame = 0;
+  int frame = 0;                // of a still: which of the insertions
   std::string model;            // of the inserted ones
   std::vector<Target> targets;  // the real one first
 };
@@ -50,6 +51,19 @@ struct Workplace {
   ComposeContext context;
   SceneFiles files;
 };
+
+// The project of a clip: an aircraft of the clip's kind, the same in all its frames, a pinhole of 60 degrees.
+[[nodiscard]] Project project_of(const RealClip& clip, cv::Size size_px, const std::filesystem::path& folder);
+
+// Seed of a sample: the same whatever else is measured.
+[[nodiscard]] std::uint32_t seed_of(const std::string& text, int frame);
+
+// Stops the program where there is an error.
+template <class Value>
+[[nodiscard]] Value expected(Result<Value> result) {
+  if (!result) accuracy::stop(result.error().text());
+  return *std::move(result);
+}
 
 // Evenly spread frames of a clip, each with the three before and after it.
 [[nodiscard]] std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& options, Workplace& workplace,

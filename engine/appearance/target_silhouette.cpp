@@ -16,7 +16,7 @@ namespace {
 constexpr double kThreshold_sd = 4.5;
 constexpr double kLeastThreshold = 5;  // code values: below it, blocks of the codec would be taken for the target
 constexpr double kLeastSd = 0.5;       // rounding to 8 bits alone gives 0.29
-constexpr int kLeastPixels = 12;
+constexpr int kMinPixels = 12;
 constexpr int kLeastMargin_px = 22;   // as far as the codec's macroblock at the target's edge reaches, and some more
 constexpr double kLeastSpeck = 0.03;  // of the largest piece's area
 constexpr std::size_t kMostSamples = 5000;  // of the background; more change the surface by less than its deviation
@@ -51,7 +51,8 @@ struct Sample {
 
 // Pixels under a mask, on a grid that leaves some kMostSamples of them.
 std::vector<Sample> samples_of(const cv::Mat& plane, const cv::Mat& around) {
-  const int every = static_cast<int>(std::sqrt(plane.total() / kMostSamples)) + 1;
+  // An odd step, which meets both kinds of pixels of a pattern that alternates.
+  const int every = static_cast<int>(std::sqrt(plane.total() / kMostSamples)) / 2 * 2 + 1;
   std::vector<Sample> samples;
   for (int y = 0; y < plane.rows; y += every)
     for (int x = 0; x < plane.cols; x += every)
@@ -112,25 +113,35 @@ std::vector<cv::Mat> planes_of(const Frame& frame, const cv::Rect& patch) {
   return planes;
 }
 
-// The pieces of a mask that are no specks.
-cv::Mat without_specks(const cv::Mat& mask) {
-  cv::Mat labels, statistics, centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8);
-  int largest = 0;
-  for (int i = 1; i < count; ++i) largest = std::max(largest, statistics.at<int>(i, cv::CC_STAT_AREA));
-  cv::Mat kept = cv::Mat::zeros(mask.size(), CV_8UC1);
-  for (int i = 1; i < count; ++i) {
-    const int area = statistics.at<int>(i, cv::CC_STAT_AREA);
-    if (area >= 3 && area >= kLeastSpeck * largest) kept.setTo(255, labels == i);
-  }
-  return kept;
+// The target's pieces of a mask, and whether its largest one lies on the edge of a rectangle.
+struct Pieces {
+  cv::Mat mask;
+  bool is_cut = false;
+};
+
+bool is_on_edge(const cv::Rect& piece, const cv::Rect& inner) {
+  return piece.x <= inner.x || piece.y <= inner.y || piece.br().x >= inner.br().x || piece.br().y >= inner.br().y;
 }
 
-bool is_on_edge_of(const cv::Mat& mask, const cv::Rect& inner) {
-  const cv::Mat within = mask(inner);
-  return cv::countNonZero(within.row(0)) + cv::countNonZero(within.row(within.rows - 1)) +
-             cv::countNonZero(within.col(0)) + cv::countNonZero(within.col(within.cols - 1)) >
-         0;
+// The largest piece, and those of the others that are no specks and do not lie on the rectangle's edge, as what belongs
+// to the background around does.
+Pieces pieces_of(const cv::Mat& mask, const cv::Rect& inner) {
+  cv::Mat labels, statistics, centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8);
+  const auto area_of = [&](int i) { return statistics.at<int>(i, cv::CC_STAT_AREA); };
+  int largest = 0;  // the background's label: none yet
+  for (int i = 1; i < count; ++i)
+    if (largest == 0 || area_of(i) > area_of(largest)) largest = i;
+  Pieces pieces{.mask = cv::Mat::zeros(mask.size(), CV_8UC1)};
+  for (int i = 1; i < count; ++i) {
+    const cv::Rect piece(statistics.at<int>(i, cv::CC_STAT_LEFT), statistics.at<int>(i, cv::CC_STAT_TOP),
+                         statistics.at<int>(i, cv::CC_STAT_WIDTH), statistics.at<int>(i, cv::CC_STAT_HEIGHT));
+    if (i == largest) pieces.is_cut = is_on_edge(piece, inner);
+    if (i != largest && (area_of(i) < 3 || area_of(i) < kLeastSpeck * area_of(largest) || is_on_edge(piece, inner)))
+      continue;
+    pieces.mask.setTo(255, labels == i);
+  }
+  return pieces;
 }
 
 // The target within `inner`, a rectangle of the image.
@@ -151,9 +162,10 @@ std::optional<TargetSilhouette> silhouette_in(const Frame& frame, const cv::Rect
   cv::Mat differs = cv::Mat::zeros(found.patch.size(), CV_8UC1);
   const cv::Mat inside = cv::abs(found.difference(inner_in_patch)) > std::max(kLeastThreshold, kThreshold_sd * luma.sd);
   inside.copyTo(differs(inner_in_patch));
-  found.mask = without_specks(differs);
-  if (cv::countNonZero(found.mask) < kLeastPixels) return std::nullopt;
-  found.is_cut = is_on_edge_of(found.mask, inner_in_patch);
+  const Pieces pieces = pieces_of(differs, inner_in_patch);
+  found.mask = pieces.mask;
+  found.is_cut = pieces.is_cut;
+  if (cv::countNonZero(found.mask) < kMinPixels) return std::nullopt;
   found.box = cv::boundingRect(found.mask) + found.patch.tl();
   found.background = cv::mean(luma.values, found.mask)[0];
   cv::distanceTransform(found.mask == 0, found.distance_px, cv::DIST_L2, cv::DIST_MASK_PRECISE);

@@ -23,7 +23,7 @@ struct TargetSilhouette {
   double background = 0;                 // luma of the background, mean over the mask
   double background_sd = 0;              // robust standard deviation of the luma about the background around the target
   double chroma_sd = 0;                  // the same of Cb and Cr, the larger one
-  bool is_cut = false;                   // the mask touches the given box's edge: the box may not hold the whole target
+  bool is_cut = false;  // the largest piece touches the given box's edge: the box may not hold the whole target
 };
 
 // Tells the target in `box` from the background. The background is a surface of second order through the luma outside

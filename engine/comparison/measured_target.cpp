@@ -16,13 +16,12 @@ cv::Mat surroundings(const Frame& frame, const cv::Rect& box) {
 }  // namespace
 
 Result<std::optional<Stretch>> stretch_around(FrameSource& footage, const std::vector<std::optional<Box>>& boxes,
-                                              int middle) {
+                                              int middle, int reach) {
   const auto box_at = [&](int n) -> std::optional<Box> {
     if (n < 0 || n >= static_cast<int>(boxes.size()) || n >= footage.info().frame_count()) return std::nullopt;
     return boxes[static_cast<std::size_t>(n)];
   };
   if (!box_at(middle)) return std::optional<Stretch>();
-  int reach = kStretchReach;
   for (int n = middle - reach; n <= middle + reach; ++n)
     if (!box_at(n)) reach = 0;
   Stretch stretch{.middle = middle};

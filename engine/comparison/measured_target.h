@@ -30,8 +30,10 @@ inline constexpr int kStretchReach = 3;  // frames before and after the middle o
 
 // The stretch around a frame. Where the clip or the boxes end within it, the middle frame alone; none where that has no
 // box. Errors are those of FrameSource::read.
+//   reach  frames before and after the middle one
 [[nodiscard]] Result<std::optional<Stretch>> stretch_around(FrameSource& footage,
-                                                            const std::vector<std::optional<Box>>& boxes, int middle);
+                                                            const std::vector<std::optional<Box>>& boxes, int middle,
+                                                            int reach = kStretchReach);
 
 // A target as it was measured.
 struct MeasuredTarget {

@@ -12,7 +12,7 @@ namespace sigs {
 
 namespace {
 
-constexpr int kFramesAround = 10;    // before and after the frame: path and camera are laid out
+constexpr int kLeastAround = 10;     // before and after the frame: path and camera are laid out
 constexpr double kNearAspect = 0.1;  // logarithm of the ratio to the wanted aspect
 constexpr double kStep_rad = std::numbers::pi / 24;
 
@@ -110,17 +110,18 @@ Result<Scene> posed_scene(const Project& project, const FootageShape& footage, S
 
   const glm::dvec3 start_m = project.camera.position_m;
   const glm::dvec3 there_m = start_m + distance_m * along(0, view.elevation_rad);
+  const int around = std::max(kLeastAround, static_cast<int>(pose.path_px.size()) / 2 + 1);
   const double middle_s = time_of_frame_s(footage, frame);
   const auto position_at = [&](double time_s) {
     return there_m + pose.speed_mps * (time_s - middle_s) * along(view.yaw_rad, 0);
   };
   std::vector<WaypointSettings>& waypoints = bare.intruders.front().trajectory.waypoints;
   waypoints.clear();
-  for (const int n : {frame - kFramesAround, frame + kFramesAround})
+  for (const int n : {frame - around, frame + around})
     waypoints.push_back({.frame = n, .position_m = position_at(time_of_frame_s(footage, n))});
   Result<Scene> scene = open_scene(bare, footage, files);
   if (!scene) return scene;
-  for (int n = frame - kFramesAround; n <= frame + kFramesAround; ++n) {
+  for (int n = frame - around; n <= frame + around; ++n) {
     const cv::Point2d at = reference_px + offset_px(pose, n - frame);
     const auto ray = lens.ray({at.x, at.y});
     if (!ray) continue;

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Whether inserted aircraft can be told from real ones: realism/README.md.
+#   bench/realism.sh [--matched] [--best] [BUILD]              the clips, at the defaults; some minutes on two processors
+#   bench/realism.sh stills|trackers [--matched] [--best] [BUILD]
+#   --matched  also by the settings that `sigs appearance` finds in each clip
+#   --best     also by bench/realism/best.json, settings chosen by hand on the tuning clips
+# Leaves tables, histograms and sheets in BUILD/realism, BUILD/realism-stills. The sheets show footage of others: they must not be
+# committed.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+what=clips
+case "${1:-}" in clips | stills | trackers) what=$1 && shift ;; esac
+matched= best=
+while [ "${1:-}" = --matched ] || [ "${1:-}" = --best ]; do
+  [ "$1" = --matched ] && matched=1
+  [ "$1" = --best ] && best=1
+  shift
+done
+build=${1:-build/release}
+data=${SIGS_TEST_DATA:-../shared/data}
+folder=$build/realism
+[ $what = stills ] && folder=$build/realism-stills
+mkdir -p "$folder"
+options=(--shake)
+[ $what = clips ] || options+=("--$what")
+if [ -n "$matched" ]; then
+  mkdir -p "$folder/matched"
+  if [ $what = stills ]; then footage=("$data"/stills/aot/*.png "$data"/stills/skylink/*.jpeg); else footage=("$data"/track/*.mp4); fi
+  for clip in "${footage[@]}"; do
+    to=$folder/matched/$(basename "${clip%.*}").json
+    [ -e "$to" ] || "$build/sigs" appearance "$clip" --out "$to" >"$to.txt" 2>&1 || { cat "$to.txt" >&2; exit 1; }
+  done
+  options+=(--settings-from "matched=$folder/matched")
+fi
+if [ -n "$best" ]; then options+=(--settings-from best=bench/realism/best.json); fi
+"$build/bench_realism" "$folder" "${options[@]}"
+if [ $what = trackers ]; then cat "$folder/trackers.md"; else cat "$folder/auc.md" "$folder/medians.md"; fi
