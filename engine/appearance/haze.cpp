@@ -14,40 +14,40 @@ namespace {
 
 constexpr double kSkyFrom_deg = 1, kSkyTo_deg = 8, kSkyBin_deg = 0.25;
 constexpr double kLeastDepression_deg = 0.4, kMostDepression_deg = 35;
-constexpr int kGroundBins = 24;        // between the two, even in the logarithm of the distance
-constexpr double kLeastCells = 40;     // of a bin that counts
-constexpr std::size_t kLeastBins = 8;  // that a fit needs
-constexpr double kPatches = 0.10;      // by which the land's mean differs from bin to bin, share of its contrast
-constexpr double kTexture = 0.02;      // share of all light by which a bin's mean may be off, besides
-constexpr double kShoulder = 0.2;      // see expanded()
-constexpr double kFloor = 0.004;       // and of all light: noise, coding
-constexpr double kCurve = 0.08;        // share by which the camera's tone curve may be off
+constexpr double kGroundBin_deg = 0.05;  // in which light is collected
+constexpr int kDistanceBins = 24;        // to which a fit is made; even in the logarithm of the depression
+constexpr double kLeastCells = 40;       // of a bin that counts
+constexpr std::size_t kLeastBins = 8;    // that a fit needs
+constexpr double kPatches = 0.10;        // by which the land's mean differs from bin to bin, share of its contrast
+constexpr double kTexture = 0.02;        // share of all light by which a bin's mean may be off, besides
+constexpr double kShoulder = 0.2;        // see expanded()
+constexpr double kFloor = 0.004;         // and of all light: noise, coding
+constexpr double kCurve = 0.08;          // share by which the camera's tone curve may be off
 constexpr double kLeastVisibility_m = 100, kMostVisibility_m = 3e5, kStep = 1.02;
-constexpr double kClipped = 0.985;       // of luma: over-exposed
-constexpr double kMostRelativeSd = 0.5;  // of a visibility that is known
-constexpr double kLeastFading = 0.9;     // of the contrast that is left of the farthest land, at most
-constexpr double kShoulderSd = 0.15;     // of the visibility, by the shoulder that is not known
-constexpr double kWithGround = 0.5;      // of the airlight's deviation, where ground and sky agree on it
+constexpr double kClipped = 0.985;                        // of luma: over-exposed
+constexpr double kMostRelativeSd = 0.5;                   // of a visibility that is known
+constexpr double kLeastFading = 0.9;                      // of the contrast that is left of the farthest land, at most
+constexpr double kMostDip_deg = 1.5, kDipStep_deg = 0.1;  // of an edge in the image below the horizon
+constexpr double kShoulderSd = 0.15;                      // of the visibility, by the shoulder that is not known
+constexpr double kColorsApart = 0.2;  // natural logarithm of the visibility in red or blue to that in all light
+constexpr double kEdgeSd = 0.5;       // and where the horizon is an edge in the image
+constexpr double kWithGround = 0.5;   // of the airlight's deviation, where ground and sky agree on it
 
 double squared(double x) {
   return x * x;
 }
 
-double sine_of_deg(double deg) {
-  return std::sin(rad_of_deg(deg));
+// Bin of a depression among those that a fit is made to, 0 for the largest; -1 beyond them.
+int distance_bin(double depression_rad) {
+  const double nearest = rad_of_deg(kMostDepression_deg), farthest = rad_of_deg(kLeastDepression_deg);
+  if (!(depression_rad < nearest) || depression_rad < farthest) return -1;
+  const double share = std::log(nearest / depression_rad) / std::log(nearest / farthest);
+  return std::min(kDistanceBins - 1, static_cast<int>(share * kDistanceBins));
 }
 
-// Bin of a depression: 0 for the largest.
-int ground_bin(double sine_down) {
-  const double nearest = sine_of_deg(kMostDepression_deg), farthest = sine_of_deg(kLeastDepression_deg);
-  if (sine_down > nearest || sine_down < farthest) return -1;
-  const double share = std::log(nearest / sine_down) / std::log(nearest / farthest);
-  return std::min(kGroundBins - 1, static_cast<int>(share * kGroundBins));
-}
-
-// Lenses darken the picture towards its corners; the middle half of the columns has little of that.
-int first_column(const Picture& picture) {
-  return picture.grid.size().width / 4;
+// Lenses darken the image towards its corners; the middle half of the columns has little of that.
+int first_column(const LightImage& image) {
+  return image.grid.size().width / 4;
 }
 
 // Cameras compress highlights more than the transfer function of their footage says, and by how much is not known.
@@ -59,16 +59,12 @@ double compressed(double light) {
   return light / (1 + kShoulder * std::max(light, 0.0));
 }
 
-struct Point {
-  double x = 0, y = 0;
-};
-
 // value and deviation, at 0, of the parabola through points (least squares); of the line where `is_straight`.
-Point at_zero(const std::vector<Point>& points, bool is_straight) {
+HazePoint at_zero(const std::vector<HazePoint>& points, bool is_straight) {
   const int terms = is_straight ? 2 : 3;
   cv::Mat_<double> a(static_cast<int>(points.size()), terms), b(static_cast<int>(points.size()), 1);
   for (int i = 0; i < a.rows; ++i) {
-    const Point& p = points[static_cast<std::size_t>(i)];
+    const HazePoint& p = points[static_cast<std::size_t>(i)];
     for (int k = 0; k < terms; ++k) a(i, k) = std::pow(p.x, k);
     b(i, 0) = p.y;
   }
@@ -82,12 +78,12 @@ struct Line {
   double air = 0, land = 0, cost = std::numeric_limits<double>::infinity();
 };
 
-Line line_for(const std::vector<Point>& points, double visibility_m, const Estimate& sky) {
+Line line_for(const std::vector<HazePoint>& points, double visibility_m, const Estimate& sky) {
   double stt = 0, st = 0, s = 0, sty = 0, sy = 0;
-  const auto weight = [&](const Point& p) {
+  const auto weight = [&](const HazePoint& p) {
     return 1 / squared(std::hypot(kPatches * (sky.value - p.y), kFloor + kTexture * p.y));
   };
-  for (const Point& p : points) {
+  for (const HazePoint& p : points) {
     const double t = std::exp(-3 * p.x / visibility_m), w = weight(p);
     stt += w * t * t, st += w * t, s += w, sty += w * t * p.y, sy += w * p.y;
   }
@@ -98,7 +94,7 @@ Line line_for(const std::vector<Point>& points, double visibility_m, const Estim
   if (!(det > 1e-9 * s * stt)) return {};
   Line line{.air = (stt * sy - st * sty) / det, .land = (s * sty - st * sy) / det};
   line.cost = prior * squared(line.air - sky.value);
-  for (const Point& p : points)
+  for (const HazePoint& p : points)
     line.cost += weight(p) * squared(line.air + line.land * std::exp(-3 * p.x / visibility_m) - p.y);
   return line;
 }
@@ -109,22 +105,28 @@ struct Found {
   double visibility_m = 0, sd_m = 0;
 };
 
-Found best_line(const std::vector<Point>& points, const Estimate& sky) {
+// around_m: of the luminance, which that of a colour is drawn to; 0: none.
+Found best_line(const std::vector<HazePoint>& points, const Estimate& sky, double around_m = 0) {
   Found found;
+  const auto line_at = [&](double visibility_m) {
+    Line line = line_for(points, visibility_m, sky);
+    if (around_m > 0) line.cost += squared(std::log(visibility_m / around_m) / kColorsApart);
+    return line;
+  };
   for (double v = kLeastVisibility_m; v < kMostVisibility_m; v *= kStep)
-    if (const Line line = line_for(points, v, sky); line.cost < found.line.cost) found = {line, v, 0};
+    if (const Line line = line_at(v); line.cost < found.line.cost) found = {line, v, 0};
   const double degrees = std::max(1.0, static_cast<double>(points.size()) - 2);
   // Bins side by side see the same woods and clouds' shadows: about three of them count as one.
   const double limit = found.line.cost + 3 * std::max(1.0 / 3, found.line.cost / degrees);
   double low = found.visibility_m, high = low;
-  while (low > kLeastVisibility_m && line_for(points, low, sky).cost < limit) low /= kStep;
-  while (high < kMostVisibility_m && line_for(points, high, sky).cost < limit) high *= kStep;
+  while (low > kLeastVisibility_m && line_at(low).cost < limit) low /= kStep;
+  while (high < kMostVisibility_m && line_at(high).cost < limit) high *= kStep;
   found.sd_m = high >= kMostVisibility_m ? std::numeric_limits<double>::infinity() : 0.5 * (high - low);
   return found;
 }
 
 // Whether the land is darker than its haze, and grows paler with distance by more than its patches differ.
-bool is_usable(const std::vector<Point>& points, const Found& found) {
+bool is_usable(const std::vector<HazePoint>& points, const Found& found) {
   const double far_share = std::exp(-3 * points.back().x / found.visibility_m);
   return found.line.land < 0 && found.sd_m <= kMostRelativeSd * found.visibility_m && far_share < kLeastFading;
 }
@@ -142,54 +144,58 @@ std::array<Estimate, 3> default_airlight(const std::string& why) {
 
 // Of luminance, and of red, green and blue.
 struct Haze::Fit {
-  std::array<std::vector<Point>, 4> points;
+  std::array<std::vector<HazePoint>, 4> points;
   std::array<Found, 4> found;
+  double cost = 0;  // of the luminance, for each point
 };
 
-void Haze::add(const Picture& picture) {
-  if (picture.empty()) return;
+void Haze::add(const LightImage& image) {
+  if (image.empty()) return;
   ++frames_;
-  if (!picture.skyline) return;
+  if (!image.skyline) return;
   ++with_skyline_;
   sky_.resize(static_cast<std::size_t>((kSkyTo_deg - kSkyFrom_deg) / kSkyBin_deg));
-  add_sky(picture);
-  if (!picture.rays.angles_are_known()) return;
+  add_sky(image);
+  if (!image.rays.angles_are_known()) return;
   ++with_angles_;
-  if (!picture.view.height_m || !(*picture.view.height_m > 0) || !std::isfinite(*picture.view.height_m)) return;
+  if (!image.view.height_m || !(*image.view.height_m > 0) || !std::isfinite(*image.view.height_m)) return;
   ++with_height_;
-  ground_.resize(kGroundBins);
-  add_ground(picture);
+  ground_.resize(static_cast<std::size_t>(kMostDepression_deg / kGroundBin_deg));
+  if (image.skyline->from_image) ++with_edge_;
+  add_ground(image);
 }
 
-void Haze::add_sky(const Picture& picture) {
-  for (int y = 0; y < picture.grid.size().height; ++y)
-    for (int x = first_column(picture); x < picture.grid.size().width - first_column(picture); ++x) {
-      const auto up = picture.elevation_rad(x, y);
+void Haze::add_sky(const LightImage& image) {
+  for (int y = 0; y < image.grid.size().height; ++y)
+    for (int x = first_column(image); x < image.grid.size().width - first_column(image); ++x) {
+      const auto up = image.elevation_rad(x, y);
       if (!up) continue;
       const int bin = static_cast<int>(std::floor((deg_of_rad(*up) - kSkyFrom_deg) / kSkyBin_deg));
       if (bin < 0 || bin >= static_cast<int>(sky_.size())) continue;
       ++sky_cells_;
-      if (static_cast<double>(picture.grid.luma(y, x)) > kClipped) ++clipped_;
+      if (static_cast<double>(image.grid.luma(y, x)) > kClipped) ++clipped_;
       Bin& b = sky_[static_cast<std::size_t>(bin)];
       for (int k = 0; k < 3; ++k)
-        b.sum[static_cast<std::size_t>(k)] += expanded(static_cast<double>(picture.grid.light(y, x)[k]));
+        b.sum[static_cast<std::size_t>(k)] += expanded(static_cast<double>(image.grid.light(y, x)[k]));
       b.x += *up;
       ++b.count;
     }
 }
 
-void Haze::add_ground(const Picture& picture) {
-  for (int y = 0; y < picture.grid.size().height; ++y)
-    for (int x = first_column(picture); x < picture.grid.size().width - first_column(picture); ++x) {
-      const auto up = picture.elevation_rad(x, y);
-      if (!up) continue;
-      const int bin = ground_bin(std::sin(-*up));
-      if (bin < 0) continue;
-      Bin& b = ground_[static_cast<std::size_t>(bin)];
+void Haze::add_ground(const LightImage& image) {
+  for (int y = 0; y < image.grid.size().height; ++y)
+    for (int x = first_column(image); x < image.grid.size().width - first_column(image); ++x) {
+      const auto up = image.elevation_rad(x, y);
+      if (!up || *up > 0) continue;
+      const auto bin = static_cast<std::size_t>(deg_of_rad(-*up) / kGroundBin_deg);
+      if (bin >= ground_.size()) continue;
+      Bin& b = ground_[bin];
       for (int k = 0; k < 3; ++k)
-        b.sum[static_cast<std::size_t>(k)] += expanded(static_cast<double>(picture.grid.light(y, x)[k]));
-      b.x += *picture.view.height_m / std::sin(-*up);
+        b.sum[static_cast<std::size_t>(k)] += expanded(static_cast<double>(image.grid.light(y, x)[k]));
+      b.x -= *up;
       ++b.count;
+      height_sum_m_ += *image.view.height_m;
+      ++height_count_;
     }
 }
 
@@ -197,7 +203,7 @@ void Haze::add_ground(const Picture& picture) {
 std::array<Estimate, 3> Haze::sky_at_horizon() const {
   if (frames_ == 0) return default_airlight("there is no frame");
   if (with_skyline_ == 0) return default_airlight("there is no horizon in the footage");
-  std::array<std::vector<Point>, 3> points;
+  std::array<std::vector<HazePoint>, 3> points;
   for (const Bin& bin : sky_)
     for (std::size_t k = 0; k < 3; ++k)
       if (bin.count >= kLeastCells) points[k].push_back({bin.x / bin.count, bin.sum[k] / bin.count});
@@ -205,25 +211,56 @@ std::array<Estimate, 3> Haze::sky_at_horizon() const {
   if (clipped_ > 0.3 * sky_cells_) return default_airlight("the sky above the horizon is over-exposed");
   std::array<Estimate, 3> sky;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double bent = at_zero(points[k], false).y, straight = at_zero(points[k], true).y;
-    sky[k] = {.value = std::max(bent, 0.0), .is_known = true};
-    sky[k].sd = std::hypot(bent - straight, kCurve * sky[k].value, kFloor);
+    const double curved = at_zero(points[k], false).y, straight = at_zero(points[k], true).y;
+    sky[k] = {.value = std::max(curved, 0.0), .is_known = true};
+    sky[k].sd = std::hypot(curved - straight, kCurve * sky[k].value, kFloor);
   }
   return sky;
 }
 
-Haze::Fit Haze::fit(const std::array<Estimate, 3>& sky) const {
-  Fit fit;
-  for (const Bin& bin : ground_) {
+// Luminance and colours of the ground against the distance, where the true horizon lies dip_rad above the skyline.
+std::array<std::vector<HazePoint>, 4> Haze::ground_points(double dip_rad) const {
+  std::array<Bin, kDistanceBins> bins;
+  const double height_m = height_sum_m_ / std::max(height_count_, 1.0);
+  for (const Bin& fine : ground_) {
+    if (fine.count <= 0) continue;
+    const double depression_rad = fine.x / fine.count + dip_rad;
+    const int i = distance_bin(depression_rad);
+    if (i < 0) continue;
+    Bin& bin = bins[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < 3; ++k) bin.sum[k] += fine.sum[k];
+    bin.count += fine.count;
+    bin.x += fine.count * height_m / std::sin(depression_rad);
+  }
+  std::array<std::vector<HazePoint>, 4> points;
+  for (const Bin& bin : bins) {
     if (bin.count < kLeastCells) continue;
     const double x = bin.x / bin.count;
-    fit.points[0].push_back({x, luminance({bin.sum[0], bin.sum[1], bin.sum[2]}) / bin.count});
-    for (std::size_t k = 0; k < 3; ++k) fit.points[k + 1].push_back({x, bin.sum[k] / bin.count});
+    points[0].push_back({x, luminance({bin.sum[0], bin.sum[1], bin.sum[2]}) / bin.count});
+    for (std::size_t k = 0; k < 3; ++k) points[k + 1].push_back({x, bin.sum[k] / bin.count});
   }
-  if (fit.points[0].size() < kLeastBins) return fit;
+  return points;
+}
+
+// An attitude says where the horizon is. An edge in the image lies below it, where the land emerges from the haze;
+// how far below is found together with the visibility.
+Haze::Fit Haze::fit(const std::array<Estimate, 3>& sky) const {
   const Estimate limit{.value = luminance({sky[0].value, sky[1].value, sky[2].value}),
                        .sd = luminance({sky[0].sd, sky[1].sd, sky[2].sd})};
-  for (std::size_t k = 0; k < 4; ++k) fit.found[k] = best_line(fit.points[k], k == 0 ? limit : sky[k - 1]);
+  Fit fit;
+  const double most_dip_deg = with_edge_ > 0 ? kMostDip_deg : 0;
+  for (double dip_deg = 0; dip_deg <= most_dip_deg; dip_deg += kDipStep_deg) {
+    auto points = ground_points(rad_of_deg(dip_deg));
+    if (points[0].size() < kLeastBins) continue;
+    const Found found = best_line(points[0], limit);
+    const double cost = found.line.cost / static_cast<double>(points[0].size());
+    if (!fit.points[0].empty() && cost >= fit.cost) continue;
+    fit.cost = cost;
+    fit.points = std::move(points);
+    fit.found[0] = found;
+  }
+  if (fit.points[0].empty()) return fit;
+  for (std::size_t k = 1; k < 4; ++k) fit.found[k] = best_line(fit.points[k], sky[k - 1], fit.found[0].visibility_m);
   return fit;
 }
 
@@ -253,7 +290,7 @@ HazeEstimate Haze::finish() const {
     haze.visibility_m.why = "the ground does not grow paler with distance";
   else {
     haze.visibility_m = {.value = found.visibility_m, .is_known = true};
-    haze.visibility_m.sd = std::hypot(found.sd_m, kShoulderSd * found.visibility_m);
+    haze.visibility_m.sd = std::hypot(found.sd_m, (with_edge_ > 0 ? kEdgeSd : kShoulderSd) * found.visibility_m);
     haze.airlight = airlight_of(sky, &best);
   }
   return haze;
@@ -264,7 +301,7 @@ HazeCurve Haze::curve() const {
   const std::array<Estimate, 3> sky = sky_at_horizon();
   if (!sky[0].is_known) return curve;
   const Fit best = fit(sky);
-  for (const Point& p : best.points[0]) {
+  for (const HazePoint& p : best.points[0]) {
     curve.distance_m.push_back(p.x);
     curve.ground_luminance.push_back(compressed(p.y));
     const Line& line = best.found[0].line;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "appearance/estimate.h"
-#include "appearance/picture.h"
+#include "appearance/light_image.h"
 
 namespace sigs {
 
@@ -21,6 +21,11 @@ struct HazeCurve {
   std::vector<double> distance_m, ground_luminance, fitted_luminance;
 };
 
+// A mean of the light at a distance (m), or at an elevation (rad).
+struct HazePoint {
+  double x = 0, y = 0;
+};
+
 // Finds the haze on the ground. On average over fields, woods and roads the land is equally bright far and near; what
 // the distance adds is airlight: light(r) = airlight + (land - airlight) exp(-3 r / visibility) (Koschmieder 1924).
 // This contrast of the land against the airlight is taken, not that of its texture, since the mean of a pixel's
@@ -29,12 +34,12 @@ struct HazeCurve {
 // extrapolated from 1 to 8 degrees above it, and the ground's limit.
 //
 // Needs of the view: camera and height_m for the visibility, and a skyline for both (skyline.h). Without the camera the
-// airlight is the colour of the sky's lowest tenth.
+// angles are guessed, so that the airlight is rougher.
 // Not known: the airlight without a horizon, or where the sky is over-exposed; the visibility without height, and where
 // the land does not grow paler with distance or does so by less than its own patches differ.
 class Haze {
  public:
-  void add(const Picture& picture);
+  void add(const LightImage& image);
   [[nodiscard]] HazeEstimate finish() const;
   [[nodiscard]] HazeCurve curve() const;
 
@@ -43,19 +48,20 @@ class Haze {
   struct Bin {
     std::array<double, 3> sum{};
     double count = 0;
-    double x = 0;  // sum of distances (m) or of elevations (rad)
+    double x = 0;  // sum of elevations or depressions, rad
   };
   struct Fit;
 
-  void add_sky(const Picture& picture);
-  void add_ground(const Picture& picture);
+  void add_sky(const LightImage& image);
+  void add_ground(const LightImage& image);
   [[nodiscard]] std::array<Estimate, 3> sky_at_horizon() const;
   [[nodiscard]] std::array<Estimate, 3> airlight_of(std::array<Estimate, 3> air, const Fit* fit) const;
+  [[nodiscard]] std::array<std::vector<HazePoint>, 4> ground_points(double dip_rad) const;
   [[nodiscard]] Fit fit(const std::array<Estimate, 3>& sky) const;
 
-  std::vector<Bin> sky_, ground_;  // by elevation; by the logarithm of the distance
-  int frames_ = 0, with_skyline_ = 0, with_angles_ = 0, with_height_ = 0;
-  double clipped_ = 0, sky_cells_ = 0;
+  std::vector<Bin> sky_, ground_;  // by elevation; by depression
+  int frames_ = 0, with_skyline_ = 0, with_angles_ = 0, with_height_ = 0, with_edge_ = 0;
+  double clipped_ = 0, sky_cells_ = 0, height_sum_m_ = 0, height_count_ = 0;
 };
 
 }  // namespace sigs

@@ -10,11 +10,12 @@ namespace {
 
 constexpr double kClearSky = 0.17, kClearRatio = 0.16, kWhitening = 2.4;  // light.h; of sky to card
 constexpr double kLeastSky = 0.12;
-constexpr double kBluest = 0.25;  // share of the sky
+constexpr double kBluest = 0.1;  // share of the sky
 constexpr double kRatioPerBin = 0.025;
 constexpr double kClipped = 0.985;                                 // of luma
 constexpr double kDark = 0.008;                                    // light: darker is no sky by day
 constexpr double kSmooth = 0.012;                                  // of luma, difference from the neighbours: sky
+constexpr float kLeastBlue = 0.8F;                                 // of green, in a sky; fields and earth have less
 constexpr double kLeastSkyShare = 0.02, kLeastGroundShare = 0.03;  // of all cells
 constexpr double kAlbedo = 0.15, kLeastAlbedo = 0.1, kMostAlbedo = 0.45;
 constexpr double kSunElevation_rad = 0.7;
@@ -33,18 +34,19 @@ double roughness(const LightGrid& grid, int x, int y) {
 
 enum class Part { sky, ground, neither };
 
-Part part_of(const Picture& picture, int x, int y) {
-  if (picture.grid.hidden(y, x) != 0) return Part::neither;
-  if (picture.skyline) {
-    const auto up = picture.elevation_rad(x, y);
+Part part_of(const LightImage& image, int x, int y) {
+  if (image.grid.hidden(y, x) != 0) return Part::neither;
+  if (image.skyline) {
+    const auto up = image.elevation_rad(x, y);
     if (!up) return Part::neither;
     if (*up > 0) return Part::sky;
-    const bool is_near = !picture.rays.angles_are_known() || *up < -kGroundBelow_rad;
+    const bool is_near = !image.rays.angles_are_known() || *up < -kGroundBelow_rad;
     return is_near ? Part::ground : Part::neither;
   }
-  const int rows = picture.grid.size().height;
-  const bool is_smooth = roughness(picture.grid, x, y) < kSmooth;
-  if (2 * y < rows && is_smooth) return Part::sky;
+  const int rows = image.grid.size().height;
+  const bool is_smooth = roughness(image.grid, x, y) < kSmooth;
+  const cv::Vec3f& light = image.grid.light(y, x);
+  if (2 * y < rows && is_smooth) return light[2] >= kLeastBlue * light[1] ? Part::sky : Part::neither;
   return 3 * y >= 2 * rows && !is_smooth ? Part::ground : Part::neither;
 }
 
@@ -71,15 +73,15 @@ glm::dvec3 value_of(const std::array<Estimate, 3>& color) {
 
 }  // namespace
 
-void Light::add(const Picture& picture) {
-  if (picture.empty()) return;
+void Light::add(const LightImage& image) {
+  if (image.empty()) return;
   ++frames_;
-  for (int y = 0; y < picture.grid.size().height; ++y)
-    for (int x = 0; x < picture.grid.size().width; ++x) {
-      const Part part = part_of(picture, x, y);
-      const glm::dvec3 light = color_of(picture.grid.light(y, x));
+  for (int y = 0; y < image.grid.size().height; ++y)
+    for (int x = 0; x < image.grid.size().width; ++x) {
+      const Part part = part_of(image, x, y);
+      const glm::dvec3 light = color_of(image.grid.light(y, x));
       ++cells_;
-      if (part == Part::sky) add_sky(light, picture.grid.luma(y, x));
+      if (part == Part::sky) add_sky(light, image.grid.luma(y, x));
       if (part != Part::ground) continue;
       ground_.sum += light;
       ++ground_.count;

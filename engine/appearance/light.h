@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "appearance/estimate.h"
-#include "appearance/picture.h"
+#include "appearance/light_image.h"
 #include "project/project.h"
 
 namespace sigs {
@@ -26,18 +26,17 @@ struct LightEstimate {
 // colour, until under a cover of cloud the card has the sky's own luminance. So the ratio of red to blue tells how
 // bright the card is beside the sky:
 //   luminance of the sky / luminance of the card = 0.17 exp(2.4 (red / blue - 0.16)), 0.12 to 1
-// It is taken for the bluest quarter of the sky that is seen. The two numbers are of 15 clips with real aircraft, whose
-// white parts in the sun are 2.5 to 5 times as bright as the sky; CIE's standard skies (ISO 15469) agree within a
-// third.
+// It is taken for the bluest tenth of the sky that is seen. The two numbers were chosen on 15 clips with real
+// aircraft, whose white parts in the sun are 2.5 to 5 times as bright as the sky.
 //
-// Sky and ground are told apart by the horizon (skyline.h). Without one, smooth parts of the upper half are sky and
-// rough dark parts of the lowest third are ground.
+// Sky and ground are distinguished by the horizon (skyline.h). Without one, smooth parts of the upper half that are
+// neither green nor brown are sky, and rough parts of the lowest third are ground.
 // Not known: everything without a sky, or where it is over-exposed or black; the strength of the sun in gray footage.
 // Where no ground is seen, it is taken to reflect 0.15 of sun and sky; where it is, what it gives is held between 0.1
 // and 0.45 of that, as all land but snow does.
 class Light {
  public:
-  void add(const Picture& picture);
+  void add(const LightImage& image);
 
   // sun_elevation_rad: where it is known; else 40 degrees count for how much of the sun the ground receives.
   [[nodiscard]] LightEstimate finish(std::optional<double> sun_elevation_rad = std::nullopt) const;

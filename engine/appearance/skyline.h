@@ -13,11 +13,11 @@ struct Skyline {
   glm::dvec3 up{0, 0,
                 -1};  // unit, camera axes (those of GridRays): a ray lies above the horizon where dot(ray, up) > 0
   double sd_rad = 0;  // of the direction; the dip of the horizon and hills along it are part of it
-  bool from_picture = false;  // found as an edge; otherwise it follows from the camera's attitude
+  bool from_image = false;  // found as an edge; otherwise it follows from the camera's attitude
 };
 
 // From the view's attitude, where that and the camera are known. Otherwise the great circle (or, without a camera, the
-// straight line) across the picture along which it is brighter above than below by most, at least 6 codes for most of
+// straight line) across the image along which it is brighter above than below by most, at least 6 codes for most of
 // the columns, with a sky above that is smoother than what lies below. Rolls beyond 45 degrees are not seen.
 // Nothing where there is no such edge.
 [[nodiscard]] std::optional<Skyline> skyline_in(const LightGrid& grid, const GridRays& rays, const View& view);

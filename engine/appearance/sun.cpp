@@ -15,7 +15,7 @@ namespace sigs {
 
 namespace {
 
-constexpr double kDefaultAzimuth_rad = 2.68, kDefaultElevation_rad = 0.7;  // the azimuth of the paper's light
+constexpr double kDefaultAzimuth_rad = std::numbers::pi / 2, kDefaultElevation_rad = 0.7;
 constexpr int kGroundEvery = 3;
 constexpr int kLeastPatches = 10;
 constexpr double kLeastAgreement = 0.75;  // resultant of the doubled directions, 0 none to 1 all
@@ -31,10 +31,10 @@ double between_half_turns(double angle_rad) {
 }
 
 // The level's axes seen from the camera: by the attitude, else by the skyline, with X along the camera's heading.
-std::optional<glm::dquat> level_of(const Picture& picture) {
-  if (!picture.skyline || !picture.rays.angles_are_known()) return std::nullopt;
-  if (!picture.skyline->from_picture && picture.view.world_from_camera) return picture.view.world_from_camera;
-  const glm::dvec3 down = -picture.skyline->up;
+std::optional<glm::dquat> level_of(const LightImage& image) {
+  if (!image.skyline || !image.rays.angles_are_known()) return std::nullopt;
+  if (!image.skyline->from_image && image.view.world_from_camera) return image.view.world_from_camera;
+  const glm::dvec3 down = -image.skyline->up;
   const glm::dvec3 ahead = glm::dvec3(1, 0, 0) - down * down.x;
   if (glm::length(ahead) < 0.1) return std::nullopt;  // straight up or down: there is no heading
   const glm::dvec3 x = glm::normalize(ahead);
@@ -49,38 +49,38 @@ glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
           -std::sin(elevation_rad)};
 }
 
-void Sun::add(const Frame& frame, const Picture& picture) {
-  if (picture.empty()) return;
+void Sun::add(const Frame& frame, const LightImage& image) {
+  if (image.empty()) return;
   ++frames_;
-  const std::optional<glm::dquat> level = level_of(picture);
+  const std::optional<glm::dquat> level = level_of(image);
   if (!level) return;
-  add_sky(picture, *level);
+  add_sky(image, *level);
   // Shadows hardly change from one sampled frame to the next, and laying the ground flat is most of the work.
-  if (with_level_++ % kGroundEvery == 0) add_ground(frame, picture, *level);
+  if (with_level_++ % kGroundEvery == 0) add_ground(frame, image, *level);
 }
 
-void Sun::add_sky(const Picture& picture, const glm::dquat& world_from_camera) {
-  for (int y = 0; y < picture.grid.size().height; ++y)
-    for (int x = 0; x < picture.grid.size().width; ++x) {
-      const auto up = picture.elevation_rad(x, y);
+void Sun::add_sky(const LightImage& image, const glm::dquat& world_from_camera) {
+  for (int y = 0; y < image.grid.size().height; ++y)
+    for (int x = 0; x < image.grid.size().width; ++x) {
+      const auto up = image.elevation_rad(x, y);
       if (!up || *up <= rad_of_deg(5)) continue;
       const auto band = static_cast<std::size_t>((deg_of_rad(*up) - 5) / 5);
       if (band >= kElevations) continue;
-      const glm::dvec3 ray = world_from_camera * picture.rays.at(x, y);
+      const glm::dvec3 ray = world_from_camera * image.rays.at(x, y);
       const double share = std::atan2(ray.y, ray.x) / kTurn_rad;
       const auto sector = static_cast<std::size_t>((share - std::floor(share)) * kAzimuths) % kAzimuths;
-      const glm::dvec3 light = color_of(picture.grid.light(y, x));
+      const glm::dvec3 light = color_of(image.grid.light(y, x));
       ++sky_cells_;
       if (light.r < kBlueRatio * light.b) ++blue_cells_;
       sky_[band][sector].sum += luminance(light);
       ++sky_[band][sector].count;
-      sky_[band][sector].from_axis += std::acos(std::clamp(picture.rays.at(x, y).x, -1.0, 1.0));
+      sky_[band][sector].from_axis += std::acos(std::clamp(image.rays.at(x, y).x, -1.0, 1.0));
     }
 }
 
-void Sun::add_ground(const Frame& frame, const Picture& picture, const glm::dquat& world_from_camera) {
+void Sun::add_ground(const Frame& frame, const LightImage& image, const glm::dquat& world_from_camera) {
   const cv::Mat luma = luma_of(frame);
-  const auto found = shadow_patches(luma, *picture.view.camera, world_from_camera, picture.view.own_body);
+  const auto found = shadow_patches(luma, *image.view.camera, world_from_camera, image.view.own_body);
   patches_.insert(patches_.end(), found.begin(), found.end());
 }
 
@@ -153,6 +153,12 @@ SunEstimate Sun::finish(const std::optional<glm::dvec3>& to_sun_in_world) const 
   if (!sun.azimuth_rad.is_known) sun.azimuth_rad.why = why;
   if (!sun.elevation_rad.is_known) sun.elevation_rad.why = why;
   return sun;
+}
+
+void apply(const SunEstimate& sun, LightSettings& settings) {
+  if (sun.witness == SunWitness::given) return;
+  settings.sun.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
+  settings.sun.elevation_deg = deg_of_rad(sun.elevation_rad.value);
 }
 
 }  // namespace sigs

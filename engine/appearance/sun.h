@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "appearance/estimate.h"
-#include "appearance/picture.h"
+#include "appearance/light_image.h"
+#include "project/project.h"
 
 namespace sigs {
 
@@ -15,8 +16,8 @@ enum class SunWitness { none, given, shadows, sky };
 
 // Where the sun is, rad. Azimuth from world X to the right, elevation above the horizon (SunSettings, in rad).
 struct SunEstimate {
-  Estimate azimuth_rad;    // not known: 0.6 of a turn to the right of world X, behind the camera, as the paper's light
-  Estimate elevation_rad;  // not known: 40 degrees
+  Estimate azimuth_rad;                   // not known: to the right of world X, so that half of what is seen is lit
+  Estimate elevation_rad;                 // not known: 40 degrees
   SunWitness witness = SunWitness::none;  // of the azimuth
 };
 
@@ -38,8 +39,8 @@ struct SunEstimate {
 // and place) stands before both.
 class Sun {
  public:
-  // picture: of this frame.
-  void add(const Frame& frame, const Picture& picture);
+  // image: of this frame.
+  void add(const Frame& frame, const LightImage& image);
   [[nodiscard]] SunEstimate finish(const std::optional<glm::dvec3>& to_sun_in_world = std::nullopt) const;
 
   // A dark patch on the ground.
@@ -56,8 +57,8 @@ class Sun {
     double from_axis = 0;  // sum of angles
   };
 
-  void add_sky(const Picture& picture, const glm::dquat& world_from_camera);
-  void add_ground(const Frame& frame, const Picture& picture, const glm::dquat& world_from_camera);
+  void add_sky(const LightImage& image, const glm::dquat& world_from_camera);
+  void add_ground(const Frame& frame, const LightImage& image, const glm::dquat& world_from_camera);
   void set_by_shadows(SunEstimate& sun) const;
   void set_by_sky(SunEstimate& sun) const;
 
@@ -66,5 +67,8 @@ class Sun {
   double blue_cells_ = 0, sky_cells_ = 0;
   int frames_ = 0, with_level_ = 0;
 };
+
+// The sun's direction in the settings. One that was given stays as it is there: time and place tell it at each frame.
+void apply(const SunEstimate& sun, LightSettings& settings);
 
 }  // namespace sigs

@@ -4,11 +4,11 @@
 namespace sigs {
 
 void Surroundings::add(const Frame& frame, const View& view) {
-  const Picture picture = reader_.read(frame, view);
-  haze_.add(picture);
-  tone_.add(picture);
-  light_.add(picture);
-  sun_.add(frame, picture);
+  const LightImage image = reader_.read(frame, view);
+  haze_.add(image);
+  tone_.add(image);
+  light_.add(image);
+  sun_.add(frame, image);
 }
 
 SurroundingsEstimate Surroundings::finish(const std::optional<glm::dvec3>& to_sun_in_world) const {

@@ -6,7 +6,7 @@
 
 #include "appearance/haze.h"
 #include "appearance/light.h"
-#include "appearance/picture.h"
+#include "appearance/light_image.h"
 #include "appearance/sun.h"
 #include "appearance/tone.h"
 
@@ -32,7 +32,7 @@ class Surroundings {
   [[nodiscard]] const Tone& tone() const { return tone_; }
 
  private:
-  PictureReader reader_;
+  LightImageReader reader_;
   Haze haze_;
   Tone tone_;
   Light light_;

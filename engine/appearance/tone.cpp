@@ -36,20 +36,20 @@ bool is_neutral(const glm::dvec3& light) {
 
 }  // namespace
 
-void Tone::add(const Picture& picture) {
-  if (picture.empty()) return;
-  const cv::Size size = picture.grid.size();
+void Tone::add(const LightImage& image) {
+  if (image.empty()) return;
+  const cv::Size size = image.grid.size();
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
-      if (picture.grid.hidden(y, x) != 0) continue;
-      const glm::dvec3 light = color_of(picture.grid.light(y, x));
-      const std::size_t level = level_of(picture.grid.luma(y, x));
+      if (image.grid.hidden(y, x) != 0) continue;
+      const glm::dvec3 light = color_of(image.grid.light(y, x));
+      const std::size_t level = level_of(image.grid.luma(y, x));
       ++levels_[level];
       ++cells_;
       light_[level] += luminance(light);
       if (luminance(light) > 0.003 && chroma_of(light) > kNoColor) ++colored_;
-      const auto up = picture.elevation_rad(x, y);
-      const bool is_sky = picture.skyline ? up && *up > 0.02 : y < size.height / 2;
+      const auto up = image.elevation_rad(x, y);
+      const bool is_sky = image.skyline ? up && *up > 0.02 : y < size.height / 2;
       if (!is_sky) continue;
       ++sky_count_[level];
       if (!is_neutral(light)) continue;
@@ -108,7 +108,7 @@ ToneEstimate Tone::finish() const {
   if (is_gray)
     tone.saturation = {.value = 0, .sd = 0.02, .is_known = true};
   else
-    tone.saturation.why = "the colours of the land and those of the camera cannot be told apart";
+    tone.saturation.why = "the colours of the land and those of the camera cannot be distinguished";
   set_tint(tone);
   if (is_gray)
     for (Estimate& part : tone.tint) part = {.value = 1, .sd = 0.01, .is_known = true};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "appearance/estimate.h"
-#include "appearance/picture.h"
+#include "appearance/light_image.h"
 
 namespace sigs {
 
@@ -34,7 +34,7 @@ using ToneHistogram = std::array<double, 256>;
 class Tone {
  public:
   Tone() { levels_.fill(0); }
-  void add(const Picture& picture);
+  void add(const LightImage& image);
   [[nodiscard]] ToneEstimate finish() const;
   [[nodiscard]] ToneHistogram histogram() const;
 

@@ -15,7 +15,7 @@ namespace {
 HazeEstimate haze_of(HazyPlain plain, const Camera& camera, const View& view, const Attitude& attitude, int frames,
                      ColorRange range = ColorRange::limited) {
   Haze haze;
-  PictureReader reader;
+  LightImageReader reader;
   for (int i = 0; i < frames; ++i) {
     plain.x_m = 400.0 * i;
     haze.add(reader.read(frame_of(seen(camera, rotation_of(attitude), plain), PixelLayout::yuv420, range), view));
@@ -35,8 +35,8 @@ void check_airlight(const HazeEstimate& haze, const glm::dvec3& truth, double co
 HazeEstimate haze_of_image(const cv::Mat& bgr, PixelLayout layout = PixelLayout::yuv420) {
   const Camera camera = wide_camera(bgr.size());
   Haze haze;
-  haze.add(PictureReader().read(frame_of(bgr, layout),
-                                {.camera = &camera, .world_from_camera = glm::dquat(1, 0, 0, 0), .height_m = 100}));
+  haze.add(LightImageReader().read(frame_of(bgr, layout),
+                                   {.camera = &camera, .world_from_camera = glm::dquat(1, 0, 0, 0), .height_m = 100}));
   return haze.finish();
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("visibility and airlight of a made plain are found within 25 % and 5 c
     }
 }
 
-TEST_CASE("with a horizon found in the picture the haze is found too") {
+TEST_CASE("with a horizon found in the image the haze is found too") {
   const Camera camera = wide_camera();
   const HazyPlain plain{.visibility_m = 12000};
   const HazeEstimate haze =
@@ -106,7 +106,7 @@ TEST_CASE("ground in clear air gives no visibility") {
   CHECK_FALSE(haze.visibility_m.why.empty());
 }
 
-TEST_CASE("blank, black, over-exposed and gray pictures give no visibility and no number that is not finite") {
+TEST_CASE("blank, black, over-exposed and gray images give no visibility and no number that is not finite") {
   for (const int level : {0, 90, 255})
     for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::gray}) {
       const HazeEstimate haze = haze_of_image(cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(level)), layout);
@@ -129,7 +129,7 @@ TEST_CASE("the haze of the sample footage is found through its camera's tone cur
     auto footage = FrameSource::open(assets / "footage" / name);
     REQUIRE(footage);
     Haze haze;
-    PictureReader reader;
+    LightImageReader reader;
     const View view{.camera = &*camera, .world_from_camera = glm::dquat(1, 0, 0, 0), .height_m = 150};
     for (int n = 0; n < footage->info().frame_count(); n += 50) haze.add(reader.read(footage->read(n).value(), view));
     const HazeEstimate found = haze.finish();
@@ -139,10 +139,8 @@ TEST_CASE("the haze of the sample footage is found through its camera's tone cur
     CHECK(found.visibility_m.value == doctest::Approx(3 * 11500).epsilon(0.25));
     // The colour of distant haze there, through sensor.cpp by hand: 214, 223, 230; table1_clouds is brighter.
     const bool is_brighter = std::string_view(name) == "table1_clouds.mp4";
-    const double green = is_brighter ? 233 : 223;
-    CHECK(std::abs(code_of(found.airlight[1].value) - green) < 5);
-    CHECK(std::abs(code_of(found.airlight[2].value) - (is_brighter ? 238 : 230)) < 5);
-    CHECK(std::abs(code_of(found.airlight[0].value) - (is_brighter ? 226 : 214)) <
-          8);  // the sky is bluer than its haze
+    const glm::dvec3 truth = is_brighter ? glm::dvec3(226, 233, 238) : glm::dvec3(214, 223, 230);
+    for (int k = 0; k < 3; ++k)
+      CHECK(std::abs(code_of(found.airlight[static_cast<std::size_t>(k)].value) - truth[k]) < 5.5);  // truth is rounded
   }
 }

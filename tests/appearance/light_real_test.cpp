@@ -100,7 +100,7 @@ RealClip look_at(const std::string& name) {
   const std::vector<cv::Rect> boxes = boxes_of(folder / (name + "_gt.csv"));
   RealClip clip;
   Light light;
-  PictureReader reader;
+  LightImageReader reader;
   const int count = std::min(footage->info().frame_count(), static_cast<int>(boxes.size()));
   for (int n = 5; n < count; n += 40) {
     const Frame frame = footage->read(n).value();

@@ -30,7 +30,7 @@ cv::Mat sky_and_ground(const glm::dvec3& sky, const glm::dvec3& ground) {
 
 LightEstimate light_of(const cv::Mat& bgr, PixelLayout layout = PixelLayout::yuv444, const View& view = {}) {
   Light light;
-  light.add(PictureReader().read(frame_of(bgr, layout), view));
+  light.add(LightImageReader().read(frame_of(bgr, layout), view));
   return light.finish();
 }
 
@@ -52,7 +52,7 @@ void check_finite(const LightEstimate& light) {
 
 }  // namespace
 
-TEST_CASE("the light of sky and ground is their mean colour in the picture") {
+TEST_CASE("the light of sky and ground is their mean colour in the image") {
   const glm::dvec3 sky(0.10, 0.19, 0.42), ground(0.10, 0.11, 0.06);
   const LightEstimate light = light_of(sky_and_ground(sky, ground));
   REQUIRE(light.exposure.is_known);
@@ -95,7 +95,7 @@ TEST_CASE("a white card in the sample footage's sun is as bright as the footage 
     auto footage = FrameSource::open(assets / "footage" / name);
     REQUIRE(footage);
     Light light;
-    PictureReader reader;
+    LightImageReader reader;
     const View view{.camera = &*camera, .world_from_camera = glm::dquat(1, 0, 0, 0)};
     for (int n = 0; n < footage->info().frame_count(); n += 60) light.add(reader.read(footage->read(n).value(), view));
     // assets/footage/light.h: sunlight (1, 0.955, 0.87) and skylight (0.2, 0.25, 0.33).
@@ -122,7 +122,13 @@ TEST_CASE("ground that is not seen reflects as land does, and the settings take 
   CHECK(settings.sun.azimuth_deg == 12);
 }
 
-TEST_CASE("blank, black, over-exposed, gray and rough pictures give finite light and say what is missing") {
+TEST_CASE("smooth fields seen from above are no sky") {
+  const LightEstimate light = light_of(cv::Mat(480, 640, CV_8UC3, codes({0.12, 0.15, 0.06})));
+  CHECK_FALSE(light.exposure.is_known);
+  CHECK(light.exposure.why == "no sky is seen");
+}
+
+TEST_CASE("blank, black, over-exposed, gray and rough images give finite light and say what is missing") {
   for (const int level : {0, 100, 255})
     for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::gray, PixelLayout::rgb})
       check_finite(light_of(cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(level)), layout));

@@ -118,17 +118,23 @@ TEST_CASE("too few samples, an even sky and a lens' dark corners are no sun") {
   CHECK_FALSE(sun_of_sky(corners));
 }
 
-TEST_CASE("a direction by time and place stands before what the picture shows") {
+TEST_CASE("a direction by time and place stands before what the image shows") {
   const glm::dvec3 given = to_sun_of(1.2, 0.8);
   const SunEstimate sun = sun_of(Posts{.azimuth_rad = -1}, {.pitch_rad = -0.55}, {}, given);
   CHECK(sun.witness == SunWitness::given);
   CHECK(sun.azimuth_rad.value == doctest::Approx(1.2));
   CHECK(sun.elevation_rad.value == doctest::Approx(0.8));
+  LightSettings settings;
+  apply(sun, settings);
+  CHECK_FALSE(settings.sun.azimuth_deg);  // time and place go on to tell it
+  apply(Sun().finish(), settings);
+  CHECK(settings.sun.azimuth_deg.value() == doctest::Approx(90));
+  CHECK(settings.sun.elevation_deg.value() == doctest::Approx(40).epsilon(0.02));
   const SunEstimate nowhere = Sun().finish(glm::dvec3(0));
   CHECK(nowhere.witness == SunWitness::none);
 }
 
-TEST_CASE("blank, black, over-exposed and gray pictures and none at all do not show the sun") {
+TEST_CASE("blank, black, over-exposed and gray images and none at all do not show the sun") {
   for (const int level : {0, 110, 255})
     for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::gray}) {
       const Camera camera = wide_camera();

@@ -15,7 +15,7 @@ namespace {
 ToneEstimate tone_of(const cv::Mat& bgr, PixelLayout layout = PixelLayout::yuv420,
                      ColorRange range = ColorRange::limited, const View& view = {}) {
   Tone tone;
-  tone.add(PictureReader().read(frame_of(bgr, layout, range), view));
+  tone.add(LightImageReader().read(frame_of(bgr, layout, range), view));
   return tone.finish();
 }
 
@@ -23,7 +23,7 @@ cv::Scalar codes(double red, double green, double blue) {
   return {std::round(code_of(blue)), std::round(code_of(green)), std::round(code_of(red))};
 }
 
-// Land of a middle tone with a shadow and a white roof, each 2 % of the picture, under a veil of stray light.
+// Land of a middle tone with a shadow and a white roof, each 2 % of the image, under a veil of stray light.
 cv::Mat veiled(double veil) {
   cv::Mat bgr(480, 640, CV_8UC3, codes(0.15 + veil, 0.2 + veil, 0.1 + veil));
   bgr(cv::Rect(40, 40, 80, 80)).setTo(codes(veil, veil, veil));
@@ -99,7 +99,7 @@ TEST_CASE("the own body does not count") {
 
 TEST_CASE("the histogram's shares add up to one, and without frames all is unknown") {
   Tone tone;
-  tone.add(PictureReader().read(frame_of(veiled(0.01))));
+  tone.add(LightImageReader().read(frame_of(veiled(0.01))));
   const ToneHistogram shares = tone.histogram();
   CHECK(std::accumulate(shares.begin(), shares.end(), 0.0) == doctest::Approx(1));
   const ToneEstimate none = Tone().finish();

@@ -10,11 +10,12 @@ namespace sigs {
 
 // One frame as the estimates of haze, tone, light and sun see it: its light on a grid, where each cell looks, and where
 // the level is.
-struct Picture {
+struct LightImage {
   LightGrid grid;
   GridRays rays;
   View view;
   std::optional<Skyline> skyline;
+  cv::Mat_<float> elevations_rad;  // of the cells, as elevation_rad() gives them; NaN: none. Empty without a skyline
 
   [[nodiscard]] bool empty() const { return grid.empty(); }
   // Angle of a cell above the level, rad; nothing without a skyline, for a hidden cell and beyond the lens' field.
@@ -22,10 +23,10 @@ struct Picture {
   [[nodiscard]] std::optional<double> elevation_rad(int column, int row) const;
 };
 
-// Pictures of frames that follow one another; the rays of a camera are computed once.
-class PictureReader {
+// Images of frames that follow one another; the rays of a camera are computed once.
+class LightImageReader {
  public:
-  [[nodiscard]] Picture read(const Frame& frame, const View& view = {});
+  [[nodiscard]] LightImage read(const Frame& frame, const View& view = {});
 
  private:
   GridRays rays_;
