@@ -50,6 +50,7 @@ Result<void> check(const ProjectOptions& options) {
   const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());
+  for (Warning& warning : codec_warnings_of(*project, source->info())) warnings.push_back(std::move(warning));
   if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
   SceneFiles files;
   const Result<Scene> scene = open_valid_scene(*project, shape_of(source->info()), files);

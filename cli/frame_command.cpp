@@ -34,7 +34,8 @@ struct FrameOptions {
 };
 
 Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
-  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  Result<FrameSource> source =
+      FrameSource::open(resolved(project, project.footage.video), nullptr, quantisers_for(project));
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)
@@ -44,6 +45,7 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   if (!scene) return fail(scene.error());
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kVisibilitySampleFrames);
   for (const Warning& warning : warnings_of(project, *scene, visibilities)) print_warning(warning);
+  for (const Warning& warning : codec_warnings_of(project, source->info())) print_warning(warning);
   Result<Frame> background = source->read(options.frame);
   if (!background) return fail(background.error());
   if (background->damaged)

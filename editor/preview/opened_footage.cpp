@@ -5,6 +5,7 @@
 
 #include "export/export_project.h"
 #include "scene/opened_project.h"
+#include "video/frame_quantisers.h"
 
 namespace sigs::editor {
 
@@ -21,12 +22,13 @@ std::size_t bytes_of(const PreviewImage& image) {
 std::size_t bytes_of(const DecodedFrame& decoded) {
   std::size_t sum = 0;
   for (const cv::Mat& plane : decoded.frame.planes) sum += bytes_of(plane);
+  if (decoded.frame.quantisers) sum += bytes_of(decoded.frame.quantisers->blocks);
   return sum;
 }
 
-OpenedFootage opened_footage(const std::filesystem::path& video) {
+OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers) {
   if (video.empty()) return {nullptr, std::make_shared<const Footage>(Footage{.problem = "no video is chosen"})};
-  Result<FrameSource> source = FrameSource::open(video);
+  Result<FrameSource> source = FrameSource::open(video, nullptr, quantisers);
   if (!source) return {nullptr, std::make_shared<const Footage>(Footage{.problem = source.error().text()})};
   if (source->info().frame_count() == 0)
     return {nullptr, std::make_shared<const Footage>(Footage{.problem = video.string() + ": has no frames"})};

@@ -15,9 +15,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kAfterFailure(100);  // memory may be had again; what is wanted is asked for anew
 
-OpenedFootage opened_or_problem(const std::filesystem::path& path) {
+OpenedFootage opened_or_problem(const FootageId& footage) {
   Result<OpenedFootage> opened =
-      guarded([&]() -> Result<OpenedFootage> { return opened_footage(path); }, path.string());
+      guarded([&]() -> Result<OpenedFootage> { return opened_footage(footage.path, footage.quantisers); },
+              footage.path.string());
   if (opened) return std::move(*opened);
   return {nullptr, std::make_shared<const Footage>(Footage{.problem = opened.error().text()})};
 }
@@ -25,7 +26,7 @@ OpenedFootage opened_or_problem(const std::filesystem::path& path) {
 void open_in_background(const std::shared_ptr<PreviewState>& preview_state, const FootageId& footage) {
   const auto open = [preview_state, footage] {
     const Result<void> done = guarded([&]() -> Result<void> {
-      preview_state->put_opened(footage, opened_or_problem(footage.path));
+      preview_state->put_opened(footage, opened_or_problem(footage));
       return {};
     });
     static_cast<void>(done);  // where not even that can be said, the footage stays "being opened"

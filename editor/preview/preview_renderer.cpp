@@ -7,6 +7,7 @@
 #include "base/threads.h"
 #include "editor/preview/thumbnails.h"
 #include "editor/preview/worker_thread.h"
+#include "scene/opened_project.h"
 #include "scene/scene_parts.h"
 
 namespace sigs::editor {
@@ -115,6 +116,15 @@ void PreviewRenderer::run() {
   }
 }
 
+namespace {
+
+FootageId footage_id_of(const FileStamp& video, Quantisers quantisers) {
+  const ContentId id = id_of(video);
+  return {quantisers == Quantisers::read ? combined_id(id, id) : id, video.path, quantisers};
+}
+
+}  // namespace
+
 int PreviewRenderer::clamped(int frame) const {
   return std::clamp(frame, 0, static_cast<int>(scene_->footage->shape.times_s.size()) - 1);
 }
@@ -126,7 +136,7 @@ void PreviewRenderer::check_input_files(const PreviewSnapshot& snapshot) {
   const ContentId input_files = input_files_id_of(*revision.project);
   const FileStamp video = footage_stamp_of(*revision.project);
   content_ = combined_id(revision.content, input_files);
-  footage_ = {id_of(video), video.path};
+  footage_ = footage_id_of(video, quantisers_for(*revision.project));
   revision_ = revision.number;
   files_checked_ = now;
   preview_state_.set_input_files(input_files, footage_);

@@ -22,6 +22,8 @@ struct FootageId {
   // id_of() the file's stamp; ContentId(): none is known yet.
   ContentId id;
   std::filesystem::path path;
+  // Whether frames are read with their quantisers; another id with than without.
+  Quantisers quantisers = Quantisers::leave_out;
 };
 
 // What the rendering thread works by: a copy of the state at one moment. It may be out of date at any time after; what

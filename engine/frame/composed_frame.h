@@ -32,6 +32,7 @@ struct OpCounts {
   std::int64_t pixels_blurred = 0;    // of layers; with the classic method of whole images too
   std::int64_t pixels_blended = 0;    // of the frame, rewritten
   std::int64_t pixels_converted = 0;  // of whole images, between code values and BGR
+  std::int64_t pixels_coded = 0;      // by the codec match
 
   [[nodiscard]] bool operator==(const OpCounts&) const = default;
 
@@ -44,6 +45,7 @@ struct OpCounts {
     pixels_blurred += more.pixels_blurred;
     pixels_blended += more.pixels_blended;
     pixels_converted += more.pixels_converted;
+    pixels_coded += more.pixels_coded;
     return *this;
   }
 };

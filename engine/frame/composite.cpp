@@ -19,6 +19,7 @@
 #include "compositor/classic.h"
 #include "compositor/footage_light.h"
 #include "compositor/occlude.h"
+#include "frame/codec_stage.h"
 
 namespace sigs {
 
@@ -168,6 +169,7 @@ ComposedFrame composited(Frame background, const Scene& scene, const std::vector
   ComposedFrame composed{.image = std::move(background)};
   const bool keep = stages == Stages::keep;
   const bool direct = scene.compositing.method == MethodChoice::direct;
+  const std::optional<CodecMatch> codec_match = codec_match_for(composed.image, scene, far_to_near);
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
   for (const IntruderLayers& layers : far_to_near) {
     if (layers.views.empty()) continue;
@@ -181,6 +183,10 @@ ComposedFrame composited(Frame background, const Scene& scene, const std::vector
       else
         context.classic_buffers() = std::move(classic);
     }
+  }
+  if (codec_match) {
+    if (keep) composed.stages.push_back({"uncoded", bgr_of(composed.image)});
+    composed.op_counts.pixels_coded += codec_match->apply(composed.image, composed.mask, scene.own_body);
   }
   if (keep) {
     if (!composed.mask.empty()) composed.stages.push_back({"mask", composed.mask});

@@ -16,6 +16,7 @@
 #include "scene/camera_track.h"
 #include "scene/plausibility.h"
 #include "scene/scene_parts.h"
+#include "video/frame_quantisers.h"
 
 namespace sigs {
 
@@ -70,7 +71,8 @@ Result<void> check_interrupt(const std::atomic<bool>* cancel) {
 
 Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
   if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
-  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), cancel);
+  Result<FrameSource> source =
+      FrameSource::open(resolved(project, project.footage.video), cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   SceneFiles files;
@@ -78,9 +80,16 @@ Result<OpenedProject> open_project(const Project& project, const std::atomic<boo
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!scene) return fail(scene.error());
   std::vector<Warning> warnings = warnings_of(source->info());
+  for (Warning& warning : codec_warnings_of(project, source->info())) warnings.push_back(std::move(warning));
   for (Warning& warning : warnings_of(project, *scene, estimated_visibilities(*scene, kVisibilitySampleFrames)))
     warnings.push_back(std::move(warning));
   return OpenedProject{std::move(*source), std::move(*scene), std::move(warnings)};
+}
+
+Quantisers quantisers_for(const Project& project) {
+  const CodecMatchSettings& codec = project.appearance.codec;
+  const bool direct = project.compositing.method == MethodChoice::direct;
+  return direct && codec.match != CodecMatchChoice::none ? Quantisers::read : Quantisers::leave_out;
 }
 
 FootageShape shape_of(const VideoInfo& video) {
@@ -93,6 +102,22 @@ std::vector<Warning> warnings_of(const VideoInfo& video) {
   std::vector<Warning> warnings = video.warnings;
   if (!video.conversion.empty()) warnings.push_back({video.path.string(), "is converted: " + video.conversion});
   return warnings;
+}
+
+std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& video) {
+  const CodecMatchSettings& codec = project.appearance.codec;
+  if (quantisers_for(project) == Quantisers::leave_out || codec.quantiser) return {};
+  const bool jpeg = codec.match == CodecMatchChoice::mjpeg;
+  const bool is_its_own =
+      codec.match == CodecMatchChoice::footage || (jpeg ? video.codec == "mjpeg" : video.codec == "h264");
+  if (is_its_own && states_quantisers(video.codec)) return {};
+  if (codec.match == CodecMatchChoice::footage && is_lossless_codec(video.codec)) return {};
+  return {
+      {project.file.string() + ": appearance.codec.quantiser",
+       fmt::format("the footage, {}, does not state what to quantise by; {} is taken: set the quantiser if you know it",
+                   video.codec,
+                   jpeg ? fmt::format("a quality of {:g} percent", kDefaultJpegQuality_percent)
+                        : fmt::format("H.264's QP {}", kDefaultQp))}};
 }
 
 std::vector<Warning> warnings_of(const Project& project, const Scene& scene,

@@ -44,6 +44,9 @@ struct OpenedProject {
 // The error `interrupted` once *cancel is true. cancel may be null: never.
 [[nodiscard]] Result<void> check_interrupt(const std::atomic<bool>* cancel);
 
+// Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own.
+[[nodiscard]] Quantisers quantisers_for(const Project& project);
+
 // What a scene has to know of a video.
 [[nodiscard]] FootageShape shape_of(const VideoInfo& video);
 
@@ -55,6 +58,9 @@ struct OpenedProject {
 //   visibilities  of each intruder of the scene; empty: not looked at
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);
+
+// That the codec match has to do with a default quantiser, as neither the footage nor the project states one.
+[[nodiscard]] std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& video);
 
 // Number of frames sampled to find intruders that are never visible, where each is visible in one of these.
 inline constexpr int kVisibilitySampleFrames = 20;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <opencv2/core.hpp>
 
 namespace sigs {
+
+struct FrameQuantisers;
 
 // How the 8-bit samples of an image are stored.
 enum class PixelLayout {
@@ -49,6 +52,9 @@ struct Frame {
   std::array<cv::Mat, 3> planes{};
   double time_s = 0;     // presentation time, 0 at the footage's first frame
   bool damaged = false;  // the footage's own frame is damaged; the samples are of an intact one nearby
+  // How coarsely the codec has quantised it (video/frame_quantisers.h); null where the source was not asked for it or
+  // the stream does not state it. Copies of the frame share it.
+  std::shared_ptr<const FrameQuantisers> quantisers{};
 
   [[nodiscard]] cv::Size size_px() const { return planes[0].size(); }
   [[nodiscard]] int plane_count() const { return sigs::plane_count(layout); }

@@ -20,11 +20,12 @@ size_t bytes_of(const AVFrame& frame) {
 }  // namespace
 
 FrameSeeker::FrameSeeker(libav::FrameDecoder stream, libav::FrameOrder order, const libav::PacketTable& table,
-                         size_t bytes_to_keep)
+                         size_t bytes_to_keep, bool quantisers)
     : stream_(std::move(stream)),
       order_(std::move(order)),
       first_place_(static_cast<size_t>(table.size()), -1),
       bytes_to_keep_(bytes_to_keep),
+      quantisers_(quantisers),
       shown_(order_.ordinals.size(), -1) {
   for (int n = 0; n < count(); ++n) {
     int& first = first_place_.at(static_cast<size_t>(ordinal_of(n)));
@@ -99,7 +100,7 @@ Result<void> FrameSeeker::begin(size_t start, int from, int end) {
   end_ = end;
   running_ = true;
   newest_ = start == 0 ? -1 : starts_[start].n - 1;
-  return stream_.start(from, {.threads = 2, .reorder_depth = order_.reorder_depth}, end);
+  return stream_.start(from, {.threads = 2, .reorder_depth = order_.reorder_depth, .quantisers = quantisers_}, end);
 }
 
 void FrameSeeker::note_damage() {
@@ -219,7 +220,7 @@ void FrameSeeker::hold_as_substitute(int n) {
   if (placed == nullptr || (substitute_ && substitute_->n == n)) return;
   libav::FramePtr frame = libav::new_frame();
   if (av_frame_ref(frame.get(), placed->image.frame.get()) >= 0)
-    substitute_ = Placed{{std::move(frame), placed->image.ordinal}, n};
+    substitute_ = Placed{{std::move(frame), placed->image.ordinal, placed->image.quantisers}, n};
 }
 
 Result<FrameSeeker::Found> FrameSeeker::find(int n) {

@@ -27,8 +27,9 @@ class FrameSeeker {
  public:
   //   order          the order of presentation; it belongs to the stream
   //   bytes_to_keep  memory for decoded images, so that steps back need no decoding
+  //   quantisers     images come with their quantisers (DecoderSettings)
   FrameSeeker(libav::FrameDecoder stream, libav::FrameOrder order, const libav::PacketTable& table,
-              size_t bytes_to_keep);
+              size_t bytes_to_keep, bool quantisers);
 
   // A decoded image that is intact.
   struct Found {
@@ -81,6 +82,7 @@ class FrameSeeker {
   std::vector<Start> starts_;       // the first is where the file begins
   int head_end_ = 0;                // packets before it that give no image depend on what lies before the file
   size_t bytes_to_keep_ = 0;        // for kept_
+  bool quantisers_ = false;
 
   std::vector<int> damage_;  // by start: the first damaged packet of its run, as far as known; kNone: none
   int head_damage_ = kNone;  // the first damaged packet of those before the first start in presentation

@@ -12,6 +12,7 @@
 #include "video/frame_seeker.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_info.h"
+#include "video/libav/stream_quantisers.h"
 
 namespace sigs {
 namespace {
@@ -67,6 +68,7 @@ struct FrameSource::State {
   const std::atomic<bool>* cancel = nullptr;  // null: none
   FileState file;                             // when it was opened
   libav::Orientation orientation;
+  bool quantisers = false;  // frames have their quantisers
 
   [[nodiscard]] static FileState state_of(const fs::path& path);
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
@@ -97,14 +99,14 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   if (dropped > 0)
     info.warnings.push_back(
         {info.path.string(), fmt::format("{} images before the first that can be decoded are left out", dropped)});
-  seeker.emplace(std::move(stream), std::move(*order), table, kBytesToKeep);
+  seeker.emplace(std::move(stream), std::move(*order), table, kBytesToKeep, quantisers);
   const Result<FrameSeeker::Found> intact = seeker->find(0);
   if (!intact) return fail(intact.error());
   if (intact->image == nullptr) return fail("", "every frame of this video is damaged");
   return {};
 }
 
-Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bool>* cancel) {
+Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bool>* cancel, Quantisers quantisers) {
   return guarded([&]() -> Result<FrameSource> {
     // Once `cancel` is set, FFmpeg's readers act as if the file ended: any error may follow from that.
     const auto failed = [&](const Error& error) -> tl::unexpected<Error> {
@@ -117,6 +119,7 @@ Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bo
     state->info.path = path;
     state->file = State::state_of(path);
     state->cancel = cancel;
+    state->quantisers = quantisers == Quantisers::read;
     const Result<void> opened = state->open(std::move(*demuxer));
     if (!opened) return failed(opened.error());
     return FrameSource(std::move(state));
@@ -145,6 +148,7 @@ Result<Frame> FrameSource::State::read(int n) {
   Result<Frame> frame = libav::frame_of(image, info.layout, info.color);
   if (!frame) return fail(where, frame.error().what);
   if (!(orientation == libav::Orientation{})) frame = libav::oriented(*frame, orientation);
+  frame->quantisers = libav::oriented(found->image->quantisers, cv::Size(image.width, image.height), orientation);
   frame->time_s = info.times_s[static_cast<size_t>(n)];
   frame->damaged = found->n != n;
   return frame;

@@ -35,6 +35,9 @@ struct VideoInfo {
   [[nodiscard]] int frame_count() const { return static_cast<int>(times_s.size()); }
 };
 
+// Whether frames come with the quantisers that the codec has used for them (Frame::quantisers).
+enum class Quantisers { leave_out, read };
+
 // Random access to the frames of a video. Numbers count the frames in order of presentation from 0 and are exact: frame
 // n is the n-th image that decoding the whole file from the start gives, whatever the codec, container or seek table.
 class FrameSource {
@@ -42,10 +45,14 @@ class FrameSource {
   // Reads the container's packets once to build the index. Frames are decoded only as far as the format requires.
   //   cancel  while it is true, opening and reading soon end with the error interrupted; null, or outlives the
   //           source
+  //   quantisers  read: frames have their quantisers where the stream states them (states_quantisers() in
+  //           video/frame_quantisers.h). The samples are the same; codecs with references between images are decoded
+  //           by one thread
   // Errors: cannot_read (missing, not a regular file, not a video, a playlist), bad_data (no frame can be decoded
   // without damage), interrupted.
   [[nodiscard]] static Result<FrameSource> open(const std::filesystem::path& path,
-                                                const std::atomic<bool>* cancel = nullptr);
+                                                const std::atomic<bool>* cancel = nullptr,
+                                                Quantisers quantisers = Quantisers::leave_out);
 
   FrameSource(FrameSource&&) noexcept;
   FrameSource& operator=(FrameSource&&) noexcept;

@@ -21,7 +21,7 @@ std::string text(const OpCounts& counts) {
          ", triangles " + std::to_string(counts.triangles_drawn) + ", bytes " + std::to_string(counts.bytes_uploaded) +
          ", warped " + std::to_string(counts.pixels_warped) + ", blurred " + std::to_string(counts.pixels_blurred) +
          ", blended " + std::to_string(counts.pixels_blended) + ", converted " +
-         std::to_string(counts.pixels_converted);
+         std::to_string(counts.pixels_converted) + ", coded " + std::to_string(counts.pixels_coded);
 }
 
 enum class Glass { pinhole, distorting };

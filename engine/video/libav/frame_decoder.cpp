@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "base/ensure.h"
+#include "video/libav/stream_quantisers.h"
 
 namespace sigs::libav {
 namespace {
@@ -22,11 +24,15 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   if (context == nullptr) throw std::bad_alloc();
   int error = avcodec_parameters_to_context(context.get(), &parameters);
   // With several threads it depends on their timing which macroblocks of a damaged MPEG-4 image FFmpeg loses.
-  context->thread_count = parameters.codec_id == AV_CODEC_ID_MPEG4 ? 1 : settings.threads;
+  const bool alone =
+      parameters.codec_id == AV_CODEC_ID_MPEG4 || (settings.quantisers && !is_intra_only(parameters.codec_id));
+  context->thread_count = alone ? 1 : settings.threads;
+  if (settings.quantisers) context->export_side_data |= AV_CODEC_EXPORT_DATA_VIDEO_ENC_PARAMS;
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
   if (error < 0 && settings.threads > 1)  // perhaps no more threads can be started; one gives the same images
-    return open_decoder(parameters, {.threads = 1, .reorder_depth = settings.reorder_depth});
+    return open_decoder(parameters,
+                        {.threads = 1, .reorder_depth = settings.reorder_depth, .quantisers = settings.quantisers});
   check_memory(error);
   if (error < 0)
     return fail("", fmt::format("the {} decoder cannot be opened: {}", codec->name, text_of(error)),
@@ -171,6 +177,9 @@ Result<void> FrameDecoder::start(int ordinal, const DecoderSettings& settings, s
   decoder_errors_->restart(ordinal);
   in_work_.clear();
   damaged_.clear();
+  wants_quantisers_ = settings.quantisers;
+  tables_.clear();
+  quantisers_ = nullptr;
   return reader_.go_to(ordinal);
 }
 
@@ -185,6 +194,8 @@ Result<void> FrameDecoder::feed() {
   fed_ = **ordinal;
   if (packet_->size == 0) return {};  // a dropped frame; to the decoder an empty packet would mean the end
   if ((*table_)[fed_].corrupt) note_damage(fed_);
+  if (wants_quantisers_ && decoder_->codec_id == AV_CODEC_ID_MJPEG)
+    tables_[fed_] = jpeg_tables_in(packet_->data, static_cast<std::size_t>(packet_->size));
   // The decoder passes the time stamps on to the images. The ordinal is used as the time stamp: it exists for every
   // container and is unique.
   packet_->pts = packet_->dts = fed_;
@@ -199,6 +210,21 @@ Result<void> FrameDecoder::feed() {
   if (sent < 0) note_refusal();
   note_decoder_errors();
   return {};
+}
+
+void FrameDecoder::add_quantisers(DecodedFrame& image) {
+  JpegTables tables;
+  if (const auto found = tables_.find(image.ordinal); found != tables_.end()) {
+    tables = found->second;
+    tables_.erase(tables_.begin(), std::next(found));
+  }
+  image.quantisers = quantisers_of(*image.frame, decoder_->codec_id, tables);
+  if (image.quantisers == nullptr && quantisers_ != nullptr && quantisers_->kind == QuantiserKind::mpeg) {
+    FrameQuantisers like_before = *quantisers_;
+    like_before.type = PictureType::unknown;
+    image.quantisers = std::make_shared<const FrameQuantisers>(std::move(like_before));
+  }
+  quantisers_ = image.quantisers;
 }
 
 void FrameDecoder::note_damage(int ordinal) {
@@ -224,6 +250,7 @@ Result<std::optional<DecodedFrame>> FrameDecoder::next() {
       const int64_t stamp = frame->pts != AV_NOPTS_VALUE ? frame->pts : frame->pkt_dts;
       if (stamp < 0 || stamp >= table_->size()) continue;
       DecodedFrame image{.frame = std::move(frame), .ordinal = static_cast<int>(stamp)};
+      if (wants_quantisers_) add_quantisers(image);
       if (is_damaged(*image.frame)) note_damage(image.ordinal);
       return std::optional<DecodedFrame>(std::move(image));
     }

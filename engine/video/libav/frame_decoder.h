@@ -3,11 +3,13 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 
 #include "base/result.h"
+#include "video/frame_quantisers.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/handles.h"
 #include "video/libav/packet_table.h"
@@ -19,7 +21,9 @@ namespace sigs::libav {
 
 struct DecoderSettings {
   int threads = 1;
-  int reorder_depth = 0;  // how many images can come before another one although they are decoded later; at least
+  int reorder_depth = 0;    // how many images can come before another one although they are decoded later; at least
+  bool quantisers = false;  // images come with their quantisers. Then one image is decoded at a time: FFmpeg 5.1 lists
+                            // those of an image that another thread may still be decoding
 };
 
 // Whether the decoder calls an image a keyframe.
@@ -71,6 +75,9 @@ class PacketReader {
 struct DecodedFrame {
   FramePtr frame;
   int ordinal = 0;
+  // Where they are asked for and the stream states them: in the image as it is stored. For images that FFmpeg gives
+  // without them (MPEG-1, -2 and -4: the last one of a group) those of the image before, with the type unknown.
+  std::shared_ptr<const FrameQuantisers> quantisers{};
 };
 
 // Decodes images in order of presentation, from any packet on.
@@ -96,6 +103,7 @@ class FrameDecoder {
 
  private:
   [[nodiscard]] Result<void> feed();
+  void add_quantisers(DecodedFrame& image);
   void note_damage(int ordinal);
   void note_decoder_errors();
   void note_refusal();
@@ -110,6 +118,9 @@ class FrameDecoder {
   int end_ = 0;              // ordinal before which the input ends
   std::deque<int> in_work_;  // packets whose result is not known yet, one per thread
   std::set<int> damaged_;
+  bool wants_quantisers_ = false;
+  std::map<int, JpegTables> tables_;                   // by ordinal, of JPEG images that the decoder has not given yet
+  std::shared_ptr<const FrameQuantisers> quantisers_;  // of the last image given since start()
 };
 
 }  // namespace sigs::libav

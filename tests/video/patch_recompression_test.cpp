@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "video/patch_recompression.h"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <thread>
+#include <vector>
+
+#include "support/test_data.h"
+#include "video/clips.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+// The same background each time, and with `contrast` a soft dark figure on it with thin lines, in all planes.
+Frame textured(PixelLayout layout, cv::Size size_px, double contrast) {
+  Frame frame = blank_frame(layout, size_px, {});
+  cv::RNG random(7);
+  for (int i = 0; i < frame.plane_count(); ++i) {
+    cv::Mat& plane = frame.planes[static_cast<std::size_t>(i)];
+    cv::Mat values(plane.size(), CV_32FC1);
+    random.fill(values, cv::RNG::NORMAL, 128, 40);
+    cv::GaussianBlur(values, values, {}, 0.6);
+    const cv::Point2d middle(plane.cols * 0.5, plane.rows * 0.45);
+    for (int y = 0; y < plane.rows; ++y)
+      for (int x = 0; x < plane.cols; ++x) {
+        const bool fuselage = std::abs(y - middle.y) < plane.rows * 0.03 && std::abs(x - middle.x) < plane.cols * 0.3;
+        const bool wing = std::abs(x - middle.x) < plane.cols * 0.04 && std::abs(y - middle.y) < plane.rows * 0.3;
+        if (fuselage || wing) values.at<float>(y, x) -= static_cast<float>(contrast * (i == 0 ? 1 : 0.4));
+      }
+    values.convertTo(plane, CV_8UC1);
+  }
+  return frame;
+}
+
+PatchCoding h264_coding(cv::Size size_px, int qp) {
+  return {.quantisers = cv::Mat(size_px / 16, CV_16SC1, cv::Scalar(qp))};
+}
+
+std::vector<PatchCoding> all_codings(cv::Size size_px) {
+  PatchCoding mpeg{.kind = QuantiserKind::mpeg, .quantisers = cv::Mat(size_px / 16, CV_16SC1, cv::Scalar(12))};
+  PatchCoding jpeg{.kind = QuantiserKind::jpeg, .tables = jpeg_tables(60)};
+  return {h264_coding(size_px, 30), mpeg, jpeg};
+}
+
+void append(std::vector<uint8_t>& bytes, const Frame& frame) {
+  const Samples samples = samples_of(frame);
+  bytes.insert(bytes.end(), samples.begin(), samples.end());
+}
+
+double difference_of(const Frame& a, const Frame& b, int plane) {
+  return cv::norm(a.planes[static_cast<std::size_t>(plane)], b.planes[static_cast<std::size_t>(plane)]);
+}
+
+double share_of_different(const Frame& a, const Frame& b, int plane) {
+  const cv::Mat differs = a.planes[static_cast<std::size_t>(plane)] != b.planes[static_cast<std::size_t>(plane)];
+  return cv::countNonZero(differs) / static_cast<double>(differs.total());
+}
+
+}  // namespace
+
+TEST_CASE("what x264 and FFmpeg's decoder make of a picture predicted from the one before is reproduced") {
+  const TemporaryFolder folder;
+  const cv::Size size(192, 128);
+  for (const auto& [layout, format] :
+       {std::pair(PixelLayout::yuv420, "yuv420p"), std::pair(PixelLayout::yuv422, "yuv422p"),
+        std::pair(PixelLayout::yuv444, "yuv444p")})
+    for (const int qp : {18, 24, 31, 38}) {
+      CAPTURE(std::string(format));
+      CAPTURE(qp);
+      const Frame with_intruder = textured(layout, size, 14);
+      std::vector<uint8_t> raw;
+      append(raw, textured(layout, size, 0));
+      append(raw, with_intruder);
+      write_bytes(folder / "raw", raw);
+      // An encoder without shortcuts of its own: no search for motion, no smoothing of levels, no dropped ones.
+      const std::string encoder = fmt::format(
+          "qp={}:ipratio=4:aq-mode=0:mbtree=0:keyint=99:scenecut=0:bframes=0:ref=1:weightp=0:partitions=none:8x8dct=0:"
+          "me=dia:merange=4:subme=0:trellis=0:psy=0:no-dct-decimate=1:no-fast-pskip=1:chroma-qp-offset=0",
+          qp);
+      if (!run_ffmpeg(fmt::format("-f rawvideo -pix_fmt {} -s 192x128 -i \"{}\" -c:v libx264 -x264-params {} \"{}\"",
+                                  format, (folder / "raw").string(), encoder, (folder / "a.mkv").string())))
+        return;
+      Result<FrameSource> source = FrameSource::open(folder / "a.mkv", nullptr, Quantisers::read);
+      REQUIRE(source.has_value());
+      const Frame before = source->read(0).value();
+      const Frame decoded = source->read(1).value();
+      REQUIRE(decoded.quantisers != nullptr);
+      CHECK(decoded.quantisers->mean == qp);
+      const Frame ours = recompressed(with_intruder, before, h264_coding(size, qp));
+      for (int plane = 0; plane < ours.plane_count(); ++plane) {
+        CAPTURE(plane);
+        // Where the rounding of x264's own table of steps falls the other way, a block differs by one level. The means
+        // of 4:2:2's chroma are coded in another grouping.
+        if (layout == PixelLayout::yuv422 && plane > 0)
+          CHECK(difference_of(ours, decoded, plane) < 0.4 * difference_of(with_intruder, decoded, plane));
+        else
+          CHECK(share_of_different(ours, decoded, plane) < 0.01);
+      }
+    }
+}
+
+TEST_CASE("JPEG's own encoder and decoder give the same image but for the rounding of their transforms") {
+  const cv::Size size(96, 80);
+  for (const int quality : {20, 60, 90}) {
+    CAPTURE(quality);
+    const Frame patch = textured(PixelLayout::gray, size, 60);
+    std::vector<uchar> bytes;
+    cv::imencode(".jpg", patch.planes[0], bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+    const cv::Mat decoded = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+    Frame before = blank_frame(PixelLayout::gray, size, {});
+    const PatchCoding coding{.kind = QuantiserKind::jpeg, .tables = jpeg_tables(quality)};
+    const Frame ours = recompressed(patch, before, coding);
+    // The library works in whole numbers, so that a coefficient at a tie falls either way: here and there a block
+    // differs by one level. Against what compression costs this is little.
+    const double lost = cv::norm(decoded, patch.planes[0]);
+    CHECK(cv::norm(ours.planes[0], decoded) < 0.25 * lost);
+    CHECK(cv::norm(ours.planes[0], patch.planes[0]) == doctest::Approx(lost).epsilon(0.02));
+  }
+}
+
+TEST_CASE("the error of MPEG's quantiser is that of a step with a dead zone") {
+  const cv::Size size(256, 256);
+  Frame before = blank_frame(PixelLayout::gray, size, {});
+  before.planes[0] = 128;
+  Frame patch = cloned(before);
+  cv::RNG random(3);
+  cv::Mat noise(size, CV_32FC1);
+  random.fill(noise, cv::RNG::NORMAL, 128, 30);
+  noise.convertTo(patch.planes[0], CV_8UC1);
+  for (const int step : {4, 10}) {
+    CAPTURE(step);
+    const PatchCoding coding{.kind = QuantiserKind::mpeg, .quantisers = cv::Mat(size / 16, CV_16SC1, cv::Scalar(step))};
+    const Frame coded = recompressed(patch, before, coding);
+    cv::Mat off;
+    cv::subtract(coded.planes[0], patch.planes[0], off, cv::noArray(), CV_32F);
+    // The transform is orthonormal, so the samples' mean squared error is the coefficients', which are normal too.
+    double wanted = 1.0 / 12;  // the samples are rounded
+    constexpr double kSlice = 0.01;
+    for (double size_of = kSlice / 2; size_of < 180; size_of += kSlice) {
+      const double density = std::exp(-size_of * size_of / 1800) / (30 * std::sqrt(2 * CV_PI));
+      const double beyond = size_of - 1.25 * step;  // the dead zone; from there on intervals of a step each
+      const double decoded = beyond < 0 ? 0 : (1.5 + std::floor(beyond / step)) * step;
+      wanted += 2 * density * kSlice * (size_of - decoded) * (size_of - decoded);
+    }
+    CHECK(cv::mean(off.mul(off))[0] == doctest::Approx(wanted).epsilon(0.03));
+  }
+}
+
+TEST_CASE("a patch without an intruder keeps its bits, whatever the codec, layout and size") {
+  for (const PixelLayout layout : kLayouts)
+    for (const cv::Size size : {cv::Size(16, 16), cv::Size(48, 16), cv::Size(512, 64)})
+      for (const PatchCoding& coding : all_codings(size)) {
+        const Frame patch = textured(layout, size, 0);
+        CHECK(samples_of(recompressed(patch, patch, coding)) == samples_of(patch));
+      }
+}
+
+TEST_CASE("H.264's filter reaches two samples beyond the macroblocks that differ, the others nothing") {
+  for (const PixelLayout layout : kLayouts)
+    for (const PatchCoding& coding : all_codings({96, 96})) {
+      CAPTURE(static_cast<int>(layout));
+      CAPTURE(static_cast<int>(coding.kind));
+      const Frame before = textured(layout, {96, 96}, 0);
+      Frame patch = cloned(before);
+      for (int i = 0; i < patch.plane_count(); ++i) {  // the macroblock in row and column 2
+        cv::Mat& plane = patch.planes[static_cast<std::size_t>(i)];
+        const cv::Rect block(plane.cols / 3, plane.rows / 3, plane.cols / 6, plane.rows / 6);
+        plane(block) -= 40;
+      }
+      const Frame coded = recompressed(patch, before, coding);
+      for (int i = 0; i < patch.plane_count(); ++i) {
+        const auto which = static_cast<std::size_t>(i);
+        const cv::Mat& plane = coded.planes[which];
+        const int margin = coding.kind == QuantiserKind::h264 ? 2 : 0;
+        cv::Mat differs = plane != before.planes[which];
+        differs(cv::Rect(plane.cols / 3 - margin, plane.rows / 3 - margin, plane.cols / 6 + 2 * margin,
+                         plane.rows / 6 + 2 * margin)) = 0;
+        CHECK(cv::countNonZero(differs) == 0);
+      }
+    }
+}
+
+TEST_CASE("a coarser quantiser costs more, and QP 0 costs next to nothing") {
+  const cv::Size size(128, 128);
+  const Frame before = textured(PixelLayout::yuv420, size, 0);
+  const Frame patch = textured(PixelLayout::yuv420, size, 60);
+  double last = -1;
+  for (const int qp : {0, 10, 20, 28, 36, 44, 51}) {
+    CAPTURE(qp);
+    const double error = cv::norm(recompressed(patch, before, h264_coding(size, qp)).planes[0], patch.planes[0]) / 128;
+    CHECK(error > last);
+    last = error;
+    if (qp == 0) CHECK(error < 0.5);
+    // Step 2^((qp - 4) / 6); what is lost is at most the figure itself, and otherwise below the step's own noise.
+    CHECK(error < std::exp2((qp - 4) / 6.0));
+  }
+}
+
+TEST_CASE("the same patch gives the same bytes on every thread and after any other patch") {
+  const cv::Size size(176, 144);
+  const Frame before = textured(PixelLayout::yuv420, size, 0);
+  const Frame patch = textured(PixelLayout::yuv420, size, 60);
+  for (const PatchCoding& coding : all_codings(size)) {
+    const Samples first = samples_of(recompressed(patch, before, coding));
+    std::vector<Samples> others(4);
+    std::vector<std::thread> threads;
+    for (Samples& other : others)
+      threads.emplace_back([&] {
+        for (const int edge : {16, 64, 512}) {
+          const cv::Size other_size(edge, edge);
+          static_cast<void>(recompressed(textured(PixelLayout::yuv444, other_size, 30),
+                                         textured(PixelLayout::yuv444, other_size, 0), all_codings(other_size)[0]));
+        }
+        other = samples_of(recompressed(patch, before, coding));
+      });
+    for (std::thread& thread : threads) thread.join();
+    for (const Samples& other : others) CHECK(other == first);
+  }
+}
