@@ -2,8 +2,8 @@
 // Real aircraft of clips beside a drawn one in the same frame: how much livelier the image is in a ring around it than
 // farther away, uncoded and by ways of coding it; what each way does to the background; what it costs.
 //   bench_codec_match FOLDER CLIP...     FOLDER has CLIP.mp4 and CLIP_gt.csv
-// x264 by the ffmpeg program codes the whole frame: "intra" as one picture, "inter" after the footage's own frame as
-// the picture before at a fine QP.
+// x264 by the ffmpeg program codes the whole frame: "intra" as one image, "inter" after the footage's own frame as
+// the image before at a fine QP.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -103,7 +103,7 @@ TEST_CASE("the blur of a slanted-edge target is found within 3 percent") {
   }
 }
 
-TEST_CASE("sharpening of a slanted-edge target is told apart from its blur") {
+TEST_CASE("sharpening of a slanted-edge target is distinguished from its blur") {
   for (const double sharpening : {0.3, 0.8, 1.5}) {
     const PointSpreadFound found =
         spread_of_target({.sigma_px = 0.8, .sharpening = sharpening, .sharpening_px = 1.4, .noise = 0.7});
