@@ -95,7 +95,7 @@ Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<P
 
 Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
-  Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag());
+  Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag(), Quantisers::read);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   AppearanceHints hints;

@@ -112,7 +112,7 @@ struct RealTarget {
 Result<RealTarget> real_target(const CompareOptions& options) {
   const Result<Boxes> boxes = boxes_of(options);
   if (!boxes) return fail(boxes.error());
-  Result<FrameSource> footage = FrameSource::open(options.video);
+  Result<FrameSource> footage = FrameSource::open(options.video, nullptr, Quantisers::read);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   const int frame = frame_of(options, *boxes), count = footage->info().frame_count();

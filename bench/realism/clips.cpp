@@ -70,7 +70,7 @@ std::vector<RealClip> real_stills() {
 }
 
 FrameSource opened(const fs::path& path) {
-  Result<FrameSource> source = FrameSource::open(path);
+  Result<FrameSource> source = FrameSource::open(path, nullptr, Quantisers::read);
   if (!source) accuracy::stop(source.error().text());
   return *std::move(source);
 }

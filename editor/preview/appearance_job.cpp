@@ -5,7 +5,7 @@ namespace sigs::editor {
 
 Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control) {
   const FootageSettings& settings = request.project.footage;
-  Result<FrameSource> footage = FrameSource::open(resolved(request.project, settings.video), control.cancel);
+  Result<FrameSource> footage = FrameSource::open(resolved(request.project, settings.video), control.cancel, Quantisers::read);
   if (!footage) return fail(footage.error());
   return estimate_appearance(*footage, {.first = settings.first_frame, .last = settings.last_frame}, {},
                              {.progress = control.progress, .cancel = control.cancel});

@@ -54,6 +54,8 @@ class Estimators {
     point_spread_.add(frame, view.own_body);
     noise_.add(frame, next);
     surroundings_.add(frame, view);
+    codec_.add(frame);
+    if (next != nullptr) codec_.add(*next);
   }
 
   void finish(Appearance& appearance, const AppearanceHints& hints) const {
@@ -61,6 +63,7 @@ class Estimators {
     appearance.noise = noise_.finish();
     appearance.surroundings = surroundings_.finish(hints.to_sun_in_world);
     appearance.tone_histogram = surroundings_.tone().histogram();
+    appearance.codec = codec_.finish();
     appearance.haze_curve = surroundings_.haze().curve();
   }
 
@@ -68,6 +71,7 @@ class Estimators {
   PointSpread point_spread_;
   Noise noise_;
   Surroundings surroundings_;
+  CodecEstimator codec_;
 };
 
 Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frames, const AppearanceHints& hints,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "appearance/codec.h"
 #include "appearance/estimate.h"
 #include "appearance/noise.h"
 #include "appearance/panel.h"
@@ -48,12 +49,13 @@ struct Appearance {
   SurroundingsEstimate surroundings;  // haze, tone, light, sun
   ToneHistogram tone_histogram{};
   HazeCurve haze_curve;
+  CodecEstimate codec;
   bool has_time_and_place = false;  // as in AppearanceHints
 };
 
 // Looks at the footage once, from its first frame used to the last; decoding runs ahead on a thread of its own. Damaged
-// frames are left out. What cannot be told says so (Estimate) and is no error.
-// Errors: usage (no such frames), cannot_read, bad_data, interrupted.
+// frames are left out. The footage should have been opened with Quantisers::read. What cannot be told says so
+// (Estimate) and is no error. Errors: usage (no such frames), cannot_read, bad_data, interrupted.
 [[nodiscard]] Result<Appearance> estimate_appearance(FrameSource& footage, const AppearanceFrames& frames,
                                                      const AppearanceHints& hints, const AppearanceControl& control);
 

@@ -18,9 +18,18 @@ double rounded(double value) {
   return std::round(value * scale) / scale;
 }
 
-// Of a codec whose quantiser can be matched.
-bool is_matched(const std::string& codec) {
-  return codec == "h264" || codec == "mjpeg";
+const char* unit_of(QuantiserKind kind) {
+  switch (kind) {
+    case QuantiserKind::h264:
+      return "QP";
+    case QuantiserKind::mpeg:
+      return "codes a step";
+    case QuantiserKind::jpeg:
+      return "% quality";
+    case QuantiserKind::none:
+      break;
+  }
+  return "";
 }
 
 Estimate in_degrees(const Estimate& rad) {
@@ -121,6 +130,11 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
       {"noise of chroma", "codes", noise.sd_chroma, "appearance.grain.sd_chroma"},
       {"noise's spread", "px", noise.spread_px, "appearance.grain.spread_px"},
       {"noise's persistence", "", noise.persistence, "appearance.grain.persistence"}};
+  const CodecEstimate& codec = appearance.codec;
+  list.push_back(
+      {"codec's quantiser", unit_of(codec.kind), codec.quantiser, ""});  // the settings' null: frame by frame
+  list.push_back({"codec's block grid", "codes", codec.block_grid, ""});
+  list.push_back({"codec's ringing", "codes", codec.ringing, ""});
   const auto& [haze, tone, light, sun] = appearance.surroundings;
   list.push_back({"black", "", tone.black, "appearance.black"});
   list.push_back({"white", "", tone.white, ""});
@@ -175,7 +189,7 @@ void apply(const Appearance& appearance, Project& project) {
     apply_sun(around.sun, appearance.has_time_and_place, project.light.sun);
   }
   project.appearance.codec.match =
-      is_matched(appearance.footage.codec) ? CodecMatchChoice::footage : CodecMatchChoice::none;
+      is_lossless_codec(appearance.footage.codec) ? CodecMatchChoice::none : CodecMatchChoice::footage;
   hold_in_ranges(project);
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "appearance/grain_model.h"
+#include "appearance/noise_line.h"
 #include "appearance/quantiles.h"
 
 namespace sigs {
@@ -54,76 +55,6 @@ Floor floor_of(const std::vector<double>& variances, double start, double reach)
   // Two intervals of the same ratio: of texture alone the upper one has about as many blocks, or more.
   found.is_shared = found.count >= kFewestBlocks && 2 * between(1 / reach, reach) > 3 * between(reach, 8);
   return found;
-}
-
-// What a bin of brightness says.
-struct Level {
-  double brightness = 0;  // 0 black, 1 white
-  double variance = 0;    // of luma, rounding and the plane's share still in it
-  double weight = 0;
-  double shared = 0;                           // covariance of neighbours over the variance
-  std::vector<const NoiseBlock*> blocks = {};  // without texture
-  double limit = 0;                            // blocks of less variance are without texture
-};
-
-// variance = dark * (1 - brightness) + bright * brightness
-struct NoiseLine {
-  double dark = 0, bright = 0;
-  double dark_sd = 0, bright_sd = 0;
-  bool is_level = false;  // no slope can be told
-};
-
-NoiseLine line_through(const std::vector<Level>& levels, bool is_level = false) {
-  constexpr double kNarrow = 0.25;     // of the brightness
-  constexpr double kMostUnsure = 0.7;  // deviation of an end's variance, as a share of the mean of both
-  double low = 1, high = 0;
-  for (const Level& level : levels) {
-    low = std::min(low, level.brightness);
-    high = std::max(high, level.brightness);
-  }
-  NoiseLine line{.is_level = is_level || high - low < kNarrow};
-  std::vector<double> robust(levels.size(), 1.0);
-  for (int round = 0; round < 4; ++round) {
-    double aa = 0, ab = 0, bb = 0, ay = 0, by = 0, total = 0;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      const double b = levels[i].brightness, a = 1 - b;
-      const double w = levels[i].weight * robust[i] / std::pow(levels[i].variance + 0.02, 2);  // equal relative errors
-      aa += w * a * a;
-      ab += w * a * b;
-      bb += w * b * b;
-      ay += w * a * levels[i].variance;
-      by += w * b * levels[i].variance;
-      total += w;
-    }
-    const double determinant = aa * bb - ab * ab;
-    if (line.is_level || !(determinant > 1e-6 * aa * bb)) {
-      line.dark = line.bright = (ay + by) / total;
-      line.is_level = true;
-    } else {
-      line.dark = std::max(0.0, (bb * ay - ab * by) / determinant);
-      line.bright = std::max(0.0, (aa * by - ab * ay) / determinant);
-      // A line that is negative at one end is 0 there.
-      if (line.dark == 0) line.bright = by / bb;
-      if (line.bright == 0) line.dark = ay / aa;
-    }
-    double squares = 0, n = 0, weights = 0;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      const double fit = line.dark * (1 - levels[i].brightness) + line.bright * levels[i].brightness;
-      const double off = (levels[i].variance - fit) / (fit + 0.02);
-      robust[i] = 1 / (1 + std::pow(off / (off > 0 ? 0.15 : 0.4), 2));  // texture adds and never takes away
-      squares += robust[i] * off * off;
-      n += robust[i];
-      weights += robust[i] * levels[i].weight;
-    }
-    const double scatter = std::max(0.04, std::sqrt(squares / std::max(n - 2, 1.0)));
-    // Each level errs by the scatter, whatever its weight.
-    const double usual_weight = weights / std::max(n, 1e-9);
-    line.dark_sd = scatter * (line.is_level ? line.dark : std::sqrt(usual_weight * bb / determinant));
-    line.bright_sd = scatter * (line.is_level ? line.bright : std::sqrt(usual_weight * aa / determinant));
-  }
-  const double sure = kMostUnsure * (line.dark + line.bright) / 2 + 0.02;
-  if (!line.is_level && std::max(line.dark_sd, line.bright_sd) > sure) return line_through(levels, true);
-  return line;
 }
 
 double root_of(double variance) {
@@ -207,8 +138,8 @@ class NoiseFit {
   // Variance of luma by brightness, of noise alone.
   [[nodiscard]] NoiseLine line(double spread_px) const {
     const double left = block_rest(spread_px, kNoiseBlock_px).variance;
-    std::vector<Level> corrected = levels_;
-    for (Level& level : corrected) level.variance = std::max(0.0, level.variance - kRounding) / left;
+    std::vector<NoiseLevel> corrected = levels_;
+    for (NoiseLevel& level : corrected) level.variance = std::max(0.0, level.variance - kRounding) / left;
     return line_through(corrected);
   }
 
@@ -226,7 +157,7 @@ class NoiseFit {
     const double left = block_rest(spread_px, kNoiseBlock_px).variance;
     PanelSeries all{.label = "blocks", .is_points = true}, floors{.label = "noise", .is_points = true};
     const double top = std::max(0.5, 4 * std::max(line.dark, line.bright));
-    for (const Level& level : levels_) {
+    for (const NoiseLevel& level : levels_) {
       floors.x.push_back(level.brightness);
       floors.y.push_back(std::max(0.0, level.variance - kRounding) / left);
     }
@@ -317,10 +248,10 @@ class NoiseFit {
   void leave_out_objects() {
     constexpr double kMostAboveUsual = 10;
     std::vector<double> by_blocks;
-    for (const Level& level : levels_)
+    for (const NoiseLevel& level : levels_)
       by_blocks.insert(by_blocks.end(), level.blocks.size() / kFewestBlocks + 1, level.variance);
     const double usual = quantile(by_blocks, 0.5);
-    std::erase_if(levels_, [&](const Level& level) { return level.variance > kMostAboveUsual * usual + 0.5; });
+    std::erase_if(levels_, [&](const NoiseLevel& level) { return level.variance > kMostAboveUsual * usual + 0.5; });
   }
 
   // What neighbours share of the noise: the mean over the blocks up to reach_ times the floor.
@@ -358,14 +289,14 @@ class NoiseFit {
       if (!is_by_change && !floor.is_shared) continue;
       const double ratio = shared_by_neighbours(blocks, is_by_change, is_by_change ? change.value : floor.value);
       if (is_by_change) floor = {by_change, true, change.count};
-      Level level{brightness / static_cast<double>(blocks.size()), floor.value,
-                  static_cast<double>(std::min(200, floor.count)), ratio};
+      NoiseLevel level{brightness / static_cast<double>(blocks.size()), floor.value,
+                       static_cast<double>(std::min(200, floor.count)), ratio};
       for (const NoiseBlock* const block : blocks)
         if (block->variance <= reach_ * floor.value + kNone) level.blocks.push_back(block);
       levels_.push_back(std::move(level));
     }
     leave_out_objects();
-    for (const Level& level : levels_) {
+    for (const NoiseLevel& level : levels_) {
       for (const NoiseBlock* const block : level.blocks) {
         plain_.push_back(block);
         repeated_ += is_repeated(*block) ? 1 : 0;
@@ -382,15 +313,15 @@ class NoiseFit {
     constexpr double kOfTexture = 0.7;  // what they share of smooth texture, the plane being subtracted
     constexpr double kMostOfNoise = 0.55;
     std::vector<double> ratios;
-    for (const Level& level : levels_)
+    for (const NoiseLevel& level : levels_)
       if (level.weight >= 60) ratios.push_back(level.shared);
     if (ratios.empty())
-      for (const Level& level : levels_) ratios.push_back(level.shared);
+      for (const NoiseLevel& level : levels_) ratios.push_back(level.shared);
     if (ratios.empty()) return;
     std::sort(ratios.begin(), ratios.end());
     shared_ = {ratios[0], std::max(0.02, ratios[std::min<std::size_t>(1, ratios.size() - 1)] - ratios[0])};
     if (shared_.value > kMostOfNoise) return;
-    for (Level& level : levels_)
+    for (NoiseLevel& level : levels_)
       level.variance *= std::clamp((kOfTexture - level.shared) / (kOfTexture - shared_.value), 0.2, 1.0);
   }
 
@@ -399,7 +330,7 @@ class NoiseFit {
   bool has_pairs_;
   double reach_ = kReach;
   std::vector<Bin> bins_;
-  std::vector<Level> levels_;
+  std::vector<NoiseLevel> levels_;
   std::vector<const NoiseBlock*> plain_;  // without texture
   Fitted kept_{-1, 0};                    // of noise, by the next frame, in blocks that are not repeated; -1: not known
   Fitted shared_;                         // of noise, by neighbours

@@ -193,7 +193,9 @@ void PointSpread::find_luma(PointSpreadFound& found, const SharpEnd& end) const 
   const double amount_sd = factor * deviation(amounts);
   const double natural_sd = end.sigma_px.sd;
   const EdgeShape& shape = end.shape;
-  found.sigma_px = {shape.sigma_px, std::hypot(factor * deviation(sigmas), natural_sd), true, ""};
+  constexpr double kOfModel = 0.03;  // no lens' blur is exactly a Gaussian
+  found.sigma_px = {shape.sigma_px, std::hypot(factor * deviation(sigmas), natural_sd, kOfModel * shape.sigma_px), true,
+                    ""};
   found.edges_used = static_cast<int>(end.agreeing.size());
   constexpr double kSureAmount = 0.2;  // half of a usual camera's
   if (shape.sharpening > 0 && amount_sd < std::max(kSureAmount, 0.35 * shape.sharpening)) {
