@@ -46,7 +46,7 @@ for strength in 5 9; do
     noisy $strength $size "$folder/noisy.mkv"
     for every in 60 15 3; do
       "$sigs" appearance "$folder/noisy.mkv" --every $every --json >"$folder/found.json"
-      echo "| $(awk "BEGIN {printf \"%.2f\", $strength / 3}") | $size | $(grep -o '"frames_used": [0-9]*' "$folder/found.json" | grep -o '[0-9]*') | $(value "$folder/found.json" "noise at black") | $(value "$folder/found.json" "noise at white") | $(value "$folder/found.json" "noise's spread") | $(value "$folder/found.json" "noise's persistence") |"
+      echo "| $([ $strength = 5 ] && echo 2.51 || echo 4.79) | $size | $(grep -o '"frames_used": [0-9]*' "$folder/found.json" | grep -o '[0-9]*') | $(value "$folder/found.json" "noise at black") | $(value "$folder/found.json" "noise at white") | $(value "$folder/found.json" "noise's spread") | $(value "$folder/found.json" "noise's persistence") |"
     done
   done
 done
