@@ -13,15 +13,14 @@
 #include <vector>
 
 #include "appearance/appearance.h"
+#include "appearance/project_hints.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/path_project.h"
 #include "cli/process.h"
 #include "cli/progress.h"
-#include "cli/project_view.h"
 #include "project/json.h"
 
 namespace sigs::cli {
@@ -100,7 +99,7 @@ Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& 
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   AppearanceHints hints;
   if (project) {
-    Result<AppearanceHints> known = hints_of(*project, footage->info());
+    Result<AppearanceHints> known = hints_of(*project, footage->info(), print_warning);
     if (!known) return fail(known.error());
     hints = std::move(*known);
   }

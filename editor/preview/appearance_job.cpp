@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/appearance_job.h"
 
+#include "appearance/project_hints.h"
+
 namespace sigs::editor {
 
 Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control) {
   const FootageSettings& settings = request.project.footage;
-  Result<FrameSource> footage = FrameSource::open(resolved(request.project, settings.video), control.cancel, Quantisers::read);
+  Result<FrameSource> footage =
+      FrameSource::open(resolved(request.project, settings.video), control.cancel, Quantisers::read);
   if (!footage) return fail(footage.error());
-  return estimate_appearance(*footage, {.first = settings.first_frame, .last = settings.last_frame}, {},
+  const Result<AppearanceHints> hints = hints_of(request.project, footage->info(), control.warn);
+  if (!hints) return fail(hints.error());
+  return estimate_appearance(*footage, {.first = settings.first_frame, .last = settings.last_frame}, *hints,
                              {.progress = control.progress, .cancel = control.cancel});
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "cli/project_view.h"
+#include "appearance/project_hints.h"
 
+#include <memory>
 #include <optional>
 #include <utility>
 
-#include "cli/options.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 
-namespace sigs::cli {
+namespace sigs {
 
 namespace {
 
@@ -31,7 +31,8 @@ View view_at(const KnownCamera& known, int frame) {
 
 }  // namespace
 
-Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage) {
+Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
+                                 const std::function<void(const Warning&)>& warn) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   const auto known = std::make_shared<KnownCamera>(KnownCamera{.scene = bare_scene(project, shape_of(footage))});
   Scene& scene = known->scene;
@@ -50,9 +51,9 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
-  for (const Warning& warning : scene.warnings) print_warning(warning);
+  for (const Warning& warning : scene.warnings) warn(warning);
   return AppearanceHints{.view = [known](int frame) { return view_at(*known, frame); },
                          .has_time_and_place = scene.earth && scene.utc_at_frame_0_s};
 }
 
-}  // namespace sigs::cli
+}  // namespace sigs

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "appearance/appearance.h"
+#include "base/result.h"
+#include "project/project.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+// What a project knows of its camera at each frame, for estimate_appearance(): the calibration, attitude and height
+// where they are stated, the own body's mask. Intruders and their models are not looked at, and may be missing. Errors
+// name the project file and the field.
+//   warn  called with each warning of the files that are read
+[[nodiscard]] Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
+                                               const std::function<void(const Warning&)>& warn);
+
+}  // namespace sigs
