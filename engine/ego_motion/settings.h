@@ -29,7 +29,7 @@ struct EgoMotionSettings {
   // common to features that stay in view, grows with the square root of time: sd_walk_px of the reduced image after one
   // second. Fitted to synthetic flights.
   double sd_factor = 1.0;
-  double sd_walk_px = 0.05;
+  double sd_walk_px = 0.03;
   double sd_growth = 4.0;
 };
 
