@@ -46,7 +46,7 @@ struct Variant {
 // Each setting alone is changed from its default.
 std::vector<Variant> variants() {
   std::vector<Variant> all{{"default", {}}};
-  for (const int features : {60, 120, 480, 800})
+  for (const int features : {60, 120, 360, 480, 800})
     all.push_back({"features " + std::to_string(features), {.features = features}});
   for (const int width_px : {240, 320, 480})
     all.push_back({"width " + std::to_string(width_px), {.max_width_px = width_px}});

@@ -113,7 +113,7 @@ class Run {
     r.covariance = (1 - share) * solved.covariances[a] + share * solved.covariances[b] + found.covariance;
     r.features_used = found.features_used;
     r.has_ground = solved.ground.has_value();
-    r.rate_change_radps = found.rate_change_radps;
+    r.readout_turn = found.readout_turn;
     return r;
   }
 
@@ -129,9 +129,9 @@ class Run {
 
 }  // namespace
 
-FrameRays unrolled(const FrameRays& frame, const Eigen::Vector3d& rate_radps, double readout_s) {
+FrameRays unrolled(const FrameRays& frame, const ReadoutTurn& turn, double readout_s) {
   FrameRays rays = frame;
-  for (RayObservation& o : rays) o.ray = turn_of(rate_radps * (readout_s * o.row)) * o.ray;
+  for (RayObservation& o : rays) o.ray = turn_of(turn.after(readout_s * o.row)) * o.ray;
   return rays;
 }
 

@@ -13,18 +13,18 @@ namespace sigs {
 // The camera's rotation at one frame, from features alone.
 struct FrameRotation {
   Eigen::Quaterniond start_from_camera = Eigen::Quaterniond::Identity();  // against the camera at frame 0
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();         // of small turns about the camera's axes, rad^2
-  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();     // the part that is independent from frame to frame
-  Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero();  // see rotations_of
-  int features_used = 0;                                        // that agree with the rotation
-  bool has_ground = true;  // something near moves by parallax, so that what stands still is known from what drifts
-  bool is_linked = false;  // to the frame before; frame 0 is not
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      // of small turns about the camera's axes, rad^2
+  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();  // the part that is independent from frame to frame
+  ReadoutTurn readout_turn;  // what has to be added to the turns with which rays were unrolled; see rotations_of
+  int features_used = 0;     // that agree with the rotation
+  bool has_ground = true;    // something near moves by parallax, so that what stands still is known from what drifts
+  bool is_linked = false;    // to the frame before; frame 0 is not
 };
 
 // The rotations of all frames.
 //   frames      features of each frame; rolling shutter is taken out already (unrolled)
 //   times_s     of the frames, rising
-//   readout_s   not 0: the rates with which rays were unrolled may be wrong, and what to add to them is found too
+//   readout_s   not 0: the turns with which rays were unrolled may be wrong, and what to add to them is found too
 //   pixel_rad   angle of one pixel of the image in which the features were followed
 // Where too few features are common to two frames, the later one keeps the rotation of the one before, is not linked,
 // and its covariance and that of all later ones does not contain the unknown turn between them.
@@ -38,8 +38,7 @@ struct RotationFit;
 [[nodiscard]] std::vector<std::optional<RotationFit>> steps_between(std::span<const FrameRays> frames, double pixel_rad,
                                                                     const EgoMotionSettings& settings);
 
-// Rays of a frame whose rows are exposed one after the other, as if all were exposed with the middle row, where the
-// camera turns at an even rate (about its own axes) meanwhile.
-[[nodiscard]] FrameRays unrolled(const FrameRays& frame, const Eigen::Vector3d& rate_radps, double readout_s);
+// Rays of a frame whose rows are exposed one after the other, as if all were exposed with the middle row.
+[[nodiscard]] FrameRays unrolled(const FrameRays& frame, const ReadoutTurn& turn, double readout_s);
 
 }  // namespace sigs

@@ -54,7 +54,7 @@ class Estimate {
     if (const Result<void> passed = pass(); !passed) return fail(passed.error());
     const double readout_s =
         settings_.readout_s.value_or(telemetry_ != nullptr && telemetry_->readout_s ? *telemetry_->readout_s : 0.0);
-    compare_with_gyro();
+    compare_with_gyro(readout_s);
     std::vector<FrameRotation> rotations = seen_rotations(readout_s);
     scale_deviations(rotations);
     const std::vector<FrameRotation> of_images = rotations;
@@ -124,21 +124,29 @@ class Estimate {
     return turns;
   }
 
-  void compare_with_gyro() {
+  void compare_with_gyro(double readout_s) {
     if (telemetry_ == nullptr) return;
     read_stabilization();
     if (!settings_.use_gyro || telemetry_->camera_rate_radps.empty()) return;
     steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
     rates_.emplace(telemetry_->camera_rate_radps);
+    if (!link_gyro()) {
+      warn("the gyroscope's log cannot be compared with the images: too few frames with features in common with it");
+      return;
+    }
+    warn_of_disagreement();
+    if (readout_s > 0 && motion_.gyro->is_fused && stabilization_.empty()) unroll_by_gyro(readout_s);
+    recorded_ = recorded_turns(times_s_, *rates_, offset_, camera_from_gyro_, stabilization_);
+  }
+
+  // Offset, drift and axes of the gyroscope by the turns seen. False where they cannot be compared.
+  bool link_gyro() {
     const RateIntegral& rates = *rates_;
     const std::vector<SeenTurn> turns = seen_turns();
     constexpr double kSameAxis_s = 1;
     constexpr double kOtherAxis_s = 10;
     const auto offset = time_offset(turns, rates, telemetry_->on_footage_time ? kSameAxis_s : kOtherAxis_s);
-    if (!offset) {
-      warn("the gyroscope's log cannot be compared with the images: too few frames with features in common with it");
-      return;
-    }
+    if (!offset) return false;
     motion_.gyro = GyroLink{.offset_s = offset->offset_s,
                             .offset_sd_s = offset->offset_sd_s,
                             .drift = offset->drift,
@@ -146,10 +154,9 @@ class Estimate {
                             .correlation = offset->correlation,
                             .slope = offset->slope,
                             .is_fused = offset->correlation >= kLeastCorrelation};
-    warn_of_disagreement();
     offset_ = *offset;
     camera_from_gyro_ = gyro_alignment(turns, rates, offset_);
-    recorded_ = recorded_turns(times_s_, rates, offset_, camera_from_gyro_, stabilization_);
+    return true;
   }
 
   void warn_of_disagreement() {
@@ -191,21 +198,31 @@ class Estimate {
   // Rows that are exposed one after the other see the camera turned; the gyroscope tells by how much. Without one the
   // turns from frame to frame are a first value, of which the features themselves show what it misses.
   [[nodiscard]] std::vector<FrameRotation> seen_rotations(double readout_s) {
-    if (!(readout_s > 0)) return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
+    if (!(readout_s > 0) || is_unrolled_) return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
     const std::vector<FrameRays> rolled = seen_.rays;
-    if (motion_.gyro && motion_.gyro->is_fused && stabilization_.empty()) {
-      for (std::size_t k = 0; k < rolled.size(); ++k) unroll_by_gyro(seen_.rays[k], times_s_[k], readout_s);
-      return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
-    }
     if (steps_.empty()) steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
-    std::vector<Eigen::Vector3d> rates;
-    for (std::size_t k = 0; k < rolled.size(); ++k) rates.push_back(rate_at(k));
+    std::vector<ReadoutTurn> turns;
+    for (std::size_t k = 0; k < rolled.size(); ++k) turns.push_back({.rate_radps = rate_at(k)});
     for (int round = 0;; ++round) {
-      for (std::size_t k = 0; k < rolled.size(); ++k) seen_.rays[k] = unrolled(rolled[k], rates[k], readout_s);
+      for (std::size_t k = 0; k < rolled.size(); ++k) seen_.rays[k] = unrolled(rolled[k], turns[k], readout_s);
       std::vector<FrameRotation> found = rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_, readout_s);
       if (round == 1) return found;
-      for (std::size_t k = 0; k < rolled.size(); ++k) rates[k] += found[k].rate_change_radps;
+      for (std::size_t k = 0; k < rolled.size(); ++k) turns[k] += found[k].readout_turn;
     }
+  }
+
+  // The turns seen, and the offset by them, are those of the rows in which most features lie, which need not be the
+  // middle ones; so both are found once more by unrolled rays.
+  void unroll_by_gyro(double readout_s) {
+    const std::vector<FrameRays> rolled = seen_.rays;
+    for (int round = 0;; ++round) {
+      seen_.rays = rolled;
+      for (std::size_t k = 0; k < rolled.size(); ++k) unroll_by_gyro(seen_.rays[k], times_s_[k], readout_s);
+      if (round == 2) break;
+      steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
+      if (!link_gyro()) break;
+    }
+    is_unrolled_ = true;
   }
 
   void unroll_by_gyro(FrameRays& frame, double time_s, double readout_s) const {
@@ -306,6 +323,7 @@ class Estimate {
   TimeOffset offset_;
   Eigen::Quaterniond camera_from_gyro_ = Eigen::Quaterniond::Identity();
   std::vector<RecordedTurn> recorded_;
+  bool is_unrolled_ = false;  // rays are as if all rows were exposed with the middle one
   EgoMotion motion_;
 };
 

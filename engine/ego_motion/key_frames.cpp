@@ -15,12 +15,13 @@ namespace sigs {
 
 namespace {
 
-constexpr double kFloor_px = 0.02;      // no feature is known better
-constexpr double kScale_px = 0.12;      // features in coded footage are off by about half of it
-constexpr std::size_t kLocalKeys = 10;  // adjusted together while key frames are added
-constexpr std::size_t kAddedKeys = 3;   // between two such adjustments
-constexpr double kRateSd_radps = 2;     // of a rate that is not known from frame to frame
-constexpr double kPositionSd = 0.01;    // of a frame between its key frames, in the unit of length
+constexpr double kFloor_px = 0.02;           // no feature is known better
+constexpr double kScale_px = 0.12;           // features in coded footage are off by about half of it
+constexpr std::size_t kLocalKeys = 10;       // adjusted together while key frames are added
+constexpr std::size_t kAddedKeys = 3;        // between two such adjustments
+constexpr double kRateSd_radps = 2;          // of a rate that is not known from frame to frame
+constexpr double kRateChangeSd_radps2 = 50;  // of its change within a frame: some pixels of shake at 12 Hz
+constexpr double kPositionSd = 0.01;         // of a frame between its key frames, in the unit of length
 
 class KeyAdjuster {
  public:
@@ -157,8 +158,8 @@ Eigen::Vector3d direction_of_motion(std::span<const RayPair> pairs, double pixel
 }
 
 LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess, double readout_s) {
-  using Matrix9 = Eigen::Matrix<double, 9, 9>;  // turn, position, rate
-  using Vector9 = Eigen::Matrix<double, 9, 1>;
+  using Matrix12 = Eigen::Matrix<double, 12, 12>;  // turn, position, rate, its change
+  using Vector12 = Eigen::Matrix<double, 12, 1>;
   struct Seen {
     const Landmark* landmark;
     const Eigen::Vector3d* ray;
@@ -171,37 +172,40 @@ LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const B
   const double variance = keys.sigma_rad * keys.sigma_rad;
   const double of_position = variance / (kPositionSd * kPositionSd);
   const double of_rate = variance / (kRateSd_radps * kRateSd_radps);
+  const double of_change = variance / (kRateChangeSd_radps2 * kRateChangeSd_radps2);
   BundleFrame frame = guess;
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
-  Matrix9 normal = Matrix9::Zero();
+  ReadoutTurn turn;
+  Matrix12 normal = Matrix12::Zero();
   int used = 0;
   for (int round = 0; round < 4; ++round) {
     const double scale = keys.sigma_rad * std::max(3.0, 24.0 / (1 << (2 * round)));
     normal.setZero();
-    Vector9 right = Vector9::Zero();
-    normal.diagonal() << 1e-9, 1e-9, 1e-9, of_position, of_position, of_position, of_rate, of_rate, of_rate;
+    Vector12 right = Vector12::Zero();
+    normal.diagonal() << 1e-9, 1e-9, 1e-9, of_position, of_position, of_position, of_rate, of_rate, of_rate, of_change,
+        of_change, of_change;
     right.segment<3>(3) = of_position * (guess.position - frame.position);
-    right.tail<3>() = -of_rate * rate;
+    right.segment<3>(6) = -of_rate * turn.rate_radps;
+    right.tail<3>() = -of_change * turn.rate_change_radps2;
     used = 0;
     for (const Seen& s : seen) {
-      const Projection p = projection(frame, *s.landmark, turn_of(rate * s.delay_s) * *s.ray);
+      const Projection p = projection(frame, *s.landmark, turn_of(turn.after(s.delay_s)) * *s.ray);
       const double root = 1 / (1 + p.residual.squaredNorm() / (2 * scale * scale));
       const double w = s.landmark->weight * s.landmark->trust * root * root;
       if (root > 0.3) ++used;
-      Eigen::Matrix<double, 2, 9> by;
+      Eigen::Matrix<double, 2, 12> by;
       // A ray that is unrolled by a larger rate moves as if the camera turned back by as much.
-      by << p.by_frame, s.delay_s * p.by_frame.leftCols<3>();
+      by << p.by_frame, s.delay_s * p.by_frame.leftCols<3>(), s.delay_s * s.delay_s / 2 * p.by_frame.leftCols<3>();
       normal += w * by.transpose() * by;
       right += w * by.transpose() * p.residual;
     }
-    const Vector9 change = normal.ldlt().solve(right);
+    const Vector12 change = normal.ldlt().solve(right);
     if (!change.allFinite()) break;
     frame.world_from_camera = (frame.world_from_camera * turn_of(change.head<3>())).normalized();
     frame.position += change.segment<3>(3);
-    if (readout_s > 0) rate += change.tail<3>();
+    if (readout_s > 0) turn += {change.segment<3>(6), change.tail<3>()};
   }
-  const Eigen::Matrix3d own = Matrix9(variance * normal.inverse()).topLeftCorner<3, 3>();
-  return {frame.world_from_camera, own, used, rate};
+  const Eigen::Matrix3d own = Matrix12(variance * normal.inverse()).topLeftCorner<3, 3>();
+  return {frame.world_from_camera, own, used, turn};
 }
 
 }  // namespace sigs

@@ -33,15 +33,13 @@ struct LocatedFrame {
   Eigen::Quaterniond world_from_camera;
   Eigen::Matrix3d covariance;  // of this frame alone, landmarks taken as known, rad^2
   int features_used = 0;
-  Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero();  // of the turn during the readout; see located_frame
+  ReadoutTurn readout_turn;  // to be added to the one with which rays were unrolled; see located_frame
 };
 
-//   readout_s  0: rays are those of one instant. Else they were unrolled with a rate that may be wrong, and what has to
-//   be
-//              added to it is found too
-//   guess  near enough that half of the features miss by some pixels at most; its position is held within narrow
-//   limits,
-//          since an aircraft's motion is smooth
+//   readout_s  0: rays are those of one instant. Else they were unrolled with a turn that may be wrong, and what has to
+//              be added to it is found too; that it is not known beforehand counts in the covariance
+//   guess      near enough that half of the features miss by some pixels at most; its position is held within narrow
+//              limits, since an aircraft's motion is smooth
 [[nodiscard]] LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess,
                                          double readout_s);
 

@@ -8,7 +8,7 @@ namespace sigs {
 // What exchanges error for run time, and what is known of the camera. The defaults are those of which bench/ego_motion
 // shows that more of anything takes longer and gains little.
 struct EgoMotionSettings {
-  int features = 360;      // wanted at a time, spread evenly over the image; 20 or more
+  int features = 240;      // wanted at a time, spread evenly over the image; 20 or more
   int max_width_px = 640;  // features are followed in an image reduced to this width; 64 or more
   int key_every = 8;       // frames between key frames; 2 or more
   int window_keys = 48;    // key frames that are adjusted together, two or more times window_overlap
@@ -29,7 +29,7 @@ struct EgoMotionSettings {
   // common to features that stay in view, grows with the square root of time: sd_walk_px of the reduced image after one
   // second. Fitted to synthetic flights.
   double sd_factor = 1.0;
-  double sd_walk_px = 0.05;
+  double sd_walk_px = 0.035;
   double sd_growth = 4.0;
 };
 

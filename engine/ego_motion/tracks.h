@@ -17,6 +17,22 @@ struct RayObservation {
 // All features seen in one frame, by rising id.
 using FrameRays = std::vector<RayObservation>;
 
+// How the camera turns while a frame's rows are exposed, about its own axes: t after the middle row it has turned by
+// rate t + rate_change t^2 / 2 since then.
+struct ReadoutTurn {
+  Eigen::Vector3d rate_radps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate_change_radps2 = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Eigen::Vector3d after(double time_s) const {
+    return rate_radps * time_s + rate_change_radps2 * (time_s * time_s / 2);
+  }
+  ReadoutTurn& operator+=(const ReadoutTurn& more) {
+    rate_radps += more.rate_radps;
+    rate_change_radps2 += more.rate_change_radps2;
+    return *this;
+  }
+};
+
 // One feature seen in two frames.
 struct RayPair {
   Eigen::Vector3d before;
