@@ -27,6 +27,9 @@ struct Sight {
   glm::dvec3 heading{0.35, 0.9, -0.1};  // world; the camera's axes are the world's
   glm::dvec3 light_m{-2000, 1000, -3000};
   double ambient = 0.35;
+  double exposure_s = 0;
+  double speed_mps = 25;
+  AppearanceSettings look;   // point spread, haze, tones; the truth knows these alone
   bool half_hidden = false;  // the own body covers what lies right of the intruder's middle
 };
 
