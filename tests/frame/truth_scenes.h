@@ -29,8 +29,8 @@ struct Sight {
   double ambient = 0.35;
   double exposure_s = 0;
   double speed_mps = 25;
-  AppearanceSettings look;   // point spread, haze, tones; the truth knows these alone
-  bool half_hidden = false;  // the own body covers what lies right of the intruder's middle
+  AppearanceSettings look{.point_spread_px = 0};  // point spread, haze, tones; the truth knows these alone
+  bool half_hidden = false;                       // the own body covers what lies right of the intruder's middle
 };
 
 // The image that the engine makes and the true one, over an even sky, around the truth's rectangle.
