@@ -88,7 +88,7 @@ truth::Setup setup_of(const Scene& scene, int frame) {
           .ambient = scene.light.ambient,
           .lens = scene.camera.lens.parameters(),
           .size_px = scene.footage.size_px,
-          .sigma_px = scene.compositing.blur_px_per_m * placed.distance_m(),
+          .sigma_px = blur_by_distance_px_per_m(scene.compositing) * placed.distance_m(),
           .own_body = scene.own_body};
 }
 

@@ -54,7 +54,8 @@ void place(Project& project, const Recipe& recipe, const glm::dvec3& ray, double
   const glm::dvec3 step_m = 2.0 * glm::normalize(recipe.flies_along);
   project.intruders[0].trajectory.waypoints = {{.frame = kFrame - 1, .position_m = middle_m - step_m},
                                                {.frame = kFrame + 1, .position_m = middle_m + step_m}};
-  if (recipe.sigma_px) project.compositing.blur_px_per_m = *recipe.sigma_px / distance_m;
+  project.compositing.blur_px_per_m = recipe.sigma_px ? *recipe.sigma_px / distance_m : kPaperBlur_px_per_m;
+  project.appearance.point_spread_px = 0;
 }
 
 Scene opened(const Project& project, SceneFiles& files) {

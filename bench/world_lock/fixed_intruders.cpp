@@ -31,7 +31,7 @@ Project project_of(const Clip& clip, const CameraKnowledge& camera) {
   project.camera.track = {.file = camera.track, .incomplete = IncompleteTrackChoice::use};
   project.camera.attitude_file = camera.attitude_file;
   project.camera.readout_s = camera.readout_s;
-  project.compositing.blur_px_per_m = 0;  // the default leaves nothing to be seen of an airliner at 10 km
+  project.appearance.point_spread_px = 0;
   return project;
 }
 

@@ -77,7 +77,7 @@ bool finite(const GeoSettings& geo) {
 
 bool finite(const Project& project) {
   return finite(project.own_body) && finite(project.camera) && finite(project.geo) && finite(project.light) &&
-         finite(project.appearance) && std::isfinite(project.compositing.blur_px_per_m) &&
+         finite(project.appearance) && finite(project.compositing.blur_px_per_m) &&
          std::all_of(project.intruders.begin(), project.intruders.end(),
                      [](const IntruderSettings& intruder) { return finite(intruder); });
 }

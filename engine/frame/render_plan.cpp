@@ -51,7 +51,7 @@ bool may_span_several_views(double distance_m, double radius_m) {
 // method `plain` none.
 double sigma_px_of(const Scene& scene, double distance_m) {
   if (scene.compositing.method == MethodChoice::plain) return 0;
-  const double by_distance_px = scene.compositing.blur_px_per_m * distance_m;
+  const double by_distance_px = blur_by_distance_px_per_m(scene.compositing) * distance_m;
   const double own_px = scene.compositing.method == MethodChoice::direct ? scene.appearance.point_spread_px : 0;
   return own_px > 0 ? std::hypot(by_distance_px, own_px) : by_distance_px;
 }

@@ -177,7 +177,8 @@ void add_compositing(FieldList list, CompositingSettings& compositing) {
            "direct: layer through the lens; classic: the paper's section 3.2; plain: keyed paste");
   list.add("blend", choice_of(compositing.blend, {"linear", "display"}), "",
            "mix light, or mix code values as the paper does (direct only)");
-  list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10, "Gaussian blur: sigma a metre of distance");
+  list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10,
+              "Gaussian blur: sigma a metre of distance; null: 0.002 with classic, else 0");
   list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels an image pixel, each way");
 }
 

@@ -211,16 +211,25 @@ struct IntruderSettings {
 enum class MethodChoice { direct, classic, plain };
 enum class BlendChoice { linear, display };
 
+// The blur by distance with which SIGS follows the paper, which gives no number: sigma 2 px at 1 km.
+inline constexpr double kPaperBlur_px_per_m = 0.002;
+
 // How layers become part of the image. blur_px_per_m: standard deviation of the Gaussian blur for each metre of
-// distance; supersampling: rendered pixels for each image pixel, along each axis.
+// distance, none: blur_by_distance_px_per_m(); supersampling: rendered pixels for each image pixel, along each axis.
 struct CompositingSettings {
   MethodChoice method = MethodChoice::direct;
   BlendChoice blend = BlendChoice::linear;
-  double blur_px_per_m = 0.002;
+  std::optional<double> blur_px_per_m;
   int supersampling = 3;
 
   [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
 };
+
+// As the settings state it, else by the method: the paper's for `classic`; 0 for `direct`, since lenses blur what is
+// far no more than what is near (AppearanceSettings::point_spread_px).
+[[nodiscard]] inline double blur_by_distance_px_per_m(const CompositingSettings& compositing) {
+  return compositing.blur_px_per_m.value_or(compositing.method == MethodChoice::classic ? kPaperBlur_px_per_m : 0.0);
+}
 
 // Random noise of the footage, in 8-bit code values, as the codec left it. Its variance is linear in brightness.
 struct GrainSettings {
@@ -257,15 +266,15 @@ struct CodecMatchSettings {
   [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;
 };
 
-// How the footage looks, and so how an intruder in it has to look (method direct). Each part is left out at its
-// default.
+// How the footage looks, and so how an intruder in it has to look (method direct). Each part but the point
+// spread is left out at its default.
 struct AppearanceSettings {
-  double point_spread_px = 0;   // sigma of the lens' and the sensor's Gaussian
-  double sharpening = 0;        // of the camera: how much of the detail is added, 0..5
-  double sharpening_px = 1;     // sigma of the Gaussian that detail is told by
-  double chroma_spread_px = 0;  // sigma of the Gaussian over the samples of the chroma planes
-  double black = 0;             // linear light that the footage's black stands for: flare of the lens
-  double saturation = 1;        // of the intruder's colours
+  double point_spread_px = 0.45;  // sigma of the lens' and the sensor's Gaussian
+  double sharpening = 0;          // of the camera: how much of the detail is added, 0..5
+  double sharpening_px = 1;       // sigma of the Gaussian that detail is told by
+  double chroma_spread_px = 0;    // sigma of the Gaussian over the samples of the chroma planes
+  double black = 0;               // linear light that the footage's black stands for: flare of the lens
+  double saturation = 1;          // of the intruder's colours
   GrainSettings grain;
   HazeSettings haze;
   CodecMatchSettings codec;

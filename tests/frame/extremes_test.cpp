@@ -145,7 +145,7 @@ TEST_CASE("an intruder too small for one code value is still in the image by the
 TEST_CASE("wide blur over the whole image neither fails nor adds light") {
   Scenario scenario;
   add_aircraft(scenario, {1e5, 0, -150});
-  scenario.project.compositing.blur_px_per_m = CompositingSettings{}.blur_px_per_m;  // 200 px
+  scenario.project.compositing.blur_px_per_m = kPaperBlur_px_per_m;  // 200 px
   const Frame background = even_frame(scenario.size_px(), 100);
   const ComposedFrame frame = test::composed(scenario.opened(), 1, background);
   CHECK(is_finite(frame.truth.intruders.front()));

@@ -22,9 +22,11 @@ Frame sky(cv::Size size_px) {
   return frame;
 }
 
-Trajectory straight_flight(const glm::dvec3& p_in_world_m, const glm::dvec3& heading) {
-  Result<Trajectory> flight =
-      Trajectory::make({TimedWaypoint{0, p_in_world_m - heading}, TimedWaypoint{0.08, p_in_world_m + heading}}, {});
+// At the place at 0.04 s, the time of frame 1.
+Trajectory straight_flight(const glm::dvec3& p_in_world_m, const glm::dvec3& velocity_mps) {
+  Result<Trajectory> flight = Trajectory::make(
+      {TimedWaypoint{0, p_in_world_m - 0.04 * velocity_mps}, TimedWaypoint{0.08, p_in_world_m + 0.04 * velocity_mps}},
+      {});
   REQUIRE(flight.has_value());
   return *flight;
 }
@@ -54,17 +56,19 @@ Scene scene_of(const Sight& sight, Scenario& scenario) {
   Scene scene = scenario.opened();
   const double distance_m = 2 * double{scene.models.front()->mesh.radius_m} * lens.fx / sight.extent_px;
   const glm::dvec3 camera_m = scene.motion.world_from_camera_at_start.translation_m;
-  scene.intruders.front().trajectory =
-      straight_flight(camera_m + glm::normalize(sight.direction) * distance_m, glm::normalize(sight.heading));
+  scene.intruders.front().trajectory = straight_flight(camera_m + glm::normalize(sight.direction) * distance_m,
+                                                       sight.speed_mps * glm::normalize(sight.heading));
+  scene.appearance = sight.look;
+  if (sight.exposure_s > 0) scene.motion.exposures = {{0, sight.exposure_s}};
   scene.compositing.blur_px_per_m = sight.sigma_px / distance_m;
   if (sight.half_hidden) scene.own_body = right_half(sight, scene.camera.lens);
   return scene;
 }
 
-truth::Setup setup_of(const Scene& scene, const Sight& sight) {
+truth::Setup setup_of(const Scene& scene, const Sight& sight, double since_s = 0) {
   const SceneMoment moment = scene_at(scene, 1);
   return {.mesh = &scene.models.front()->mesh,
-          .camera_from_body = moment.intruders.front().camera_from_body,
+          .camera_from_body = camera_from_body_at(scene, 0, moment.time_s + since_s),
           .light_in_camera = moment.light_in_camera,
           .light_color = scene.light.color,
           .ambient = scene.light.ambient,
@@ -76,8 +80,38 @@ truth::Setup setup_of(const Scene& scene, const Sight& sight) {
           .exposure = scene.light.exposure,
           .lens = sight.lens,
           .size_px = sight.size_px,
-          .sigma_px = sight.sigma_px,
+          .sigma_px = std::hypot(sight.sigma_px, sight.look.point_spread_px),
           .own_body = scene.own_body};
+}
+
+// The mean of many moments while the shutter is open.
+truth::ReferenceImage exposed(const Scene& scene, const Sight& sight, const truth::Settings& settings) {
+  if (!(sight.exposure_s > 0)) return truth::reference_image(setup_of(scene, sight), settings);
+  constexpr int kMoments = 24;
+  cv::Mat sum = cv::Mat::zeros(sight.size_px, CV_64FC4);
+  cv::Rect rect;
+  for (int i = 0; i < kMoments; ++i) {
+    const double since_s = sight.exposure_s * ((i + 0.5) / kMoments - 0.5);
+    const truth::ReferenceImage one = truth::reference_image(setup_of(scene, sight, since_s), settings);
+    sum(one.rect) += one.color / kMoments;
+    rect = rect.empty() ? one.rect : rect | one.rect;
+  }
+  truth::ReferenceImage mean = truth::reference_image(setup_of(scene, sight), settings);
+  mean.rect = rect;
+  mean.color = sum(rect).clone();
+  return mean;
+}
+
+// Tones and haze as the formulas of docs/how-a-frame-is-made.md have them. BT.709's luminance.
+void put_behind_haze(truth::ReferenceImage& image, const AppearanceSettings& look, double distance_m) {
+  const double through = look.haze.visibility_m ? std::exp(-3 * distance_m / *look.haze.visibility_m) : 1;
+  image.color.forEach<cv::Vec4d>([&](cv::Vec4d& color, const int*) {
+    const double gray = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
+    for (int c = 0; c < 3; ++c) {
+      const double own = gray + look.saturation * (color[c] - gray) + look.black * color[3];
+      color[c] = through * own + (1 - through) * look.haze.airlight_color[c] * color[3];
+    }
+  });
 }
 
 cv::Mat codes_of(const Frame& frame, const cv::Rect& rect) {
@@ -105,8 +139,8 @@ Compared compared(const Sight& sight, const truth::Settings& settings) {
   const Result<ComposedFrame> composed = compose_frame(scene, 1, background, context);
   REQUIRE(composed.has_value());
   const ComposedFrame& frame = *composed;
-  Compared result{.reference = truth::reference_image(setup_of(scene, sight), settings),
-                  .annotation = frame.truth.intruders.front()};
+  Compared result{.reference = exposed(scene, sight, settings), .annotation = frame.truth.intruders.front()};
+  put_behind_haze(result.reference, sight.look, glm::length(result.annotation.position_m));
   REQUIRE_FALSE(result.reference.rect.empty());
   const cv::Mat below(sight.size_px, CV_8UC3, kSky);
   result.truth = truth::over_background(result.reference, below);

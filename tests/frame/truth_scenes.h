@@ -30,7 +30,10 @@ struct Sight {
   LightKind light = LightKind::point;
   double sun_azimuth_deg = 160;  // from world X, which is the camera's axis, to the right
   double sun_elevation_deg = 40;
-  bool half_hidden = false;  // the own body covers what lies right of the intruder's middle
+  double exposure_s = 0;
+  double speed_mps = 25;
+  AppearanceSettings look{.point_spread_px = 0};  // point spread, haze, tones; the truth knows these alone
+  bool half_hidden = false;                       // the own body covers what lies right of the intruder's middle
 };
 
 // The image that the engine makes and the true one, over an even sky, around the truth's rectangle.

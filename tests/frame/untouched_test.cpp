@@ -95,10 +95,10 @@ void check_times(const Exported& clip) {
     CHECK(std::abs(clip.source.images[n].time_s - begin_s - clip.image.images[n].time_s) < 0.0011);
 }
 
-// An aircraft that crosses the image, blurred with distance as by default.
+// An aircraft that crosses the image, blurred with distance.
 void fly_across(Scenario& scenario) {
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
-  scenario.project.compositing.blur_px_per_m = CompositingSettings{}.blur_px_per_m * 10;  // 1.6 px at 80 m
+  scenario.project.compositing.blur_px_per_m = kPaperBlur_px_per_m * 10;  // 1.6 px at 80 m
   IntruderSettings& intruder = scenario.add("aircraft.obj", {});
   intruder.trajectory.waypoints = {{.frame = 0, .position_m = {70, -45, -160}},
                                    {.frame = 15, .position_m = {80, 0, -148}},

@@ -83,6 +83,27 @@ bool has_warning(const CameraFlight& flight, const std::string& word) {
 
 }  // namespace
 
+TEST_CASE("the exposure time is the project's, else the log's at the frame's time, else none") {
+  Track track = eastwards();
+  CHECK(flown(with_log(), track).motion.exposures.empty());
+  CHECK(exposure_at({}, 3) == 0);
+  track.exposure_s = {.source = "SHUT", .times_s = {1, 2, 3, 4}, .values = {0.01, 0.02, -1, 0.004}};
+  Project project = with_log();
+  project.camera.track.incomplete = IncompleteTrackChoice::use;
+  project.camera.track.offset_s = 0.5;  // the log's 1 s is the footage's 0.5 s
+  const CameraFlight flight = flown(project, track);
+  const std::vector<ExposureTime>& exposures = flight.motion.exposures;
+  REQUIRE(exposures.size() == 3);  // the negative one is none
+  CHECK(exposure_at(exposures, 0) == doctest::Approx(0.01));
+  CHECK(exposure_at(exposures, 1) == doctest::Approx(0.015));
+  CHECK(exposure_at(exposures, 2.5) == doctest::Approx(0.012));
+  CHECK(exposure_at(exposures, 100) == doctest::Approx(0.004));
+  project.camera.exposure_s = 0.002;
+  CHECK(exposure_at(flown(project, track).motion.exposures, 1) == 0.002);
+  project.camera.exposure_s = 0;
+  CHECK(exposure_at(flown(project, track).motion.exposures, 1) == 0);
+}
+
 TEST_CASE("without attitude, world X is the course over ground and the camera starts at its position") {
   const CameraFlight flight = flown(with_log(), eastwards());
   CHECK(has_warning(flight, "course over ground"));

@@ -72,7 +72,7 @@ void check_sound(const DraftScene& draft) {
   CHECK(scene.first_frame <= scene.last_frame);
   CHECK(scene.last_frame < static_cast<int>(scene.footage.times_s.size()));
   CHECK(scene.compositing.supersampling >= 1);
-  CHECK(scene.compositing.blur_px_per_m >= 0);
+  CHECK(blur_by_distance_px_per_m(scene.compositing) >= 0);
   for (const int frame : {scene.first_frame, scene.last_frame}) {
     const SceneMoment moment = scene_at(scene, frame);
     CHECK(is_finite(moment.light_in_camera));

@@ -41,8 +41,13 @@ constexpr std::array kWords{
           "What the key gives, before the own body hides any of it: classic takes D where F is not green"},
     Words{"layer", "Layer", "The intruder alone in its virtual view, before it is warped"},
     Words{"bent", "Warped", "The layer through the lens"},
+    Words{"hazed", "Hazed", "With the footage's black and saturation, behind haze"},
+    Words{"moved", "Moved", "Blurred by its motion while the shutter is open"},
     Words{"blurred", "Blurred", "Blurred as the lens does at the intruder's distance"},
     Words{"hidden", "Hidden", "Without what the own body hides"},
+    Words{"sharpened", "Sharpened", "The frame with the intruder, sharpened as the footage's camera does"},
+    Words{"chroma_spread", "Chroma spread", "Its colours spread over the chroma planes as the footage's are"},
+    Words{"grain", "Grain", "With noise of the footage's kind"},
     Words{"mask", "Mask", "Opacity with which intruders are composited"},
     Words{"output", "Output", "The finished frame, as it is exported"},
 };
