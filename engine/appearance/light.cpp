@@ -170,12 +170,31 @@ LightEstimate LightEstimator::finish(std::optional<double> sun_elevation_rad) co
   return light;
 }
 
+namespace {
+
+// Least share of what falls on the ground that comes from below. Chosen with the clips that are kept for tuning
+// (docs/realism.md).
+constexpr double kFromBelow = 0.5;
+constexpr double kUsualSunElevation_rad = 0.436;  // 25 degrees, where the direction is not known
+
+// Light on a face that looks down: that of the land, but no less than kFromBelow of what the land receives.
+glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
+  const double elevation_rad = sun.elevation_deg ? rad_of_deg(*sun.elevation_deg) : kUsualSunElevation_rad;
+  const double falls_on_it = luminance(value_of(light.sun_color)) * std::max(std::sin(elevation_rad), 0.0) +
+                             luminance(value_of(light.sky_color));
+  const glm::dvec3 land = value_of(light.ground_color);
+  const double bright = luminance(land);
+  return bright > 0 ? land * std::max(1.0, kFromBelow * falls_on_it / bright) : glm::dvec3(kFromBelow * falls_on_it);
+}
+
+}  // namespace
+
 void apply(const LightEstimate& light, LightSettings& settings) {
   settings.kind = LightKind::sun;
   settings.exposure = light.exposure.value;
   settings.color = value_of(light.sun_color);
   settings.sky_color = value_of(light.sky_color);
-  settings.ground_color = value_of(light.ground_color);
+  settings.ground_color = light.exposure.is_known ? from_below(light, settings.sun) : value_of(light.ground_color);
 }
 
 }  // namespace sigs

@@ -60,6 +60,9 @@ class LightEstimator {
 };
 
 // The settings of a light of the kind `sun`; what is not known has the estimate's default. The sun's direction stays.
+// From below comes at least half of what sun and sky give the ground, although land reflects 0.1 to 0.3 of it: lit by
+// the land alone, aircraft are darker from below than real ones in the same clips (docs/realism.md). Air below them
+// scatters light too, and their own wings and doors give light to each other.
 void apply(const LightEstimate& light, LightSettings& settings);
 
 }  // namespace sigs

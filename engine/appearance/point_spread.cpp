@@ -266,6 +266,7 @@ void PointSpread::find_chroma(PointSpreadFound& found, const SharpEnd& end) cons
 
 PointSpreadFound PointSpread::finish() const {
   PointSpreadFound found{.sigma_px = {.value = kDefaultPointSpread_px},
+                         .sharpening = {.value = kDefaultSharpening},
                          .sharpening_px = {.value = kDefaultSharpening_px},
                          .chroma_spread_px = {.value = kDefaultChromaSpread_px},
                          .edges_found = static_cast<int>(edges_.size())};

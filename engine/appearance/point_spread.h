@@ -15,7 +15,8 @@ namespace sigs {
 // of 0.45 px in all of them, at every range, and chroma spread over 1.2 of its samples.
 inline constexpr double kDefaultPointSpread_px = 0.45;
 inline constexpr double kDefaultChromaSpread_px = 1.2;
-inline constexpr double kDefaultSharpening_px = 1.0;
+inline constexpr double kDefaultSharpening = 0.4;
+inline constexpr double kDefaultSharpening_px = 0.8;
 
 struct PointSpreadFound {
   Estimate sigma_px;  // settings appearance.point_spread_px, .sharpening, .sharpening_px, .chroma_spread_px

@@ -15,7 +15,7 @@ namespace sigs {
 
 namespace {
 
-constexpr double kDefaultAzimuth_rad = std::numbers::pi / 2, kDefaultElevation_rad = 0.7;
+constexpr double kDefaultAzimuth_rad = 2.88, kDefaultElevation_rad = 0.436;  // 165 and 25 degrees
 constexpr int kGroundEvery = 3;
 constexpr int kLeastPatches = 10;
 constexpr double kLeastAgreement = 0.75;  // resultant of the doubled directions, 0 none to 1 all

@@ -16,8 +16,8 @@ enum class SunWitness { none, given, shadows, sky };
 
 // Where the sun is, rad. Azimuth from world X to the right, elevation above the horizon (SunSettings, in rad).
 struct SunEstimate {
-  Estimate azimuth_rad;                   // not known: to the right of world X, so that half of what is seen is lit
-  Estimate elevation_rad;                 // not known: 40 degrees
+  Estimate azimuth_rad;                   // not known: behind the camera: what people film is lit
+  Estimate elevation_rad;                 // not known: 25 degrees
   SunWitness witness = SunWitness::none;  // of the azimuth
 };
 

@@ -109,7 +109,7 @@ TEST_CASE("of footage with nothing to measure on each quantity says why it is no
     CHECK_FALSE(found.point_spread.sigma_px.is_known);
     CHECK(found.point_spread.sigma_px.value == kDefaultPointSpread_px);
     CHECK_FALSE(found.point_spread.sharpening.is_known);
-    CHECK(found.point_spread.sharpening.value == 0);
+    CHECK(found.point_spread.sharpening.value == kDefaultSharpening);
     CHECK_FALSE(found.point_spread.chroma_spread_px.is_known);
     CHECK(found.noise.sd_dark.is_known == one.noise_is_known);
     CHECK(found.noise.persistence.is_known == one.noise_is_known);

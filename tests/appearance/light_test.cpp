@@ -122,6 +122,27 @@ TEST_CASE("ground that is not seen reflects as land does, and the settings take 
   CHECK(settings.sun.azimuth_deg == 12);
 }
 
+TEST_CASE("from below comes half of what the ground receives, or more where land is seen to give more") {
+  LightEstimate light;
+  light.exposure = {.value = 1, .sd = 0.1, .is_known = true};
+  for (int k = 0; k < 3; ++k) {
+    light.sun_color[static_cast<std::size_t>(k)] = {.value = 0.8, .sd = 0.1, .is_known = true};
+    light.sky_color[static_cast<std::size_t>(k)] = {.value = 0.2, .sd = 0.1, .is_known = true};
+    light.ground_color[static_cast<std::size_t>(k)] = {.value = 0.05, .sd = 0.1, .is_known = true};
+  }
+  LightSettings settings;
+  settings.sun.elevation_deg = 30;  // the ground receives 0.8 / 2 + 0.2
+  apply(light, settings);
+  CHECK(settings.ground_color.g == doctest::Approx(0.3));
+  for (Estimate& land : light.ground_color) land.value = 0.45;  // snow
+  apply(light, settings);
+  CHECK(settings.ground_color.g == doctest::Approx(0.45));
+  settings.sun.elevation_deg = -5;
+  for (Estimate& land : light.ground_color) land.value = 0;
+  apply(light, settings);
+  CHECK(settings.ground_color.g == doctest::Approx(0.1));
+}
+
 TEST_CASE("smooth fields seen from above are no sky") {
   const LightEstimate light = light_of(cv::Mat(480, 640, CV_8UC3, codes({0.12, 0.15, 0.06})));
   CHECK_FALSE(light.exposure.is_known);
