@@ -16,7 +16,7 @@ enum class SunWitness { none, given, shadows, sky };
 
 // Where the sun is, rad. Azimuth from world X to the right, elevation above the horizon (SunSettings, in rad).
 struct SunEstimate {
-  Estimate azimuth_rad;                   // not known: behind the camera: what people film is lit
+  Estimate azimuth_rad;                   // not known: behind the camera: what people point a camera at is lit
   Estimate elevation_rad;                 // not known: 25 degrees
   SunWitness witness = SunWitness::none;  // of the azimuth
 };

@@ -198,7 +198,7 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
   list.number("grain.persistence", &grain.persistence, "", 0, 0.99, "correlation of the noise from frame to frame");
   list.number("grain.seed", &grain.seed, "", 0, 2e9, "another number gives other noise of the same kind");
   HazeSettings& haze = appearance.haze;
-  list.number("haze.visibility_m", &haze.visibility_m, "m", 1, 1e7,
+  list.number("haze.visibility_m", &haze.visibility_m, "m", 0.1, 1e7,
               "distance at which 5 % of the contrast is left; null: clear air");
   list.add("haze.airlight", choice_of(haze.airlight, {"behind", "color"}), "",
            "colour of the haze: as the footage is around the intruder, or airlight_color");

@@ -49,6 +49,8 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
   if (ImGui::Button("Detect and paint...")) context.edits.ask(ShowOwnBody{});
   context.ui_probe.note_item("inspector/own body");
   tooltip_for_item("Finds the aircraft that carries the camera in its footage");
+  note("What else hides intruders: trees and hills, as a mask of one frame.");
+  rows.rows("footage.occluder_");
 }
 
 void draw_compositing(const ViewContext& context, FieldRows& rows) {

@@ -95,7 +95,8 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
 }  // namespace
 
 std::string block_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 11> kBlocks{{{"footage.", "Inputs"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 12> kBlocks{{{"footage.occluder_", "Own body"},
+                                                                              {"footage.", "Inputs"},
                                                                               {"camera.track.", kCameraLogBlock},
                                                                               {"camera.readout_s", kCameraLogBlock},
                                                                               {"camera.exposure_s", kCameraLogBlock},

@@ -57,8 +57,8 @@ TEST_CASE("the preview is byte for byte what the program writes as a frame") {
       Project project = sample(project_name);
       project.compositing.method = method;
       const std::string out = (folder / (std::string(name) + project_name)).string();
-      const Run run = run_sigs("frame " + project.file.string() + " --frame " + std::to_string(kFrame) +
-                               " --set compositing.method=" + name + " --out " + out);
+      const test::Run run = run_sigs("frame " + project.file.string() + " --frame " + std::to_string(kFrame) +
+                                     " --set compositing.method=" + name + " --out " + out);
       REQUIRE_MESSAGE(run.status == 0, run.err);
       const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
       const PreviewOutput shown = preview_client.show(frame_of(revision(++number, project), kFrame));
@@ -75,8 +75,8 @@ TEST_CASE("with the camera's attitude known the preview is still what the progra
   Project project = sample("head-on");
   project.camera.attitude_file = (folder / "gyro.csv").string();
   const std::string out = (folder / "out").string();
-  const Run run = run_sigs("frame " + project.file.string() + " --frame " + std::to_string(kFrame) +
-                           " --set camera.attitude_file=" + project.camera.attitude_file + " --out " + out);
+  const test::Run run = run_sigs("frame " + project.file.string() + " --frame " + std::to_string(kFrame) +
+                                 " --set camera.attitude_file=" + project.camera.attitude_file + " --out " + out);
   REQUIRE_MESSAGE(run.status == 0, run.err);
   const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
   PreviewClient preview_client({.ahead = 0});

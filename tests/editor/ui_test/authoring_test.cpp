@@ -173,6 +173,8 @@ void change_light(UiTest& ui_test, const fs::path& project) {
   const ScreenPlace filter = editor.place("inspector/filter");
   editor.wheel(filter.center_x(), 500, 30);  // the inspector stands at the waypoint that was selected
   editor.settle();
+  editor.click("inspector/Inputs");  // folded, so that all of the light's block is in sight
+  editor.settle();
   editor.click("inspector/Light");
   editor.settle();
   ui_test.edit([&] { editor.click("inspector/light preset Left"); });

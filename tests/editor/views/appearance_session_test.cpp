@@ -22,7 +22,7 @@ Project hazy_project() {
 Result<Appearance> quick_look(const AppearanceRequest&, const JobControl&) {
   Appearance found;
   found.frames_used = 24;
-  found.point_spread.point_spread_px = {.value = 0.62, .sd = 0.03, .is_known = true};
+  found.point_spread.sigma_px = {.value = 0.62, .sd = 0.03, .is_known = true};
   return found;
 }
 
