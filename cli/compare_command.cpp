@@ -57,7 +57,7 @@ struct CompareOptions {
 };
 
 // One column of the table.
-struct Column {
+struct CompareColumn {
   std::string name;
   std::optional<MeasuredTarget> target;  // none: not to be told from the background
 };
@@ -150,8 +150,8 @@ Result<cv::Point2d> place_of(const CompareOptions& options, const RealTarget& re
   return *place;
 }
 
-Result<Column> inserted(const fs::path& file, const CompareOptions& options, const RealTarget& real,
-                        cv::Point2d place_px, SceneFiles& files, ComposeContext& context) {
+Result<CompareColumn> inserted(const fs::path& file, const CompareOptions& options, const RealTarget& real,
+                               cv::Point2d place_px, SceneFiles& files, ComposeContext& context) {
   Result<Project> project = project_of({.file = file, .settings = options.settings});
   if (!project) return fail(project.error());
   if (!options.calibration.empty()) project->footage.calibration = fs::absolute(options.calibration).string();
@@ -161,16 +161,16 @@ Result<Column> inserted(const fs::path& file, const CompareOptions& options, con
   auto target = insertion->target(*project, options.shake ? CameraShake::as_real_target : CameraShake::none);
   if (!target) return fail(target.error());
   if (!*target) print_warning({file.string(), "its intruder cannot be told from the background"});
-  return Column{project->name, *std::move(target)};
+  return CompareColumn{project->name, *std::move(target)};
 }
 
-std::optional<double> value_of(const Column& column, const LookMeasure& measure) {
+std::optional<double> value_of(const CompareColumn& column, const LookMeasure& measure) {
   return column.target ? column.target->look.*measure.value : std::nullopt;
 }
 
-std::string table_of(const std::vector<Column>& columns) {
+std::string compare_table_of(const std::vector<CompareColumn>& columns) {
   std::string table = fmt::format("{:<22}{:<7}", "measure", "unit");
-  for (const Column& column : columns) table += fmt::format(" {:>12.12}", column.name);
+  for (const CompareColumn& column : columns) table += fmt::format(" {:>12.12}", column.name);
   LookGroup group{};
   bool is_first = true;
   for (const LookMeasure& measure : look_measures()) {
@@ -178,7 +178,7 @@ std::string table_of(const std::vector<Column>& columns) {
     group = measure.group;
     is_first = false;
     table += fmt::format("\n  {:<20}{:<7}", measure.name, measure.unit);
-    for (const Column& column : columns) {
+    for (const CompareColumn& column : columns) {
       const auto value = value_of(column, measure);
       table += fmt::format(" {:>12}", value ? fixed_text(*value, 3) : "-");
     }
@@ -186,20 +186,20 @@ std::string table_of(const std::vector<Column>& columns) {
   return table + "\n";
 }
 
-std::string csv_of(const std::vector<Column>& columns) {
+std::string csv_of(const std::vector<CompareColumn>& columns) {
   std::string csv = "group,measure,unit,real";
   for (std::size_t i = 1; i < columns.size(); ++i) csv += "," + csv_field(columns[i].name);
   for (const LookMeasure& measure : look_measures()) {
     csv += fmt::format("\n{},{},{}", name_of(measure.group), measure.name, measure.unit);
-    for (const Column& column : columns) csv += "," + exact_text(value_of(column, measure));
+    for (const CompareColumn& column : columns) csv += "," + exact_text(value_of(column, measure));
   }
   return csv + "\n";
 }
 
 // The targets side by side, enlarged alike.
-cv::Mat image_of(const std::vector<Column>& columns) {
+cv::Mat image_of(const std::vector<CompareColumn>& columns) {
   cv::Size size;
-  for (const Column& column : columns)
+  for (const CompareColumn& column : columns)
     if (column.target)
       size = {std::max(size.width, column.target->image.cols), std::max(size.height, column.target->image.rows)};
   const int factor = std::clamp(kMostPiece_px / std::max(size.width, size.height), 1, kEnlarged);
@@ -231,17 +231,17 @@ Result<void> check_names(const CompareOptions& options) {
   return check_inputs_not_overwritten(std::vector{options.image, options.csv}, inputs);
 }
 
-Result<std::vector<Column>> columns_of(const CompareOptions& options) {
+Result<std::vector<CompareColumn>> compare_columns_of(const CompareOptions& options) {
   Result<RealTarget> real = real_target(options);
   if (!real) return fail(real.error());
-  std::vector<Column> columns{{"real", real->target}};
+  std::vector<CompareColumn> columns{{"real", real->target}};
   if (options.projects.empty()) return columns;
   const Result<cv::Point2d> place_px = place_of(options, *real);
   if (!place_px) return fail(place_px.error());
   SceneFiles files;
   ComposeContext context;
   for (const fs::path& file : options.projects) {
-    Result<Column> column = inserted(file, options, *real, *place_px, files, context);
+    Result<CompareColumn> column = inserted(file, options, *real, *place_px, files, context);
     if (!column) return fail(column.error());
     columns.push_back(*std::move(column));
   }
@@ -250,7 +250,7 @@ Result<std::vector<Column>> columns_of(const CompareOptions& options) {
 
 Result<void> run(const CompareOptions& options) {
   if (const Result<void> named = check_names(options); !named) return named;
-  const Result<std::vector<Column>> columns = columns_of(options);
+  const Result<std::vector<CompareColumn>> columns = compare_columns_of(options);
   if (!columns) return fail(columns.error());
   defer_interrupts();
   StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
@@ -273,7 +273,7 @@ Result<void> run(const CompareOptions& options) {
   });
   if (!listed) return listed;
   if (const Result<void> kept = outputs.commit(); !kept) return kept;
-  std::fputs(table_of(*columns).c_str(), stdout);
+  std::fputs(compare_table_of(*columns).c_str(), stdout);
   for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
   return {};
 }

@@ -11,9 +11,9 @@ namespace sigs {
 
 namespace {
 
-constexpr double kReach_px = 6;
+constexpr double kProfileReach_px = 6;
 constexpr int kStepsPerPixel = 4;
-constexpr int kSteps = static_cast<int>(2 * kReach_px) * kStepsPerPixel + 1;
+constexpr int kSteps = static_cast<int>(2 * kProfileReach_px) * kStepsPerPixel + 1;
 constexpr int kMiddle = kSteps / 2;
 constexpr double kLeastContrast = 12;  // code values
 constexpr double kLeastContrast_sd = 6;
@@ -116,7 +116,7 @@ Profile upright(Profile profile) {
   return profile;
 }
 
-double quantile(std::vector<double>& values, double share) {
+double quantile_of_profile(std::vector<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
@@ -154,7 +154,7 @@ std::optional<double> chroma_width(const TargetSilhouette& target, const std::ve
       widths.push_back(edge->width_px);
   }
   if (widths.size() < kLeastProfiles) return std::nullopt;
-  return quantile(widths, 0.5);
+  return quantile_of_profile(widths, 0.5);
 }
 
 }  // namespace
@@ -179,8 +179,8 @@ EdgeProfiles edge_profiles(const TargetSilhouette& target) {
     widths.push_back(edge.width_px);
     slopes.push_back(edge.slope);
   }
-  found.width_px = quantile(widths, 0.5);
-  found.slope = quantile(slopes, 0.75);
+  found.width_px = quantile_of_profile(widths, 0.5);
+  found.slope = quantile_of_profile(slopes, 0.75);
   found.overshoot = overshoot_of(profiles, edges);
   return found;
 }

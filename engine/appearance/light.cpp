@@ -12,7 +12,7 @@ constexpr double kClearSky = 0.17, kClearRatio = 0.16, kWhitening = 2.4;  // lig
 constexpr double kLeastSky = 0.12;
 constexpr double kBluest = 0.1;  // share of the sky
 constexpr double kRatioPerBin = 0.025;
-constexpr double kClipped = 0.985;                                 // of luma
+constexpr double kClippedSky = 0.985;                              // of luma
 constexpr double kDark = 0.008;                                    // light: darker is no sky by day
 constexpr double kSmooth = 0.012;                                  // of luma, difference from the neighbours: sky
 constexpr float kLeastBlue = 0.8F;                                 // of green, in a sky; fields and earth have less
@@ -93,7 +93,7 @@ void LightEstimator::add_sky(const glm::dvec3& light, float luma) {
   const auto bin = std::min(sky_.size() - 1, static_cast<std::size_t>(ratio / kRatioPerBin));
   sky_[bin].sum += light;
   ++sky_[bin].count;
-  if (static_cast<double>(luma) > kClipped) ++clipped_;
+  if (static_cast<double>(luma) > kClippedSky) ++clipped_;
   if (std::abs(light.r - light.b) > 0.01 * light.b || std::abs(light.r - light.g) > 0.01 * light.g) ++colored_;
 }
 

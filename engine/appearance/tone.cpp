@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTail = 0.001;         // share of the cells below black and above white
 constexpr double kShadow = 0.05;        // of white: darker things are shadows
-constexpr double kClipped = 0.985;      // of luma
+constexpr double kClippedTone = 0.985;  // of luma
 constexpr double kNoColor = 4.0 / 255;  // of R', G', B' from each other: 2 codes of chroma
 constexpr double kFewColored = 0.001;   // share of the cells that noise may colour
 constexpr double kLeastClouds = 0.02;   // of the sky
@@ -79,7 +79,7 @@ void Tone::set_tint(ToneEstimate& tone) const {
   glm::dvec3 sum(0);
   for (std::size_t i = 0; i < sky_count_.size(); ++i) {
     seen += sky_count_[i];
-    if (seen < 0.5 * sky || static_cast<double>(i) / 255 > kClipped) continue;
+    if (seen < 0.5 * sky || static_cast<double>(i) / 255 > kClippedTone) continue;
     sum += neutral_[i];
     count += neutral_count_[i];
   }
@@ -99,7 +99,7 @@ ToneEstimate Tone::finish() const {
   const double low = level_above(kTail), high = level_above(1 - kTail);
   const double black = light_at(low), white = light_at(high);
   tone.white = {.value = white, .sd = std::max(0.02 * white, 0.002), .is_known = true};
-  if (high > kClipped) tone.white = {.value = 1, .why = "the brightest parts are over-exposed"};
+  if (high > kClippedTone) tone.white = {.value = 1, .why = "the brightest parts are over-exposed"};
   if (black < kShadow * tone.white.value && high > low)
     tone.black = {.value = black, .sd = std::max(0.5 * black, 0.0005), .is_known = true};
   else

@@ -52,7 +52,7 @@ std::vector<float> weights_in_time(double persistence) {
   return weights;
 }
 
-cv::Rect grown(const cv::Rect& rect, int by) {
+cv::Rect grown_by(const cv::Rect& rect, int by) {
   return {rect.x - by, rect.y - by, rect.width + 2 * by, rect.height + 2 * by};
 }
 
@@ -149,7 +149,7 @@ cv::Mat noise_field(const Grain& grain, int plane, std::int64_t frame, const cv:
   const int margin = blur_margin_px(grain.spread_px);
   cv::Mat kernel = sampled_gaussian(grain.spread_px, margin);
   kernel /= cv::norm(kernel);
-  cv::Mat field = uncorrelated_field(grain, plane, frame, grown(rect, margin));
+  cv::Mat field = uncorrelated_field(grain, plane, frame, grown_by(rect, margin));
   cv::sepFilter2D(field, field, CV_32F, kernel, kernel);
   return field(cv::Rect({margin, margin}, rect.size())).clone();
 }

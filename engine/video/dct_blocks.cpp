@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kSide = 8;
 
-using Block = std::array<double, 64>;  // row by row
+using DctBlock = std::array<double, 64>;  // row by row
 
 // Row k: the k-th basis function of the orthonormal cosine transform (T.81, A.3.3).
-const Block& basis() {
-  static const Block functions = [] {
-    Block made{};
+const DctBlock& basis() {
+  static const DctBlock functions = [] {
+    DctBlock made{};
     for (int k = 0; k < kSide; ++k)
       for (int i = 0; i < kSide; ++i)
         made[static_cast<std::size_t>(kSide * k + i)] =
@@ -31,8 +31,8 @@ const Block& basis() {
 
 // The product of two 8x8 matrices, either of them transposed.
 template <bool kFirstTransposed, bool kSecondTransposed>
-Block product(const Block& a, const Block& b) {
-  Block c{};
+DctBlock product(const DctBlock& a, const DctBlock& b) {
+  DctBlock c{};
   for (std::size_t row = 0; row < kSide; ++row)
     for (std::size_t i = 0; i < kSide; ++i) {
       const double factor = a[kFirstTransposed ? kSide * i + row : kSide * row + i];
@@ -42,11 +42,11 @@ Block product(const Block& a, const Block& b) {
   return c;
 }
 
-Block transformed(const Block& samples) {
+DctBlock transformed(const DctBlock& samples) {
   return product<false, true>(product<false, false>(basis(), samples), basis());
 }
 
-Block inverse_transformed(const Block& coefficients) {
+DctBlock inverse_transformed(const DctBlock& coefficients) {
   return product<false, false>(product<true, false>(basis(), coefficients), basis());
 }
 
@@ -65,8 +65,8 @@ void for_each_difference(cv::Mat& plane, const cv::Mat& other, const Change& cha
 
 // samples[i] of the block less subtrahend(i, sample).
 template <class Subtrahend>
-Block difference(const cv::Mat& block, const Subtrahend& subtrahend) {
-  Block samples{};
+DctBlock difference(const cv::Mat& block, const Subtrahend& subtrahend) {
+  DctBlock samples{};
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i)
       samples[static_cast<std::size_t>(kSide * j + i)] = block.at<uchar>(j, i) - subtrahend(j, i);
@@ -74,7 +74,7 @@ Block difference(const cv::Mat& block, const Subtrahend& subtrahend) {
 }
 
 template <class Addend>
-void put(cv::Mat& block, const Block& samples, const Addend& addend) {
+void put(cv::Mat& block, const DctBlock& samples, const Addend& addend) {
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i)
       block.at<uchar>(j, i) = cv::saturate_cast<uchar>(samples[static_cast<std::size_t>(kSide * j + i)] + addend(j, i));
@@ -91,7 +91,7 @@ double mpeg_decoded(double coefficient, double step) {
 void code_jpeg(cv::Mat& plane, const cv::Mat& before, const JpegTable& steps) {
   const auto middle = [](int, int) { return 128.0; };
   for_each_difference(plane, before, [&](cv::Mat& block, const cv::Mat&, cv::Point) {
-    Block coefficients = transformed(difference(block, middle));
+    DctBlock coefficients = transformed(difference(block, middle));
     for (std::size_t i = 0; i < coefficients.size(); ++i) {
       const double step = std::max(1, steps[i]);
       coefficients[i] = std::round(coefficients[i] / step) * step;
@@ -104,7 +104,7 @@ void code_mpeg(cv::Mat& plane, const cv::Mat& predicted, const cv::Mat& step, cv
   for_each_difference(plane, predicted, [&](cv::Mat& block, const cv::Mat& prediction, cv::Point at) {
     const auto predicted_sample = [&](int j, int i) { return static_cast<double>(prediction.at<uchar>(j, i)); };
     const double here = std::max<short>(1, step.at<short>(at.y / macroblock_px.height, at.x / macroblock_px.width));
-    Block coefficients = transformed(difference(block, predicted_sample));
+    DctBlock coefficients = transformed(difference(block, predicted_sample));
     for (double& coefficient : coefficients) coefficient = mpeg_decoded(coefficient, here);
     put(block, inverse_transformed(coefficients), predicted_sample);
   });

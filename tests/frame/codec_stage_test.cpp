@@ -17,14 +17,14 @@
 namespace sigs::test {
 namespace {
 
-constexpr int kFrames = 12;
+constexpr int kCodedFrames = 12;
 
 // A textured clip of uneven quantisers, as H.264. False: this machine cannot make it.
 bool write_h264(const std::filesystem::path& path) {
   const std::string command = fmt::format(
       "ffmpeg -nostdin -v error -y -f lavfi -i testsrc2=size=326x242:rate=25:duration=1 -frames:v {} -c:v libx264 "
       "-crf 30 -g 5 -bf 2 -pix_fmt yuv420p \"{}\" 2>/dev/null",
-      kFrames, path.string());
+      kCodedFrames, path.string());
   if (std::system(command.c_str()) == 0) return true;  // NOLINT(concurrency-mt-unsafe)
   MESSAGE("SKIPPED: no ffmpeg program with libx264");
   return false;
@@ -34,7 +34,7 @@ void fly(Scenario& scenario, CodecMatchChoice match) {
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
   IntruderSettings& intruder = scenario.add("aircraft.obj", {});
   intruder.trajectory.waypoints = {{.frame = 0, .position_m = {70, -45, -160}},
-                                   {.frame = kFrames, .position_m = {80, 30, -148}}};
+                                   {.frame = kCodedFrames, .position_m = {80, 30, -148}}};
   scenario.project.appearance.codec.match = match;
   scenario.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video};
 }
@@ -44,12 +44,12 @@ RawVideo exported(Scenario& scenario, int jobs) {
       .project = scenario.project, .folder = scenario.path("out"), .jobs = jobs, .overwrite = true};
   const Result<ExportReport> report = export_project(request, {});
   if (!report) FAIL(report.error().text());
-  return raw_video(scenario.path("out/lot.mkv"), kFrames);
+  return raw_video(scenario.path("out/lot.mkv"), kCodedFrames);
 }
 
 bool same_images(const RawVideo& a, const RawVideo& b) {
-  REQUIRE(a.images.size() == kFrames);
-  REQUIRE(b.images.size() == kFrames);
+  REQUIRE(a.images.size() == kCodedFrames);
+  REQUIRE(b.images.size() == kCodedFrames);
   for (std::size_t n = 0; n < a.images.size(); ++n)
     for (std::size_t i = 0; i < a.images[n].planes.size(); ++i)
       if (!same_bytes(a.images[n].planes[i], b.images[n].planes[i])) return false;
@@ -59,7 +59,7 @@ bool same_images(const RawVideo& a, const RawVideo& b) {
 }  // namespace
 
 TEST_CASE("with the codec match an export has the same bytes on one thread, on four, and frame by frame") {
-  Scenario scenario({326, 242}, kFrames);
+  Scenario scenario({326, 242}, kCodedFrames);
   if (!write_h264(scenario.path("footage.mp4"))) return;
   fly(scenario, CodecMatchChoice::footage);
   scenario.project.footage.video = scenario.path("footage.mp4").string();
@@ -85,7 +85,7 @@ TEST_CASE("the truth does not depend on the codec match, and every rewritten sam
   for (const PixelLayout layout :
        {PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444, PixelLayout::rgb})
     for (const CodecMatchChoice match : {CodecMatchChoice::h264, CodecMatchChoice::mjpeg}) {
-      Scenario scenario({320, 240}, kFrames);
+      Scenario scenario({320, 240}, kCodedFrames);
       fly(scenario, CodecMatchChoice::none);
       const Frame background = grainy_frame({320, 240}, 1, layout);
       const ComposedFrame plain = composed(scenario.opened(), 3, background);
@@ -102,7 +102,7 @@ TEST_CASE("the truth does not depend on the codec match, and every rewritten sam
 }
 
 TEST_CASE("only the direct method, and only where asked, goes through a codec; lossless footage has none to match") {
-  Scenario scenario({320, 240}, kFrames);
+  Scenario scenario({320, 240}, kCodedFrames);
   fly(scenario, CodecMatchChoice::footage);
   scenario.project.compositing.method = MethodChoice::classic;
   const Frame background = grainy_frame({320, 240}, 1);

@@ -45,7 +45,7 @@ double edge_seen_from(const Pose<frame::World, frame::Camera>& pose, const Occlu
 }
 
 // A plate before the axis at 200 m that covers columns and rows 144 to 175, 104 to 135 but for their outermost halves.
-void add_plate(Scenario& scenario) {
+void add_plate_at_200(Scenario& scenario) {
   constexpr double kHalf_m = 15.5 * 200 / 300;
   write_obj(scenario.path("plate.obj"), {{{-1e-4, -kHalf_m, -kHalf_m}, {1e-4, kHalf_m, kHalf_m}}}, 1);
   scenario.add("plate.obj", {200, 0, -150});
@@ -96,12 +96,12 @@ TEST_CASE("an occluder hides what is farther away, in image and truth, and leave
     CAPTURE(static_cast<int>(method));
     Scenario free;
     free.project.compositing.method = method;
-    add_plate(free);
+    add_plate_at_200(free);
     const int right_edge = composed(free).truth.intruders.at(0).visible_box->br().x;  // the paper's key is harder
     for (const double distance_m : {0.0, 150.0, 250.0}) {
       Scenario scenario;
       scenario.project.compositing.method = method;
-      add_plate(scenario);
+      add_plate_at_200(scenario);
       const ComposedFrame frame = with_occluder(scenario, 160, distance_m);
       const IntruderTruth& truth = frame.truth.intruders.at(0);
       const bool is_behind = distance_m < 200;
@@ -117,7 +117,7 @@ TEST_CASE("an occluder hides what is farther away, in image and truth, and leave
 
 TEST_CASE("an occluder's frame lies in the footage, and its mask has the footage's size") {
   Scenario scenario;
-  add_plate(scenario);
+  add_plate_at_200(scenario);
   cv::imwrite(scenario.path("trees.png").string(), cv::Mat::zeros(10, 10, CV_8UC1));
   scenario.project.footage.occluder_mask = "trees.png";
   const auto opened = [&] { return open_scene(scenario.project, {.size_px = kImage_px, .times_s = {0, 0.04, 0.08}}); };

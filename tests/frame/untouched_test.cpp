@@ -12,7 +12,7 @@
 namespace sigs::test {
 namespace {
 
-constexpr int kFrames = 31;  // 0 to 30
+constexpr int kUntouchedFrames = 31;  // 0 to 30
 
 struct Exported {
   ExportReport report;
@@ -27,13 +27,13 @@ Exported exported(Scenario& scenario, const std::filesystem::path& clip, MethodC
   scenario.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video};
   const ExportRequest request{.project = scenario.project,
                               .folder = scenario.path("out"),
-                              .frames = FrameRange{0, kFrames - 1},
+                              .frames = FrameRange{0, kUntouchedFrames - 1},
                               .jobs = 2,
                               .overwrite = true};
   const Result<ExportReport> report = export_project(request, {});
   if (!report) FAIL(report.error().text());
-  return {*report, raw_video(clip, kFrames), raw_video(scenario.path("out/lot.mkv"), kFrames),
-          raw_video(scenario.path("out/lot.masks.mkv"), kFrames)};
+  return {*report, raw_video(clip, kUntouchedFrames), raw_video(scenario.path("out/lot.mkv"), kUntouchedFrames),
+          raw_video(scenario.path("out/lot.masks.mkv"), kUntouchedFrames)};
 }
 
 struct Count {
@@ -68,10 +68,10 @@ void count_plane(const cv::Mat& before, const cv::Mat& after, const cv::Mat& mas
 
 Count count_of(const Exported& clip) {
   Count count;
-  REQUIRE(clip.source.images.size() == kFrames);
-  REQUIRE(clip.image.images.size() == kFrames);
-  REQUIRE(clip.masks.images.size() == kFrames);
-  for (std::size_t n = 0; n < kFrames; ++n) {
+  REQUIRE(clip.source.images.size() == kUntouchedFrames);
+  REQUIRE(clip.image.images.size() == kUntouchedFrames);
+  REQUIRE(clip.masks.images.size() == kUntouchedFrames);
+  for (std::size_t n = 0; n < kUntouchedFrames; ++n) {
     REQUIRE(clip.source.images[n].planes.size() == 3);
     REQUIRE(clip.image.images[n].planes.size() == 3);
     for (std::size_t plane = 0; plane < 3; ++plane)
@@ -137,8 +137,8 @@ TEST_CASE("samples of a real clip that no intruder covers are kept bit for bit")
     const Count count = count_of(result);
     CHECK(count.changed_outside == 0);
     CHECK(count.changed_inside > 1000);
-    CHECK(count.kept_luma > 0.8 * kFrames * clip.size_px.area());
-    CHECK(count.kept_chroma > 0.8 * kFrames * clip.size_px.area() / 2);
+    CHECK(count.kept_luma > 0.8 * kUntouchedFrames * clip.size_px.area());
+    CHECK(count.kept_chroma > 0.8 * kUntouchedFrames * clip.size_px.area() / 2);
     CHECK(!result.report.renderer_description.empty());
     check_tags(result);
     check_times(result);
@@ -159,7 +159,7 @@ TEST_CASE("a real clip that no intruder enters is kept bit for bit and nothing i
     const Count count = count_of(result);
     CHECK(count.changed_outside == 0);
     CHECK(count.changed_inside == 0);
-    CHECK(count.kept_luma == static_cast<long long>(kFrames) * clip.size_px.area());
+    CHECK(count.kept_luma == static_cast<long long>(kUntouchedFrames) * clip.size_px.area());
     CHECK(result.report.renderer_description == "");
     check_tags(result);
   }
