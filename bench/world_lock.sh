@@ -17,10 +17,10 @@ if [ -n "$write" ]; then "$build/bench_world_lock" "$folder" --figure docs/image
 "$build/bench_world_lock" "$folder" >&2
 awk -F, '
   NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i
-    print "| clip | camera by | frames | lost | slip a frame rms, px | largest | trembling rms, px | off in up to 10 s, rms, px | largest | beyond parallax rms, px | largest | followed for, s | reference, px | growth, % a second |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"; next }
+    print "| clip | camera by | frames | lost | slip a frame rms, px | largest | trembling rms, px | off in up to 10 s, rms, px | largest | beyond parallax rms, px | largest | followed for, s | reference, px | growth, % a second | lens |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"; next }
   function v(name) { return $at[name] }
-  { printf "| %s | %s | %d | %d | **%.3f** | %.2f | %.3f | **%.2f** | %.1f | %.2f | %.1f | %.1f | %.3f | %.1f |\n", v("clip"), v("camera"),
+  { printf "| %s | %s | %d | %d | **%.3f** | %.2f | %.3f | **%.2f** | %.1f | %.2f | %.1f | %.1f | %.3f | %.1f | %s |\n", v("clip"), v("camera"),
       v("frames"), v("lost"), v("step_rms_px"), v("step_max_px"), v("tremble_rms_px"), v("offset_rms_px"), v("offset_max_px"),
-      v("beyond_rms_px"), v("beyond_max_px"), v("longest_s"), v("reference_sd_px"), v("growth_percent_per_s") }
+      v("beyond_rms_px"), v("beyond_max_px"), v("longest_s"), v("reference_sd_px"), v("growth_percent_per_s"), v("lens") }
 ' "$folder/slip.csv" | tee "$folder/slip.md"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "world_lock/clip.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "accuracy/csv.h"
+#include "base/pose.h"
+#include "ego_motion/ego_motion.h"
 #include "occlusion/detect.h"
 #include "scene/opened_project.h"
 #include "telemetry/read_track.h"
@@ -93,6 +97,15 @@ fs::path written_calibration(const ClipSource& source, cv::Size size_px, const f
   return file;
 }
 
+void set_calibration(Clip& clip, const fs::path& folder) {
+  const ClipSource& source = clip.source;
+  clip.calibration =
+      source.calibration.empty() ? written_calibration(source, clip.shape.size_px, folder) : source.calibration;
+  Result<Camera> camera = read_calibration(clip.calibration, clip.shape.size_px);
+  if (!camera) accuracy::stop(camera.error().text());
+  clip.camera = *std::move(camera);
+}
+
 cv::Mat found_own_body(FrameSource& footage) {
   const auto body = detect_own_body(footage, 0, {}, {});
   if (!body) accuracy::stop(body.error().text());
@@ -132,12 +145,27 @@ Clip loaded(const ClipSource& source, const fs::path& folder) {
     if (!log) accuracy::stop(log.error().text());
     clip.log = *std::move(log);
   }
-  clip.calibration =
-      source.calibration.empty() ? written_calibration(source, clip.shape.size_px, folder) : source.calibration;
-  Result<Camera> camera = read_calibration(clip.calibration, clip.shape.size_px);
-  if (!camera) accuracy::stop(camera.error().text());
-  clip.camera = *std::move(camera);
+  set_calibration(clip, folder);
   return clip;
+}
+
+std::string fit_guessed_lens(Clip& clip, const fs::path& folder) {
+  ClipSource& source = clip.source;
+  if (!source.calibration.empty()) return "calibrated";
+  if (source.focal_px > 0) return fmt::format("{:.1f} px a radian", source.focal_px);
+  const std::string guess = fmt::format("guessed {:.0f} deg", deg_of_rad(source.guessed_field_rad));
+  FrameSource footage = opened(source.path);
+  const Result<EgoMotion> motion = estimate_ego_motion(footage, clip.camera, clip.own_body, nullptr, {}, {});
+  if (!motion) accuracy::stop(motion.error().text());
+  const auto& found = motion->focal_scale;
+  if (!found) return guess;
+  const double half = std::tan(0.5 * source.guessed_field_rad);
+  const auto field_deg = [half](double scale) { return deg_of_rad(2 * std::atan(half / scale)); };
+  source.guessed_field_rad = rad_of_deg(field_deg(found->value));
+  set_calibration(clip, folder);
+  return fmt::format("{:.0f} deg by its turns ({} to {:.0f})", field_deg(found->value),
+                     found->largest > 0 ? fmt::format("{:.0f}", field_deg(found->largest)) : "less",
+                     field_deg(found->least));
 }
 
 cv::Mat Clip::world_mask(int frame) const {

@@ -20,7 +20,7 @@ struct ClipSource {
   std::string name;
   std::filesystem::path path;
   double focal_px = 0;  // pinhole, principal point in the middle; 0: by the guessed field of view
-  double guessed_field_rad = std::numbers::pi / 3;  // across the image
+  double guessed_field_rad = std::numbers::pi / 3;  // across the image; see fit_guessed_lens()
   std::filesystem::path calibration = {};           // instead, where there is a file
   cv::Rect far_background = {};             // of a camera that travels: where intruders are put in frame 0; else empty
   cv::Size patch_px{40, 40};                // half the size of the background's patch that is followed around a point
@@ -57,6 +57,10 @@ struct Clip {
 
 // Reads it, and writes the guessed calibration into the folder. Stops the program where that fails.
 [[nodiscard]] Clip loaded(const ClipSource& source, const std::filesystem::path& folder);
+
+// Where the lens is guessed and the clip's own turns show its focal length, that takes the guess's place. Returns what
+// is known of the lens, for people.
+[[nodiscard]] std::string fit_guessed_lens(Clip& clip, const std::filesystem::path& folder);
 
 // Stops the program where it cannot be opened.
 [[nodiscard]] FrameSource opened(const std::filesystem::path& path);

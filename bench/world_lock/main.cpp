@@ -81,7 +81,7 @@ struct Tables {
 };
 
 void measure(const ClipSource& source, const Options& options, Tables& tables) {
-  const Clip clip = loaded(source, options.folder);
+  Clip clip = loaded(source, options.folder);
   const ImageMotion motion = image_motion(clip);
   const char* verdict = motion.tracked < kLeastTracked     ? "cannot be followed"
                         : motion.range_px < kLeastRange_px ? "stands still"
@@ -91,6 +91,7 @@ void measure(const ClipSource& source, const Options& options, Tables& tables) {
               clip.frame_count(), 100 * motion.tracked, motion.step_rms_px, motion.range_px, verdict);
   std::fflush(stdout);
   if (std::string_view(verdict) != "moves") return;
+  const std::string lens = fit_guessed_lens(clip, options.folder);
   const std::vector<CameraKnowledge> cameras = knowledge_of(clip, options.folder);
   const SlipRun run = slip_of(clip, cameras);
   write_samples(clip, cameras, run, tables.samples);
@@ -103,7 +104,7 @@ void measure(const ClipSource& source, const Options& options, Tables& tables) {
     tables.slip.row(source.name, cameras[k].name, reference.frames, run.samples.size(), cameras[k].lost_frames,
                     step.rms_px, step.max_px, tremble.rms_px, tremble.max_px, offset.rms_px, offset.max_px, left.rms_px,
                     left.max_px, reference.longest_s, reference.sd_px, 100 * reference.growth_per_s,
-                    run.distances_differ_px);
+                    run.distances_differ_px, lens);
     std::printf(
         "  %-20s slip %.3f px rms, %.2f max; trembling %.3f rms; off by %.2f rms, %.2f max; beyond parallax %.2f rms, "
         "%.2f max\n",
@@ -118,14 +119,14 @@ void measure(const ClipSource& source, const Options& options, Tables& tables) {
 void measure_all(const Options& options) {
   const std::filesystem::path folder = options.folder;
   std::filesystem::create_directories(folder);
-  Tables tables{
-      {folder / "motion.csv", "clip,frames,tracked,step_rms_px,range_px,verdict"},
-      {folder / "slip.csv",
-       "clip,camera,frames,samples,lost,step_rms_px,step_max_px,tremble_rms_px,tremble_max_px,offset_rms_px,"
-       "offset_max_px,beyond_rms_px,beyond_max_px,longest_s,reference_sd_px,growth_percent_per_s,distances_differ_px"},
-      {folder / "samples.csv",
-       "clip,camera,start,place,frame,corners,reference_sd_px,background_x,background_y,step_x,step_y,"
-       "offset_x,offset_y,growth"}};
+  Tables tables{{folder / "motion.csv", "clip,frames,tracked,step_rms_px,range_px,verdict"},
+                {folder / "slip.csv",
+                 "clip,camera,frames,samples,lost,step_rms_px,step_max_px,tremble_rms_px,tremble_max_px,offset_rms_px,"
+                 "offset_max_px,beyond_rms_px,beyond_max_px,longest_s,reference_sd_px,growth_percent_per_s,distances_"
+                 "differ_px,lens"},
+                {folder / "samples.csv",
+                 "clip,camera,start,place,frame,corners,reference_sd_px,background_x,background_y,step_x,step_y,"
+                 "offset_x,offset_y,growth"}};
   for (ClipSource source : clip_sources()) {
     source.guessed_field_rad = rad_of_deg(options.field_deg);
     if (options.clip.empty() || options.clip == source.name) measure(source, options, tables);
@@ -139,7 +140,8 @@ int main(int count, char** arguments) {
   Options options;
   app.add_option("FOLDER", options.folder, "where tables and estimates go")->required();
   app.add_option("--clip", options.clip, "this one alone");
-  app.add_option("--field", options.field_deg, "guessed field of view of clips without calibration, degrees")
+  app.add_option("--field", options.field_deg,
+                 "field of view of clips without calibration whose turns do not show it, degrees")
       ->check(CLI::Range(5, 150));
   app.add_option("--images", options.images, "instead: strips of enlarged frames of the clip coast, or of --clip");
   app.add_option("--figure", options.figure, "instead: the figure of the documentation, from our own footage");

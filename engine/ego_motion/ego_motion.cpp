@@ -12,6 +12,7 @@
 #include "ego_motion/cloud_drift.h"
 #include "ego_motion/doubtful_frames.h"
 #include "ego_motion/features.h"
+#include "ego_motion/focal_scale.h"
 #include "ego_motion/gyro_fusion.h"
 #include "ego_motion/horizon.h"
 #include "ego_motion/rotation_fit.h"
@@ -54,6 +55,7 @@ class Estimate {
     if (const Result<void> passed = pass(); !passed) return fail(passed.error());
     const double readout_s =
         settings_.readout_s.value_or(telemetry_ != nullptr && telemetry_->readout_s ? *telemetry_->readout_s : 0.0);
+    compare_with_lens();
     compare_with_gyro(readout_s);
     std::vector<FrameRotation> rotations = seen_rotations(readout_s);
     scale_deviations(rotations);
@@ -172,6 +174,24 @@ class Estimate {
           "the images turn {:.2f} times as fast as the gyroscope says: stabilized in the camera, or a wrong "
           "focal length?",
           gyro.slope));
+  }
+
+  // Whether the image turns as the calibration has it.
+  void compare_with_lens() {
+    motion_.focal_scale = focal_scale(seen_.rays, seen_.pixel_rad);
+    if (!motion_.focal_scale) return;
+    const FocalScale& found = *motion_.focal_scale;
+    constexpr double kClose = 1.1;
+    const bool fits = found.least < kClose && (found.largest == 0 || found.largest > 1 / kClose);
+    const auto ray = camera_.lens.ray({camera_.size_px.width - 1.0, (camera_.size_px.height - 1) / 2.0});
+    if (fits || !ray || !(ray->x > 0)) return;
+    const double half_rad = std::acos(std::clamp(ray->x, 0.0, 1.0));
+    const auto field_deg = [&](double scale) { return 2 * std::atan(std::tan(half_rad) / scale) * 57.29577951308232; };
+    const std::string narrow = found.largest > 0 ? fmt::format("{:.0f} to", field_deg(found.largest)) : "at most";
+    warn(fmt::format(
+        "the images turn as with a field of view of {} {:.0f} degrees across, the calibration has {:.0f}: zoomed, "
+        "cropped, stabilized, or a guess? Attitudes are wrong by as much",
+        narrow, field_deg(found.least), field_deg(1)));
   }
 
   // What the camera turned its images by, at each frame.

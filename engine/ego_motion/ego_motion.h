@@ -48,13 +48,22 @@ struct GyroLink {
   bool is_fused = false;   // false: they do not belong together, and the images alone are used
 };
 
+// The focal length that the image's own turns show, over that of the calibration. When a camera turns, what is at the
+// image's border moves otherwise than what is in its middle, by the square of the tangent of its angle from the axis.
+struct FocalScale {
+  double value = 1;    // as good as any other; 1: the calibration
+  double least = 0;    // smaller ones do not fit
+  double largest = 0;  // larger ones do not fit; 0: any larger one fits, as where the camera turns little
+};
+
 struct EgoMotion {
   std::vector<EgoFrame> frames;        // one for each frame of the footage
   std::optional<double> level_sd_rad;  // standard deviation of the world's level, common to all frames: a horizon was
                                        // seen. Not given: roll and pitch are against frame 0, which counts as level
   std::optional<GyroLink> gyro;
-  bool is_stabilized = false;     // the log states that the camera turned the image (Track::camera_from_image)
-  std::vector<Warning> warnings;  // with ranges of frames
+  std::optional<FocalScale> focal_scale;  // what the turns show of it; nothing is corrected by it
+  bool is_stabilized = false;             // the log states that the camera turned the image (Track::camera_from_image)
+  std::vector<Warning> warnings;          // with ranges of frames
 };
 
 // The camera's rotation frame by frame, in one pass over the footage: README.md. The time of a frame is that of its
