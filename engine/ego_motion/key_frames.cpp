@@ -21,6 +21,7 @@ constexpr std::size_t kLocalKeys = 10;       // adjusted together while key fram
 constexpr std::size_t kAddedKeys = 3;        // between two such adjustments
 constexpr double kRateSd_radps = 2;          // of a rate that is not known from frame to frame
 constexpr double kRateChangeSd_radps2 = 50;  // of its change within a frame: some pixels of shake at 12 Hz
+constexpr double kDoubtful_px = 0.18;        // an adjustment whose features are off by more may have gone astray
 constexpr double kPositionSd = 0.01;         // of a frame between its key frames, in the unit of length
 
 class KeyAdjuster {
@@ -39,13 +40,37 @@ class KeyAdjuster {
       if (k % kAddedKeys == 0 || k + 1 == keys_.size()) adjust_range(k < kLocalKeys ? 0 : k + 1 - kLocalKeys, k + 1, 8);
     }
     const BundleFit fit = adjust_range(0, keys_.size(), 14);
+    if (fit.sigma_rad > kDoubtful_px * pixel_rad_) {
+      KeyAdjuster turning(frames_, times_s_, first_values_, keys_, pixel_rad_);
+      const BundleFit turns = turning.adjust_turns();
+      if (turns.sigma_rad <= fit.sigma_rad) return turning.result(turns);
+    }
+    return result(fit);
+  }
+
+ private:
+  // Rotations alone, all landmarks at infinity. Where a lens's field of view is narrow or its calibration wrong, travel
+  // and turn look nearly alike, and the adjustment of both can end far from the truth, where it explains the image
+  // worse than turns do.
+  BundleFit adjust_turns() {
+    bundle_settings_.inverse_depth_sd = 1e-7;
+    const Eigen::Quaterniond start_from_world = first_values_[at(0)].conjugate();
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      const double time_s = times_s_[at(k)];
+      result_.frames.push_back({.world_from_camera = (start_from_world * first_values_[at(k)]).normalized(),
+                                .position = Eigen::Vector3d::UnitX() * (time_s - times_s_[at(0)]),
+                                .time_s = time_s});
+    }
+    return adjust_range(0, keys_.size(), 10);
+  }
+
+  KeyFrames result(const BundleFit& fit) {
     result_.ground = ground_;
     result_.covariances = fit.covariances;
     result_.sigma_rad = fit.sigma_rad;
     return std::move(result_);
   }
 
- private:
   [[nodiscard]] std::size_t at(std::size_t k) const { return static_cast<std::size_t>(keys_[k]); }
 
   // The next key frame goes on from the one before as the chain turns and in the direction in which the features flow.
