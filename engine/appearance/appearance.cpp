@@ -13,7 +13,8 @@ namespace sigs {
 
 namespace {
 
-constexpr int kSamples = 24;  // error against run time: docs/appearance.md
+constexpr int kTracesEvery = 4;  // samples in which traces of the codec are looked for
+constexpr int kSamples = 24;     // error against run time: docs/appearance.md
 
 // First frames of the pairs that are looked at.
 Result<std::vector<int>> sample_numbers(const VideoInfo& info, const AppearanceFrames& frames) {
@@ -54,8 +55,8 @@ class Estimators {
     point_spread_.add(frame, view.own_body);
     noise_.add(frame, next);
     surroundings_.add(frame, view);
-    codec_.add(frame);
-    if (next != nullptr) codec_.add(*next);
+    codec_.add(frame, added_++ % kTracesEvery == 0);
+    if (next != nullptr) codec_.add(*next, false);
   }
 
   void finish(Appearance& appearance, const AppearanceHints& hints) const {
@@ -72,6 +73,7 @@ class Estimators {
   Noise noise_;
   Surroundings surroundings_;
   CodecEstimator codec_;
+  int added_ = 0;
 };
 
 Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frames, const AppearanceHints& hints,

@@ -35,6 +35,14 @@ glm::dvec2 gradient_at(const Gradients& gradients, int x, int y) {
   return {gradients.x.at<short>(y, x), gradients.y.at<short>(y, x)};
 }
 
+// Sizes of the gradients in one row, and the largest size of each column so far.
+void add_strength(const short* gx, const short* gy, short* strength, std::vector<short>& most) {
+  for (std::size_t x = 0; x < most.size(); ++x) {
+    strength[x] = static_cast<short>(std::abs(gx[x]) + std::abs(gy[x]));
+    most[x] = std::max(most[x], strength[x]);
+  }
+}
+
 // The strongest gradient of each cell, strongest first.
 std::vector<cv::Point> candidates(const Gradients& gradients) {
   constexpr int kMargin = 10;
@@ -45,18 +53,22 @@ std::vector<cv::Point> candidates(const Gradients& gradients) {
   };
   std::vector<Found> all;
   const cv::Size size = gradients.x.size();
+  cv::Mat_<short> strength(kCell_px, size.width);
+  std::vector<short> most(static_cast<std::size_t>(size.width));  // of each column
   for (int top = kMargin; top + kCell_px + kMargin <= size.height; top += kCell_px) {
+    std::fill(most.begin(), most.end(), short{0});
+    for (int row = 0; row < kCell_px; ++row)
+      add_strength(gradients.x.ptr<short>(top + row), gradients.y.ptr<short>(top + row), strength[row], most);
     for (int left = kMargin; left + kCell_px + kMargin <= size.width; left += kCell_px) {
-      Found best;
-      for (int y = top; y < top + kCell_px; ++y) {
-        const short* const gx = gradients.x.ptr<short>(y);
-        const short* const gy = gradients.y.ptr<short>(y);
-        for (int x = left; x < left + kCell_px; ++x) {
-          const int strength = std::abs(gx[x]) + std::abs(gy[x]);
-          if (strength > best.size) best = {strength, {x, y}};
-        }
+      const short best = *std::max_element(most.begin() + left, most.begin() + left + kCell_px);
+      if (best < kMinGradient) continue;
+      for (int row = 0; row < kCell_px; ++row) {
+        const short* const end = strength[row] + left + kCell_px;
+        const short* const at = std::find<const short*>(strength[row] + left, end, best);
+        if (at == end) continue;
+        all.push_back({best, {static_cast<int>(at - strength[row]), top + row}});
+        break;
       }
-      if (best.size >= kMinGradient) all.push_back(best);
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.size > b.size; });
