@@ -15,7 +15,7 @@ namespace sigs {
 namespace {
 
 constexpr int kEdgesAFrame = 24;
-constexpr std::size_t kMostEdges = 240;    // of which a sigma is fitted
+constexpr std::size_t kMostEdges = 120;    // of which a sigma is fitted
 constexpr std::size_t kMostTogether = 30;  // fitted together
 constexpr int kFewestEdges = 24;
 constexpr int kFewestAgreeing = 8;
@@ -140,6 +140,7 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
       end.agreeing.push_back(end.edges[i]);
       end.agreeing_at.push_back(i);
     }
+    if (std::ssize(counted) < kFewestEdges || is_one_direction(end)) break;  // nothing but the edges' own sigmas counts
     std::vector<EdgeSample> together;
     for (const Edge* const* const edge : thinned(end.agreeing, kMostTogether)) together.push_back((*edge)->luma);
     if (together.empty()) break;

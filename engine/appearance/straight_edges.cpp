@@ -26,8 +26,7 @@ struct Gradients {
 
 Gradients gradients_of(const cv::Mat& luma) {
   Gradients found;
-  cv::Sobel(luma, found.x, CV_16S, 1, 0);
-  cv::Sobel(luma, found.y, CV_16S, 0, 1);
+  cv::spatialGradient(luma, found.x, found.y);
   return found;
 }
 
@@ -77,6 +76,18 @@ std::vector<cv::Point> candidates(const Gradients& gradients) {
   return points;
 }
 
+struct Span {
+  double from = 0, to = 0;
+};
+
+// The part of a span of x in which |x direction.x + y direction.y| <= reach.
+Span within(Span span, const glm::dvec2& direction, double y, double reach) {
+  constexpr double kAlongRow = 1e-6;
+  if (std::abs(direction.x) < kAlongRow) return span;
+  const double a = (-reach - y * direction.y) / direction.x, b = (reach - y * direction.y) / direction.x;
+  return {std::max(span.from, std::min(a, b)), std::min(span.to, std::max(a, b))};
+}
+
 // Calls work(x, y, along, across) for each pixel near the line.
 template <class Work>
 void each_near(const EdgeLine& line, double half_width_px, cv::Size size, const Work& work) {
@@ -87,7 +98,11 @@ void each_near(const EdgeLine& line, double half_width_px, cv::Size size, const 
   const int top = std::max(0, static_cast<int>(std::ceil(line.at_px.y - reach.y)));
   const int bottom = std::min(size.height - 1, static_cast<int>(std::floor(line.at_px.y + reach.y)));
   for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
+    const double down = y - line.at_px.y;
+    const Span span = within(within({left - line.at_px.x, right - line.at_px.x}, along, down, line.half_length_px),
+                             line.normal, down, half_width_px);
+    const int end = std::min(right, static_cast<int>(std::floor(line.at_px.x + span.to)) + 1);
+    for (int x = std::max(left, static_cast<int>(std::ceil(line.at_px.x + span.from)) - 1); x <= end; ++x) {
       const glm::dvec2 from = glm::dvec2(x, y) - line.at_px;
       const double t = glm::dot(from, along);
       const double d = glm::dot(from, line.normal);
