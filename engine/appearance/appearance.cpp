@@ -17,8 +17,8 @@ namespace {
 
 // Error against run time: docs/appearance.md.
 constexpr int kSamples = 24;
-constexpr int kSurroundingsEvery = 2;  // haze, tone, light and sun change little from one sample to the next
-constexpr int kTracesEvery = 7;        // the traces of the codec likewise
+constexpr int kSurroundings = 12;  // samples for haze, tone, light and sun, which change little from one to the next
+constexpr int kTraces = 4;         // for traces of the codec, likewise
 
 // First frames of the pairs that are looked at.
 Result<std::vector<int>> sample_numbers(const VideoInfo& info, const AppearanceFrames& frames) {
@@ -54,14 +54,17 @@ std::vector<int> with_followers(const std::vector<int>& samples, int last) {
 // All estimators, fed with the same frames.
 class Estimators {
  public:
-  explicit Estimators(bool sun_is_given) : surroundings_(!sun_is_given) {}
+  Estimators(std::size_t samples, bool sun_is_given)
+      : surroundings_(!sun_is_given),
+        surroundings_every_(std::max(1, static_cast<int>(samples) / kSurroundings)),
+        traces_every_(static_cast<int>(samples) / kTraces + 1) {}
 
   // next: the frame that follows directly; null: it is not there or damaged.
   void add(const Frame& frame, const Frame* next, const View& view) {
     point_spread_.add(frame, view.own_body);
     noise_.add(frame, next);
-    if (added_ % kSurroundingsEvery == 0) surroundings_.add(frame, view);
-    codec_.add(frame, added_ % kTracesEvery == 0);
+    if (added_ % surroundings_every_ == 0) surroundings_.add(frame, view);
+    codec_.add(frame, added_ % traces_every_ == 0);
     ++added_;
     if (next != nullptr) codec_.add(*next, false);
   }
@@ -80,6 +83,8 @@ class Estimators {
   Noise noise_;
   Surroundings surroundings_;
   CodecEstimator codec_;
+  int surroundings_every_;
+  int traces_every_;
   int added_ = 0;
 };
 
@@ -103,7 +108,7 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
   const std::set<int> is_sample(samples->begin(), samples->end());
   const int last = std::min(frames.last.value_or(footage.info().frame_count() - 1), footage.info().frame_count() - 1);
   const std::optional<GivenSun> sun = given_sun(hints, *samples);
-  Estimators estimators(sun.has_value());
+  Estimators estimators(samples->size(), sun.has_value());
   SampledFrames stream(footage, with_followers(*samples, last));
   std::optional<NumberedFrame> waiting;  // a sample whose follower may come
   const auto use = [&](const Frame* next) {
