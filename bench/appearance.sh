@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Error of `sigs appearance` against the truth and against run time: clips with known blur and noise, made by FFmpeg, and the samples,
 # whose haze and light are known, by frames used and image size.
-#   bench/appearance.sh [BUILD]     default: build/release; some two minutes on two processors
+#   bench/appearance.sh [BUILD]     default: build/release; some three minutes on two processors
 # Clips are left in BUILD/appearance.
 set -euo pipefail
 cd "$(dirname "$0")/.."
