@@ -165,7 +165,9 @@ std::string PointSpread::why_not(const SharpEnd& end) const {
   if (edges_.empty()) return "no edge that is straight, isolated, strong and oblique to the rows";
   if (std::ssize(edges_) < kFewestEdges)
     return fmt::format("only {} edges that are straight, isolated and strong", edges_.size());
-  if (is_one_direction(end)) return "all edges lie in one direction, as those of a horizon do";
+  if (is_one_direction(end))
+    return fmt::format("all edges lie in one direction, as those of a horizon do, the sharpest of {:.2f} px",
+                       end.sigma_px.value);
   if (std::ssize(end.agreeing) < kFewestAgreeing)
     return fmt::format("of {} edges only {} are about as sharp as the sharpest", edges_.size(), end.agreeing.size());
   if (end.sigma_px.value < kDrawn_px && end.shape.sigma_px < kDrawn_px)
