@@ -152,19 +152,11 @@ std::string json_text(const Appearance& found) {
                                     {"sd", number_or_null(estimate.is_known, estimate.sd)},
                                     {"is_known", estimate.is_known},
                                     {"why", estimate.why},
+                                    {"how", quantity.how},
                                     {"setting", quantity.setting.empty() ? Json() : Json(quantity.setting)}});
   }
   report["settings"] = settings_of(found);
   return report.dump(2) + "\n";
-}
-
-std::string text_of(const AppearanceQuantity& quantity) {
-  const Estimate& estimate = quantity.estimate;
-  if (quantity.setting == "appearance.haze.visibility_m") {
-    if (!estimate.is_known) return "not known: " + estimate.why + "; clear air is taken";
-    return fmt::format("{:.0f} +- {:.0f} m", estimate.value, estimate.sd);
-  }
-  return estimate_text(estimate, quantity.unit);
 }
 
 std::string table_text(const Appearance& found) {

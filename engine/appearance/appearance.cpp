@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "appearance/sampled_frames.h"
@@ -13,7 +15,10 @@ namespace sigs {
 
 namespace {
 
-constexpr int kSamples = 24;  // error against run time: docs/appearance.md
+// Error against run time: docs/appearance.md.
+constexpr int kSamples = 24;
+constexpr int kSurroundings = 12;  // samples for haze, tone, light and sun, which change little from one to the next
+constexpr int kTraces = 4;         // for traces of the codec, likewise
 
 // First frames of the pairs that are looked at.
 Result<std::vector<int>> sample_numbers(const VideoInfo& info, const AppearanceFrames& frames) {
@@ -49,19 +54,25 @@ std::vector<int> with_followers(const std::vector<int>& samples, int last) {
 // All estimators, fed with the same frames.
 class Estimators {
  public:
+  Estimators(std::size_t samples, bool sun_is_given)
+      : surroundings_(!sun_is_given),
+        surroundings_every_(std::max(1, static_cast<int>(samples) / kSurroundings)),
+        traces_every_(static_cast<int>(samples) / kTraces + 1) {}
+
   // next: the frame that follows directly; null: it is not there or damaged.
   void add(const Frame& frame, const Frame* next, const View& view) {
     point_spread_.add(frame, view.own_body);
     noise_.add(frame, next);
-    surroundings_.add(frame, view);
-    codec_.add(frame);
-    if (next != nullptr) codec_.add(*next);
+    if (added_ % surroundings_every_ == 0) surroundings_.add(frame, view);
+    codec_.add(frame, added_ % traces_every_ == 0);
+    ++added_;
+    if (next != nullptr) codec_.add(*next, false);
   }
 
-  void finish(Appearance& appearance, const AppearanceHints& hints) const {
+  void finish(Appearance& appearance, const std::optional<GivenSun>& sun) const {
     appearance.point_spread = point_spread_.finish();
     appearance.noise = noise_.finish();
-    appearance.surroundings = surroundings_.finish(hints.to_sun_in_world);
+    appearance.surroundings = surroundings_.finish(sun);
     appearance.tone_histogram = surroundings_.tone().histogram();
     appearance.codec = codec_.finish();
     appearance.haze_curve = surroundings_.haze().curve();
@@ -72,16 +83,32 @@ class Estimators {
   Noise noise_;
   Surroundings surroundings_;
   CodecEstimator codec_;
+  int surroundings_every_;
+  int traces_every_;
+  int added_ = 0;
 };
+
+// By time and place, over the samples.
+std::optional<GivenSun> given_sun(const AppearanceHints& hints, const std::vector<int>& samples) {
+  if (!hints.to_sun_in_world || samples.empty()) return std::nullopt;
+  const glm::dvec3 first = hints.to_sun_in_world(samples.front()), last = hints.to_sun_in_world(samples.back());
+  const auto azimuth_rad = [](const glm::dvec3& to_sun) { return std::atan2(to_sun.y, to_sun.x); };
+  const auto elevation_rad = [](const glm::dvec3& to_sun) { return std::asin(std::clamp(-to_sun.z, -1.0, 1.0)); };
+  return GivenSun{
+      .to_sun_in_world = hints.to_sun_in_world(samples[samples.size() / 2]),
+      .azimuth_range_rad = std::abs(std::remainder(azimuth_rad(last) - azimuth_rad(first), 2 * std::numbers::pi)),
+      .elevation_range_rad = std::abs(elevation_rad(last) - elevation_rad(first))};
+}
 
 Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frames, const AppearanceHints& hints,
                              const AppearanceControl& control) {
-  Appearance appearance{.footage = footage.info(), .has_time_and_place = hints.has_time_and_place};
+  Appearance appearance{.footage = footage.info()};
   const Result<std::vector<int>> samples = sample_numbers(footage.info(), frames);
   if (!samples) return fail(samples.error());
   const std::set<int> is_sample(samples->begin(), samples->end());
   const int last = std::min(frames.last.value_or(footage.info().frame_count() - 1), footage.info().frame_count() - 1);
-  Estimators estimators;
+  const std::optional<GivenSun> sun = given_sun(hints, *samples);
+  Estimators estimators(samples->size(), sun.has_value());
   SampledFrames stream(footage, with_followers(*samples, last));
   std::optional<NumberedFrame> waiting;  // a sample whose follower may come
   const auto use = [&](const Frame* next) {
@@ -99,7 +126,7 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
     if (is_sample.contains(current.number) && !current.frame.damaged) waiting = std::move(current);
   }
   if (waiting) use(nullptr);
-  estimators.finish(appearance, hints);
+  estimators.finish(appearance, sun);
   return appearance;
 }
 

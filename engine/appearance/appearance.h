@@ -29,9 +29,9 @@ struct AppearanceFrames {
 
 // What is known besides the footage. All of it may be missing.
 struct AppearanceHints {
-  std::function<View(int frame)> view;        // of the camera at a frame; empty: nothing is known
-  std::optional<glm::dvec3> to_sun_in_world;  // unit vector, by time and place
-  bool has_time_and_place = false;            // the project knows the sun's direction at each frame by itself
+  std::function<View(int frame)> view;  // of the camera at a frame; empty: nothing is known
+  // Unit vector, by time and place; empty: the project does not know them.
+  std::function<glm::dvec3(int frame)> to_sun_in_world;
 };
 
 struct AppearanceControl {
@@ -50,7 +50,6 @@ struct Appearance {
   ToneHistogram tone_histogram{};
   HazeCurve haze_curve;
   CodecEstimate codec;
-  bool has_time_and_place = false;  // as in AppearanceHints
 };
 
 // Looks at the footage once, from its first frame used to the last; decoding runs ahead on a thread of its own. Damaged
@@ -65,8 +64,12 @@ struct AppearanceQuantity {
   std::string unit;  // may be empty
   Estimate estimate;
   std::string setting;  // key of the project's setting that takes it; empty: none does
+  std::string how;      // what it was found by, where that may be one of several things: "by time and place"
 };
 [[nodiscard]] std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance);
+
+// A line for people: "45 +- 1 deg, by time and place", or why it is not known and what is taken.
+[[nodiscard]] std::string text_of(const AppearanceQuantity& quantity);
 
 // Drawings that show why.
 [[nodiscard]] std::vector<Panel> panels_of(const Appearance& appearance);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -51,11 +53,7 @@ void apply_haze(const HazeEstimate& haze, HazeSettings& settings) {
   settings.airlight_color = {haze.airlight[0].value, haze.airlight[1].value, haze.airlight[2].value};
 }
 
-void apply_sun(const SunEstimate& sun, bool has_time_and_place, SunSettings& settings) {
-  if (has_time_and_place) {
-    settings = {};  // by time and place, at each frame
-    return;
-  }
+void apply_sun(const SunEstimate& sun, SunSettings& settings) {
   if (sun.azimuth_rad.is_known || !settings.azimuth_deg) settings.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
   if (sun.elevation_rad.is_known || !settings.elevation_deg)
     settings.elevation_deg = deg_of_rad(sun.elevation_rad.value);
@@ -146,9 +144,23 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   add_color(list, "sun", light.sun_color, "light.color");
   add_color(list, "sky", light.sky_color, "light.sky_color");
   add_color(list, "ground", light.ground_color, "light.ground_color");
-  list.push_back({"sun's azimuth", "deg", in_degrees(sun.azimuth_rad), "light.sun.azimuth_deg"});
-  list.push_back({"sun's elevation", "deg", in_degrees(sun.elevation_rad), "light.sun.elevation_deg"});
+  list.push_back(
+      {"sun's azimuth", "deg", in_degrees(sun.azimuth_rad), "light.sun.azimuth_deg", how_found(sun.witness)});
+  // Shadows tell the azimuth alone.
+  const SunWitness of_elevation = sun.witness == SunWitness::shadows ? SunWitness::sky : sun.witness;
+  list.push_back({"sun's elevation", "deg", in_degrees(sun.elevation_rad), "light.sun.elevation_deg",
+                  sun.elevation_rad.is_known ? how_found(of_elevation) : ""});
   return list;
+}
+
+std::string text_of(const AppearanceQuantity& quantity) {
+  const Estimate& estimate = quantity.estimate;
+  if (quantity.setting == "appearance.haze.visibility_m") {
+    if (!estimate.is_known) return "not known: " + estimate.why + "; clear air is taken";
+    return fmt::format("{:.0f} +- {:.0f} m", estimate.value, estimate.sd);
+  }
+  const std::string text = estimate_text(estimate, quantity.unit);
+  return quantity.how.empty() ? text : text + ", " + quantity.how;
 }
 
 std::vector<Panel> panels_of(const Appearance& appearance) {
@@ -185,8 +197,9 @@ void apply(const Appearance& appearance, Project& project) {
   const SurroundingsEstimate& around = appearance.surroundings;
   apply_haze(around.haze, project.appearance.haze);
   if (light_is_known(appearance)) {
-    apply(around.light, project.light);
-    apply_sun(around.sun, appearance.has_time_and_place, project.light.sun);
+    apply_sun(around.sun, project.light.sun);
+    apply(around.light, project.light);                                   // which asks for the sun's elevation
+    if (around.sun.witness == SunWitness::given) project.light.sun = {};  // by time and place, at each frame
   }
   project.appearance.codec.match =
       is_lossless_codec(appearance.footage.codec) ? CodecMatchChoice::none : CodecMatchChoice::footage;

@@ -28,7 +28,9 @@ struct CodecEstimate {
 // Quantisers::read.
 class CodecEstimator {
  public:
-  void add(const Frame& frame);
+  // look_for_traces: also for those of the compression in the samples, which takes longer than all else and changes
+  // little from frame to frame.
+  void add(const Frame& frame, bool look_for_traces = true);
 
   // Where the stream states no quantisers, their value is a default (kDefaultQp) and not known: traces in the samples
   // tell them too badly. Lossless footage: kind none, value 0, known.

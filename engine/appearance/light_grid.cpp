@@ -93,21 +93,22 @@ LightGrid light_grid_of(const Frame& frame, const View& view) {
 
 void GridRays::fit(const LightGrid& grid, const Camera* camera) {
   const Camera* usable = camera != nullptr && camera->size_px == grid.frame_px ? camera : nullptr;
-  if (!rays_.empty() && usable == camera_ && grid.frame_px == frame_px_) return;
+  if (rays_ != nullptr && usable == camera_ && grid.frame_px == frame_px_) return;
   camera_ = usable;
   frame_px_ = grid.frame_px;
   size_ = grid.size();
   angles_are_known_ = usable != nullptr;
-  rays_.clear();
+  std::vector<glm::dvec3> rays;
   const double focal_px = 0.5 * frame_px_.width / std::tan(std::numbers::pi / 6);
   const glm::dvec2 middle_px(0.5 * (frame_px_.width - 1), 0.5 * (frame_px_.height - 1));
   for (int row = 0; row < size_.height; ++row)
     for (int column = 0; column < size_.width; ++column) {
       const glm::dvec2 pixel = grid.pixel_of(column, row);
       const glm::dvec2 off = (pixel - middle_px) / focal_px;
-      rays_.push_back(usable != nullptr ? usable->lens.ray(pixel).value_or(glm::dvec3(0))
-                                        : glm::normalize(glm::dvec3(1, off.x, off.y)));
+      rays.push_back(usable != nullptr ? usable->lens.ray(pixel).value_or(glm::dvec3(0))
+                                       : glm::normalize(glm::dvec3(1, off.x, off.y)));
     }
+  rays_ = std::make_shared<const std::vector<glm::dvec3>>(std::move(rays));
 }
 
 }  // namespace sigs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -37,14 +38,15 @@ struct LightGrid {
   return {light[0], light[1], light[2]};
 }
 
-// Which way each cell looks: unit vectors in camera axes, and zero where the lens sees nothing.
+// Which way each cell looks: unit vectors in camera axes, and zero where the lens sees nothing. Copies share them.
 class GridRays {
  public:
   // Without a camera, or with one of another size, a pinhole of 60 degrees across is taken: straight lines stay
   // straight in it, so that it tells above from below, but its angles mean nothing (angles_are_known).
   void fit(const LightGrid& grid, const Camera* camera);
 
-  [[nodiscard]] const glm::dvec3& at(int column, int row) const { return rays_[index(column, row)]; }
+  [[nodiscard]] const glm::dvec3& at(int column, int row) const { return (*rays_)[index(column, row)]; }
+  [[nodiscard]] bool are_those_of(const GridRays& other) const { return rays_ == other.rays_; }
   [[nodiscard]] bool angles_are_known() const { return angles_are_known_; }
 
  private:
@@ -54,7 +56,7 @@ class GridRays {
 
   const Camera* camera_ = nullptr;
   cv::Size frame_px_, size_;
-  std::vector<glm::dvec3> rays_;
+  std::shared_ptr<const std::vector<glm::dvec3>> rays_;
   bool angles_are_known_ = false;
 };
 

@@ -34,7 +34,7 @@ LightImage LightImageReader::read(const Frame& frame, const View& view) {
   if (image.empty()) return image;
   rays_.fit(image.grid, view.camera);
   image.rays = rays_;
-  image.skyline = skyline_in(image.grid, image.rays, view);
+  image.skyline = skylines_.find(image.grid, image.rays, view);
   if (image.skyline) image.elevations_rad = elevations_of(image);
   return image;
 }

@@ -30,6 +30,7 @@ class LightImageReader {
 
  private:
   GridRays rays_;
+  SkylineFinder skylines_;
 };
 
 }  // namespace sigs

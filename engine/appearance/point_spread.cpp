@@ -15,7 +15,7 @@ namespace sigs {
 namespace {
 
 constexpr int kEdgesAFrame = 24;
-constexpr std::size_t kMostEdges = 240;    // of which a sigma is fitted
+constexpr std::size_t kMostEdges = 120;    // of which a sigma is fitted
 constexpr std::size_t kMostTogether = 30;  // fitted together
 constexpr int kFewestEdges = 24;
 constexpr int kFewestAgreeing = 8;
@@ -140,6 +140,7 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
       end.agreeing.push_back(end.edges[i]);
       end.agreeing_at.push_back(i);
     }
+    if (std::ssize(counted) < kFewestEdges || is_one_direction(end)) break;  // nothing but the edges' own sigmas counts
     std::vector<EdgeSample> together;
     for (const Edge* const* const edge : thinned(end.agreeing, kMostTogether)) together.push_back((*edge)->luma);
     if (together.empty()) break;
@@ -164,7 +165,9 @@ std::string PointSpread::why_not(const SharpEnd& end) const {
   if (edges_.empty()) return "no edge that is straight, isolated, strong and oblique to the rows";
   if (std::ssize(edges_) < kFewestEdges)
     return fmt::format("only {} edges that are straight, isolated and strong", edges_.size());
-  if (is_one_direction(end)) return "all edges lie in one direction, as those of a horizon do";
+  if (is_one_direction(end))
+    return fmt::format("all edges lie in one direction, as those of a horizon do, the sharpest of {:.2f} px",
+                       end.sigma_px.value);
   if (std::ssize(end.agreeing) < kFewestAgreeing)
     return fmt::format("of {} edges only {} are about as sharp as the sharpest", edges_.size(), end.agreeing.size());
   if (end.sigma_px.value < kDrawn_px && end.shape.sigma_px < kDrawn_px)

@@ -9,6 +9,7 @@
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
+#include "scene/scene_light.h"
 
 namespace sigs {
 
@@ -52,8 +53,13 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   if (!own_body) return failed(own_body.error());
   if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
   for (const Warning& warning : scene.warnings) warn(warning);
-  return AppearanceHints{.view = [known](int frame) { return view_at(*known, frame); },
-                         .has_time_and_place = scene.earth && scene.utc_at_frame_0_s};
+  AppearanceHints hints{.view = [known](int frame) { return view_at(*known, frame); }};
+  scene.light = {};  // the direction that the project states must not stand for the computed one
+  if (scene.earth && scene.utc_at_frame_0_s)
+    hints.to_sun_in_world = [known](int frame) {
+      return sunlight_at(known->scene, time_of_frame_s(known->scene.footage, frame)).to_sun;
+    };
+  return hints;
 }
 
 }  // namespace sigs

@@ -11,8 +11,8 @@
 namespace sigs {
 
 // What a project knows of its camera at each frame, for estimate_appearance(): the calibration, attitude and height
-// where they are stated, the own body's mask. Intruders and their models are not looked at, and may be missing. Errors
-// name the project file and the field.
+// where they are stated, the own body's mask, the sun's direction where the camera's log has UTC and place. Intruders
+// and their models are not looked at, and may be missing. Errors name the project file and the field.
 //   warn  called with each warning of the files that are read
 [[nodiscard]] Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
                                                const std::function<void(const Warning&)>& warn);

@@ -8,11 +8,12 @@ namespace sigs {
 
 double quantile(std::vector<double> numbers, double share) {
   if (numbers.empty()) return 0;
-  std::sort(numbers.begin(), numbers.end());
   const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(numbers.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, numbers.size() - 1);
-  return numbers[below] + (at - static_cast<double>(below)) * (numbers[above] - numbers[below]);
+  const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(numbers.begin(), place, numbers.end());
+  const double below = *place;
+  const double above = place + 1 == numbers.end() ? below : *std::min_element(place + 1, numbers.end());
+  return below + (at - std::floor(at)) * (above - below);
 }
 
 double mean(const std::vector<double>& numbers) {

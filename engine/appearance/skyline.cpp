@@ -68,31 +68,34 @@ bool has_room(int row, int rows) {
   return row >= kBand && row + kBand <= rows;
 }
 
-// How much brighter it is above the plane than below it, on average over all columns.
-double contrast_across(const Columns& columns, const GridRays& rays, const glm::dvec3& up) {
-  double sum = 0;
-  for (std::size_t i = 0; i < columns.at.size(); ++i) {
-    const int y = crossing(rays, columns.at[i], columns.rows, up);
-    if (has_room(y, columns.rows)) sum += std::clamp(columns.step(i, y), -kMostStep, kMostStep);
-  }
-  return sum / static_cast<double>(columns.at.size());
-}
-
 glm::dvec3 up_of(double roll_rad, double pitch_rad) {
   return glm::conjugate(rotation_of({.roll_rad = roll_rad, .pitch_rad = pitch_rad})) * glm::dvec3(0, 0, -1);
 }
 
-glm::dvec3 best_plane(const Columns& columns, const GridRays& rays) {
+// How much brighter it is above each row than below it, by column and row; 0 where there is no room for it.
+std::vector<std::vector<double>> steps_of(const Columns& columns) {
+  std::vector<std::vector<double>> steps(columns.at.size(),
+                                         std::vector<double>(static_cast<std::size_t>(columns.rows) + 1));
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (int y = kBand; has_room(y, columns.rows); ++y)
+      steps[i][static_cast<std::size_t>(y)] = std::clamp(columns.step(i, y), -kMostStep, kMostStep);
+  return steps;
+}
+
+// The plane across which it is brighter above than below by most, on average over all columns.
+glm::dvec3 best_plane(const Columns& columns, const SkylineFinder::Planes& planes) {
+  const std::vector<std::vector<double>> steps = steps_of(columns);
   double best = -1;
   glm::dvec3 found = up_of(0, 0);
-  for (double roll = -kMaxRoll_rad; roll <= kMaxRoll_rad; roll += kRollStep_rad)
-    for (double pitch = -kMaxPitch_rad; pitch <= kMaxPitch_rad; pitch += kPitchStep_rad) {
-      const glm::dvec3 up = up_of(roll, pitch);
-      const double contrast = contrast_across(columns, rays, up);
-      if (contrast <= best) continue;
-      best = contrast;
-      found = up;
-    }
+  const unsigned short* row = planes.crossings.data();
+  for (const glm::dvec3& up : planes.ups) {
+    double sum = 0;
+    for (const std::vector<double>& step : steps) sum += step[*row++];
+    const double contrast = sum / static_cast<double>(steps.size());
+    if (contrast <= best) continue;
+    best = contrast;
+    found = up;
+  }
   return found;
 }
 
@@ -181,7 +184,19 @@ bool is_skyline(const LightGrid& grid, const Columns& columns, const std::vector
 
 }  // namespace
 
-std::optional<Skyline> skyline_in(const LightGrid& grid, const GridRays& rays, const View& view) {
+void SkylineFinder::fit(const std::vector<int>& columns, int rows, const GridRays& rays) {
+  if (rays.are_those_of(rays_) && columns == planes_.columns && rows == planes_.rows) return;
+  rays_ = rays;
+  planes_ = {.columns = columns, .rows = rows};
+  for (double roll = -kMaxRoll_rad; roll <= kMaxRoll_rad; roll += kRollStep_rad)
+    for (double pitch = -kMaxPitch_rad; pitch <= kMaxPitch_rad; pitch += kPitchStep_rad) {
+      planes_.ups.push_back(up_of(roll, pitch));
+      for (const int column : columns)
+        planes_.crossings.push_back(static_cast<unsigned short>(crossing(rays, column, rows, planes_.ups.back())));
+    }
+}
+
+std::optional<Skyline> SkylineFinder::find(const LightGrid& grid, const GridRays& rays, const View& view) {
   if (grid.empty()) return std::nullopt;
   if (rays.angles_are_known() && view.world_from_camera) {
     const glm::dvec3 up = glm::conjugate(*view.world_from_camera) * glm::dvec3(0, 0, -1);
@@ -190,7 +205,8 @@ std::optional<Skyline> skyline_in(const LightGrid& grid, const GridRays& rays, c
   }
   if (grid.size().height < 8 * kBand || grid.size().width < 16) return std::nullopt;
   const Columns columns = columns_of(grid);
-  const glm::dvec3 coarse = best_plane(columns, rays);
+  fit(columns.at, columns.rows, rays);
+  const glm::dvec3 coarse = best_plane(columns, planes_);
   const std::vector<EdgePoint> points = edge_points(grid, columns, rays, coarse);
   if (points.size() < 8 || !is_skyline(grid, columns, points)) return std::nullopt;
   return Skyline{fitted_plane(points, coarse), std::hypot(kRefined_rad, kHills_rad), true};

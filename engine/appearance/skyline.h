@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "appearance/light_grid.h"
 
@@ -20,6 +21,24 @@ struct Skyline {
 // straight line) across the image along which it is brighter above than below by most, at least 6 codes for most of
 // the columns, with a sky above that is smoother than what lies below. Rolls beyond 45 degrees are not seen.
 // Nothing where there is no such edge.
-[[nodiscard]] std::optional<Skyline> skyline_in(const LightGrid& grid, const GridRays& rays, const View& view);
+class SkylineFinder {
+ public:
+  [[nodiscard]] std::optional<Skyline> find(const LightGrid& grid, const GridRays& rays, const View& view);
+
+  // The planes that are tried in every frame, and where they cross the columns that are looked at: the same for all
+  // frames with the same rays.
+  struct Planes {
+    std::vector<int> columns;
+    int rows = 0;
+    std::vector<glm::dvec3> ups;
+    std::vector<unsigned short> crossings;  // plane by plane, column by column: the first row below the plane
+  };
+
+ private:
+  void fit(const std::vector<int>& columns, int rows, const GridRays& rays);
+
+  GridRays rays_;
+  Planes planes_;
+};
 
 }  // namespace sigs

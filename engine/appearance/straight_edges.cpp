@@ -26,13 +26,20 @@ struct Gradients {
 
 Gradients gradients_of(const cv::Mat& luma) {
   Gradients found;
-  cv::Sobel(luma, found.x, CV_16S, 1, 0);
-  cv::Sobel(luma, found.y, CV_16S, 0, 1);
+  cv::spatialGradient(luma, found.x, found.y);
   return found;
 }
 
 glm::dvec2 gradient_at(const Gradients& gradients, int x, int y) {
   return {gradients.x.at<short>(y, x), gradients.y.at<short>(y, x)};
+}
+
+// Sizes of the gradients in one row, and the largest size of each column so far.
+void add_strength(const short* gx, const short* gy, short* strength, std::vector<short>& most) {
+  for (std::size_t x = 0; x < most.size(); ++x) {
+    strength[x] = static_cast<short>(std::abs(gx[x]) + std::abs(gy[x]));
+    most[x] = std::max(most[x], strength[x]);
+  }
 }
 
 // The strongest gradient of each cell, strongest first.
@@ -45,24 +52,40 @@ std::vector<cv::Point> candidates(const Gradients& gradients) {
   };
   std::vector<Found> all;
   const cv::Size size = gradients.x.size();
+  cv::Mat_<short> strength(kCell_px, size.width);
+  std::vector<short> most(static_cast<std::size_t>(size.width));  // of each column
   for (int top = kMargin; top + kCell_px + kMargin <= size.height; top += kCell_px) {
+    std::fill(most.begin(), most.end(), short{0});
+    for (int row = 0; row < kCell_px; ++row)
+      add_strength(gradients.x.ptr<short>(top + row), gradients.y.ptr<short>(top + row), strength[row], most);
     for (int left = kMargin; left + kCell_px + kMargin <= size.width; left += kCell_px) {
-      Found best;
-      for (int y = top; y < top + kCell_px; ++y) {
-        const short* const gx = gradients.x.ptr<short>(y);
-        const short* const gy = gradients.y.ptr<short>(y);
-        for (int x = left; x < left + kCell_px; ++x) {
-          const int strength = std::abs(gx[x]) + std::abs(gy[x]);
-          if (strength > best.size) best = {strength, {x, y}};
-        }
+      const short best = *std::max_element(most.begin() + left, most.begin() + left + kCell_px);
+      if (best < kMinGradient) continue;
+      for (int row = 0; row < kCell_px; ++row) {
+        const short* const end = strength[row] + left + kCell_px;
+        const short* const at = std::find<const short*>(strength[row] + left, end, best);
+        if (at == end) continue;
+        all.push_back({best, {static_cast<int>(at - strength[row]), top + row}});
+        break;
       }
-      if (best.size >= kMinGradient) all.push_back(best);
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.size > b.size; });
   std::vector<cv::Point> points;
   for (const Found& found : all) points.push_back(found.at);
   return points;
+}
+
+struct Span {
+  double from = 0, to = 0;
+};
+
+// The part of a span of x in which |x direction.x + y direction.y| <= reach.
+Span within(Span span, const glm::dvec2& direction, double y, double reach) {
+  constexpr double kAlongRow = 1e-6;
+  if (std::abs(direction.x) < kAlongRow) return span;
+  const double a = (-reach - y * direction.y) / direction.x, b = (reach - y * direction.y) / direction.x;
+  return {std::max(span.from, std::min(a, b)), std::min(span.to, std::max(a, b))};
 }
 
 // Calls work(x, y, along, across) for each pixel near the line.
@@ -75,7 +98,11 @@ void each_near(const EdgeLine& line, double half_width_px, cv::Size size, const 
   const int top = std::max(0, static_cast<int>(std::ceil(line.at_px.y - reach.y)));
   const int bottom = std::min(size.height - 1, static_cast<int>(std::floor(line.at_px.y + reach.y)));
   for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
+    const double down = y - line.at_px.y;
+    const Span span = within(within({left - line.at_px.x, right - line.at_px.x}, along, down, line.half_length_px),
+                             line.normal, down, half_width_px);
+    const int end = std::min(right, static_cast<int>(std::floor(line.at_px.x + span.to)) + 1);
+    for (int x = std::max(left, static_cast<int>(std::ceil(line.at_px.x + span.from)) - 1); x <= end; ++x) {
       const glm::dvec2 from = glm::dvec2(x, y) - line.at_px;
       const double t = glm::dot(from, along);
       const double d = glm::dot(from, line.normal);

@@ -16,7 +16,7 @@ namespace sigs {
 namespace {
 
 constexpr double kDefaultAzimuth_rad = 2.88, kDefaultElevation_rad = 0.436;  // 165 and 25 degrees
-constexpr int kGroundEvery = 3;
+constexpr int kGroundEvery = 2;
 constexpr int kLeastPatches = 10;
 constexpr double kLeastAgreement = 0.75;  // resultant of the doubled directions, 0 none to 1 all
 constexpr double kLeastSense = 0.5;       // majority of the votes for what casts the shadow, -1 to 1
@@ -47,6 +47,20 @@ std::optional<glm::dquat> level_of(const LightImage& image) {
 glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
   return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
           -std::sin(elevation_rad)};
+}
+
+std::string how_found(SunWitness witness) {
+  switch (witness) {
+    case SunWitness::given:
+      return "by time and place";
+    case SunWitness::shadows:
+      return "by shadows on the ground";
+    case SunWitness::sky:
+      return "by the sky's brightness";
+    case SunWitness::none:
+      break;
+  }
+  return "";
 }
 
 void Sun::add(const Frame& frame, const LightImage& image) {
@@ -133,16 +147,26 @@ void Sun::set_by_sky(SunEstimate& sun) const {
   sun.witness = SunWitness::sky;
 }
 
-SunEstimate Sun::finish(const std::optional<glm::dvec3>& to_sun_in_world) const {
-  SunEstimate sun{.azimuth_rad = {.value = kDefaultAzimuth_rad}, .elevation_rad = {.value = kDefaultElevation_rad}};
-  if (to_sun_in_world && glm::length(*to_sun_in_world) > 0 && std::isfinite(glm::length(*to_sun_in_world))) {
-    const glm::dvec3 to_sun = glm::normalize(*to_sun_in_world);
-    const double sd = rad_of_deg(1);  // of the world's heading
-    sun.azimuth_rad = {.value = std::atan2(to_sun.y, to_sun.x), .sd = sd, .is_known = true};
-    sun.elevation_rad = {.value = std::asin(-to_sun.z), .sd = sd, .is_known = true};
-    sun.witness = SunWitness::given;
-    return sun;
+namespace {
+
+// The deviations are those of a log's attitude, against which the sun stands in the image, and of the sun's movement.
+SunEstimate by_time_and_place(const GivenSun& given) {
+  constexpr double kLogSd_rad = rad_of_deg(1);
+  const auto sd_with = [](double range_rad) { return std::hypot(kLogSd_rad, range_rad / std::sqrt(12)); };
+  const glm::dvec3 to_sun = glm::normalize(given.to_sun_in_world);
+  return {.azimuth_rad = {std::atan2(to_sun.y, to_sun.x), sd_with(given.azimuth_range_rad), true, ""},
+          .elevation_rad = {std::asin(std::clamp(-to_sun.z, -1.0, 1.0)), sd_with(given.elevation_range_rad), true, ""},
+          .witness = SunWitness::given};
+}
+
+}  // namespace
+
+SunEstimate Sun::finish(const std::optional<GivenSun>& given) const {
+  if (given) {
+    const double length = glm::length(given->to_sun_in_world);
+    if (length > 0 && std::isfinite(length)) return by_time_and_place(*given);
   }
+  SunEstimate sun{.azimuth_rad = {.value = kDefaultAzimuth_rad}, .elevation_rad = {.value = kDefaultElevation_rad}};
   set_by_shadows(sun);
   set_by_sky(sun);
   std::string why = "neither shadows on the ground nor the sky's brightness show it";

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "appearance/estimate.h"
@@ -20,6 +21,16 @@ struct SunEstimate {
   Estimate elevation_rad;                 // not known: 25 degrees
   SunWitness witness = SunWitness::none;  // of the azimuth
 };
+
+// Where the sun is by time and place. While the footage is taken it moves by the two ranges.
+struct GivenSun {
+  glm::dvec3 to_sun_in_world{0};  // in the middle of the footage, of any length but 0
+  double azimuth_range_rad = 0;
+  double elevation_range_rad = 0;
+};
+
+// By what an azimuth of this witness was found, for people: "by time and place". Empty for none.
+[[nodiscard]] std::string how_found(SunWitness witness);
 
 // The unit vector towards the sun, world axes (Z down).
 [[nodiscard]] glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad);
@@ -41,7 +52,7 @@ class Sun {
  public:
   // image: of this frame.
   void add(const Frame& frame, const LightImage& image);
-  [[nodiscard]] SunEstimate finish(const std::optional<glm::dvec3>& to_sun_in_world = std::nullopt) const;
+  [[nodiscard]] SunEstimate finish(const std::optional<GivenSun>& given = std::nullopt) const;
 
   // A dark patch on the ground.
   struct Patch {

@@ -8,11 +8,11 @@ void Surroundings::add(const Frame& frame, const View& view) {
   haze_.add(image);
   tone_.add(image);
   light_.add(image);
-  sun_.add(frame, image);
+  if (look_for_sun_) sun_.add(frame, image);
 }
 
-SurroundingsEstimate Surroundings::finish(const std::optional<glm::dvec3>& to_sun_in_world) const {
-  const SunEstimate sun = sun_.finish(to_sun_in_world);
+SurroundingsEstimate Surroundings::finish(const std::optional<GivenSun>& given_sun) const {
+  const SunEstimate sun = sun_.finish(given_sun);
   std::optional<double> elevation_rad;
   if (sun.elevation_rad.is_known) elevation_rad = sun.elevation_rad.value;
   return {.haze = haze_.finish(), .tone = tone_.finish(), .light = light_.finish(elevation_rad), .sun = sun};

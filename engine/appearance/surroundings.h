@@ -22,16 +22,20 @@ struct SurroundingsEstimate {
 // Haze, tone, light and sun of footage together; the frame is reduced and its horizon sought once for all of them.
 class Surroundings {
  public:
+  // look_for_sun: false where finish() will be told where it is.
+  explicit Surroundings(bool look_for_sun = true) : look_for_sun_(look_for_sun) {}
+
   // Frames in their order; those without samples are left out. The view's camera must outlive this.
   void add(const Frame& frame, const View& view = {});
 
-  // to_sun_in_world: where time and place tell it.
-  [[nodiscard]] SurroundingsEstimate finish(const std::optional<glm::dvec3>& to_sun_in_world = std::nullopt) const;
+  // given_sun: where time and place tell it.
+  [[nodiscard]] SurroundingsEstimate finish(const std::optional<GivenSun>& given_sun = std::nullopt) const;
 
   [[nodiscard]] const Haze& haze() const { return haze_; }
   [[nodiscard]] const Tone& tone() const { return tone_; }
 
  private:
+  bool look_for_sun_;
   LightImageReader reader_;
   Haze haze_;
   Tone tone_;

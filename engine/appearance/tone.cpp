@@ -23,10 +23,10 @@ std::size_t level_of(float luma) {
 
 // How far red, green and blue are from each other, as displayed. The difference in light is divided by the slope of a
 // gamma of 2.2, since that of the footage is close to it.
-double chroma_of(const glm::dvec3& light) {
-  const auto display = [](double value) { return std::pow(std::max(value, 0.0), 1 / 2.2); };
-  const double r = display(light.r), g = display(light.g), b = display(light.b);
-  return std::max({r, g, b}) - std::min({r, g, b});
+double chroma_of(const cv::Vec3f& light) {
+  const auto display = [](float value) { return std::pow(std::max(value, 0.0F), 1 / 2.2F); };
+  const auto [low, high] = std::minmax({light[0], light[1], light[2]});
+  return static_cast<double>(display(high) - display(low));
 }
 
 bool is_neutral(const glm::dvec3& light) {
@@ -47,7 +47,7 @@ void Tone::add(const LightImage& image) {
       ++levels_[level];
       ++cells_;
       light_[level] += luminance(light);
-      if (luminance(light) > 0.003 && chroma_of(light) > kNoColor) ++colored_;
+      if (luminance(light) > 0.003 && chroma_of(image.grid.light(y, x)) > kNoColor) ++colored_;
       const auto up = image.elevation_rad(x, y);
       const bool is_sky = image.skyline ? up && *up > 0.02 : y < size.height / 2;
       if (!is_sky) continue;

@@ -71,7 +71,10 @@ const FrameSeeker::Placed* FrameSeeker::kept(int n) const {
 }
 
 void FrameSeeker::keep(Placed placed) {
-  const size_t max_count = std::clamp<size_t>(bytes_to_keep_ / bytes_of(*placed.image.frame), 1, 32);
+  constexpr size_t kMostOnward = 4;  // while nobody steps back: more memory would only be new pages for the decoder
+  constexpr size_t kMost = 32;
+  const size_t most = has_stepped_back_ ? kMost : kMostOnward;
+  const size_t max_count = std::clamp<size_t>(bytes_to_keep_ / bytes_of(*placed.image.frame), 1, most);
   kept_.push_back(std::move(placed));
   while (kept_.size() > max_count) kept_.pop_front();
 }
@@ -224,6 +227,8 @@ void FrameSeeker::hold_as_substitute(int n) {
 }
 
 Result<FrameSeeker::Found> FrameSeeker::find(int n) {
+  if (n < last_asked_) has_stepped_back_ = true;
+  last_asked_ = n;
   const Result<bool> intact = show(n);
   if (!intact) return fail(intact.error());
   int& shown = shown_[static_cast<size_t>(n)];

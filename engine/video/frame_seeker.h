@@ -26,7 +26,7 @@ namespace sigs {
 class FrameSeeker {
  public:
   //   order          the order of presentation; it belongs to the stream
-  //   bytes_to_keep  memory for decoded images, so that steps back need no decoding
+  //   bytes_to_keep  memory for decoded images, so that steps back need no decoding; used from the first such step on
   //   quantisers     images come with their quantisers (DecoderSettings)
   FrameSeeker(libav::FrameDecoder stream, libav::FrameOrder order, const libav::PacketTable& table,
               size_t bytes_to_keep, bool quantisers);
@@ -91,6 +91,8 @@ class FrameSeeker {
   std::vector<int> shown_;                    // by n: which image is given for it; -1: not known yet
 
   std::deque<Placed> kept_;           // intact images, the newest last
+  int last_asked_ = 0;                // the number in the last call of find()
+  bool has_stepped_back_ = false;     // a call of find() has asked for an earlier image than the one before it
   std::optional<Placed> substitute_;  // the one used last
   size_t start_ = 0;                  // of the decoder's present run
   bool running_ = false;              // the decoder can continue

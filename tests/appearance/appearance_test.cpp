@@ -71,6 +71,27 @@ Frame drawing() {
   return frame;
 }
 
+// A window of text on a plain page, as a screen shows it: every edge goes from one colour to the other at once. It
+// stands still, and then the page moves by a line.
+Frame screen(int shift_px) {
+  Frame frame = even_frame(PixelLayout::yuv420, 225);
+  frame.planes[0].rowRange(0, 24).setTo(60);
+  for (int line = 0; line < 12; ++line)
+    cv::putText(frame.planes[0], "the quick brown fox jumps", {8, 44 + 16 * line - shift_px}, cv::FONT_HERSHEY_PLAIN,
+                1.1, cv::Scalar(25), 1, cv::LINE_8);
+  return frame;
+}
+
+// Land of soft patches under an even sky, seen by a camera that does not move, without noise.
+Frame still_land() {
+  Frame frame = even_frame(PixelLayout::yuv420, 150);
+  cv::Mat land(120, 320, CV_8UC1);
+  cv::RNG(11).fill(land, cv::RNG::UNIFORM, 40, 140);
+  cv::GaussianBlur(land, land, {}, 3);
+  land.copyTo(frame.planes[0].rowRange(120, 240));
+  return frame;
+}
+
 // Every estimate is finite; what is not known has a reason, what is known has none.
 void check_form(const Appearance& found) {
   for (const AppearanceQuantity& quantity : quantities_of(found)) {
@@ -101,6 +122,8 @@ TEST_CASE("of footage with nothing to measure on each quantity says why it is no
                 {"gray", {even_frame(PixelLayout::gray, 90), even_frame(PixelLayout::gray, 90)}, false},
                 {"rgb", {even_frame(PixelLayout::rgb, 90)}, false},
                 {"drawing", {drawing(), drawing()}, false},
+                {"screen", {screen(0), screen(0), screen(16)}, false},
+                {"still camera", {still_land(), still_land(), still_land()}, false},
                 {"noisy sky", {noisy_sky, next_sky}, true}};
   for (const auto& one : kCases) {
     CAPTURE(one.name);
@@ -114,6 +137,46 @@ TEST_CASE("of footage with nothing to measure on each quantity says why it is no
     CHECK(found.noise.sd_dark.is_known == one.noise_is_known);
     CHECK(found.noise.persistence.is_known == one.noise_is_known);
   }
+}
+
+TEST_CASE("an over-exposed sky gives no light, no white and no haze, and the settings keep standard values") {
+  const Appearance found = appearance_of(std::vector<Frame>(3, even_frame(PixelLayout::yuv420, 235)));
+  const SurroundingsEstimate& around = found.surroundings;
+  CHECK_FALSE(around.tone.white.is_known);
+  CHECK(around.tone.white.why.find("over-exposed") != std::string::npos);
+  CHECK_FALSE(around.light.sky_color[0].is_known);
+  CHECK(around.light.exposure.why.find("over-exposed") != std::string::npos);
+  CHECK_FALSE(around.haze.visibility_m.is_known);
+  CHECK_FALSE(around.sun.azimuth_rad.is_known);
+  CHECK(found.noise.sd_dark.why.find("clipped") != std::string::npos);
+  Project project;
+  const Project before = project;
+  apply(found, project);
+  CHECK(project.light == before.light);  // it stays where nothing is known
+  CHECK(project.appearance.haze == before.appearance.haze);
+  CHECK(project.appearance.grain.sd_dark == 0);
+  CHECK(project.appearance.point_spread_px == kDefaultPointSpread_px);
+}
+
+TEST_CASE("of a camera that stands still lasting noise cannot be told from texture, which is said") {
+  std::vector<Frame> frames;
+  cv::Mat grain(240, 320, CV_16SC1);
+  cv::RNG(5).fill(grain, cv::RNG::NORMAL, 0, 2);  // the same in each frame, as of a sensor's pattern
+  for (int n = 0; n < 4; ++n) {
+    Frame frame = still_land();
+    cv::Mat sum;
+    frame.planes[0].convertTo(sum, CV_16S);
+    sum += grain;
+    sum.convertTo(frame.planes[0], CV_8U);
+    cv::rectangle(frame.planes[0], {20, 150, 120, 60}, 45, cv::FILLED);  // strong, and where it was
+    cv::rectangle(frame.planes[0], {60, 170, 40, 20}, 200, 2);
+    frames.push_back(frame);
+  }
+  const Appearance found = appearance_of(frames);
+  check_form(found);
+  CHECK_FALSE(found.noise.persistence.is_known);
+  CHECK(found.noise.persistence.value == 0);
+  CHECK_FALSE(found.point_spread.sigma_px.is_known);
 }
 
 TEST_CASE("frames that are too small for any estimate are no error") {

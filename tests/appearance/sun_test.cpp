@@ -41,7 +41,7 @@ struct Posts {
 };
 
 SunEstimate sun_of(const LightOfRay& light, const Attitude& attitude, const View& extra = {},
-                   const std::optional<glm::dvec3>& given = std::nullopt) {
+                   const std::optional<GivenSun>& given = std::nullopt) {
   const Camera camera = wide_camera({960, 720});
   View view = extra;
   view.camera = &camera;
@@ -119,7 +119,7 @@ TEST_CASE("too few samples, an even sky and a lens' dark corners are no sun") {
 }
 
 TEST_CASE("a direction by time and place stands before what the image shows") {
-  const glm::dvec3 given = to_sun_of(1.2, 0.8);
+  const GivenSun given{.to_sun_in_world = to_sun_of(1.2, 0.8)};
   const SunEstimate sun = sun_of(Posts{.azimuth_rad = -1}, {.pitch_rad = -0.55}, {}, given);
   CHECK(sun.witness == SunWitness::given);
   CHECK(sun.azimuth_rad.value == doctest::Approx(1.2));
@@ -130,7 +130,7 @@ TEST_CASE("a direction by time and place stands before what the image shows") {
   apply(Sun().finish(), settings);
   CHECK(settings.sun.azimuth_deg.value() == doctest::Approx(165).epsilon(0.001));
   CHECK(settings.sun.elevation_deg.value() == doctest::Approx(25).epsilon(0.02));
-  const SunEstimate nowhere = Sun().finish(glm::dvec3(0));
+  const SunEstimate nowhere = Sun().finish(GivenSun{});
   CHECK(nowhere.witness == SunWitness::none);
 }
 

@@ -25,7 +25,7 @@ void draw_running(const ViewContext& context, const AppearanceState& state) {
 
 void draw_found(const Appearance& appearance) {
   for (const AppearanceQuantity& quantity : quantities_of(appearance))
-    note(quantity.name + ": " + estimate_text(quantity.estimate, quantity.unit));
+    note(quantity.name + ": " + text_of(quantity));
 }
 
 }  // namespace

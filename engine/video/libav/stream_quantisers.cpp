@@ -6,6 +6,7 @@ extern "C" {
 #include <libavutil/video_enc_params.h>
 }
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <utility>
 
@@ -50,7 +51,9 @@ cv::Mat block_map(const AVVideoEncParams& params, cv::Size size_px, int offset) 
     const AVVideoBlockParams& block = *av_video_enc_params_block(const_cast<AVVideoEncParams*>(&params), i);
     const cv::Rect covered(block.src_x / kBlock_px, block.src_y / kBlock_px, std::max(1, blocks_along(block.w)),
                            std::max(1, blocks_along(block.h)));
-    blocks(covered & whole).setTo(params.qp + block.delta_qp - offset);
+    const cv::Rect inside = covered & whole;
+    const auto value = static_cast<short>(params.qp + block.delta_qp - offset);
+    for (int y = inside.y; y < inside.br().y; ++y) std::fill_n(blocks.ptr<short>(y) + inside.x, inside.width, value);
   }
   return blocks;
 }
