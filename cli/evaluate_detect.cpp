@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "cli/detect_inputs.h"
+#include "cli/evaluate_aot.h"
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -25,7 +27,8 @@ constexpr const char* kEvaluateDetectFooter =
     "  sigs evaluate detect out/crossing.xml --results found.csv --out report\n"
     "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --min-score 0.3\n"
     "  sigs evaluate detect datasets/mine --split test --results runs/one runs/two --out report\n"
-    "  sigs evaluate detect datasets/mine --split test --results coco_results.json";
+    "  sigs evaluate detect datasets/mine --split test --results coco_results.json\n"
+    "  sigs evaluate detect groundtruth.json --rules aot --results result.json --target-hfar 0.5 --out report";
 
 struct DetectOptions {
   std::vector<fs::path> inputs;
@@ -33,6 +36,8 @@ struct DetectOptions {
   std::string split;
   ResultsFormat format = ResultsFormat::automatic;
   DetectionPolicy policy;
+  std::string rules = "sigs";
+  AotPolicy aot;
   fs::path folder;
   bool force = false;
 };
@@ -86,6 +91,13 @@ Result<void> write(EvaluationFolder& folder, const DetectionReport& report) {
 }
 
 Result<void> run(const DetectOptions& options) {
+  if (options.rules == "aot") {
+    AotPolicy policy = options.aot;
+    policy.min_score = options.policy.min_score;
+    return evaluate_by_aot_rules(options.inputs, options.results, policy, options.folder, options.force);
+  }
+  if (options.aot.target_fppi || options.aot.target_hfar || options.aot.min_track_length > 0)
+    return fail("--target-fppi, --target-hfar and --min-track-length", "need --rules aot", ErrorKind::usage);
   if (options.policy.false_overlap > options.policy.match_overlap)
     return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
   const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split);
@@ -138,6 +150,22 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
   }
 }
 
+void add_aot_options(CLI::App& command, DetectOptions& options) {
+  command
+      .add_option("--rules", options.rules,
+                  "aot: those of the Airborne Object Tracking challenge's own program, LABELS is its groundtruth.json; "
+                  "of the options above --min-score alone counts")
+      ->check(CLI::IsMember({"sigs", "aot"}))
+      ->option_text("sigs|aot");
+  command.add_option("--min-track-length", options.aot.min_track_length, "aot: a track counts from this report on")
+      ->type_name("N")
+      ->check(from_to(0, 1e6));
+  for (const auto& [name, value, help] :
+       {std::tuple("--target-fppi", &options.aot.target_fppi, "aot: raise the score until so many are false an image"),
+        std::tuple("--target-hfar", &options.aot.target_hfar, "aot: ... so many tracks are false an hour")})
+    command.add_option(name, *value, help)->type_name("RATE")->check(from_to(0, 1e9));
+}
+
 }  // namespace
 
 Command add_evaluate_detect(CLI::App& evaluate) {
@@ -157,6 +185,7 @@ Command add_evaluate_detect(CLI::App& evaluate) {
   command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
   add_format_option(*command, options->format);
   add_policy_options(*command, options->policy);
+  add_aot_options(*command, *options);
   add_report_options(*command, options->folder, options->force);
   command->footer(kEvaluateDetectFooter);
   return [options] { return run(*options); };

@@ -19,8 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> kFiles{"summary.csv", "frames.csv", "encounters.csv", "evaluation.json",
-                                                 "report.html"};
+constexpr std::array<std::string_view, 8> kFiles{"summary.csv",
+                                                 "frames.csv",
+                                                 "encounters.csv",
+                                                 "evaluation.json",
+                                                 "report.html",
+                                                 "summary.json",
+                                                 "encounters_by_detection.csv",
+                                                 "encounters_by_track.csv"};
 constexpr std::array<std::string_view, 8> kPlotNames{"center_error", "x_error",       "y_error",
                                                      "precision",    "success",       "normalized_precision",
                                                      "first_range",  "detection_rate"};
@@ -91,6 +97,15 @@ Result<WrittenReport> write_report(const fs::path& folder, const TrackReport& re
 
 Result<WrittenReport> write_report(const fs::path& folder, const DetectionReport& report) {
   return write_all(folder, report, "encounters.csv", encounters_csv(report));
+}
+
+Result<WrittenReport> write_report(const fs::path& folder, const AotTruth& truth, const AotScore& score) {
+  ReportFolder out(folder);
+  Result<void> step = out.put("summary.json", aot_summary_json(score));
+  if (step) step = out.put("encounters_by_detection.csv", aot_encounters_csv(truth, score, score.by_detection));
+  if (step) step = out.put("encounters_by_track.csv", aot_encounters_csv(truth, score, score.by_track));
+  if (!step) return fail(step.error());
+  return out.written();
 }
 
 bool is_report_file(const std::string& name) {

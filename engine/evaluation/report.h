@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "evaluation/aot_rules.h"
 #include "evaluation/detection_score.h"
 #include "evaluation/track_score.h"
 
@@ -56,6 +57,11 @@ struct WrittenReport {
 // The same with summary.csv, encounters.csv, evaluation.json, the plots detection_rate and first_range, and
 // report.html.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const DetectionReport& report);
+
+// By the rules of the Airborne Object Tracking challenge: summary.json, encounters_by_detection.csv and
+// encounters_by_track.csv, as its own program writes them.
+[[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const AotTruth& truth,
+                                                 const AotScore& score);
 
 // Whether write_report() writes files of this name.
 [[nodiscard]] bool is_report_file(const std::string& name);
