@@ -17,7 +17,7 @@ struct AotPolicy {
   double min_score = 0;               // reports with a lower score are ignored
   int min_track_length = 0;           // a track's reports count from its min_track_length-th on
   std::optional<double> target_fppi;  // at most one of the two: min_score is raised until the rate is met,
-  std::optional<double> target_hfar;  // by halving the interval from the least score to 1
+  std::optional<double> target_hfar;  // by halving the interval from the lowest score to 1
 };
 
 // A true object beside a report of the same image; no report: the image has none.
@@ -51,7 +51,7 @@ struct AotEncounterScore {
 
 struct AotScore {
   AotPolicy policy;
-  double working_score = 0;    // the least score that counted
+  double working_score = 0;    // the lowest score that counted
   double fppi = 0;             // false detections / images
   double hfar = 0;             // tracks with a false detection / hours, each flight of which is two minutes
   int planned_rows = 0;        // objects of known range
