@@ -18,13 +18,7 @@ struct AppearanceRequest {
 // FrameSource::open() and of estimate_appearance().
 [[nodiscard]] Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control);
 
-// The same in the background.
+// The same in the background (editor/views/estimate_session.h).
 using AppearanceState = JobState<AppearanceRequest, Appearance>;
-class AppearanceJob : public BackgroundJob<AppearanceRequest, Appearance> {
- public:
-  // work: tests give one that reads no video.
-  explicit AppearanceJob(std::function<void()> wake, Work work = estimated_appearance)
-      : BackgroundJob(std::move(wake), std::move(work)) {}
-};
 
 }  // namespace sigs::editor

@@ -35,13 +35,7 @@ struct EstimatedMotion {
 // of calibration and mask, of estimate_ego_motion(), and of writing a file that must not be there yet.
 [[nodiscard]] Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const JobControl& control);
 
-// The same in the background.
+// The same in the background (editor/views/estimate_session.h).
 using EgoMotionState = JobState<EgoMotionRequest, EstimatedMotion>;
-class EgoMotionJob : public BackgroundJob<EgoMotionRequest, EstimatedMotion> {
- public:
-  // work: tests give one that reads no video.
-  explicit EgoMotionJob(std::function<void()> wake, Work work = estimated_motion)
-      : BackgroundJob(std::move(wake), std::move(work)) {}
-};
 
 }  // namespace sigs::editor

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -54,6 +55,13 @@ std::string shortened(const std::string& text, std::size_t maximum) {
   if (text.size() <= maximum) return text;
   const std::size_t kept = maximum > 3 ? maximum - 3 : 0;
   return head(text, kept - kept / 2) + kDots + tail(text, kept / 2);
+}
+
+std::string capitalised(std::string text) {
+  const std::string first_word = text.substr(0, text.find(' '));
+  if (!text.empty() && first_word.find_first_of("._/") == std::string::npos)
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 std::string elided(const std::string& text, float width) {

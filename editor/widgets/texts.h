@@ -15,6 +15,9 @@ constexpr std::size_t kMaxShownText = 2000;
 // are about and end with what is to be done. Never between the bytes of one UTF-8 character.
 [[nodiscard]] std::string shortened(const std::string& text, std::size_t maximum = kMaxShownText);
 
+// With a capital first; a file's name at the beginning stays as it is.
+[[nodiscard]] std::string capitalised(std::string text);
+
 // A text cut to a width of the present font, with "..." at its end where something is missing; "" where not even that
 // has room. Quick however long the text is.
 [[nodiscard]] std::string elided(const std::string& text, float width);

@@ -16,41 +16,20 @@ std::string summary_of(const Appearance& appearance) {
   return fmt::format("{} of {} quantities found in {} frames", found, quantities.size(), appearance.frames_used);
 }
 
-AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, AppearanceJob::Work work)
-    : edits_(edits), job_(std::move(wake), std::move(work)) {}
+AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, Work work)
+    : EstimateSession(edits, std::move(wake), std::move(work), "The footage could not be matched") {}
 
 void AppearanceSession::start(const Document& document) {
-  const Project& project = document.project();
-  if (project.footage.video.empty()) {
-    edits_.ask(ShowMessage{"There is no footage to match: choose a video first.", true});
+  if (document.project().footage.video.empty()) {
+    edits().ask(ShowMessage{"There is no footage to match: choose a video first.", true});
     return;
   }
-  video_ = resolved(project, project.footage.video);
-  job_.start({project});
+  begin(document, {document.project()});
 }
 
-void AppearanceSession::forget() {
-  job_.forget();
-  state_ = {};
-  taken_ = nullptr;
-  was_running_ = false;
-}
-
-void AppearanceSession::follow(const Document& document) {
-  const Project& project = document.project();
-  if (resolved(project, project.footage.video) != video_ && job_.is_running()) job_.forget();
-  state_ = job_.state();
-  const bool has_ended = std::exchange(was_running_, state_.is_running()) && !state_.is_running();
-  if (state_.value != nullptr && state_.value != taken_) take();
-  if (has_ended && state_.phase == JobPhase::failed)
-    edits_.ask(ShowMessage{"The footage could not be matched: " + state_.error.text(), true});
-}
-
-void AppearanceSession::take() {
-  taken_ = state_.value;
-  edits_.end_gesture();
-  edits_.change("match the footage", [found = taken_](Project& project) { apply(*found, project); });
-  edits_.ask(ShowMessage{"Matched the footage: " + summary_of(*taken_) + ". What was not found has its default."});
+void AppearanceSession::use(const Document&, const std::shared_ptr<const Appearance>& found) {
+  edits().change("match the footage", [found](Project& project) { apply(*found, project); });
+  edits().ask(ShowMessage{"Matched the footage: " + summary_of(*found) + ". What was not found has its default."});
 }
 
 }  // namespace sigs::editor

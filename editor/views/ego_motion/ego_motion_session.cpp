@@ -55,44 +55,23 @@ std::string summary_of(const EstimatedMotion& motion) {
   return text;
 }
 
-EgoMotionSession::EgoMotionSession(Edits& edits, std::function<void()> wake, EgoMotionJob::Work work)
-    : edits_(edits), job_(std::move(wake), std::move(work)) {}
+EgoMotionSession::EgoMotionSession(Edits& edits, std::function<void()> wake, Work work)
+    : EstimateSession(edits, std::move(wake), std::move(work), "The camera's motion was not found") {}
 
 void EgoMotionSession::start(const Document& document) {
   const Project& project = document.project();
   if (project.footage.video.empty() || project.footage.calibration.empty()) {
-    edits_.ask(ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
+    edits().ask(ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
     return;
   }
-  video_ = resolved(project, project.footage.video);
-  job_.start({project, new_attitude_file(project)});
+  begin(document, {project, new_attitude_file(project)});
 }
 
-void EgoMotionSession::forget() {
-  job_.forget();
-  state_ = {};
-  taken_ = nullptr;
-  was_running_ = false;
-}
-
-void EgoMotionSession::follow(const Document& document) {
-  const Project& project = document.project();
-  if (resolved(project, project.footage.video) != video_ && job_.is_running()) job_.forget();
-  state_ = job_.state();
-  const bool has_ended = std::exchange(was_running_, state_.is_running()) && !state_.is_running();
-  if (state_.value != nullptr && state_.value != taken_) take(document);
-  if (has_ended && state_.phase == JobPhase::failed)
-    edits_.ask(ShowMessage{"The camera's motion was not found: " + state_.error.text(), true});
-}
-
-void EgoMotionSession::take(const Document& document) {
-  taken_ = state_.value;
-  const Project& before = document.project();
-  std::string text = "Camera motion: " + summary_of(*taken_) + ".";
-  if (before.camera.yaw_deg != 0) text += " Yaw is 0: world X is where the camera looks at frame 0.";
-  edits_.end_gesture();
-  edits_.change("use estimated camera motion", [motion = taken_](Project& project) { use_motion(project, *motion); });
-  edits_.ask(ShowMessage{text});
+void EgoMotionSession::use(const Document& document, const std::shared_ptr<const EstimatedMotion>& found) {
+  std::string text = "Camera motion: " + summary_of(*found) + ".";
+  if (document.project().camera.yaw_deg != 0) text += " Yaw is 0: world X is where the camera looks at frame 0.";
+  edits().change("use estimated camera motion", [found](Project& project) { use_motion(project, *found); });
+  edits().ask(ShowMessage{text});
 }
 
 }  // namespace sigs::editor

@@ -4,44 +4,26 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
-#include "editor/document/document.h"
 #include "editor/preview/ego_motion_job.h"
+#include "editor/views/estimate_session.h"
 
 namespace sigs::editor {
 
-// The camera's motion estimated from the footage in the background: started, stopped, and put into the project as one
-// undo step when it is done. Knows no window. For the window's thread, all calls.
-class EgoMotionSession {
+// The camera's motion is estimated from the footage and put into the project: camera.track names the file,
+// camera.attitude_deg is 0, as the file has the camera's whole attitude.
+class EgoMotionSession : public EstimateSession<EgoMotionRequest, EstimatedMotion> {
  public:
-  //   edits  where changes of the project and messages go; must outlive this
-  //   wake   called from another thread as the estimate goes on
-  //   work   what an estimate does; tests give one that reads no video
-  EgoMotionSession(Edits& edits, std::function<void()> wake, EgoMotionJob::Work work = estimated_motion);
+  // work: tests give one that reads no video.
+  EgoMotionSession(Edits& edits, std::function<void()> wake, Work work = estimated_motion);
 
   // Begins an estimate of the project's footage, into a file beside the project that is not there yet. Nothing happens
   // while one is running; without footage it says what is missing.
   void start(const Document& document);
-  void stop() { job_.cancel(); }
-  // Another project was opened, or none.
-  void forget();
-
-  // Once per update: takes the state, stops where the project has another footage, and puts what was found into the
-  // project: camera.track names the file, camera.attitude_deg is 0, as the file has the camera's whole attitude.
-  void follow(const Document& document);
-
-  // As of the last follow().
-  [[nodiscard]] const EgoMotionState& state() const { return state_; }
 
  private:
-  void take(const Document& document);
-
-  Edits& edits_;
-  EgoMotionJob job_;
-  EgoMotionState state_;
-  std::filesystem::path video_;                   // that is looked through
-  std::shared_ptr<const EstimatedMotion> taken_;  // put into the project
-  bool was_running_ = false;
+  void use(const Document& document, const std::shared_ptr<const EstimatedMotion>& found) override;
 };
 
 // One beside the project that is not there yet: NAME.attitude.csv, NAME.attitude_2.csv, ...; beside the footage where

@@ -6,6 +6,7 @@
 
 #include "base/pose.h"
 #include "editor/preview/ego_motion_job.h"
+#include "editor/views/inspector/job_progress.h"
 #include "editor/views/shown_camera.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
@@ -39,12 +40,7 @@ void draw_estimate(const ViewContext& context) {
   if (state == nullptr) return;
   ImGui::Spacing();
   if (state->is_running()) {
-    const float share = state->total > 0 ? static_cast<float>(state->done) / static_cast<float>(state->total) : 0;
-    const std::string text = state->total > 0 ? fmt::format("{} of {} frames", state->done, state->total) : "reading";
-    ImGui::ProgressBar(share, {-1, 0}, text.c_str());
-    ImGui::BeginDisabled(state->is_stopping);
-    if (ImGui::Button("Stop")) context.edits.ask(StopCameraMotion{});
-    ImGui::EndDisabled();
+    if (draw_job_progress(*state)) context.edits.ask(StopCameraMotion{});
     context.ui_probe.note_item("inspector/stop camera motion");
     return;
   }

@@ -28,14 +28,6 @@ bool is_narrow() {
   return ImGui::GetContentRegionAvail().x < scaled(kNarrow);
 }
 
-// A file's name at the beginning stays as it is.
-std::string capitalised(std::string text) {
-  const std::string first_word = text.substr(0, text.find(' '));
-  if (!text.empty() && first_word.find_first_of("._/") == std::string::npos)
-    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 std::string lower_first(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;

@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/appearance_block.h"
 #include "editor/views/inspector/camera_log.h"
 #include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/results/results_view.h"
@@ -175,7 +174,7 @@ void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
   block(context, "Intruders", true, [&] { model_.draw(context, rows); });
   block(context, "Trajectory", true, [&] { trajectory_.draw(context, rows); });
   block(context, "Compositing", false, [&] { draw_compositing(context, rows); });
-  block(context, "Appearance", false, [&] { draw_appearance(context, rows); });
+  block(context, "Appearance", false, [&] { appearance_.draw(context, rows); });
   block(context, "Export", false, [&] { draw_export(context, rows); });
   const bool has_arrived = !memory_.wanted_key.empty() && memory_.wanted_updates == 0;
   if (has_arrived) memory_.wanted_key.clear();

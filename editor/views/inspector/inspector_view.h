@@ -8,6 +8,7 @@
 
 #include "editor/document/field_edits.h"
 #include "editor/views/context.h"
+#include "editor/views/inspector/appearance_block.h"
 #include "editor/views/inspector/problems.h"
 #include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/inspector/trajectory.h"
@@ -43,6 +44,7 @@ class InspectorView {
   RowMemory memory_;
   LightBlock light_;
   ModelBlock model_;
+  AppearanceBlock appearance_;
   TrajectoryBlock trajectory_;
   std::string filter_;
   // Title of the block that is to be opened, and for how many updates yet: rows appear only when they are drawn.

@@ -53,7 +53,7 @@ TEST_CASE("an estimate that is cancelled, or has no calibration, leaves no file"
   const TemporaryFolder folder;
   Project project = sample_with_tilt(0, 0);
   {
-    EgoMotionJob job([] {});
+    BackgroundJob<EgoMotionRequest, EstimatedMotion> job([] {}, estimated_motion);
     REQUIRE(job.start({project, folder / "a.csv"}));
     job.cancel();
     REQUIRE(comes_true([&] { return !job.is_running(); }));

@@ -28,11 +28,6 @@ Result<EstimatedMotion> quick_estimate(const EgoMotionRequest& request, const Jo
   return EstimatedMotion{.file = request.file, .frames = 300, .lost_frames = 2};
 }
 
-Result<EstimatedMotion> endless_estimate(const EgoMotionRequest&, const JobControl& control) {
-  while (!*control.cancel) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  return fail("", "stopped", ErrorKind::interrupted);
-}
-
 bool ends(EgoMotionSession& session, const Document& document) {
   for (int i = 0; i < 20000; ++i) {
     session.follow(document);
@@ -87,24 +82,6 @@ TEST_CASE("an estimate takes a name that is free, beside the project") {
   CHECK(new_attitude_file(project).filename() == "flight.attitude.csv");
   REQUIRE(write_text(folder / "flight.attitude.csv", "mine", true));
   CHECK(new_attitude_file(project) == folder / "flight.attitude_2.csv");
-}
-
-TEST_CASE("an estimate that is stopped, or whose project is left, changes nothing") {
-  const TemporaryFolder folder;
-  Document document(with_footage(folder.path()));
-  Edits edits;
-  EgoMotionSession session(
-      edits, [] {}, endless_estimate);
-  session.start(document);
-  session.follow(document);
-  CHECK(session.state().is_running());
-  session.stop();
-  REQUIRE(ends(session, document));
-  CHECK(session.state().phase == JobPhase::cancelled);
-  session.start(document);
-  document.apply(Edit(ChangeProject{"other", [](Project& p) { p.footage.video = "other.mp4"; }, {}}));
-  REQUIRE(ends(session, document));
-  CHECK(edits.take_edits().empty());
 }
 
 TEST_CASE("without calibration an estimate does not begin, and says what is missing") {
