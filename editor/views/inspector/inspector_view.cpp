@@ -111,6 +111,16 @@ void InspectorView::follow_selection(const ViewContext& context) {
   followed_ = selection;
 }
 
+void InspectorView::follow_matching(const ViewContext& context) {
+  const bool is_matching = context.appearance != nullptr && context.appearance->is_running();
+  const bool is_elsewhere = !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);
+  if (is_matching && !was_matching_ && is_elsewhere) {
+    block_to_open_ = "Appearance";
+    updates_to_open_ = 1;
+  }
+  was_matching_ = is_matching;
+}
+
 void InspectorView::go_to_problem(const ViewContext& context, const std::string& key) {
   filter_.clear();
   block_to_open_ = editor::block_of(key);
@@ -202,6 +212,7 @@ void InspectorView::draw_found(const ViewContext& context, FieldRows& rows) cons
 void InspectorView::draw(const ViewContext& context) {
   refresh(context);
   follow_selection(context);
+  follow_matching(context);
   FieldRows rows(context, *sheet_, problems_.by_field(), memory_);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
   draw_top(context, rows);

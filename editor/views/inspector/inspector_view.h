@@ -27,6 +27,8 @@ class InspectorView {
   void refresh(const ViewContext& context);
   // Opens the block of what was selected in another view.
   void follow_selection(const ViewContext& context);
+  // Opens the block Appearance where the footage begins to be matched from another view.
+  void follow_matching(const ViewContext& context);
   // Opens the block of a field's key, selects what it belongs to, and gives its row the keyboard.
   void go_to_problem(const ViewContext& context, const std::string& key);
   void draw_top(const ViewContext& context, FieldRows& rows);
@@ -52,6 +54,7 @@ class InspectorView {
   int updates_to_open_ = 0;
   // The document's selection in the update before.
   Selection followed_;
+  bool was_matching_ = false;  // likewise
 };
 
 }  // namespace sigs::editor

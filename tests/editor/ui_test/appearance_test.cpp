@@ -58,4 +58,18 @@ TEST_CASE("the footage is matched at the press of a button, shown with what was 
   CHECK(ui_test.saved(project) == after);
 }
 
+TEST_CASE("the menu matches the footage too, and what was found comes into sight") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("appearance_menu");
+  EditorDriver& editor = ui_test.editor();
+  const fs::path project = put(sample_project("head-on"), ui_test.folder() / "mine.json");
+  editor.start({project.string()});
+  editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  editor.wait_for_image();
+  CHECK_FALSE(editor.has_place("inspector/match the footage"));  // its block is folded
+  editor.click("menu/Edit");
+  ui_test.edit([&] { editor.click("menu/Match the footage"); });
+  ui_test.wait_for_place("inspector/found in the footage");
+}
+
 }  // namespace sigs::test
