@@ -68,14 +68,18 @@ Result<DetectionReport> report_of(const DetectOptions& options, const DetectInpu
   if (!clips) return fail(clips.error());
   DetectionReport report{.policy = options.policy};
   for (const ClipFiles& files : inputs.clips) report.clips.push_back(files.name);
-  for (std::size_t i = 0; i < clips->size(); ++i)
+  for (std::size_t i = 0; i < clips->size(); ++i) {
     report.scores.push_back(score_detections(inputs.detectors[i], (*clips)[i], options.policy));
+    report.slices.push_back(frame_slices((*clips)[i], options.policy));
+  }
   return report;
 }
 
 // Below the table, where few encounters need an explanation.
 void print(const DetectionReport& report) {
   std::printf("%s", table_text(report).c_str());
+  for (const std::string& text : {intervals_text(report), slices_text(report)})
+    if (!text.empty()) std::printf("\n%s", text.c_str());
   std::fflush(stdout);
   for (const std::string& reason : uncounted_in(report)) print_warning({"", reason});
 }

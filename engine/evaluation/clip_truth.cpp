@@ -52,6 +52,7 @@ TargetFrame target_frame_of(const IntruderTruth& truth) {
                     .distance_m = glm::length(truth.position_m),
                     .horizon = truth.horizon};
   if (truth.visible_box) frame.visible = box_of(*truth.visible_box);
+  if (truth.detectability) frame.rms_contrast = truth.detectability->rms_contrast;
   return frame;
 }
 
@@ -163,6 +164,8 @@ TargetInFrame target_of(AttributeReader& reader, pugi::xml_node intruder) {
   target.frame.visible = visible_of(reader, box);
   if (box.attribute("pixels")) target.frame.visible_pixels = reader.integer(box, "pixels", 0);
   target.frame.amodal_box = silhouette_of(reader, intruder.child("silhouette"));
+  if (const pugi::xml_node appearance = intruder.child("appearance"); appearance.attribute("rms_contrast"))
+    target.frame.rms_contrast = reader.number(appearance, "rms_contrast");
   return target;
 }
 

@@ -23,6 +23,7 @@ struct TargetFrame {
   int visible_pixels = 0;         // number of them; 0 also where a file does not give it
   double distance_m = 0;
   HorizonSide horizon = HorizonSide::unknown;
+  std::optional<double> rms_contrast = {};  // of its visible pixels against the footage; none: not known
 };
 
 // One intruder in all frames.

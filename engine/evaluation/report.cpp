@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kFiles{"summary.csv",
+constexpr std::array<std::string_view, 9> kFiles{"slices.csv",
+                                                 "summary.csv",
                                                  "frames.csv",
                                                  "encounters.csv",
                                                  "evaluation.json",
@@ -75,12 +76,15 @@ class ReportFolder {
   bool has_gnuplot_ = true;
 };
 
+// A file's name and text.
+using NamedText = std::pair<std::string, std::string>;
+
 template <class Report>
-Result<WrittenReport> write_all(const fs::path& folder, const Report& report, const std::string& details_name,
-                                const std::string& details) {
+Result<WrittenReport> write_all(const fs::path& folder, const Report& report, const std::vector<NamedText>& details) {
   ReportFolder out(folder);
   Result<void> step = out.put("summary.csv", summary_csv(report));
-  if (step) step = out.put(details_name, details);
+  for (const auto& [name, text] : details)
+    if (step) step = out.put(name, text);
   if (step) step = out.put("evaluation.json", evaluation_json(report));
   if (!step) return fail(step.error());
   const Result<std::vector<ReportPlot>> images = out.render_all(plots_of(report));
@@ -92,11 +96,13 @@ Result<WrittenReport> write_all(const fs::path& folder, const Report& report, co
 }  // namespace
 
 Result<WrittenReport> write_report(const fs::path& folder, const TrackReport& report) {
-  return write_all(folder, report, "frames.csv", frames_csv(report));
+  return write_all(folder, report, {{"frames.csv", frames_csv(report)}});
 }
 
 Result<WrittenReport> write_report(const fs::path& folder, const DetectionReport& report) {
-  return write_all(folder, report, "encounters.csv", encounters_csv(report));
+  std::vector<NamedText> details{{"encounters.csv", encounters_csv(report)}};
+  if (!report.slices.empty()) details.emplace_back("slices.csv", slices_csv(report));
+  return write_all(folder, report, details);
 }
 
 Result<WrittenReport> write_report(const fs::path& folder, const AotTruth& truth, const AotScore& score) {

@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "evaluation/aot_rules.h"
 #include "evaluation/detection_score.h"
+#include "evaluation/detection_slices.h"
 #include "evaluation/track_score.h"
 
 namespace sigs {
@@ -29,6 +30,7 @@ struct DetectionReport {
   std::vector<std::string> clips;
   DetectionPolicy policy;
   std::vector<DetectionScore> scores;
+  std::vector<std::vector<FrameSlice>> slices;  // of each detector; empty: not asked for
 };
 
 // A table for a terminal: one row for each tracker or detector.
@@ -38,6 +40,14 @@ struct DetectionReport {
 // What the figures count and what they leave out, as sentences; docs/evaluation.md gives the reasons.
 [[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);
+
+// Frames matched by range, size, contrast, horizon and visible share, a row for each slice that has frames and a column
+// for each detector.
+[[nodiscard]] std::string slices_text(const DetectionReport& report);
+
+// How sure the encounter detection rates are: a line for each detector, then one for each detector against the first.
+// Detectors must have been scored on the same clips.
+[[nodiscard]] std::string intervals_text(const DetectionReport& report);
 
 // Why encounters are not counted, a sentence for each reason; empty: all are.
 [[nodiscard]] std::vector<std::string> uncounted_in(const DetectionReport& report);
@@ -54,7 +64,7 @@ struct WrittenReport {
 // bytes; measured speeds in it differ from run to run. Errors cannot_create, write_failed.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const TrackReport& report);
 
-// The same with summary.csv, encounters.csv, evaluation.json, the plots detection_rate and first_range, and
+// The same with summary.csv, encounters.csv, slices.csv, evaluation.json, the plots detection_rate and first_range, and
 // report.html.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const DetectionReport& report);
 

@@ -205,6 +205,20 @@ Json json_of(const EncounterScore& encounter) {
           {"frames_matched", encounter.frames_matched}};
 }
 
+// By "range", "size" and so on: the slices that have frames.
+Json json_of(const std::vector<FrameSlice>& slices) {
+  Json json = Json::object();
+  for (const FrameSlice& slice : slices)
+    if (slice.frames > 0)
+      json[slice.by].push_back({{"slice", slice.name},
+                                {"frames", slice.frames},
+                                {"matched", slice.matched},
+                                {"rate", static_cast<double>(slice.matched) / slice.frames},
+                                {"rate_low_95", slice.rate.low},
+                                {"rate_high_95", slice.rate.high}});
+  return json;
+}
+
 Json json_of(const DetectionScore& score) {
   Json encounters = Json::array();
   for (const EncounterScore& encounter : score.encounters) encounters.push_back(json_of(encounter));
@@ -257,11 +271,12 @@ std::string evaluation_json(const TrackReport& report) {
 }
 
 std::string evaluation_json(const DetectionReport& report) {
-  const Json json{{"sigs_evaluation", 1},
-                  {"kind", "detect"},
-                  {"films", json_lines(report.clips)},
-                  {"policy", json_of(report.policy, report)},
-                  {"detectors", scores_of(report.scores)}};
+  Json json{{"sigs_evaluation", 1},
+            {"kind", "detect"},
+            {"films", json_lines(report.clips)},
+            {"policy", json_of(report.policy, report)},
+            {"detectors", scores_of(report.scores)}};
+  for (std::size_t i = 0; i < report.slices.size(); ++i) json["detectors"][i]["frames_by"] = json_of(report.slices[i]);
   return json.dump(1) + "\n";
 }
 

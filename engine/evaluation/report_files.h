@@ -19,6 +19,7 @@ namespace sigs {
 [[nodiscard]] std::string summary_csv(const DetectionReport& report);     // a row for each detector
 [[nodiscard]] std::string encounters_csv(const DetectionReport& report);  // a row for each detector and encounter
 [[nodiscard]] std::string evaluation_json(const DetectionReport& report);
+[[nodiscard]] std::string slices_csv(const DetectionReport& report);
 
 // A plot as the content of an SVG file.
 struct ReportPlot {
