@@ -3,7 +3,7 @@
 #   bench/realism.sh [--matched] [--best] [BUILD]              the clips, at the defaults; some minutes on two processors
 #   bench/realism.sh stills|trackers [--matched] [--best] [BUILD]
 #   --matched  also by the settings that `sigs appearance` finds in each clip
-#   --best     also by bench/realism/best.json, settings chosen by hand on the tuning clips
+#   --best     also by these with bench/realism/best.json over them, chosen by hand on the tuning clips; needs --matched
 # Leaves tables, histograms and sheets in BUILD/realism, BUILD/realism-stills. The sheets show footage of others: they must not be
 # committed.
 set -euo pipefail
@@ -32,6 +32,6 @@ if [ -n "$matched" ]; then
   done
   options+=(--settings-from "matched=$folder/matched")
 fi
-if [ -n "$best" ]; then options+=(--settings-from best=bench/realism/best.json); fi
+if [ -n "$best" ]; then options+=(--settings-from "best=$folder/matched,bench/realism/best.json"); fi
 "$build/bench_realism" "$folder" "${options[@]}"
 if [ $what = trackers ]; then cat "$folder/trackers.md"; else cat "$folder/auc.md" "$folder/medians.md"; fi
