@@ -25,9 +25,12 @@ options=(--shake)
 [ $what = clips ] || options+=("--$what")
 if [ -n "$matched" ]; then
   mkdir -p "$folder/matched"
-  if [ $what = stills ]; then footage=("$data"/stills/aot/*.png "$data"/stills/skylink/*.jpeg); else footage=("$data"/track/*.mp4); fi
+  if [ $what = stills ]; then footage=("$data"/stills/aot/*.png "$data"/stills/skylink/skylink_[0235].jpeg); else footage=("$data"/track/*.mp4); fi
+  number=0
   for clip in "${footage[@]}"; do
     to=$folder/matched/$(basename "${clip%.*}").json
+    # The stills are named by their folder and their number (realism/clips.cpp).
+    [ $what != stills ] || to=$folder/matched/$(basename "$(dirname "$clip")")_$((number++)).json
     [ -e "$to" ] || "$build/sigs" appearance "$clip" --out "$to" >"$to.txt" 2>&1 || { cat "$to.txt" >&2; exit 1; }
   done
   options+=(--settings-from "matched=$folder/matched")

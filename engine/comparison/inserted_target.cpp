@@ -74,6 +74,15 @@ Result<Insertion::Composed> Insertion::composed_between(const Project& project, 
   return all;
 }
 
+Result<std::optional<MeasuredTarget>> Insertion::middle_target(const Project& project, CameraShake shake) {
+  pose_.path_px = shake == CameraShake::as_real_target ? real_path_px_ : std::vector<cv::Point2d>();
+  const auto middle = static_cast<std::size_t>(stretch_->reach());
+  const Result<Composed> one = composed_between(project, middle, middle + 1);
+  if (!one) return fail(one.error());
+  if (one->frames.empty()) return std::optional<MeasuredTarget>();
+  return measured_target(one->frames, one->boxes);
+}
+
 Result<std::optional<MeasuredTarget>> Insertion::target(const Project& project, CameraShake shake) {
   const Result<Composed> all = composed(project, shake);
   if (!all) return fail(all.error());
