@@ -3,7 +3,7 @@
 #   bench/realism.sh [--matched] [--best] [BUILD]              the clips, at the defaults; some minutes on two processors
 #   bench/realism.sh stills|trackers [--matched] [--best] [BUILD]
 #   --matched  also by the settings that `sigs appearance` finds in each clip
-#   --best     also by bench/realism/best.json, settings chosen by hand on the tuning clips
+#   --best     also by these with bench/realism/best.json over them, chosen by hand on the tuning clips; needs --matched
 # Leaves tables, histograms and sheets in BUILD/realism, BUILD/realism-stills. The sheets show footage of others: they must not be
 # committed.
 set -euo pipefail
@@ -25,13 +25,16 @@ options=(--shake)
 [ $what = clips ] || options+=("--$what")
 if [ -n "$matched" ]; then
   mkdir -p "$folder/matched"
-  if [ $what = stills ]; then footage=("$data"/stills/aot/*.png "$data"/stills/skylink/*.jpeg); else footage=("$data"/track/*.mp4); fi
+  if [ $what = stills ]; then footage=("$data"/stills/aot/*.png "$data"/stills/skylink/skylink_[0235].jpeg); else footage=("$data"/track/*.mp4); fi
+  number=0
   for clip in "${footage[@]}"; do
     to=$folder/matched/$(basename "${clip%.*}").json
+    # The stills are named by their folder and their number (realism/clips.cpp).
+    [ $what != stills ] || to=$folder/matched/$(basename "$(dirname "$clip")")_$((number++)).json
     [ -e "$to" ] || "$build/sigs" appearance "$clip" --out "$to" >"$to.txt" 2>&1 || { cat "$to.txt" >&2; exit 1; }
   done
   options+=(--settings-from "matched=$folder/matched")
 fi
-if [ -n "$best" ]; then options+=(--settings-from best=bench/realism/best.json); fi
+if [ -n "$best" ]; then options+=(--settings-from "best=$folder/matched,bench/realism/best.json"); fi
 "$build/bench_realism" "$folder" "${options[@]}"
 if [ $what = trackers ]; then cat "$folder/trackers.md"; else cat "$folder/auc.md" "$folder/medians.md"; fi

@@ -28,17 +28,19 @@ void apply_members(const Json& json, const std::string& key, Project& project) {
   }
 }
 
-}  // namespace
-
-void apply(const LookSettings& settings, const std::string& clip, Project& project) {
-  if (settings.from.empty()) return;
-  const std::filesystem::path file =
-      std::filesystem::is_directory(settings.from) ? settings.from / (clip + ".json") : settings.from;
+void apply_file(const std::filesystem::path& file, Project& project) {
   const Result<std::string> text = read_text(file, kProjectLimit_bytes);
   if (!text) accuracy::stop(text.error().text());
   const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_project);
   if (!json) accuracy::stop(json.error().text());
   apply_members(*json, "", project);
+}
+
+}  // namespace
+
+void apply(const LookSettings& settings, const std::string& clip, Project& project) {
+  for (const std::filesystem::path& from : settings.from)
+    apply_file(std::filesystem::is_directory(from) ? from / (clip + ".json") : from, project);
 }
 
 }  // namespace sigs::bench

@@ -11,9 +11,10 @@ namespace sigs::bench {
 
 // One way to set how an inserted aircraft looks.
 struct LookSettings {
-  std::string name;            // "default", "matched", "best"
-  std::filesystem::path from;  // a JSON file for all clips, or a folder with CLIP.json for each; empty: the defaults
-  bool shakes = false;         // the camera's shake is known: it is taken from the real target's path
+  std::string name;  // "default", "matched", "best"
+  // JSON files for all clips, or folders with CLIP.json for each, one after the other; none: the defaults.
+  std::vector<std::filesystem::path> from;
+  bool shakes = false;  // the camera's shake is known: it is taken from the real target's path
 };
 
 // Applies what the file says of light, compositing, appearance and camera.exposure_s; its other members are left alone,

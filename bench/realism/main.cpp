@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <mutex>
+#include <sstream>
 
 #include "accuracy/csv.h"
 #include "base/threads.h"
@@ -34,7 +35,10 @@ std::vector<LookSettings> settings_of(const Options& options) {
   for (const std::string& text : options.settings) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) accuracy::stop(text + ": expected NAME=FILE or NAME=FOLDER");
-    all.push_back({.name = text.substr(0, equals), .from = text.substr(equals + 1), .shakes = options.shakes});
+    LookSettings settings{.name = text.substr(0, equals), .shakes = options.shakes};
+    std::istringstream names(text.substr(equals + 1));
+    for (std::string name; std::getline(names, name, ',');) settings.from.emplace_back(name);
+    all.push_back(std::move(settings));
   }
   return all;
 }
@@ -101,7 +105,7 @@ int main(int count, char** arguments) {
   app.add_option(
       "--settings-from", options.settings,
       "NAME=FILE or NAME=FOLDER: a further way to insert, by the settings of a JSON file, or of CLIP.json in a "
-      "folder; may be given several times");
+      "folder; several with commas between, the later ones over the earlier ones; may be given several times");
   app.add_flag("--shake", options.shakes,
                "these move with the camera's shake, as if the project had its track; it is taken from the real target");
   app.add_option("--clip", options.clip, "clips whose name contains this alone");

@@ -138,9 +138,9 @@ void write_measures(const std::vector<Sample>& samples, const std::filesystem::p
   accuracy::Csv table(file, header);
   for (const Sample& sample : samples)
     for (const Target& target : sample.targets) {
-      std::string values = exact_text(target.look.background_sd);
+      std::string values;
       for (const LookMeasure& measure : look_measures())
-        values.append(",").append(exact_text(target.look.*measure.value));
+        values.append(values.empty() ? "" : ",").append(exact_text(target.look.*measure.value));
       const TargetLook& look = target.look;
       table.row(sample.clip, sample.is_tuning, sample.frame, sample.model, target.kind, look.box.x, look.box.y,
                 look.box.width, look.box.height, look.area_px, look.background, look.background_sd, values);

@@ -22,10 +22,16 @@ ModelSettings model_for(const RealClip& clip, std::uint32_t seed) {
   const fs::path ours = fs::path(SIGS_ASSETS_DIR) / "models", others = fs::path(SIGS_TEST_DATA) / "models";
   const ModelSettings dauphin{
       .file = (others / "helicopter-dauphin/helicopter-dauphin.obj").string(), .forward = "-x", .up = "+y"};
-  if (clip.is_helicopter && fs::exists(dauphin.file)) return dauphin;
+  if (clip.is_helicopter)
+    return seed % 2 == 0 && fs::exists(dauphin.file)
+               ? dauphin
+               : ModelSettings{.file = (ours / "helicopter/helicopter.obj").string()};
   const ModelSettings aircraft[] = {
       {.file = (ours / "airliner/airliner.obj").string()},
       {.file = (ours / "light-aircraft/light-aircraft.obj").string()},
+      {.file = (ours / "airliner-grey/airliner.obj").string()},
+      {.file = (ours / "light-aircraft-grey/light-aircraft.obj").string()},
+      {.file = (ours / "light-aircraft-dark/light-aircraft.obj").string()},
       {.file = (others / "boeing737-300/boeing737-300.obj").string(), .forward = "-x", .up = "+y"},
       {.file = (others / "cessna172p-hires/cessna172p-hires.obj").string(), .forward = "-x", .up = "+y"}};
   const ModelSettings& chosen = aircraft[seed % std::size(aircraft)];
@@ -70,7 +76,7 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
                                LeftOut& left_out) {
   FrameSource footage = opened(clip.path);
   const FootageShape shape = shape_of(footage.info());
-  const Project project = project_of(clip, shape.size_px, options.folder);
+  Project project = project_of(clip, shape.size_px, options.folder);
   std::vector<Sample> samples;
   const int count = static_cast<int>(clip.boxes.size());
   for (int i = 0; i < options.frames_per_clip; ++i) {
@@ -89,6 +95,7 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
       ++left_out.no_place;
       continue;
     }
+    project.intruders.front().model = model_for(clip, seed / 7);
     Sample sample{.clip = clip.name,
                   .is_helicopter = clip.is_helicopter,
                   .is_tuning = clip.is_tuning,

@@ -13,6 +13,9 @@ namespace sigs {
 
 namespace {
 
+// Chosen with the clips that are kept for tuning (docs/realism.md): more change little.
+constexpr int kCarriedFrames = 12;
+
 // To three digits; more would not be honest, and settings are read by people.
 double rounded(double value) {
   if (value == 0 || !std::isfinite(value)) return 0;
@@ -185,6 +188,7 @@ std::vector<std::string> applied_settings(const Appearance& appearance) {
   add("appearance.");
   keys.emplace_back("appearance.haze.airlight");
   keys.emplace_back("appearance.codec.match");
+  keys.emplace_back("appearance.codec.carried_frames");
   return keys;
 }
 
@@ -203,6 +207,7 @@ void apply(const Appearance& appearance, Project& project) {
   }
   project.appearance.codec.match =
       is_lossless_codec(appearance.footage.codec) ? CodecMatchChoice::none : CodecMatchChoice::footage;
+  project.appearance.codec.carried_frames = appearance.codec.predicts ? kCarriedFrames : 0;
   hold_in_ranges(project);
 }
 

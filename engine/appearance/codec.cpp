@@ -107,6 +107,7 @@ void CodecEstimator::add(const Frame& frame, bool look_for_traces) {
   if (frame.quantisers != nullptr) {
     codec_ = frame.quantisers->codec;
     kind_ = frame.quantisers->kind;
+    predicts_ |= frame.quantisers->is_predicted();
     origin_px = frame.quantisers->origin_px;
     means_.push_back(frame.quantisers->mean);
   }
@@ -149,7 +150,7 @@ void CodecEstimator::add_ringing(const cv::Mat& luma) {
 }
 
 CodecEstimate CodecEstimator::finish() const {
-  CodecEstimate found{.codec = codec_, .kind = kind_};
+  CodecEstimate found{.codec = codec_, .kind = kind_, .predicts = predicts_};
   if (!means_.empty())
     found.quantiser = {.value = mean_of(means_), .sd = sd_of(means_), .is_known = true};
   else

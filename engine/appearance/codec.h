@@ -17,6 +17,7 @@ namespace sigs {
 struct CodecEstimate {
   std::string codec;                         // FFmpeg's name; empty where no frame states it
   QuantiserKind kind = QuantiserKind::h264;  // what the quantiser counts in
+  bool predicts = false;                     // some image is predicted from another one
   Estimate quantiser;                        // mean over all macroblocks and frames; sd over the frames
   Estimate
       block_grid;  // by how much neighbouring samples differ more across the edges of 8x8 blocks than within: 0 none
@@ -42,6 +43,7 @@ class CodecEstimator {
 
   std::string codec_;
   QuantiserKind kind_ = QuantiserKind::h264;
+  bool predicts_ = false;
   int frames_ = 0;
   std::vector<double> means_;        // of the quantisers, by frame
   std::vector<double> block_grids_;  // by frame with enough samples

@@ -174,8 +174,12 @@ namespace {
 
 // Least share of what falls on the ground that comes from below. Chosen with the clips that are kept for tuning
 // (docs/realism.md).
-constexpr double kFromBelow = 0.5;
+constexpr double kFromBelow = 0.2;
 constexpr double kUsualSunElevation_rad = 0.436;  // 25 degrees, where the direction is not known
+
+// Paint in the sun is that much brighter in footage than the estimate's card: cameras draw bright things with more
+// contrast than the transfer function of their footage says, and paint shines. Chosen likewise.
+constexpr double kSunlit = 1.8;
 
 // Light on a face that looks down: that of the land, but no less than kFromBelow of what the land receives.
 glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
@@ -191,7 +195,7 @@ glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
 
 void apply(const LightEstimate& light, LightSettings& settings) {
   settings.kind = LightKind::sun;
-  settings.exposure = light.exposure.value;
+  settings.exposure = light.exposure.value * (light.exposure.is_known ? kSunlit : 1);
   settings.color = value_of(light.sun_color);
   settings.sky_color = value_of(light.sky_color);
   settings.ground_color = light.exposure.is_known ? from_below(light, settings.sun) : value_of(light.ground_color);

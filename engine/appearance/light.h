@@ -60,9 +60,8 @@ class LightEstimator {
 };
 
 // The settings of a light of the kind `sun`; what is not known has the estimate's default. The sun's direction stays.
-// From below comes at least half of what sun and sky give the ground, although land reflects 0.1 to 0.3 of it: lit by
-// the land alone, aircraft are darker from below than real ones in the same clips (docs/realism.md). Air below them
-// scatters light too, and their own wings and doors give light to each other.
+// exposure is 1.8 times the estimate where that is known: so bright is paint in the sun in real clips. From below comes
+// at least a fifth of what sun and sky give the ground. Both were chosen by the tuning clips (docs/realism.md).
 void apply(const LightEstimate& light, LightSettings& settings);
 
 }  // namespace sigs

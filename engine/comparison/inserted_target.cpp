@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLoose = 1.2;  // of an inserted target's box, as the real ones' boxes are loose
 constexpr double kLooseMargin_px = 3;
+constexpr double kHighest_rad = 0.45;  // what is seen small is far, and so low above the horizon
 constexpr double kMostResizing = 1.6;  // of the first guess: a silhouette that is only told in part is not trusted more
 
 Box loosened(const Box& box) {
@@ -35,6 +36,7 @@ Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch
   pose.aspect = static_cast<double>(real.look.box.width) / real.look.box.height;
   pose.width_px = std::max(2.0, real.look.box.width - 1.0);
   pose.seed = seed;
+  pose.highest_rad = kHighest_rad;
   if (stretch.reach() > 0)
     pose.step_px = (middle_of(stretch.boxes.back()) - middle_of(stretch.boxes.front())) / (2.0 * stretch.reach());
   // A silhouette by threshold is wider or narrower than the outline: both are to be the same by threshold.
@@ -70,6 +72,15 @@ Result<Insertion::Composed> Insertion::composed_between(const Project& project, 
   }
   for (const auto& model : scene->models) context_->forget(model->mesh);
   return all;
+}
+
+Result<std::optional<MeasuredTarget>> Insertion::middle_target(const Project& project, CameraShake shake) {
+  pose_.path_px = shake == CameraShake::as_real_target ? real_path_px_ : std::vector<cv::Point2d>();
+  const auto middle = static_cast<std::size_t>(stretch_->reach());
+  const Result<Composed> one = composed_between(project, middle, middle + 1);
+  if (!one) return fail(one.error());
+  if (one->frames.empty()) return std::optional<MeasuredTarget>();
+  return measured_target(one->frames, one->boxes);
 }
 
 Result<std::optional<MeasuredTarget>> Insertion::target(const Project& project, CameraShake shake) {

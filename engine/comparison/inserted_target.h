@@ -37,7 +37,10 @@ class Insertion {
   };
   [[nodiscard]] Result<Composed> composed(const Project& project, CameraShake shake);
 
-  // The same, measured. None where it cannot be told from the background, or lies outside the image.
+  // The middle frame alone, measured; without flicker. None as below.
+  [[nodiscard]] Result<std::optional<MeasuredTarget>> middle_target(const Project& project, CameraShake shake);
+
+  // All frames, measured. None where it cannot be told from the background, or lies outside the image.
   [[nodiscard]] Result<std::optional<MeasuredTarget>> target(const Project& project, CameraShake shake);
 
  private:

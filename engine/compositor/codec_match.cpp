@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "video/patch_recompression.h"
+#include "video/carried_recompression.h"
 
 namespace sigs {
 namespace {
@@ -53,6 +53,17 @@ std::vector<cv::Rect> disjoint(std::vector<cv::Rect> rects) {
   return rects;
 }
 
+// With where it was in the images before that are followed.
+cv::Rect with_earlier(cv::Rect reach, const std::vector<cv::Point2d>& earlier_px) {
+  const cv::Rect now = reach;
+  for (const cv::Point2d at : earlier_px) {
+    if (!can_be_followed(at)) break;
+    reach |= now + cv::Point(cvFloor(at.x), cvFloor(at.y));
+    reach |= now + cv::Point(cvCeil(at.x), cvCeil(at.y));
+  }
+  return reach;
+}
+
 // Whether all pixels of a sample's span are the own body's.
 bool is_own_body(const cv::Mat& own_body, cv::Point sample, cv::Size step) {
   for (int y = sample.y * step.height; y < std::min((sample.y + 1) * step.height, own_body.rows); ++y)
@@ -85,13 +96,25 @@ std::optional<FrameQuantisers> matched_quantisers(MatchedCodec codec, std::optio
   return matched;
 }
 
-CodecMatch::CodecMatch(const Frame& footage, std::span<const cv::Rect> reaches, FrameQuantisers quantisers)
+CodecMatch::CodecMatch(const Frame& footage, std::span<const cv::Rect> reaches, FrameQuantisers quantisers,
+                       std::span<const std::vector<cv::Point2d>> earlier_px)
     : quantisers_(std::move(quantisers)), layout_(footage.layout), size_px_(footage.size_px()) {
   const cv::Rect image({0, 0}, size_px_);
   std::vector<cv::Rect> blocks;
-  for (const cv::Rect& reach : reaches)
-    if (!(reach & image).empty()) blocks.push_back(blocks_around(reach & image));
-  for (const cv::Rect& rect : disjoint(std::move(blocks))) patches_.push_back({rect, cut_out(footage, rect)});
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    const cv::Rect reach = (earlier_px.empty() ? reaches[i] : with_earlier(reaches[i], earlier_px[i])) & image;
+    if (!(reaches[i] & image).empty()) blocks.push_back(blocks_around(reach));
+  }
+  for (const cv::Rect& rect : disjoint(std::move(blocks))) {
+    patches_.push_back({rect, cut_out(footage, rect), {}});
+    int largest = 0;
+    for (std::size_t i = 0; i < earlier_px.size(); ++i) {
+      const cv::Rect reach = reaches[i] & image;
+      if (reach.area() <= largest || (blocks_around(reach) & rect).empty()) continue;
+      largest = reach.area();
+      patches_.back().earlier_px = earlier_px[i];
+    }
+  }
 }
 
 // With a macroblock on each side: chroma of a pixel at the edge may lie there, and the deblocking filter reaches there.
@@ -156,9 +179,9 @@ std::int64_t CodecMatch::apply(Frame& frame, cv::Mat& mask, const cv::Mat& own_b
       for (int column = 0; column < patch.blocks.width; ++column)
         coding.quantisers.at<short>(row, column) =
             static_cast<short>(quantisers_.at(patch.blocks.x + column, patch.blocks.y + row));
-    const Frame coded = recompressed(cut_out(frame, patch.blocks), patch.footage, coding);
+    const Frame coded = recompressed_after(cut_out(frame, patch.blocks), patch.footage, coding, patch.earlier_px);
     put_back(frame, mask, patch, coded, own_body);
-    count += static_cast<std::int64_t>(coded.planes[0].total());
+    count += static_cast<std::int64_t>(coded.planes[0].total() * (1 + patch.earlier_px.size()));
   }
   return count;
 }

@@ -29,10 +29,14 @@ enum class MatchedCodec { footage, h264, jpeg };
 // that is what their difference is coded against.
 class CodecMatch {
  public:
-  //   reaches  where the frame may be rewritten; what is rewritten beside them is not coded
-  CodecMatch(const Frame& footage, std::span<const cv::Rect> reaches, FrameQuantisers quantisers);
+  //   reaches     where the frame may be rewritten; what is rewritten beside them is not coded
+  //   earlier_px  of each reach: where what is in it was in images before, video/carried_recompression.h; or empty: the
+  //               image is coded as the first one. Of reaches whose macroblocks overlap the largest one's counts
+  CodecMatch(const Frame& footage, std::span<const cv::Rect> reaches, FrameQuantisers quantisers,
+             std::span<const std::vector<cv::Point2d>> earlier_px = {});
 
-  // Codes what was composited in the macroblocks of the reaches and in those around them. Only samples in macroblocks
+  // Codes what was composited in the macroblocks of the reaches (and of where it was in images before) and in those
+  // around them. Without images before, only samples in macroblocks
   // (JPEG, MPEG: blocks of 8x8) in which the frame differs from the footage change, and for H.264 those up to two
   // samples beside. Where the own body hides everything (own_body is 1) samples are those of the footage again,
   // although a camera's codec would let an intruder's edge ring there: no label says that an own body was rewritten.
@@ -49,6 +53,7 @@ class CodecMatch {
   struct Patch {
     cv::Rect blocks;
     Frame footage;
+    std::vector<cv::Point2d> earlier_px;
   };
 
   [[nodiscard]] cv::Rect blocks_around(const cv::Rect& reach) const;

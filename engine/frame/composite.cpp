@@ -193,7 +193,8 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
   ComposedFrame composed{.image = std::move(background)};
   const bool keep = stages == Stages::keep;
   const bool direct = scene.compositing.method == MethodChoice::direct;
-  const std::optional<CodecMatch> codec_match = codec_match_for(composed.image, scene, far_to_near);
+  const std::optional<CodecMatch> codec_match =
+      codec_match_for(composed.image, scene, frame, compositing_camera(scene).lens, far_to_near);
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
   for (const IntruderLayers& layers : far_to_near) {
     if (layers.views.empty()) continue;

@@ -34,4 +34,20 @@ glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment,
   return first && last ? *last - *first : glm::dvec2(0, 0);
 }
 
+std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const PlacedIntruder& placed, const Lens& lens,
+                                        int count) {
+  const auto id = static_cast<std::size_t>(placed.id);
+  const auto pixel_in = [&](int n) {
+    return lens.pixel(camera_from_body_at(scene, id, time_of_frame_s(scene.footage, n)).translation_m);
+  };
+  std::vector<cv::Point2d> places;
+  const std::optional<glm::dvec2> now = pixel_in(frame);
+  for (int k = 1; now && k <= std::min(count, frame); ++k) {
+    const std::optional<glm::dvec2> then = pixel_in(frame - k);
+    if (!then) break;
+    places.emplace_back(then->x - now->x, then->y - now->y);
+  }
+  return places;
+}
+
 }  // namespace sigs

@@ -207,6 +207,8 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
            "codec that the image around the intruder goes through once; footage: its own");
   list.number("codec.quantiser", &appearance.codec.quantiser, "", 0, 100,
               "QP of H.264, 0 to 51, or quality of MJPEG in percent; null: as the footage's stream says");
+  list.number("codec.carried_frames", &appearance.codec.carried_frames, "", 0, 16,
+              "frames before this one from which H.264 and MPEG carry what they left");
 }
 
 void add_output(FieldList list, ExportSettings& output) {

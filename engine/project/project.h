@@ -261,6 +261,7 @@ enum class CodecMatchChoice { none, footage, h264, mjpeg };
 
 struct CodecMatchSettings {
   CodecMatchChoice match = CodecMatchChoice::none;
+  int carried_frames = 0;  // images before this one that H.264 or MPEG has predicted from one another, 0..16
   std::optional<double> quantiser;  // QP of H.264 (0..51) or percent of JPEG's table; none: as the stream says
 
   [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;

@@ -12,7 +12,7 @@ namespace sigs {
 
 namespace {
 
-constexpr int kLeastAround = 10;     // before and after the frame: path and camera are laid out
+constexpr int kLeastAround = 24;     // before and after the frame: path and camera are laid out
 constexpr double kNearAspect = 0.1;  // logarithm of the ratio to the wanted aspect
 constexpr double kStep_rad = std::numbers::pi / 24;
 

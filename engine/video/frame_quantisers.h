@@ -58,6 +58,11 @@ struct FrameQuantisers {
   int cr_offset = 0;
   JpegTables tables;  // jpeg
 
+  // Whether the image is coded as what it differs by from others.
+  [[nodiscard]] bool is_predicted() const {
+    return type == PictureType::predicted || type == PictureType::bidirectional;
+  }
+
   // Of the macroblock at (column, row) counted from the one at origin_px; outside the image that of the nearest one.
   [[nodiscard]] int at(int column, int row) const;
 };

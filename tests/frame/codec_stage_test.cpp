@@ -81,6 +81,29 @@ TEST_CASE("with the codec match an export has the same bytes on one thread, on f
   CHECK(!same_images(alone, exported(scenario, 2)));
 }
 
+TEST_CASE("what is carried over from frames before is the same on one thread, on four, and frame by frame") {
+  Scenario scenario({326, 242}, kCodedFrames);
+  if (!write_h264(scenario.path("footage.mp4"))) return;
+  fly(scenario, CodecMatchChoice::footage);
+  scenario.project.footage.video = scenario.path("footage.mp4").string();
+  const RawVideo first_alone = exported(scenario, 1);
+  scenario.project.appearance.codec.carried_frames = 4;
+  const RawVideo alone = exported(scenario, 1);
+  CHECK(same_images(alone, exported(scenario, 4)));
+  CHECK(!same_images(alone, first_alone));
+  for (std::size_t i = 0; i < 3; ++i)  // nothing is before the first frame
+    CHECK(same_bytes(alone.images[0].planes[i], first_alone.images[0].planes[i]));
+  Result<OpenedProject> opened = open_project(scenario.project, nullptr);
+  REQUIRE(opened.has_value());
+  for (const int n : {9, 1, 6}) {
+    CAPTURE(n);
+    const Frame background = opened->source.read(n).value();
+    const ComposedFrame frame = composed(opened->scene, n, background);
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(same_bytes(frame.image.planes[i], alone.images[static_cast<std::size_t>(n)].planes[i]));
+  }
+}
+
 TEST_CASE("the truth does not depend on the codec match, and every rewritten sample is in the mask") {
   for (const PixelLayout layout :
        {PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444, PixelLayout::rgb})
@@ -89,7 +112,7 @@ TEST_CASE("the truth does not depend on the codec match, and every rewritten sam
       fly(scenario, CodecMatchChoice::none);
       const Frame background = grainy_frame({320, 240}, 1, layout);
       const ComposedFrame plain = composed(scenario.opened(), 3, background);
-      scenario.project.appearance.codec = {.match = match, .quantiser = 35};
+      scenario.project.appearance.codec = {.match = match, .carried_frames = 3, .quantiser = 35};
       const ComposedFrame matched = composed(scenario.opened(), 3, background);
       REQUIRE(plain.truth.intruders.size() == 1);
       CHECK(matched.truth.intruders[0].visible_pixels == plain.truth.intruders[0].visible_pixels);
