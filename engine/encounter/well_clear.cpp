@@ -114,11 +114,13 @@ Result<void> check_volume(const WellClearVolume& volume) {
 
 bool has_lost_well_clear(const RelativeState& state, const WellClearVolume& volume) {
   if (!is_finite(state)) return false;
-  const bool is_vertical = std::abs(state.vertical_m) <= volume.zthr_m || time_to_coaltitude_s(state) <= volume.tcoa_s;
+  const bool is_vertical =
+      std::abs(state.vertical_m) <= volume.zthr_m + kLimitRounding_m || time_to_coaltitude_s(state) <= volume.tcoa_s;
   if (!is_vertical) return false;
   const HorizontalLine line = horizontal_line(state);
-  if (line.distance_m <= volume.dmod_m) return true;
-  return line.along_m < 0 && line.across_m <= volume.hmd_m && tau_mod_s(state, volume.dmod_m) <= volume.tau_mod_s;
+  if (line.distance_m <= volume.dmod_m + kLimitRounding_m) return true;
+  return line.along_m < 0 && line.across_m <= volume.hmd_m + kLimitRounding_m &&
+         tau_mod_s(state, volume.dmod_m) <= volume.tau_mod_s;
 }
 
 std::optional<TimeInterval> straight_loss(const RelativeState& state, const WellClearVolume& volume) {

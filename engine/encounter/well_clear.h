@@ -17,7 +17,9 @@ namespace sigs {
 // The limits of a volume around the ownship.
 //   Horizontal loss: |s| <= dmod_m, or closing with HMD <= hmd_m and tau_mod <= tau_mod_s.
 //   Vertical loss: |vertical_m| <= zthr_m, or time to co-altitude <= tcoa_s.
-// Limits count as within.
+// Limits count as within; a distance that is beyond its limit by kLimitRounding_m at most counts as at the limit, since
+// feet as metres have rounding: 450 ft less than 6000 ft is to be 450 ft.
+inline constexpr double kLimitRounding_m = 1e-10;
 struct WellClearVolume {
   std::string name;
   double dmod_m = 0;
