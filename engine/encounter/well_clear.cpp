@@ -149,7 +149,7 @@ double loss_severity(const RelativeState& state, const WellClearVolume& volume) 
       std::max(volume.dmod_m, (std::sqrt(flown_m * flown_m + 4 * volume.dmod_m * volume.dmod_m) - flown_m) / 2);
   const double hmd_m = line.along_m < 0 ? line.across_m : line.distance_m;
   const double horizontal = norm_of(share_of(line.distance_m, reach_m), share_of(hmd_m, volume.hmd_m));
-  return 100 * (1 - norm_of(horizontal, share_of(std::abs(state.vertical_m), volume.zthr_m)));
+  return 100 * std::max(0.0, 1 - norm_of(horizontal, share_of(std::abs(state.vertical_m), volume.zthr_m)));
 }
 
 }  // namespace sigs
