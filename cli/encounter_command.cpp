@@ -163,7 +163,11 @@ Result<Flights> flights_of_file(const fs::path& path) {
 Result<Flights> flights_of(const EncounterOptions& options) {
   const Result<std::optional<Project>> project = project_in(options.file);
   if (!project) return fail(project.error());
-  return *project ? flights_of_project(**project) : flights_of_file(options.file);
+  if (!*project) return flights_of_file(options.file);
+  std::vector<fs::path> outputs;
+  for (const auto& [option, path] : options.outputs()) outputs.push_back(path);
+  if (const Result<void> kept = check_inputs_not_overwritten(**project, outputs); !kept) return fail(kept.error());
+  return flights_of_project(**project);
 }
 
 // The ownship and the intruders asked for. Error usage where there is none of that name.

@@ -76,6 +76,10 @@ TEST_CASE("a project: the camera's path against each intruder, a step for each f
           doctest::Approx(std::hypot(20 - 10 * t, -3 + t * 6 / 0.36)).epsilon(1e-9));
   }
   CHECK(one.at("volumes").at(0).at("steps_lost") == 10);
+  // What the project is read from is never replaced.
+  const std::string model = read_text(tiny.file("cube.obj")).value();
+  CHECK(run_sigs("encounter " + tiny.project() + " --force --json " + tiny.file("cube.obj").string()).status == 73);
+  CHECK(read_text(tiny.file("cube.obj")).value() == model);
 }
 
 TEST_CASE("mistakes end with the status that says so, name what is wrong, and write nothing") {
