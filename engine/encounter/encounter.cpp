@@ -213,6 +213,18 @@ std::vector<double> merged(const std::vector<double>& a, const std::vector<doubl
   return all;
 }
 
+// Of the positions' difference: some units in the last place of the largest coordinate, as some instants have it.
+double rounding_of(const EncounterTrack& own, const EncounterTrack& intruder, double first_s, double last_s) {
+  constexpr int kInstants = 64;
+  double largest_m = 0;
+  for (int i = 0; i <= kInstants; ++i) {
+    const double time_s = i == kInstants ? last_s : first_s + i * ((last_s - first_s) / kInstants);
+    for (const glm::dvec3& place : {own.at(time_s).position_m, intruder.at(time_s).position_m})
+      for (int axis = 0; axis < 3; ++axis) largest_m = std::max(largest_m, std::abs(place[axis]));
+  }
+  return 1e-15 * largest_m;
+}
+
 Result<void> check(const EncounterTrack& own, const EncounterTrack& intruder, const EncounterSettings& settings) {
   for (const WellClearVolume& volume : settings.volumes)
     if (const Result<void> sound = check_volume(volume); !sound) return sound;
@@ -245,7 +257,7 @@ Result<EncounterSummary> encounter_of(const EncounterTrack& own, const Encounter
   std::vector<LossSearch> searches(settings.volumes.begin(), settings.volumes.end());
   searches.emplace_back(nmac_volume());
   for_each_smooth_piece(motion, summary.first_s, summary.last_s, merged(own.knots_s, intruder.knots_s),
-                        [&](const SmoothPiece& piece) {
+                        rounding_of(own, intruder, summary.first_s, summary.last_s), [&](const SmoothPiece& piece) {
                           slant.visit(piece, motion);
                           horizontal.visit(piece, motion);
                           for (LossSearch& search : searches) search.visit(piece, motion);

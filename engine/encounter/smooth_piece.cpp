@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <utility>
 
 namespace sigs {
 
@@ -15,6 +15,7 @@ constexpr double kLongest_s = 20;  // of a piece, where there are not more than 
 constexpr double kMostPieces = 1e5;
 constexpr double kCubic_m = 1e-8;
 constexpr double kRounding = 1e-13;
+constexpr double kUnitRounding = 1.2e-16;  // of a number, relative
 
 using Coefficients = std::array<double, kN>;
 
@@ -62,15 +63,33 @@ double fitted(const std::array<double, 4>& values, double place) {
   return sum;
 }
 
-bool is_cubic(const SmoothPiece& piece) {
+// The least and the greatest of a component.
+std::pair<double, double> extent(const SmoothPiece& piece, int index) {
+  std::pair all{component(piece.nodes[0], index), component(piece.nodes[0], index)};
+  for (const RelativeState& node : piece.nodes) {
+    all.first = std::min(all.first, component(node, index));
+    all.second = std::max(all.second, component(node, index));
+  }
+  return all;
+}
+
+// How far a component may be from its cubic: kCubic_m, and what rounding does, of the numbers and of the nodes' times
+// (seconds since 1970 have steps of 2.4e-7).
+double allowed_deviation(const SmoothPiece& piece, int index, double rounding_m) {
   const double length_s = piece.end_s - piece.begin_s;
+  const double time_rounding_s = 4 * kUnitRounding * std::max(std::abs(piece.begin_s), std::abs(piece.end_s));
+  const auto [low, high] = extent(piece, index);
+  const double rate = (high - low) / length_s;  // about; of a position its velocity
+  const double rounding = 1e-13 * std::max(std::abs(low), std::abs(high)) + rate * time_rounding_s;
+  // A velocity that is wrong by this much moves the position by kCubic_m.
+  return rounding + (index < 3 ? kCubic_m + rounding_m : kCubic_m / std::min(1.0, length_s));
+}
+
+bool is_cubic(const SmoothPiece& piece, double rounding_m) {
   for (int c = 0; c < 6; ++c) {
     std::array<double, 4> values{};
     for (std::size_t i = 0; i < 4; ++i) values[i] = component(piece.nodes[kFitted[i]], c);
-    double largest = 0;
-    for (const double value : values) largest = std::max(largest, std::abs(value));
-    // A velocity that is wrong by this much moves the position by kCubic_m.
-    const double allowed = (c < 3 ? kCubic_m : kCubic_m / std::min(1.0, length_s)) + 1e-13 * largest;
+    const double allowed = allowed_deviation(piece, c, rounding_m);
     for (std::size_t i = 0; i < kN; ++i)
       if (std::abs(fitted(values, node_places()[i]) - component(piece.nodes[i], c)) > allowed) return false;
   }
@@ -83,14 +102,14 @@ SmoothPiece piece_between(const RelativeMotionAt& motion, double begin_s, double
   return piece;
 }
 
-void visit_halves(const RelativeMotionAt& motion, double begin_s, double end_s,
+void visit_halves(const RelativeMotionAt& motion, double begin_s, double end_s, double rounding_m,
                   const std::function<void(const SmoothPiece&)>& visit) {
   const SmoothPiece piece = piece_between(motion, begin_s, end_s);
-  const double shortest_s = std::max(kShortest_s, 64 * 2.3e-16 * std::max(std::abs(begin_s), std::abs(end_s)));
-  if (end_s - begin_s <= shortest_s || is_cubic(piece)) return visit(piece);
+  const double shortest_s = std::max(kShortest_s, 256 * kUnitRounding * std::max(std::abs(begin_s), std::abs(end_s)));
+  if (end_s - begin_s <= shortest_s || is_cubic(piece, rounding_m)) return visit(piece);
   const double middle_s = begin_s + (end_s - begin_s) / 2;
-  visit_halves(motion, begin_s, middle_s, visit);
-  visit_halves(motion, middle_s, end_s, visit);
+  visit_halves(motion, begin_s, middle_s, rounding_m, visit);
+  visit_halves(motion, middle_s, end_s, rounding_m, visit);
 }
 
 // --- Sign changes.
@@ -210,13 +229,14 @@ class Isolation {
 }  // namespace
 
 void for_each_smooth_piece(const RelativeMotionAt& motion, double begin_s, double end_s,
-                           const std::vector<double>& knots_s, const std::function<void(const SmoothPiece&)>& visit) {
+                           const std::vector<double>& knots_s, double rounding_m,
+                           const std::function<void(const SmoothPiece&)>& visit) {
   const double longest_s = std::max(kLongest_s, (end_s - begin_s) / kMostPieces);
   const auto cut_evenly = [&](double from_s, double to_s) {
     const auto parts = static_cast<int>(std::ceil((to_s - from_s) / longest_s));
     for (int i = 0; i < parts; ++i)
       visit_halves(motion, from_s + i * ((to_s - from_s) / parts),
-                   i + 1 == parts ? to_s : from_s + (i + 1) * ((to_s - from_s) / parts), visit);
+                   i + 1 == parts ? to_s : from_s + (i + 1) * ((to_s - from_s) / parts), rounding_m, visit);
   };
   double from_s = begin_s;
   for (const double knot_s : knots_s) {

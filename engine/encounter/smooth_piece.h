@@ -26,10 +26,12 @@ struct SmoothPiece {
 using RelativeMotionAt = std::function<RelativeState(double time_s)>;
 
 // Calls `visit` with the pieces from begin_s to end_s, in order and without gaps.
-//   knots_s  rising; pieces end there
+//   knots_s      rising; pieces end there
+//   rounding_m   how far the relative position may be off by rounding: of flights far from the origin
 // A piece is not cut below 1 ms, nor below some units in the last place of the time.
 void for_each_smooth_piece(const RelativeMotionAt& motion, double begin_s, double end_s,
-                           const std::vector<double>& knots_s, const std::function<void(const SmoothPiece&)>& visit);
+                           const std::vector<double>& knots_s, double rounding_m,
+                           const std::function<void(const SmoothPiece&)>& visit);
 
 // The value of a function, and the size of the largest terms that it is the sum of: what is below 1e-13 of that is
 // rounding.

@@ -189,4 +189,37 @@ BruteForce brute_force(int pairs) {
   return all;
 }
 
+std::string grazes(int pairs) {
+  Random random(5);
+  for (int pair = 0; pair < pairs; ++pair) {
+    const Flight own = random_flight(random, {0, 0, -500});
+    const Flight intruder = random_flight(random, {0, 0, -500});
+    const EncounterTrack tracks[] = {track_for(own, "own"), track_for(intruder, "intruder")};
+    const auto outcome = [&](double radius_m) {
+      return encounter_of(tracks[0], tracks[1], {.volumes = {{"cylinder", radius_m, radius_m, 0, 1e5, 0}}}).value();
+    };
+    const NearestMoment nearest = outcome(100).nearest_horizontal;
+    if (nearest.horizontal_m < 1) continue;
+    for (const double share : {1e-3, 1e-5}) {
+      const std::string where = "pair " + std::to_string(pair) + ", " + std::to_string(nearest.horizontal_m) + " m";
+      if (!outcome(nearest.horizontal_m * (1 - share)).volumes[0].losses.empty())
+        return where + ": loss in the narrower";
+      const double radius_m = nearest.horizontal_m * (1 + share);
+      const EncounterSummary wider = outcome(radius_m);
+      bool is_there = false;
+      for (const TimeInterval& loss : wider.volumes[0].losses) {
+        is_there = is_there || (loss.begin_s <= nearest.time_s && nearest.time_s <= loss.end_s);
+        for (const double end_s : {loss.begin_s, loss.end_s}) {
+          const glm::dvec3 s = intruder.at(end_s).position_m - own.at(end_s).position_m;
+          const bool is_cut = end_s == wider.first_s || end_s == wider.last_s;
+          if (!is_cut && std::abs(std::hypot(s.x, s.y) - radius_m) > 1e-6)
+            return where + ": an end is not on the radius";
+        }
+      }
+      if (!is_there) return where + ": no loss in the wider";
+    }
+  }
+  return {};
+}
+
 }  // namespace sigs::test

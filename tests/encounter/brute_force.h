@@ -21,4 +21,9 @@ struct BruteForce {
 // encounter_of() is nearer than 0.5 ms; each end must be one by the conditions 0.5 ms before and after it.
 [[nodiscard]] BruteForce brute_force(int pairs);
 
+// For flights of the same kinds: with a radius that is wider than the least horizontal distance by 1e-3 and 1e-5 of it,
+// there is a loss that has the moment of that distance, and each of its ends is on that radius; with one that is as
+// much narrower there is none. Returns the first disagreement; empty: none.
+[[nodiscard]] std::string grazes(int pairs);
+
 }  // namespace sigs::test

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "encounter/brute_force.h"
+#include "encounter/smooth_piece.h"
 
 using namespace sigs;
 
@@ -142,6 +143,44 @@ TEST_CASE("stiff encounters: slow, far, at one height for ever, identical") {
                                                 circling({0, 0, -50}, 600, 0.3), {"own", 600, 600, 20, 10, 5});
     CHECK(summary.volumes[0].losses.size() < 5000);  // rounding decides, but nothing runs away
   }
+}
+
+TEST_CASE("flights at UTC's seconds and 1e9 m from the origin are cut into no more pieces than others") {
+  const double start_s = 1.7e9;
+  const WellClearVolume kWide{"wide", 800, 800, 20, 100, 0};
+  SampledTrack own{.name = "own", .has_velocities = true};
+  SampledTrack intruder{.name = "intruder", .has_velocities = true};
+  for (int i = 0; i <= 100; ++i) {
+    const double a = 0.05 * i;
+    const glm::dvec3 origin(1e9, -1e9, 0);
+    own.samples.push_back(
+        {start_s + i,
+         {origin + 800.0 * glm::dvec3(std::cos(a), std::sin(a), 0), 40.0 * glm::dvec3(-std::sin(a), std::cos(a), 0)}});
+    intruder.samples.push_back({start_s + i, {origin + glm::dvec3(-1500 + 30.0 * i, 100, 20), {30, 0, 0}}});
+  }
+  const EncounterTrack a = track_of(own);
+  const EncounterTrack b = track_of(intruder);
+  int pieces = 0;
+  for_each_smooth_piece([&](double t) { return relative_state(a.at(t), b.at(t)); }, start_s, start_s + 100, a.knots_s,
+                        1e-15 * 1e9, [&](const SmoothPiece&) { ++pieces; });
+  CHECK(pieces == 100);
+  const EncounterSummary far = summary_of(a, b, kWide);
+  for (SampledTrack* track : {&own, &intruder})
+    for (TrackSample& sample : track->samples) {
+      sample.time_s -= start_s;
+      sample.state.position_m -= glm::dvec3(1e9, -1e9, 0);
+    }
+  const EncounterSummary near = summary_of(track_of(own), track_of(intruder), kWide);
+  REQUIRE(far.volumes[0].losses.size() == near.volumes[0].losses.size());
+  REQUIRE(!near.volumes[0].losses.empty());
+  for (std::size_t i = 0; i < near.volumes[0].losses.size(); ++i) {
+    CHECK(std::abs(far.volumes[0].losses[i].begin_s - start_s - near.volumes[0].losses[i].begin_s) < 1e-6);
+    CHECK(std::abs(far.volumes[0].losses[i].end_s - start_s - near.volumes[0].losses[i].end_s) < 1e-6);
+  }
+}
+
+TEST_CASE("a limit barely wider than the miss gives a brief loss there, one barely narrower none") {
+  CHECK(test::grazes(150) == "");
 }
 
 TEST_CASE("flights that share no time are named with their times") {
