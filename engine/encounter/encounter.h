@@ -21,7 +21,7 @@ struct EncounterSettings {
   std::vector<double> row_times_s;
 };
 
-// A moment of the encounter.
+// A moment of the encounter. Distances are those flown, not predicted.
 struct NearestMoment {
   double time_s = 0;
   double range_m = 0;  // slant
@@ -65,13 +65,13 @@ struct EncounterSummary {
   std::string own_name;
   std::string intruder_name;
   double first_s = 0;  // the time that both share
-  double last_s = 0;
+  double last_s = 0;   // at least first_s
   // Of several moments equally near the earliest.
   NearestMoment nearest;             // by slant range
   NearestMoment nearest_horizontal;  // its distances are the flown HMD and VMD
   std::vector<VolumeOutcome> volumes;
-  VolumeOutcome nmac;  // nmac_volume(), asked for or not
-  std::vector<EncounterRow> rows;
+  VolumeOutcome nmac;                      // nmac_volume(), asked for or not
+  std::vector<EncounterRow> rows;          // by rising time
   std::optional<std::size_t> nearest_row;  // of least horizontal distance
 };
 

@@ -183,6 +183,26 @@ TEST_CASE("a limit barely wider than the miss gives a brief loss there, one bare
   CHECK(test::grazes(150) == "");
 }
 
+TEST_CASE("a corner of a path that is not named as a knot costs no more than 1 ms") {
+  // North at 60 m/s, and from 31.337 s on east: tau of a hovering ownship ends there.
+  const double corner_s = 31.337;
+  EncounterTrack turning{.name = "turning", .last_s = 60, .at = [=](double t) {
+                           const double after_s = std::max(0.0, t - corner_s);
+                           return AircraftState{{-3000 + 60 * (t - after_s), 60 * after_s, 0},
+                                                t < corner_s ? glm::dvec3(60, 0, 0) : glm::dvec3(0, 60, 0)};
+                         }};
+  const WellClearVolume volume{"tau", 600, 600, 35, 100, 0};
+  const EncounterTrack own = flying_straight({0, 0, 0}, {0, 0, 0}, 60);
+  const EncounterSummary unnamed = summary_of(own, turning, volume);
+  turning.knots_s = {corner_s};
+  const EncounterSummary named = summary_of(own, turning, volume);
+  REQUIRE(named.volumes[0].losses.size() == 1);
+  REQUIRE(unnamed.volumes[0].losses.size() == 1);
+  CHECK(std::abs(named.volumes[0].losses[0].end_s - corner_s) < 1e-9);
+  CHECK(std::abs(unnamed.volumes[0].losses[0].end_s - corner_s) < 1e-3);
+  CHECK(std::abs(unnamed.volumes[0].losses[0].begin_s - named.volumes[0].losses[0].begin_s) < 1e-6);
+}
+
 TEST_CASE("flights that share no time are named with their times") {
   EncounterTrack late = flying_straight({0, 0, 0}, {1, 0, 0});
   late.name = "late one";
