@@ -19,6 +19,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_compare_command(CLI::App& program);     // sigs compare
 [[nodiscard]] Command add_dataset_command(CLI::App& program);     // sigs dataset
 [[nodiscard]] Command add_ego_motion_command(CLI::App& program);  // sigs ego-motion
+[[nodiscard]] Command add_encounter_command(CLI::App& program);   // sigs encounter
 [[nodiscard]] Command add_evaluate_command(CLI::App& program);    // sigs evaluate, with its two subcommands
 [[nodiscard]] Command add_export_command(CLI::App& program);      // sigs export
 [[nodiscard]] Command add_frame_command(CLI::App& program);       // sigs frame

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/paths.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "base/xml_text.h"
+#include "cli/commands.h"
+#include "cli/encounter_plot.h"
+#include "cli/options.h"
+#include "cli/path_project.h"
+#include "cli/process.h"
+#include "encounter/daa_file.h"
+#include "encounter/encounter_report.h"
+#include "scene/encounter_tracks.h"
+#include "scene/opened_project.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kFoot_m = 0.3048;
+constexpr std::size_t kMostDrawn = 8;  // encounters in one plot
+
+constexpr const char* kEncounterFooter =
+    "Examples:\n"
+    "  sigs encounter projects/head-on/head-on.json\n"
+    "  sigs encounter pair.daa --volume dwc-en-route --json pair.json --plot pair.png\n"
+    "  sigs encounter pair.csv --volume small-uas --zthr-ft 300\n"
+    "  sigs encounter encounter.json --daa encounter.daa";
+
+struct EncounterOptions {
+  fs::path file;
+  std::vector<std::string> volumes;  // by name; empty: all of the table
+  // Limits of a volume of the user's own, in the units of its options; none: those of the first volume.
+  std::optional<double> dmod_ft;
+  std::optional<double> hmd_ft;
+  std::optional<double> tau_s;
+  std::optional<double> zthr_ft;
+  std::optional<double> tcoa_s;
+  std::string intruder;  // empty: all
+  fs::path json;         // empty: not written; likewise the others
+  fs::path plot;
+  fs::path daa;
+  bool force = false;
+
+  [[nodiscard]] bool has_own_volume() const { return dmod_ft || hmd_ft || tau_s || zthr_ft || tcoa_s; }
+  [[nodiscard]] std::vector<std::pair<const char*, fs::path>> outputs() const {
+    std::vector<std::pair<const char*, fs::path>> given;
+    for (const auto& [option, path] :
+         {std::pair("--json ", json), std::pair("--plot ", plot), std::pair("--daa ", daa)})
+      if (!path.empty()) given.emplace_back(option, path);
+    return given;
+  }
+};
+
+// What a file or a project says: flights, and the times of its steps.
+struct Flights {
+  std::vector<EncounterTrack> tracks;  // the ownship first
+  std::vector<SampledTrack> samples;   // the same, for --daa
+  std::vector<double> steps_s;
+};
+
+// --- Options.
+
+// Before anything is read. Errors usage, cannot_create.
+Result<void> check_outputs(const EncounterOptions& options) {
+  const auto outputs = options.outputs();
+  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
+    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto& [option, path] = outputs[i];
+    for (std::size_t j = 0; j < i; ++j)
+      if (canonical_name(path) == canonical_name(outputs[j].second))
+        return fail(option + path.string(), fmt::format("is where {}goes", outputs[j].first), ErrorKind::usage);
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, {options.file}); !kept)
+      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+// Those named, each once, and then the user's own. Error usage.
+Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options) {
+  std::vector<WellClearVolume> volumes;
+  for (const std::string& name : options.volumes) {
+    const Result<WellClearVolume> volume = well_clear_volume(name);
+    if (!volume) return fail("--volume " + line_text(name), volume.error().what, ErrorKind::usage);
+    const bool is_there = std::any_of(volumes.begin(), volumes.end(),
+                                      [&](const WellClearVolume& other) { return other.name == volume->name; });
+    if (!is_there) volumes.push_back(*volume);
+  }
+  if (options.has_own_volume()) {
+    WellClearVolume own = volumes.empty() ? well_clear_volumes().front() : volumes.front();
+    own.name = "own";
+    if (options.dmod_ft) own.dmod_m = *options.dmod_ft * kFoot_m;
+    // The table's volumes have one distance for both.
+    if (options.dmod_ft && !options.hmd_ft) own.hmd_m = own.dmod_m;
+    if (options.hmd_ft) own.hmd_m = *options.hmd_ft * kFoot_m;
+    if (options.tau_s) own.tau_mod_s = *options.tau_s;
+    if (options.zthr_ft) own.zthr_m = *options.zthr_ft * kFoot_m;
+    if (options.tcoa_s) own.tcoa_s = *options.tcoa_s;
+    volumes.push_back(own);
+  }
+  if (volumes.empty()) volumes.assign(well_clear_volumes().begin(), well_clear_volumes().end());
+  return volumes;
+}
+
+// --- Flights.
+
+SampledTrack sampled(const EncounterTrack& track, const std::vector<double>& times_s) {
+  SampledTrack samples{.name = track.name, .has_velocities = true};
+  for (const double time_s : times_s) samples.samples.push_back({time_s, track.at(time_s)});
+  return samples;
+}
+
+Result<Flights> flights_of_project(const Project& project) {
+  const Result<OpenedProject> opened = open_project(project, &interrupt_flag());
+  if (!opened) return fail(opened.error());
+  for (const Warning& warning : opened->warnings) print_warning(warning);
+  const Scene& scene = opened->scene;
+  if (scene.intruders.empty())
+    return fail(project.file.string() + ": intruders", "is empty; an encounter needs one", ErrorKind::bad_project);
+  Flights flights{.steps_s = times_of_frames_s(scene)};
+  flights.tracks.push_back(encounter_track_of_camera(scene));
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i)
+    flights.tracks.push_back(encounter_track_of_intruder(scene, i));
+  // A file knows aircraft by their names alone.
+  std::map<std::string, int> seen;
+  for (EncounterTrack& track : flights.tracks) {
+    if (const int before = seen[track.name]++; before > 0) track.name += fmt::format("-{}", before + 1);
+    flights.samples.push_back(sampled(track, flights.steps_s));
+  }
+  return flights;
+}
+
+Result<Flights> flights_of_file(const fs::path& path) {
+  Result<EncounterFile> file = read_encounter_file(path.string());
+  if (!file) return fail(file.error());
+  for (const Warning& warning : file->warnings) print_warning(warning);
+  Flights flights;
+  for (const TrackSample& sample : file->tracks.front().samples) flights.steps_s.push_back(sample.time_s);
+  for (const SampledTrack& track : file->tracks) flights.tracks.push_back(track_of(track));
+  flights.samples = std::move(file->tracks);
+  return flights;
+}
+
+Result<Flights> flights_of(const EncounterOptions& options) {
+  const Result<std::optional<Project>> project = project_in(options.file);
+  if (!project) return fail(project.error());
+  if (!*project) return flights_of_file(options.file);
+  std::vector<fs::path> outputs;
+  for (const auto& [option, path] : options.outputs()) outputs.push_back(path);
+  if (const Result<void> kept = check_inputs_not_overwritten(**project, outputs); !kept) return fail(kept.error());
+  return flights_of_project(**project);
+}
+
+// The ownship and the intruders asked for. Error usage where there is none of that name.
+Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
+  if (options.intruder.empty()) return flights;
+  Flights some{.tracks = {flights.tracks[0]}, .samples = {flights.samples[0]}, .steps_s = flights.steps_s};
+  std::vector<std::string> others;
+  for (std::size_t i = 1; i < flights.tracks.size(); ++i) {
+    others.push_back(line_text(flights.tracks[i].name));
+    if (lower_case(flights.tracks[i].name) != lower_case(options.intruder)) continue;
+    some.tracks.push_back(flights.tracks[i]);
+    some.samples.push_back(flights.samples[i]);
+  }
+  if (some.tracks.size() > 1) return some;
+  if (others.size() > 10) others.resize(10);
+  return fail("--intruder " + line_text(options.intruder), "no such aircraft; there are " + listed(others),
+              ErrorKind::usage);
+}
+
+// --- Outputs.
+
+// What is to be written, by name. All get their names together, or none does.
+using Contents = std::vector<std::pair<fs::path, std::string>>;
+
+Result<std::string> png_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
+  if (encounters.size() > kMostDrawn)
+    return fail("--plot " + options.plot.string(),
+                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMostDrawn,
+                            encounters.size()),
+                ErrorKind::usage);
+  const cv::Mat image = encounter_plot(encounters);
+  if (image.empty()) return fail(options.file.string(), "has no step in the time that both fly, to be drawn");
+  std::vector<uchar> bytes;
+  cv::imencode(".png", image, bytes);
+  return std::string(bytes.begin(), bytes.end());
+}
+
+Result<Contents> contents_of(const std::vector<EncounterSummary>& encounters, const Flights& flights,
+                             const EncounterOptions& options) {
+  Contents contents;
+  if (!options.json.empty())
+    contents.emplace_back(options.json, encounter_json_text(encounters, options.file.filename().string()));
+  if (!options.daa.empty()) contents.emplace_back(options.daa, daa_text(flights.samples));
+  if (options.plot.empty()) return contents;
+  Result<std::string> png = png_of(encounters, options);
+  if (!png) return fail(png.error());
+  contents.emplace_back(options.plot, *std::move(png));
+  return contents;
+}
+
+// The names are taken before anything is read, so that what stands in their way shows at once.
+class Outputs {
+ public:
+  explicit Outputs(bool overwrite)
+      : staged_(overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
+
+  Result<void> reserve(const EncounterOptions& options) {
+    for (const auto& [option, path] : options.outputs()) {
+      const Result<fs::path> place = staged_.add_file(path);
+      if (!place) return fail(place.error());
+      places_[path] = *place;
+    }
+    return {};
+  }
+
+  Result<void> write(const Contents& contents) {
+    for (const auto& [path, text] : contents) {
+      std::ofstream out(places_.at(path), std::ios::binary);
+      out.write(text.data(), static_cast<std::streamsize>(text.size()));
+      out.close();
+      if (!out)
+        return fail(path.string(), std::string("could not be written: ") + std::strerror(errno),
+                    ErrorKind::write_failed);
+    }
+    return contents.empty() ? Result<void>() : staged_.commit();
+  }
+
+ private:
+  StagedOutputs staged_;
+  std::map<fs::path, fs::path> places_;  // temporary names by the final ones
+};
+
+Result<void> encounter(const EncounterOptions& options) {
+  if (const Result<void> named = check_outputs(options); !named) return named;
+  const Result<std::vector<WellClearVolume>> volumes = volumes_of(options);
+  if (!volumes) return fail(volumes.error());
+  defer_interrupts();
+  Outputs outputs(options.force);
+  if (const Result<void> free = outputs.reserve(options); !free) return free;
+  Result<Flights> all = flights_of(options);
+  if (!all) return fail(all.error());
+  const Result<Flights> flights = chosen(*std::move(all), options);
+  if (!flights) return fail(flights.error());
+  std::vector<EncounterSummary> encounters;
+  for (std::size_t i = 1; i < flights->tracks.size(); ++i) {
+    Result<EncounterSummary> summary =
+        encounter_of(flights->tracks[0], flights->tracks[i], {.volumes = *volumes, .row_times_s = flights->steps_s});
+    if (interrupt_flag()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+    if (!summary) return fail(options.file.string() + ": " + line_text(summary.error().where), summary.error().what);
+    encounters.push_back(*std::move(summary));
+  }
+  const Result<Contents> contents = contents_of(encounters, *flights, options);
+  if (!contents) return fail(contents.error());
+  if (const Result<void> written = outputs.write(*contents); !written) return written;
+  for (const EncounterSummary& summary : encounters)
+    std::printf("%s%s", &summary == encounters.data() ? "" : "\n", encounter_report_text(summary).c_str());
+  return {};
+}
+
+void add_limit(CLI::App& command, const char* name, const char* unit, const char* help, std::optional<double>& value) {
+  command.add_option(name, value, help)->option_text(unit)->check(from_to(0, 1e9));
+}
+
+}  // namespace
+
+Command add_encounter_command(CLI::App& program) {
+  CLI::App* const command =
+      program.add_subcommand("encounter", "how near two aircraft come, and when they lose well clear");
+  const auto options = std::make_shared<EncounterOptions>();
+  command
+      ->add_option("FILE", options->file,
+                   "a project, or flights: DAIDALUS .daa or .txt, or a CSV with columns own_east_ft, int_east_ft, ...")
+      ->required()
+      ->check(not_empty());
+  command
+      ->add_option(
+          "--volume", options->volumes,
+          "a volume by name, may be repeated: dwc-en-route, dwc-non-cooperative, dwc-terminal, small-uas, nmac")
+      ->option_text("NAME")
+      ->allow_extra_args(false);
+  add_limit(*command, "--dmod-ft", "FT", "a volume \"own\": like the first one but for its DMOD", options->dmod_ft);
+  add_limit(*command, "--hmd-ft", "FT", "its HMD (that of --dmod-ft)", options->hmd_ft);
+  add_limit(*command, "--tau-s", "S", "its modified tau", options->tau_s);
+  add_limit(*command, "--zthr-ft", "FT", "its vertical limit", options->zthr_ft);
+  add_limit(*command, "--tcoa-s", "S", "its time to co-altitude", options->tcoa_s);
+  command->add_option("--intruder", options->intruder, "only this aircraft against the ownship")->option_text("NAME");
+  command->add_option("--json", options->json, "write all quantities at each step, and the intervals")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_option("--plot", options->plot, "draw range, times and vertical offset; a PNG")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_option("--daa", options->daa, "write the flights as a file for DAIDALUS")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_flag("--force", options->force, "overwrite what is there");
+  command->footer(kEncounterFooter);
+  return [options] { return encounter(*options); };
+}
+
+}  // namespace sigs::cli

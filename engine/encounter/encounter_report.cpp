@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "encounter/encounter_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+
+namespace sigs {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kFoot_m = 0.3048;
+constexpr double kDegree_rad = 0.017453292519943295;
+
+// --- For people.
+
+// "538.8586 m (1767.9088 ft)"
+std::string length_text(double metres) {
+  return fmt::format("{} m ({} ft)", fixed_text(metres, 4), fixed_text(metres / kFoot_m, 4));
+}
+
+std::string vertical_text(double metres) {
+  if (std::abs(metres) < 5e-5) return "at the same height";
+  return length_text(std::abs(metres)) + (metres > 0 ? " above" : " below");
+}
+
+std::string limits_text(const WellClearVolume& volume) {
+  return fmt::format("DMOD {} ft, HMD {} ft, tau {} s, ZTHR {} ft, TCOA {} s", number_text(volume.dmod_m / kFoot_m, 2),
+                     number_text(volume.hmd_m / kFoot_m, 2), number_text(volume.tau_mod_s, 2),
+                     number_text(volume.zthr_m / kFoot_m, 2), number_text(volume.tcoa_s, 2));
+}
+
+std::string loss_text(const EncounterSummary& summary, const TimeInterval& loss) {
+  const bool from_first = loss.begin_s == summary.first_s;
+  const bool to_last = loss.end_s == summary.last_s;
+  const char* const cut = from_first && to_last ? ", throughout"
+                          : from_first          ? ", from the beginning on"
+                          : to_last             ? ", until the end"
+                                                : "";
+  return fmt::format("  lost from {} to {} s ({} s{})\n", fixed_text(loss.begin_s, 3), fixed_text(loss.end_s, 3),
+                     fixed_text(loss.end_s - loss.begin_s, 3), cut);
+}
+
+std::string outcome_text(const EncounterSummary& summary, const VolumeOutcome& outcome) {
+  std::string text = fmt::format("{}: {}\n", outcome.volume.name, limits_text(outcome.volume));
+  if (outcome.losses.empty() && outcome.rows_lost == 0) return text + "  never lost\n";
+  for (const TimeInterval& loss : outcome.losses) text += loss_text(summary, loss);
+  if (outcome.first_row_lost)
+    text += fmt::format("  {} lost, {} to {}; at the first of them {} horizontally\n",
+                        count_text(outcome.rows_lost, "step"), *outcome.first_row_lost, *outcome.last_row_lost,
+                        length_text(summary.rows[*outcome.first_row_lost].quantities.horizontal_range_m));
+  if (outcome.worst_s)
+    text +=
+        fmt::format("  severity {} at {} s\n", fixed_text(outcome.worst_severity, 2), fixed_text(*outcome.worst_s, 3));
+  return text;
+}
+
+// --- For programs.
+
+// JSON has no infinity.
+Json number_of(double number) {
+  return std::isfinite(number) ? Json(number) : Json(nullptr);
+}
+
+Json moment_of(const NearestMoment& moment) {
+  return {{"time_s", moment.time_s},
+          {"range_m", moment.range_m},
+          {"horizontal_m", moment.horizontal_m},
+          {"vertical_m", moment.vertical_m}};
+}
+
+Json outcome_of(const VolumeOutcome& outcome) {
+  Json losses = Json::array();
+  for (const TimeInterval& loss : outcome.losses) losses.push_back({{"begin_s", loss.begin_s}, {"end_s", loss.end_s}});
+  const WellClearVolume& volume = outcome.volume;
+  return {{"name", volume.name},
+          {"dmod_m", volume.dmod_m},
+          {"hmd_m", volume.hmd_m},
+          {"tau_mod_s", volume.tau_mod_s},
+          {"zthr_m", volume.zthr_m},
+          {"tcoa_s", volume.tcoa_s},
+          {"losses", std::move(losses)},
+          {"worst_severity", outcome.worst_severity},
+          {"worst_severity_time_s", outcome.worst_s ? Json(*outcome.worst_s) : Json(nullptr)},
+          {"steps_lost", outcome.rows_lost}};
+}
+
+Json state_of(const AircraftState& state) {
+  const auto vector = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
+  return {{"position_m", vector(state.position_m)}, {"velocity_mps", vector(state.velocity_mps)}};
+}
+
+Json step_of(const EncounterSummary& summary, const EncounterRow& row) {
+  const RelativeQuantities& q = row.quantities;
+  Json step{{"time_s", row.time_s},
+            {"range_m", q.range_m},
+            {"horizontal_range_m", q.horizontal_range_m},
+            {"vertical_m", q.vertical_m},
+            {"range_rate_mps", q.range_rate_mps},
+            {"closing_speed_mps", q.closing_speed_mps},
+            {"horizontal_speed_mps", q.horizontal_speed_mps},
+            {"bearing_deg", q.bearing_rad / kDegree_rad},
+            {"elevation_deg", q.elevation_rad / kDegree_rad},
+            {"hmd_m", q.hmd_m},
+            {"vmd_m", q.vmd_m},
+            {"time_to_closest_approach_s", q.time_to_closest_s},
+            {"time_to_coaltitude_s", number_of(q.time_to_coaltitude_s)},
+            {"ownship", state_of(row.own)},
+            {"intruder", state_of(row.intruder)}};
+  for (std::size_t i = 0; i < row.of_volumes.size(); ++i) {
+    const RowOfVolume& one = row.of_volumes[i];
+    step["volumes"][summary.volumes[i].volume.name] = {
+        {"lost", one.is_lost},
+        {"tau_mod_s", number_of(one.tau_mod_s)},
+        {"severity", one.severity},
+        {"time_to_entry_s", one.predicted ? number_of(one.predicted->begin_s) : Json(nullptr)},
+        {"time_to_exit_s", one.predicted ? number_of(one.predicted->end_s) : Json(nullptr)}};
+  }
+  return step;
+}
+
+Json encounter_of(const EncounterSummary& summary) {
+  Json volumes = Json::array();
+  for (const VolumeOutcome& outcome : summary.volumes) volumes.push_back(outcome_of(outcome));
+  Json steps = Json::array();
+  for (const EncounterRow& row : summary.rows) steps.push_back(step_of(summary, row));
+  return {{"ownship", summary.own_name},
+          {"intruder", summary.intruder_name},
+          {"first_s", summary.first_s},
+          {"last_s", summary.last_s},
+          {"nearest", moment_of(summary.nearest)},
+          {"nearest_horizontal", moment_of(summary.nearest_horizontal)},
+          {"nearest_step", summary.nearest_row ? Json(*summary.nearest_row) : Json(nullptr)},
+          {"volumes", std::move(volumes)},
+          {"nmac", outcome_of(summary.nmac)},
+          {"steps", std::move(steps)}};
+}
+
+}  // namespace
+
+std::string encounter_report_text(const EncounterSummary& summary) {
+  std::string text = fmt::format("{} and {}: {} to {} s, {}\n", summary.own_name, summary.intruder_name,
+                                 fixed_text(summary.first_s, 3), fixed_text(summary.last_s, 3),
+                                 count_text(std::ssize(summary.rows), "step"));
+  const NearestMoment& flat = summary.nearest_horizontal;
+  text += fmt::format("closest approach at {} s: HMD {}, VMD {}\n", fixed_text(flat.time_s, 3),
+                      length_text(flat.horizontal_m), vertical_text(flat.vertical_m));
+  text += fmt::format("least range at {} s: {}\n", fixed_text(summary.nearest.time_s, 3),
+                      length_text(summary.nearest.range_m));
+  if (summary.nearest_row) {
+    const EncounterRow& row = summary.rows[*summary.nearest_row];
+    text +=
+        fmt::format("nearest step {} at {} s: {} horizontally, {}\n", *summary.nearest_row, fixed_text(row.time_s, 3),
+                    length_text(row.quantities.horizontal_range_m), vertical_text(row.quantities.vertical_m));
+  }
+  for (const VolumeOutcome& outcome : summary.volumes) text += outcome_text(summary, outcome);
+  const bool is_listed = std::any_of(summary.volumes.begin(), summary.volumes.end(), [](const VolumeOutcome& outcome) {
+    return outcome.volume.name == nmac_volume().name;
+  });
+  return is_listed ? text : text + outcome_text(summary, summary.nmac);
+}
+
+std::string encounter_json_text(std::span<const EncounterSummary> encounters, const std::string& source) {
+  Json all = Json::array();
+  for (const EncounterSummary& summary : encounters) all.push_back(encounter_of(summary));
+  const Json document{{"sigs_encounter", 1}, {"source", source}, {"encounters", std::move(all)}};
+  // Names from files may be no UTF-8.
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sigs

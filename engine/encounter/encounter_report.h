@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "encounter/encounter.h"
+
+namespace sigs {
+
+// An encounter as a table for people, with a line feed at its end: nearest moments, the nearest of the rows, and for
+// each volume its limits and the losses. Lengths in metres and feet.
+[[nodiscard]] std::string encounter_report_text(const EncounterSummary& summary);
+
+// Encounters as JSON, for programs: one object for each, in it one for each row ("steps"). Names end in the unit;
+// angles are in degrees, to the right and upwards. null stands for what does not come: an infinite time, no loss.
+// docs/encounters.md lists the members.
+//   source  the file that the flights come from
+[[nodiscard]] std::string encounter_json_text(std::span<const EncounterSummary> encounters, const std::string& source);
+
+}  // namespace sigs
