@@ -72,7 +72,7 @@ std::string intervals_text(const DetectionReport& report) {
     const bool is_apart = interval.low > 0 || interval.high < 0;
     text +=
         fmt::format("  {} less {}: {}, {}\n", line_text(report.scores[i].name), line_text(report.scores.front().name),
-                    interval_text(interval), is_apart ? "they can be told apart" : "they cannot be told apart");
+                    interval_text(interval), is_apart ? "they can be distinguished" : "they cannot be distinguished");
   }
   return text;
 }

@@ -84,7 +84,7 @@ TEST_CASE("two detectors on the same encounters differ by more than chance or do
   CHECK(std::isnan(share_interval({{0, 0}}).low));
 }
 
-TEST_CASE("a report says which detectors can be told apart") {
+TEST_CASE("a report says which detectors can be distinguished") {
   const auto encounter = [](bool is_detected) { return EncounterScore{.clip = "c", .is_detected = is_detected}; };
   DetectionReport report;
   for (const char* name : {"one", "two", "three"}) report.scores.push_back({.name = name});
@@ -96,8 +96,8 @@ TEST_CASE("a report says which detectors can be told apart") {
   const std::string text = intervals_text(report);
   CHECK(text.find("one: 1.000 to 1.000") != std::string::npos);
   CHECK(text.find("two less one: ") != std::string::npos);
-  CHECK(text.find("0.000, they cannot be told apart") != std::string::npos);
-  CHECK(text.find("they can be told apart", text.find("three less one")) != std::string::npos);
+  CHECK(text.find("0.000, they cannot be distinguished") != std::string::npos);
+  CHECK(text.find("they can be distinguished", text.find("three less one")) != std::string::npos);
   CHECK(intervals_text({}).empty());
   CHECK(slices_text(report).empty());
 }
