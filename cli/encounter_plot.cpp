@@ -21,6 +21,7 @@ constexpr int kLeft_px = 90;
 constexpr int kRight_px = 200;  // for the legend
 constexpr int kTop_px = 34;
 constexpr int kBottom_px = 44;
+constexpr int kLane_px = 18;         // of a volume's losses
 constexpr double kMostTime_s = 120;  // that the panel of times shows
 const cv::Scalar kInk(40, 40, 40);
 const cv::Scalar kLines[] = {{200, 90, 20}, {30, 100, 220}, {40, 150, 40}};
@@ -47,7 +48,7 @@ struct Panel {
 std::vector<Panel> panels_of(const EncounterSummary& summary) {
   std::vector<Panel> panels;
   panels.push_back(
-      {.title = summary.own_name + " and " + summary.intruder_name + ": range, m",
+      {.title = "range, m",
        .curves = {{"slant", [](const EncounterRow& row) { return row.quantities.range_m; }},
                   {"horizontal", [](const EncounterRow& row) { return row.quantities.horizontal_range_m; }},
                   {"projected HMD", [](const EncounterRow& row) { return row.quantities.hmd_m; }}}});
@@ -105,19 +106,6 @@ Axis value_axis(const Panel& panel, const EncounterSummary& summary) {
   return axis;
 }
 
-// Each volume in a strip of its own, in the legend's order, so that colours do not mix.
-void shade(cv::Mat& image, const EncounterSummary& summary, const Axis& x, const Axis& y) {
-  const int count = static_cast<int>(summary.volumes.size());
-  const int height_px = y.first_px - y.last_px;
-  for (int i = 0; i < count; ++i)
-    for (const TimeInterval& loss : summary.volumes[static_cast<std::size_t>(i)].losses) {
-      const int from_px = x.at(loss.begin_s);
-      const int to_px = std::clamp(x.at(loss.end_s), from_px + 1, image.cols);
-      cv::rectangle(image, {from_px, y.last_px + i * height_px / count},
-                    {to_px - 1, y.last_px + (i + 1) * height_px / count - 1}, color_of_volume(i), cv::FILLED);
-    }
-}
-
 void draw_curve(cv::Mat& image, const Curve& curve, const EncounterSummary& summary, const Axis& x, const Axis& y,
                 const cv::Scalar& color) {
   std::vector<cv::Point> points;
@@ -137,25 +125,44 @@ void draw_curve(cv::Mat& image, const Curve& curve, const EncounterSummary& summ
   flush();
 }
 
-void draw_legend(cv::Mat& image, const Panel& panel, const EncounterSummary& summary, bool with_volumes) {
+void draw_legend(cv::Mat& image, const Panel& panel) {
   const int left_px = kWidth_px - kRight_px + 10;
   int row_px = kTop_px + 14;
   for (std::size_t i = 0; i < panel.curves.size(); ++i, row_px += 20) {
     cv::line(image, {left_px, row_px - 4}, {left_px + 20, row_px - 4}, kLines[i % std::size(kLines)], 2, cv::LINE_AA);
     draw_text(image, panel.curves[i].label, {left_px + 26, row_px}, kInk);
   }
-  for (std::size_t i = 0; with_volumes && i < summary.volumes.size(); ++i, row_px += 20) {
-    cv::rectangle(image, {left_px, row_px - 10}, {left_px + 20, row_px}, color_of_volume(static_cast<int>(i)),
-                  cv::FILLED);
-    draw_text(image, summary.volumes[i].volume.name, {left_px + 26, row_px}, kInk);
-  }
 }
 
-cv::Mat drawn(const Panel& panel, const EncounterSummary& summary, bool is_first) {
+Axis time_axis(const EncounterSummary& summary) {
+  return {summary.first_s, std::max(summary.last_s, summary.first_s + 1e-3), kLeft_px, kWidth_px - kRight_px};
+}
+
+// A lane for each volume, filled while it is lost.
+cv::Mat drawn_losses(const EncounterSummary& summary) {
+  const int count = static_cast<int>(summary.volumes.size());
+  cv::Mat image(kTop_px + count * kLane_px + kBottom_px / 2, kWidth_px, CV_8UC3, cv::Scalar::all(255));
+  const Axis x = time_axis(summary);
+  for (int i = 0; i < count; ++i) {
+    const VolumeOutcome& outcome = summary.volumes[static_cast<std::size_t>(i)];
+    const int top_px = kTop_px + i * kLane_px;
+    for (const TimeInterval& loss : outcome.losses) {
+      const int from_px = x.at(loss.begin_s);
+      const int to_px = std::clamp(x.at(loss.end_s), from_px + 1, image.cols);
+      cv::rectangle(image, {from_px, top_px + 3}, {to_px - 1, top_px + kLane_px - 3}, color_of_volume(i), cv::FILLED);
+    }
+    draw_text(image, outcome.volume.name, {kWidth_px - kRight_px + 10, top_px + kLane_px - 4}, kInk);
+  }
+  draw_axes(image, {x.first_px, kTop_px}, {x.last_px, kTop_px + count * kLane_px}, ticks_on(x), {}, {.ink = kInk});
+  draw_text(image, summary.own_name + " and " + summary.intruder_name + ": well clear lost", {kLeft_px, kTop_px - 10},
+            kInk);
+  return image;
+}
+
+cv::Mat drawn(const Panel& panel, const EncounterSummary& summary) {
   cv::Mat image(kPanel_px, kWidth_px, CV_8UC3, cv::Scalar::all(255));
-  Axis x{summary.first_s, std::max(summary.last_s, summary.first_s + 1e-3), kLeft_px, kWidth_px - kRight_px};
+  const Axis x = time_axis(summary);
   const Axis y = value_axis(panel, summary);
-  shade(image, summary, x, y);
   draw_axes(image, {x.first_px, y.last_px}, {x.last_px, y.first_px}, ticks_on(x), ticks_on(y), {.ink = kInk});
   for (const double level : panel.levels)
     cv::line(image, {x.first_px, y.at(level)}, {x.last_px, y.at(level)}, cv::Scalar::all(150), 1, cv::LINE_AA);
@@ -163,7 +170,7 @@ cv::Mat drawn(const Panel& panel, const EncounterSummary& summary, bool is_first
     draw_curve(image, panel.curves[i], summary, x, y, kLines[i % std::size(kLines)]);
   draw_text(image, panel.title, {kLeft_px, kTop_px - 10}, kInk);
   draw_text_until(image, "time, s", {kWidth_px - kRight_px, kPanel_px - 8}, kInk);
-  draw_legend(image, panel, summary, is_first);
+  draw_legend(image, panel);
   return image;
 }
 
@@ -173,8 +180,8 @@ cv::Mat encounter_plot(std::span<const EncounterSummary> encounters) {
   std::vector<cv::Mat> images;
   for (const EncounterSummary& summary : encounters) {
     if (summary.rows.empty()) continue;
-    const std::size_t before = images.size();
-    for (const Panel& panel : panels_of(summary)) images.push_back(drawn(panel, summary, images.size() == before));
+    if (!summary.volumes.empty()) images.push_back(drawn_losses(summary));
+    for (const Panel& panel : panels_of(summary)) images.push_back(drawn(panel, summary));
   }
   if (images.empty()) return {};
   cv::Mat all;
