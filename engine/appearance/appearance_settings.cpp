@@ -202,7 +202,7 @@ void apply(const Appearance& appearance, Project& project) {
   apply_haze(around.haze, project.appearance.haze);
   if (light_is_known(appearance)) {
     apply_sun(around.sun, project.light.sun);
-    apply(around.light, project.light);                                   // which asks for the sun's elevation
+    apply(around.light, around.tone.white, project.light);                // which asks for the sun's elevation
     if (around.sun.witness == SunWitness::given) project.light.sun = {};  // by time and place, at each frame
   }
   project.appearance.codec.match =

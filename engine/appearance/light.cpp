@@ -181,6 +181,17 @@ constexpr double kUsualSunElevation_rad = 0.436;  // 25 degrees, where the direc
 // contrast than the transfer function of their footage says, and paint shines. Chosen likewise.
 constexpr double kSunlit = 1.8;
 
+// The footage's brightest things are white things in the sun where they are at least so bright, linear light. Blue sky,
+// land and hazy air stay below.
+constexpr double kWhiteThings = 0.6;
+constexpr double kWhitePaint = 0.8;  // reflects this share
+
+double exposure_of(const LightEstimate& light, const Estimate& white) {
+  if (!light.exposure.is_known) return light.exposure.value;
+  const double sunlit = kSunlit * light.exposure.value;
+  return white.is_known && white.value >= kWhiteThings ? std::min(sunlit, white.value / kWhitePaint) : sunlit;
+}
+
 // Light on a face that looks down: that of the land, but no less than kFromBelow of what the land receives.
 glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
   const double elevation_rad = sun.elevation_deg ? rad_of_deg(*sun.elevation_deg) : kUsualSunElevation_rad;
@@ -193,9 +204,9 @@ glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
 
 }  // namespace
 
-void apply(const LightEstimate& light, LightSettings& settings) {
+void apply(const LightEstimate& light, const Estimate& white, LightSettings& settings) {
   settings.kind = LightKind::sun;
-  settings.exposure = light.exposure.value * (light.exposure.is_known ? kSunlit : 1);
+  settings.exposure = exposure_of(light, white);
   settings.color = value_of(light.sun_color);
   settings.sky_color = value_of(light.sky_color);
   settings.ground_color = light.exposure.is_known ? from_below(light, settings.sun) : value_of(light.ground_color);

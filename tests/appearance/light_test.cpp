@@ -114,12 +114,28 @@ TEST_CASE("ground that is not seen reflects as land does, and the settings take 
   CHECK((light.ground_color[0].value > 0.06 && light.ground_color[0].value < 0.2));
   LightSettings settings;
   settings.sun.azimuth_deg = 12;
-  apply(light, settings);
+  apply(light, {}, settings);
   CHECK(settings.kind == LightKind::sun);
   CHECK(settings.exposure == doctest::Approx(1.8 * light.exposure.value));
   CHECK(settings.color.r == light.sun_color[0].value);
   CHECK(settings.sky_color.b == light.sky_color[2].value);
   CHECK(settings.sun.azimuth_deg == 12);
+}
+
+TEST_CASE("white paint in the sun is no brighter than the white things that the footage shows") {
+  LightEstimate light;
+  light.exposure = {.value = 1.3, .sd = 0.3, .is_known = true};
+  const auto set_with = [&](const Estimate& white) {
+    LightSettings settings;
+    apply(light, white, settings);
+    return settings.exposure;
+  };
+  // Sunlit clouds at 0.86: paint that reflects 0.8 has that too.
+  CHECK(0.8 * set_with({.value = 0.86, .sd = 0.02, .is_known = true}) == doctest::Approx(0.86));
+  CHECK(set_with({.value = 0.4, .sd = 0.02, .is_known = true}) == doctest::Approx(2.34));  // sky and land alone
+  CHECK(set_with({.value = 1, .sd = 0, .is_known = false}) == doctest::Approx(2.34));      // clipped
+  light.exposure.value = 0.3;  // overcast: darker than that anyway
+  CHECK(set_with({.value = 0.86, .sd = 0.02, .is_known = true}) == doctest::Approx(0.54));
 }
 
 TEST_CASE("from below comes a fifth of what the ground receives, or more where land is seen to give more") {
@@ -132,14 +148,14 @@ TEST_CASE("from below comes a fifth of what the ground receives, or more where l
   }
   LightSettings settings;
   settings.sun.elevation_deg = 30;  // the ground receives 0.8 / 2 + 0.2
-  apply(light, settings);
+  apply(light, {}, settings);
   CHECK(settings.ground_color.g == doctest::Approx(0.12));
   for (Estimate& land : light.ground_color) land.value = 0.45;  // snow
-  apply(light, settings);
+  apply(light, {}, settings);
   CHECK(settings.ground_color.g == doctest::Approx(0.45));
   settings.sun.elevation_deg = -5;
   for (Estimate& land : light.ground_color) land.value = 0;
-  apply(light, settings);
+  apply(light, {}, settings);
   CHECK(settings.ground_color.g == doctest::Approx(0.04));
 }
 
