@@ -24,17 +24,17 @@ glm::dvec2 right_of(glm::dvec2 north_east) {
   return {-north_east.y, north_east.x};
 }
 
-glm::dvec2 velocity_ne_mps(const TrackPoint& point) {
+glm::dvec2 velocity_ne_mps(const SampledPoint& point) {
   return point.speed_mps * direction_ne(point.heading_rad);
 }
 
-glm::dvec2 acceleration_ne_mps2(const TrackPoint& point) {
+glm::dvec2 acceleration_ne_mps2(const SampledPoint& point) {
   const glm::dvec2 ahead = direction_ne(point.heading_rad);
   if (point.speed_mps <= 0 && point.acceleration_mps2 <= 0) return {0, 0};
   return point.acceleration_mps2 * ahead + point.speed_mps * point.turn_rate_radps * right_of(ahead);
 }
 
-Result<void> check(const SampledTrack& ownship, const SampledTrack& intruder, const ClosestApproach& approach) {
+Result<void> check(const SampledTrack& ownship, const SampledTrack& intruder, const ApproachRequest& approach) {
   for (const auto& [name, number] : {std::pair("time", approach.time_s), std::pair("hmd", approach.hmd_m),
                                      std::pair("vmd", approach.vmd_m), std::pair("bearing", approach.bearing_rad)})
     if (!std::isfinite(number)) return fail(name, "is not a finite number");
@@ -48,7 +48,7 @@ Result<void> check(const SampledTrack& ownship, const SampledTrack& intruder, co
 // Speed of the relative motion with which the intruder comes from the bearing. With u the direction of the relative
 // velocity, |ownship's velocity + k u| is the intruder's speed: a quadratic equation for k, of which this is the
 // greater root.
-Result<double> closing_speed_mps(const TrackPoint& own, const TrackPoint& other, double bearing_rad) {
+Result<double> closing_speed_mps(const SampledPoint& own, const SampledPoint& other, double bearing_rad) {
   const double across_mps = own.speed_mps * std::sin(bearing_rad);
   const double radicand = (other.speed_mps - std::abs(across_mps)) * (other.speed_mps + std::abs(across_mps));
   const double rounding = 1e-12 * own.speed_mps * own.speed_mps;
@@ -61,13 +61,13 @@ Result<double> closing_speed_mps(const TrackPoint& own, const TrackPoint& other,
 }
 
 // By how much the intruder's track is turned to the right.
-double turned_by_rad(const TrackPoint& own, const TrackPoint& other, double bearing_rad, double closing_mps) {
+double turned_by_rad(const SampledPoint& own, const SampledPoint& other, double bearing_rad, double closing_mps) {
   if (other.speed_mps <= 0) return 0;  // it hovers: any heading will do
   const glm::dvec2 velocity_mps = velocity_ne_mps(own) - closing_mps * direction_ne(own.heading_rad + bearing_rad);
   return std::atan2(velocity_mps.y, velocity_mps.x) - other.heading_rad;
 }
 
-TrackPoint turned(TrackPoint point, double by_rad, const glm::dvec3& centre_neu_m) {
+SampledPoint turned(SampledPoint point, double by_rad, const glm::dvec3& centre_neu_m) {
   const glm::dvec3 from_centre_m = point.position_neu_m - centre_neu_m;
   const double c = std::cos(by_rad);
   const double s = std::sin(by_rad);
@@ -78,14 +78,14 @@ TrackPoint turned(TrackPoint point, double by_rad, const glm::dvec3& centre_neu_
 }
 
 // The state at a time by what holds before it: at whole seconds that may change.
-TrackPoint until_time(const SampledTrack& track, double time_s) {
+SampledPoint until_time(const SampledTrack& track, double time_s) {
   const auto second = static_cast<std::size_t>(std::max(0.0, std::ceil(time_s) - 1));
-  const TrackPoint& before = track.points[second];
+  const SampledPoint& before = track.points[second];
   return moved_on(before, time_s - before.time_s);
 }
 
 // Half the second derivative of the square of the horizontal range, in m^2/s^2: positive at a minimum.
-double curvature(const TrackPoint& own, const TrackPoint& other) {
+double curvature(const SampledPoint& own, const SampledPoint& other) {
   const glm::dvec2 velocity_mps = velocity_ne_mps(other) - velocity_ne_mps(own);
   const glm::dvec2 offset_m(other.position_neu_m - own.position_neu_m);
   return glm::dot(velocity_mps, velocity_mps) +
@@ -98,7 +98,7 @@ bool is_least_range(const SampledTrack& ownship, const SampledTrack& intruder, d
 }
 
 // Where the intruder is at the closest approach, once it is turned.
-glm::dvec3 place_neu_m(const TrackPoint& own, const TrackPoint& turned_intruder, const ClosestApproach& approach) {
+glm::dvec3 place_neu_m(const SampledPoint& own, const SampledPoint& turned_intruder, const ApproachRequest& approach) {
   const glm::dvec2 relative_mps = velocity_ne_mps(turned_intruder) - velocity_ne_mps(own);
   const glm::dvec2 offset_m = approach.hmd_m * right_of(-glm::normalize(relative_mps));
   return own.position_neu_m + glm::dvec3(offset_m, approach.vmd_m);
@@ -107,16 +107,16 @@ glm::dvec3 place_neu_m(const TrackPoint& own, const TrackPoint& turned_intruder,
 }  // namespace
 
 Result<SampledTrack> placed_intruder(const SampledTrack& ownship, const SampledTrack& intruder,
-                                     const ClosestApproach& approach) {
+                                     const ApproachRequest& approach) {
   if (const Result<void> good = check(ownship, intruder, approach); !good) return fail(good.error());
-  const TrackPoint own = at_time(ownship, approach.time_s);
-  const TrackPoint other = at_time(intruder, approach.time_s);
+  const SampledPoint own = at_time(ownship, approach.time_s);
+  const SampledPoint other = at_time(intruder, approach.time_s);
   const Result<double> closing_mps = closing_speed_mps(own, other, approach.bearing_rad);
   if (!closing_mps) return fail(closing_mps.error());
   const double by_rad = turned_by_rad(own, other, approach.bearing_rad, *closing_mps);
   const glm::dvec3 place_m = place_neu_m(own, turned(other, by_rad, other.position_neu_m), approach);
   SampledTrack placed = intruder;
-  for (TrackPoint& point : placed.points) {
+  for (SampledPoint& point : placed.points) {
     point = turned(point, by_rad, other.position_neu_m);
     point.position_neu_m += place_m - other.position_neu_m;
   }

@@ -10,7 +10,7 @@ namespace sigs {
 // close as is asked for at the time that is asked for.
 
 // The closest approach, at the time of which all is meant.
-struct ClosestApproach {
+struct ApproachRequest {
   double time_s = 0;  // of both tracks
   // Horizontal miss distance. Positive: on the ownship, looking in the direction that the intruder comes from, it
   // passes on the right; negative: on the left.
@@ -37,6 +37,6 @@ struct ClosestApproach {
 //   hmd       at that time the tracks turn so much that the range would be greatest there, not least
 //   a number that is not finite
 [[nodiscard]] Result<SampledTrack> placed_intruder(const SampledTrack& ownship, const SampledTrack& intruder,
-                                                   const ClosestApproach& approach);
+                                                   const ApproachRequest& approach);
 
 }  // namespace sigs

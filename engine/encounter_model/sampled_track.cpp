@@ -54,7 +54,7 @@ TurnIntegrals turn_integrals(double angle_rad) {
 }
 
 // How long the aircraft moves within `after_s`: less than that where its speed falls to 0.
-double moving_time_s(const TrackPoint& point, double after_s) {
+double moving_time_s(const SampledPoint& point, double after_s) {
   if (point.acceleration_mps2 >= 0) return after_s;
   return std::min(after_s, point.speed_mps / -point.acceleration_mps2);
 }
@@ -77,7 +77,7 @@ double value_of(const ModelState& state, std::optional<int> variable) {
 }
 
 // What the aircraft does in the second that begins with this state.
-void steer(TrackPoint& point, const ModelState& state, const FlightVariables& variables) {
+void steer(SampledPoint& point, const ModelState& state, const FlightVariables& variables) {
   point.vertical_speed_mps = value_of(state, variables.vertical_rate) * kFoot_m / 60;
   point.acceleration_mps2 = value_of(state, variables.acceleration) * kKnot_mps;
   point.turn_rate_radps = rad_of_deg(value_of(state, variables.turn_rate));
@@ -99,7 +99,7 @@ class Limits {
     high_mps_ = boundaries.back() * kKnot_mps;
   }
 
-  [[nodiscard]] bool contain(const TrackPoint& point) const {
+  [[nodiscard]] bool contain(const SampledPoint& point) const {
     return point.position_neu_m.z >= 0 && point.speed_mps > low_mps_ && point.speed_mps < high_mps_;
   }
 
@@ -108,12 +108,12 @@ class Limits {
   double high_mps_ = std::numeric_limits<double>::infinity();
 };
 
-SampledTrack drawn_track(const EncounterModel& model, const TrackSettings& settings, ModelRandom& random) {
+SampledTrack drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
   const FlightVariables variables = flight_variables(model);
   const Limits limits(model, variables);
   ModelState state = initial_state(model, random);
   round_level_altitude(state, variables, settings.level_step_ft);
-  TrackPoint point;
+  SampledPoint point;
   point.position_neu_m.z = value_of(state, variables.altitude) * kFoot_m;
   point.speed_mps = std::max(0.0, value_of(state, variables.speed) * kKnot_mps);
   steer(point, state, variables);
@@ -131,7 +131,7 @@ SampledTrack drawn_track(const EncounterModel& model, const TrackSettings& setti
 
 }  // namespace
 
-TrackPoint moved_on(const TrackPoint& point, double after_s) {
+SampledPoint moved_on(const SampledPoint& point, double after_s) {
   const double moving_s = moving_time_s(point, after_s);
   const TurnIntegrals turn = turn_integrals(point.turn_rate_radps * moving_s);
   const double by_speed_m = point.speed_mps * moving_s;
@@ -140,7 +140,7 @@ TrackPoint moved_on(const TrackPoint& point, double after_s) {
   const double right_m = by_speed_m * turn.sin + by_acceleration_m * turn.s_sin;
   const double c = std::cos(point.heading_rad);
   const double s = std::sin(point.heading_rad);
-  TrackPoint moved = point;
+  SampledPoint moved = point;
   moved.time_s += after_s;
   moved.position_neu_m +=
       glm::dvec3(c * ahead_m - s * right_m, s * ahead_m + c * right_m, point.vertical_speed_mps * after_s);
@@ -149,10 +149,10 @@ TrackPoint moved_on(const TrackPoint& point, double after_s) {
   return moved;
 }
 
-TrackPoint at_time(const SampledTrack& track, double time_s) {
+SampledPoint at_time(const SampledTrack& track, double time_s) {
   ENSURE(!track.points.empty() && time_s >= 0 && time_s <= track.duration_s());
   const auto second = std::min(static_cast<std::size_t>(time_s), track.points.size() - 1);
-  const TrackPoint& before = track.points[second];
+  const SampledPoint& before = track.points[second];
   return moved_on(before, time_s - before.time_s);
 }
 
@@ -166,7 +166,7 @@ Result<void> check_can_fly(const EncounterModel& model) {
   return {};
 }
 
-SampledTrack sampled_track(const EncounterModel& model, const TrackSettings& settings, ModelRandom& random) {
+SampledTrack sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
   ENSURE(settings.duration_s >= 1 && check_can_fly(model));
   SampledTrack track = drawn_track(model, settings, random);
   for (int redraws = 1; !track.is_within_limits && redraws <= settings.max_redraws; ++redraws) {

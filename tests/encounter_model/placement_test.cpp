@@ -17,7 +17,7 @@ glm::dvec2 horizontal(const glm::dvec3& neu) {
   return {neu.x, neu.y};
 }
 
-glm::dvec2 velocity_of(const TrackPoint& point) {
+glm::dvec2 velocity_of(const SampledPoint& point) {
   return point.speed_mps * glm::dvec2(std::cos(point.heading_rad), std::sin(point.heading_rad));
 }
 
@@ -28,7 +28,7 @@ double range_m(const SampledTrack& own, const SampledTrack& intruder, double tim
 // Straight flight north, or steadily turning.
 SampledTrack steady(double speed_mps, double turn_rate_radps = 0, int duration_s = 60) {
   SampledTrack track;
-  TrackPoint point{.position_neu_m = {0, 0, 1000}, .speed_mps = speed_mps, .turn_rate_radps = turn_rate_radps};
+  SampledPoint point{.position_neu_m = {0, 0, 1000}, .speed_mps = speed_mps, .turn_rate_radps = turn_rate_radps};
   for (int second = 0; second <= duration_s; ++second) {
     point.time_s = second;
     track.points.push_back(point);
@@ -38,9 +38,9 @@ SampledTrack steady(double speed_mps, double turn_rate_radps = 0, int duration_s
 }
 
 // What was asked for, seen in the two tracks.
-void check_placed(const SampledTrack& own, const SampledTrack& intruder, const ClosestApproach& asked) {
-  const TrackPoint a = at_time(own, asked.time_s);
-  const TrackPoint b = at_time(intruder, asked.time_s);
+void check_placed(const SampledTrack& own, const SampledTrack& intruder, const ApproachRequest& asked) {
+  const SampledPoint a = at_time(own, asked.time_s);
+  const SampledPoint b = at_time(intruder, asked.time_s);
   const glm::dvec2 offset_m = horizontal(b.position_neu_m - a.position_neu_m);
   const glm::dvec2 relative_mps = velocity_of(b) - velocity_of(a);
   CHECK(std::abs(glm::length(offset_m) - std::abs(asked.hmd_m)) < 1e-9);
@@ -59,7 +59,7 @@ void check_placed(const SampledTrack& own, const SampledTrack& intruder, const C
   }
 }
 
-bool is_refused(const SampledTrack& own, const SampledTrack& intruder, const ClosestApproach& asked,
+bool is_refused(const SampledTrack& own, const SampledTrack& intruder, const ApproachRequest& asked,
                 const std::string& words) {
   const Result<SampledTrack> placed = placed_intruder(own, intruder, asked);
   if (placed) return false;
@@ -93,11 +93,11 @@ TEST_CASE("a slower intruder can be overtaken or met head-on: it is met") {
 }
 
 TEST_CASE("a hovering intruder is met from ahead, and a hovering ownship from everywhere") {
-  const ClosestApproach ahead{.time_s = 30, .hmd_m = -12, .vmd_m = 5};
+  const ApproachRequest ahead{.time_s = 30, .hmd_m = -12, .vmd_m = 5};
   check_placed(steady(50), placed_intruder(steady(50), steady(0), ahead).value(), ahead);
   CHECK(is_refused(steady(50), steady(0), {.time_s = 30, .bearing_rad = 0.1}, "bearing"));
   for (double bearing_rad = -3; bearing_rad <= 3; bearing_rad += 0.5) {
-    const ClosestApproach asked{.time_s = 30, .hmd_m = 80, .vmd_m = 5, .bearing_rad = bearing_rad};
+    const ApproachRequest asked{.time_s = 30, .hmd_m = 80, .vmd_m = 5, .bearing_rad = bearing_rad};
     check_placed(steady(0), placed_intruder(steady(0), steady(33), asked).value(), asked);
   }
 }
@@ -120,7 +120,7 @@ TEST_CASE("far apart and turning towards each other, flights would be farthest, 
   // another, each turns towards the other: the square of the range is curved by 100^2 - 50 hmd, positive below 200 m.
   CHECK_FALSE(is_refused(steady(50, 0.5), steady(50, 0.5), {.time_s = 30.5, .hmd_m = 199}, ""));
   CHECK(is_refused(steady(50, 0.5), steady(50, 0.5), {.time_s = 30.5, .hmd_m = 201}, "hmd"));
-  const ClosestApproach turning_away{.time_s = 30, .hmd_m = -5000};
+  const ApproachRequest turning_away{.time_s = 30, .hmd_m = -5000};
   check_placed(steady(50, 0.5), placed_intruder(steady(50, 0.5), steady(50, 0.5), turning_away).value(), turning_away);
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("pairs of drawn flights have the miss distances, side and bearing that
     ModelRandom random(99, pair);
     const SampledTrack own = sampled_track(flying, {}, random);
     const SampledTrack intruder = sampled_track(flying, {}, random);
-    const ClosestApproach asked{.time_s = pair % 5 == 0 ? 30 : 60 * random.uniform(),
+    const ApproachRequest asked{.time_s = pair % 5 == 0 ? 30 : 60 * random.uniform(),
                                 .hmd_m = pair % 7 == 0 ? 0 : 3000 * (random.uniform() - 0.5),
                                 .vmd_m = 300 * (random.uniform() - 0.5),
                                 .bearing_rad = 2 * std::numbers::pi * (random.uniform() - 0.5)};

@@ -16,7 +16,7 @@ namespace sigs::test {
 namespace {
 
 // The same motion in 2000 steps of Gauss's rule with three points: the path as the integral of the velocity.
-glm::dvec2 integrated_ne_m(const TrackPoint& point, double after_s) {
+glm::dvec2 integrated_ne_m(const SampledPoint& point, double after_s) {
   const double nodes[] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
   const double weights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double end_s = after_s;
@@ -44,12 +44,12 @@ TEST_CASE("the closed form of a second is the integral of the velocity, for all 
   for (const double turn_radps : {0.0, 1e-12, 1e-6, -1e-3, 0.05, -0.3, 0.999, 1.001, 3.0, -7.0})
     for (const double acceleration_mps2 : {0.0, 0.5, -1.0, -40.0})
       for (const double after_s : {0.0, 0.25, 1.0, 2.5}) {
-        const TrackPoint point{.heading_rad = 0.7,
-                               .speed_mps = 60,
-                               .vertical_speed_mps = -3,
-                               .acceleration_mps2 = acceleration_mps2,
-                               .turn_rate_radps = turn_radps};
-        const TrackPoint moved = moved_on(point, after_s);
+        const SampledPoint point{.heading_rad = 0.7,
+                                 .speed_mps = 60,
+                                 .vertical_speed_mps = -3,
+                                 .acceleration_mps2 = acceleration_mps2,
+                                 .turn_rate_radps = turn_radps};
+        const SampledPoint moved = moved_on(point, after_s);
         const glm::dvec2 exact_m = integrated_ne_m(point, after_s);
         CAPTURE(turn_radps);
         CAPTURE(acceleration_mps2);
@@ -62,7 +62,7 @@ TEST_CASE("the closed form of a second is the integral of the velocity, for all 
 
 TEST_CASE("a full circle ends where it began, and its radius is speed over turn rate") {
   const double rate_radps = rad_of_deg(3);  // the standard rate: 120 s for the circle
-  TrackPoint point{.speed_mps = 60, .turn_rate_radps = rate_radps};
+  SampledPoint point{.speed_mps = 60, .turn_rate_radps = rate_radps};
   for (int second = 0; second < 60; ++second) point = moved_on(point, 1);
   CHECK(std::abs(point.position_neu_m.x) < 1e-9);
   CHECK(point.position_neu_m.y == doctest::Approx(2 * 60 / rate_radps));  // to the right: east
@@ -71,8 +71,8 @@ TEST_CASE("a full circle ends where it began, and its radius is speed over turn 
 }
 
 TEST_CASE("an aircraft whose speed falls to zero stays where it is") {
-  const TrackPoint point{.speed_mps = 1, .acceleration_mps2 = -2};
-  const TrackPoint stopped = moved_on(point, 1);
+  const SampledPoint point{.speed_mps = 1, .acceleration_mps2 = -2};
+  const SampledPoint stopped = moved_on(point, 1);
   CHECK(stopped.position_neu_m.x == doctest::Approx(0.25));  // v^2 / 2a
   CHECK(stopped.speed_mps == 0);
   CHECK(moved_on(stopped, 1).position_neu_m == stopped.position_neu_m);
@@ -92,7 +92,7 @@ TEST_CASE("a drawn flight is continuous and flies what the model says, in the fi
         altitude_ft += state.values[2] / 60;
         state = next_state(model, state, again);
       }
-      const TrackPoint& point = track.points[second];
+      const SampledPoint& point = track.points[second];
       CHECK(point.time_s == static_cast<double>(second));
       CHECK(point.position_neu_m.z == doctest::Approx(altitude_ft * 0.3048));
       CHECK(point.speed_mps == doctest::Approx(state.values[1] * 1852 / 3600));
@@ -134,7 +134,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
     ModelRandom random(4, number);
     const SampledTrack free = sampled_track(model, {.duration_s = 300}, random);
     bool is_inside = true;
-    for (const TrackPoint& point : free.points)
+    for (const SampledPoint& point : free.points)
       is_inside =
           is_inside && point.position_neu_m.z >= 0 && point.speed_mps > 0 && point.speed_mps < 300 * 1852.0 / 3600;
     CHECK(free.is_within_limits == is_inside);
@@ -156,7 +156,7 @@ TEST_CASE("every published model flies, and a seed gives the same bytes") {
     const auto bytes = [&](std::uint64_t seed) {
       ModelRandom random(seed);
       const SampledTrack track = sampled_track(model, {.duration_s = 120}, random);
-      std::string text(track.points.size() * sizeof(TrackPoint), '\0');
+      std::string text(track.points.size() * sizeof(SampledPoint), '\0');
       std::memcpy(text.data(), track.points.data(), text.size());
       return text;
     };

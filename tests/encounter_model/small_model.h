@@ -7,8 +7,8 @@
 
 namespace sigs::test {
 
-// A model made by hand, as sections with their lines. Of v given L the second layer was never counted; the successor of
-// \dot h was never counted in layer 1 with \dot h in bin 1.
+// A model made by hand, as sections with their lines. Of v the upper layer of L was never counted; of the successor of
+// \dot h, the lower layer with \dot h in its lowest bin.
 using SmallModel = std::vector<std::pair<std::string, std::string>>;
 
 inline SmallModel small_model() {
