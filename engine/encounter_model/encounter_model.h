@@ -58,7 +58,7 @@ struct EncounterModel {
   [[nodiscard]] std::optional<int> find(const std::string& label) const;
 };
 
-// The largest file that is read; the largest published one of a single aircraft has 1 MB.
+// The largest file that is read; the models for which it is tested have up to 0.6 MB.
 inline constexpr std::uint64_t kEncounterModelLimit_bytes = std::uint64_t{64} << 20;
 
 // Reads a model's text file: sections "# name", in any order, each once. All but zero_bins must be there.
