@@ -56,9 +56,9 @@ struct SampledTrackSettings {
 [[nodiscard]] Result<void> check_can_fly(const EncounterModel& model);
 
 // A flight that begins at north 0, east 0, heading north. Altitude and speed are the model's at the first second, and
-// from then on the integrals of its rates; their bins stay the same and go on steering the rates. Needs a model that can
-// fly. Bins and values of all seconds are the same bits on every machine; positions also depend on the C library's sine
-// and cosine.
+// from then on the integrals of its rates; their bins stay the same and go on steering the rates. Needs a model that
+// can fly. Bins and values of all seconds are the same bits on every machine; positions also depend on the C library's
+// sine and cosine.
 [[nodiscard]] SampledTrack sampled_track(const EncounterModel& model, const SampledTrackSettings& settings,
                                          ModelRandom& random);
 
