@@ -14,20 +14,21 @@ using Command = std::function<Result<void>()>;
 
 // Each adds one subcommand with its options to the program, and returns what it does. The command keeps what its
 // options write to.
-[[nodiscard]] Command add_appearance_command(CLI::App& program);  // sigs appearance
-[[nodiscard]] Command add_check_command(CLI::App& program);       // sigs check
-[[nodiscard]] Command add_compare_command(CLI::App& program);     // sigs compare
-[[nodiscard]] Command add_dataset_command(CLI::App& program);     // sigs dataset
-[[nodiscard]] Command add_ego_motion_command(CLI::App& program);  // sigs ego-motion
-[[nodiscard]] Command add_encounter_command(CLI::App& program);   // sigs encounter
-[[nodiscard]] Command add_evaluate_command(CLI::App& program);    // sigs evaluate, with its two subcommands
-[[nodiscard]] Command add_export_command(CLI::App& program);      // sigs export
-[[nodiscard]] Command add_frame_command(CLI::App& program);       // sigs frame
-[[nodiscard]] Command add_info_command(CLI::App& program);        // sigs info
-[[nodiscard]] Command add_mask_command(CLI::App& program);        // sigs mask
-[[nodiscard]] Command add_occluder_command(CLI::App& program);    // sigs occluder
-[[nodiscard]] Command add_path_command(CLI::App& program);        // sigs path
-[[nodiscard]] Command add_telemetry_command(CLI::App& program);   // sigs telemetry
+[[nodiscard]] Command add_appearance_command(CLI::App& program);       // sigs appearance
+[[nodiscard]] Command add_check_command(CLI::App& program);            // sigs check
+[[nodiscard]] Command add_compare_command(CLI::App& program);          // sigs compare
+[[nodiscard]] Command add_dataset_command(CLI::App& program);          // sigs dataset
+[[nodiscard]] Command add_ego_motion_command(CLI::App& program);       // sigs ego-motion
+[[nodiscard]] Command add_encounter_command(CLI::App& program);        // sigs encounter
+[[nodiscard]] Command add_encounter_model_command(CLI::App& program);  // sigs encounter-model
+[[nodiscard]] Command add_evaluate_command(CLI::App& program);         // sigs evaluate, with its two subcommands
+[[nodiscard]] Command add_export_command(CLI::App& program);           // sigs export
+[[nodiscard]] Command add_frame_command(CLI::App& program);            // sigs frame
+[[nodiscard]] Command add_info_command(CLI::App& program);             // sigs info
+[[nodiscard]] Command add_mask_command(CLI::App& program);             // sigs mask
+[[nodiscard]] Command add_occluder_command(CLI::App& program);         // sigs occluder
+[[nodiscard]] Command add_path_command(CLI::App& program);             // sigs path
+[[nodiscard]] Command add_telemetry_command(CLI::App& program);        // sigs telemetry
 
 // The same for the subcommands of sigs evaluate.
 [[nodiscard]] Command add_evaluate_detect(CLI::App& evaluate);

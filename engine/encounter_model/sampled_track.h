@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "encounter_model/encounter_model.h"
+#include "encounter_model/random.h"
+
+namespace sigs {
+
+// Where an aircraft is and what it does from this second on.
+struct SampledPoint {
+  double time_s = 0;                   // from the track's begin
+  glm::dvec3 position_neu_m{0, 0, 0};  // north, east, up; up is the model's altitude
+  double heading_rad = 0;              // of the motion over the ground, from north to the east; not wrapped
+  double speed_mps = 0;                // horizontal; never negative
+  double vertical_speed_mps = 0;       // up; this and the two below hold until the next point
+  double acceleration_mps2 = 0;        // of the horizontal speed
+  double turn_rate_radps = 0;          // to the right
+};
+
+// The state `after_s` >= 0 seconds after a point, in closed form: vertical speed, acceleration and turn rate are
+// constant, so heading and speed are linear in time and the path over the ground is the integral of
+// (speed + acceleration t) (cos, sin)(heading + turn_rate t). An aircraft whose speed has fallen to 0 stays where it
+// is, turning and climbing, while its acceleration is negative. Exact to rounding for all turn rates, the smallest too.
+[[nodiscard]] SampledPoint moved_on(const SampledPoint& point, double after_s);
+
+// A drawn flight: a point for each second. Position, heading and speed are continuous; vertical speed is not.
+struct SampledTrack {
+  std::vector<SampledPoint> points;    // at 0 s, 1 s, ...; at least one
+  std::vector<double> initial_values;  // of all variables, in the file's units, the altitude rounded as below
+  // Never below altitude 0, and always faster than the lowest and slower than the highest limit of the speed's bins. A
+  // model's walk knows no limits; the published program discards tracks that leave these.
+  bool is_within_limits = true;
+  int redraws = 0;  // tracks that were discarded before this one
+
+  [[nodiscard]] double duration_s() const { return points.back().time_s; }
+};
+
+struct SampledTrackSettings {
+  int duration_s = 60;  // 1 or more
+  // The altitude of a flight that begins level (vertical rate exactly 0) is rounded to a multiple of this, halves
+  // downward; not where that would be the ground, altitude 0. 0: never rounded.
+  double level_step_ft = 500;
+  int max_redraws = 0;  // how often a track that leaves the limits may be drawn anew; the last one stays as it is
+};
+
+// The place on the track at a time within it, by moved_on() from the point before.
+[[nodiscard]] SampledPoint at_time(const SampledTrack& track, double time_s);
+
+// Which variables fly the aircraft: "L" altitude in ft, "v" speed in kt, "\dot v" acceleration in kt/s, "\dot h"
+// vertical rate in ft/min, "\dot \psi" turn rate in deg/s. All but the altitude may be missing and are 0 then: balloons
+// have no speed of their own. v is taken as speed over the ground, without wind, whatever the vertical rate. Error
+// bad_data: there is no L, or one of them is a category.
+[[nodiscard]] Result<void> check_can_fly(const EncounterModel& model);
+
+// A flight that begins at north 0, east 0, heading north. Altitude and speed are the model's at the first second, and
+// from then on the integrals of its rates; their bins stay the same and go on steering the rates. Needs a model that
+// can fly. Bins and values of all seconds are the same bits on every machine; positions also depend on the C library's
+// sine and cosine.
+[[nodiscard]] SampledTrack sampled_track(const EncounterModel& model, const SampledTrackSettings& settings,
+                                         ModelRandom& random);
+
+}  // namespace sigs
