@@ -54,9 +54,9 @@ double pairs_per_s(const EncounterModel& model, int pairs, double& sum) {
   const Stopwatch watch;
   for (int pair = 0; pair < pairs; ++pair) {
     ModelRandom random(4, static_cast<std::uint64_t>(pair));
-    const SampledTrack own = sampled_track(model, {.duration_s = kFlightLength_s}, random);
-    const SampledTrack other = sampled_track(model, {.duration_s = kFlightLength_s}, random);
-    const Result<SampledTrack> placed =
+    const ModelFlight own = sampled_track(model, {.duration_s = kFlightLength_s}, random);
+    const ModelFlight other = sampled_track(model, {.duration_s = kFlightLength_s}, random);
+    const Result<ModelFlight> placed =
         placed_intruder(own, other, {.time_s = 40, .hmd_m = 150, .bearing_rad = random.uniform() - 0.5});
     sum += placed ? placed->points.front().position_neu_m.x : 0;
   }

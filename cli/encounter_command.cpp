@@ -26,6 +26,7 @@
 #include "cli/process.h"
 #include "encounter/daa_file.h"
 #include "encounter/encounter_report.h"
+#include "encounter/units.h"
 #include "scene/encounter_tracks.h"
 #include "scene/opened_project.h"
 
@@ -35,8 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFoot_m = 0.3048;
-constexpr std::size_t kMostDrawn = 8;  // encounters in one plot
+constexpr std::size_t kMostPlotted = 8;  // encounters in one plot
 
 constexpr const char* kEncounterFooter =
     "Examples:\n"
@@ -187,15 +187,15 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
               ErrorKind::usage);
 }
 
-// --- Outputs.
+// --- EncounterOutputs.
 
 // What is to be written, by name. All get their names together, or none does.
 using Contents = std::vector<std::pair<fs::path, std::string>>;
 
 Result<std::string> png_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
-  if (encounters.size() > kMostDrawn)
+  if (encounters.size() > kMostPlotted)
     return fail("--plot " + options.plot.string(),
-                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMostDrawn,
+                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMostPlotted,
                             encounters.size()),
                 ErrorKind::usage);
   const cv::Mat image = encounter_plot(encounters);
@@ -219,9 +219,9 @@ Result<Contents> contents_of(const std::vector<EncounterSummary>& encounters, co
 }
 
 // The names are taken before anything is read, so that what stands in their way shows at once.
-class Outputs {
+class EncounterOutputs {
  public:
-  explicit Outputs(bool overwrite)
+  explicit EncounterOutputs(bool overwrite)
       : staged_(overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
 
   Result<void> reserve(const EncounterOptions& options) {
@@ -255,7 +255,7 @@ Result<void> encounter(const EncounterOptions& options) {
   const Result<std::vector<WellClearVolume>> volumes = volumes_of(options);
   if (!volumes) return fail(volumes.error());
   defer_interrupts();
-  Outputs outputs(options.force);
+  EncounterOutputs outputs(options.force);
   if (const Result<void> free = outputs.reserve(options); !free) return free;
   Result<Flights> all = flights_of(options);
   if (!all) return fail(all.error());

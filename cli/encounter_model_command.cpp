@@ -59,7 +59,7 @@ Result<void> check_names(const EncounterModelOptions& options) {
 
 // What was drawn, for the report and the plot.
 struct DrawnFlights {
-  std::vector<SampledTrack> first;  // at most kMostDrawn
+  std::vector<ModelFlight> first;  // at most kMostDrawn
   std::int64_t redraws = 0;
   std::int64_t outside = 0;
 };
@@ -75,7 +75,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
   for (int number = 0; number < options.samples && out; ++number) {
     if (interrupt_flag()) return fail("", "interrupted", ErrorKind::interrupted);
     ModelRandom random(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(number));
-    SampledTrack track = sampled_track(model, options.track, random);
+    ModelFlight track = sampled_track(model, options.track, random);
     drawn.redraws += track.redraws;
     drawn.outside += track.is_within_limits ? 0 : 1;
     if (out.is_open()) out << track_csv_rows(track, number, model);
@@ -87,7 +87,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
   return drawn;
 }
 
-Result<void> write_plot(const std::vector<SampledTrack>& tracks, const fs::path& staged) {
+Result<void> write_plot(const std::vector<ModelFlight>& tracks, const fs::path& staged) {
   std::vector<uchar> png;
   cv::imencode(".png", flights_plot(tracks), png);
   std::ofstream out(staged, std::ios::binary);

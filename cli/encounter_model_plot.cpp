@@ -68,10 +68,10 @@ cv::Scalar color_of(std::size_t number, std::size_t count) {
   return cv::Scalar(pixel.at<cv::Vec3b>(0, 0));
 }
 
-std::pair<Axis, Axis> axes_of(const std::vector<SampledTrack>& tracks, const Quantity& quantity, int height_px) {
+std::pair<Axis, Axis> axes_of(const std::vector<ModelFlight>& tracks, const Quantity& quantity, int height_px) {
   Axis x{.first_px = kLeft_px, .last_px = kWidth_px - kRight_px};
   Axis y{.first_px = height_px - kBottom_px, .last_px = kTop_px};
-  for (const SampledTrack& track : tracks)
+  for (const ModelFlight& track : tracks)
     for (const SampledPoint& point : track.points) {
       x.include(quantity.x(point));
       y.include(quantity.y(point));
@@ -84,7 +84,7 @@ std::pair<Axis, Axis> axes_of(const std::vector<SampledTrack>& tracks, const Qua
   return {x, y};
 }
 
-cv::Mat panel(const std::vector<SampledTrack>& tracks, const Quantity& quantity, int height_px) {
+cv::Mat panel(const std::vector<ModelFlight>& tracks, const Quantity& quantity, int height_px) {
   cv::Mat image(height_px, kWidth_px, CV_8UC3, cv::Scalar::all(255));
   const auto [x, y] = axes_of(tracks, quantity, height_px);
   draw_axes(image, {x.first_px, y.last_px}, {x.last_px, y.first_px}, ticks_on(x), ticks_on(y), {.ink = kInk});
@@ -102,7 +102,7 @@ cv::Mat panel(const std::vector<SampledTrack>& tracks, const Quantity& quantity,
 
 }  // namespace
 
-cv::Mat flights_plot(const std::vector<SampledTrack>& tracks) {
+cv::Mat flights_plot(const std::vector<ModelFlight>& tracks) {
   const auto time = [](const SampledPoint& point) { return point.time_s; };
   const Quantity map{.title = "from above, m north; dots: the flights' ends",
                      .x_title = "m east",

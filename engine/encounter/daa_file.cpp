@@ -11,6 +11,7 @@
 #include "base/input_file.h"
 #include "base/text.h"
 #include "encounter/file_columns.h"
+#include "encounter/units.h"
 #include "geo/local_frame.h"
 
 namespace sigs {
@@ -20,7 +21,6 @@ namespace {
 constexpr double kMostPlace_m = 1e9;    // beyond the Moon
 constexpr double kMostSpeed_mps = 1e6;  // beyond any vehicle
 constexpr double kMostTime_s = 1e12;
-constexpr double kDegree_rad = 0.017453292519943295;
 
 // --- Columns.
 
@@ -83,12 +83,12 @@ UnitKind kind_of(Quantity quantity) {
   }
 }
 
-struct Column {
+struct DaaColumn {
   std::string name;
   std::size_t index = 0;
   double factor = 1;
 };
-using Columns = std::map<Quantity, Column>;
+using Columns = std::map<Quantity, DaaColumn>;
 
 struct Header {
   Columns columns;
@@ -108,7 +108,7 @@ Result<Header> header_of(std::string_view line, int number, EncounterFile& read,
       continue;
     }
     const double factor = file_unit(known->unit)->factor;
-    if (!header.columns.emplace(known->quantity, Column{std::string(name), index, factor}).second)
+    if (!header.columns.emplace(known->quantity, DaaColumn{std::string(name), index, factor}).second)
       return fail(file_place(file, number, name), "is a second column of the same quantity");
   }
   return header;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/encounter_report.h"
+#include "encounter/units.h"
 
 #include <fmt/format.h>
 
@@ -14,9 +15,6 @@ namespace sigs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kFoot_m = 0.3048;
-constexpr double kDegree_rad = 0.017453292519943295;
 
 // --- For people.
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/file_columns.h"
+#include "encounter/units.h"
 
 #include <fmt/format.h>
 
@@ -18,9 +19,7 @@ struct NamedUnit {
   FileUnit unit;
 };
 
-constexpr double kFoot_m = 0.3048;
 constexpr double kMile_m = 1852;  // nautical
-constexpr double kDegree_rad = 0.017453292519943295;
 
 // Names that DAIDALUS and the pairing programs of MIT Lincoln Laboratory write.
 constexpr auto kUnits = std::to_array<NamedUnit>({

@@ -20,15 +20,15 @@ constexpr double kMost = 1e9;  // metres, m/s
 constexpr std::size_t kPerAircraft = 6;
 constexpr std::array<std::string_view, kPerAircraft> kQuantities{"north", "east", "alt", "vnorth", "veast", "vup"};
 
-struct Column {
+struct PairColumn {
   std::string name;
   int slot = -1;      // aircraft * kPerAircraft + quantity; -1: the time; -2: not read
   double factor = 1;  // down is negative up
 };
 
-std::optional<Column> column_of(std::string_view name) {
+std::optional<PairColumn> column_of(std::string_view name) {
   std::string lower = lower_case(name);
-  Column column{.name = std::string(name)};
+  PairColumn column{.name = std::string(name)};
   if (lower == "t_s" || lower == "time_s") return column;
   const int aircraft = lower.starts_with("own_") ? 0 : lower.starts_with("int_") ? 1 : -1;
   const std::size_t end = lower.rfind('_');
@@ -47,7 +47,7 @@ std::optional<Column> column_of(std::string_view name) {
 }
 
 struct PairHeader {
-  std::vector<Column> columns;
+  std::vector<PairColumn> columns;
   bool has_velocities = false;
 };
 
@@ -55,10 +55,10 @@ Result<PairHeader> pair_header_of(std::string_view line, int number, EncounterFi
   PairHeader header;
   std::map<int, int> count_of_slot;
   for (const std::string_view name : csv_fields(line)) {
-    std::optional<Column> column = column_of(name);
+    std::optional<PairColumn> column = column_of(name);
     if (!column) {
       read.warnings.push_back({file_place(file, number, name), "is not read"});
-      column = Column{.name = std::string(name), .slot = -2};
+      column = PairColumn{.name = std::string(name), .slot = -2};
     } else if (++count_of_slot[column->slot] > 1) {
       return fail(file_place(file, number, name), "is a second column of the same quantity");
     }
@@ -101,7 +101,7 @@ Result<PairLine> pair_line_of(std::string_view text, const PairHeader& header, i
                 fmt::format("has {}, {} are expected", count_text(std::ssize(values), "value"), header.columns.size()));
   PairLine line;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Column& column = header.columns[i];
+    const PairColumn& column = header.columns[i];
     if (column.slot == -2) continue;
     const std::optional<double> value = file_number(values[i]);
     if (!value)

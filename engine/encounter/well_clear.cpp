@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/well_clear.h"
+#include "encounter/units.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,6 @@ namespace sigs {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kFoot_m = 0.3048;
 
 const std::array<WellClearVolume, 5>& all_volumes() {
   static const std::array<WellClearVolume, 5> kAll{{

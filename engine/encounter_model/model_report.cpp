@@ -132,7 +132,7 @@ std::string track_csv_header(const EncounterModel& model) {
   return line + "\n";
 }
 
-std::string track_csv_rows(const SampledTrack& track, int number, const EncounterModel& model) {
+std::string track_csv_rows(const ModelFlight& track, int number, const EncounterModel& model) {
   std::string categories;
   for (std::size_t i = 0; i < model.variables.size(); ++i)
     if (model.variables[i].boundaries.empty()) categories.append(",").append(number_text(track.initial_values[i], 0));

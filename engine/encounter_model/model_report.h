@@ -20,6 +20,6 @@ namespace sigs {
 [[nodiscard]] std::string track_csv_header(const EncounterModel& model);
 
 // A line for each second of the flight. Metres with 4 decimals, all else with 6.
-[[nodiscard]] std::string track_csv_rows(const SampledTrack& track, int number, const EncounterModel& model);
+[[nodiscard]] std::string track_csv_rows(const ModelFlight& track, int number, const EncounterModel& model);
 
 }  // namespace sigs

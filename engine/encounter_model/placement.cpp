@@ -34,7 +34,7 @@ glm::dvec2 acceleration_ne_mps2(const SampledPoint& point) {
   return point.acceleration_mps2 * ahead + point.speed_mps * point.turn_rate_radps * right_of(ahead);
 }
 
-Result<void> check(const SampledTrack& ownship, const SampledTrack& intruder, const ApproachRequest& approach) {
+Result<void> check(const ModelFlight& ownship, const ModelFlight& intruder, const ApproachRequest& approach) {
   for (const auto& [name, number] : {std::pair("time", approach.time_s), std::pair("hmd", approach.hmd_m),
                                      std::pair("vmd", approach.vmd_m), std::pair("bearing", approach.bearing_rad)})
     if (!std::isfinite(number)) return fail(name, "is not a finite number");
@@ -78,7 +78,7 @@ SampledPoint turned(SampledPoint point, double by_rad, const glm::dvec3& centre_
 }
 
 // The state at a time by what holds before it: at whole seconds that may change.
-SampledPoint until_time(const SampledTrack& track, double time_s) {
+SampledPoint until_time(const ModelFlight& track, double time_s) {
   const auto second = static_cast<std::size_t>(std::max(0.0, std::ceil(time_s) - 1));
   const SampledPoint& before = track.points[second];
   return moved_on(before, time_s - before.time_s);
@@ -92,7 +92,7 @@ double curvature(const SampledPoint& own, const SampledPoint& other) {
          glm::dot(offset_m, acceleration_ne_mps2(other) - acceleration_ne_mps2(own));
 }
 
-bool is_least_range(const SampledTrack& ownship, const SampledTrack& intruder, double time_s) {
+bool is_least_range(const ModelFlight& ownship, const ModelFlight& intruder, double time_s) {
   return curvature(at_time(ownship, time_s), at_time(intruder, time_s)) > 0 &&
          curvature(until_time(ownship, time_s), until_time(intruder, time_s)) > 0;
 }
@@ -106,8 +106,8 @@ glm::dvec3 place_neu_m(const SampledPoint& own, const SampledPoint& turned_intru
 
 }  // namespace
 
-Result<SampledTrack> placed_intruder(const SampledTrack& ownship, const SampledTrack& intruder,
-                                     const ApproachRequest& approach) {
+Result<ModelFlight> placed_intruder(const ModelFlight& ownship, const ModelFlight& intruder,
+                                    const ApproachRequest& approach) {
   if (const Result<void> good = check(ownship, intruder, approach); !good) return fail(good.error());
   const SampledPoint own = at_time(ownship, approach.time_s);
   const SampledPoint other = at_time(intruder, approach.time_s);
@@ -115,7 +115,7 @@ Result<SampledTrack> placed_intruder(const SampledTrack& ownship, const SampledT
   if (!closing_mps) return fail(closing_mps.error());
   const double by_rad = turned_by_rad(own, other, approach.bearing_rad, *closing_mps);
   const glm::dvec3 place_m = place_neu_m(own, turned(other, by_rad, other.position_neu_m), approach);
-  SampledTrack placed = intruder;
+  ModelFlight placed = intruder;
   for (SampledPoint& point : placed.points) {
     point = turned(point, by_rad, other.position_neu_m);
     point.position_neu_m += place_m - other.position_neu_m;

@@ -36,7 +36,7 @@ struct ApproachRequest {
 //             keep their distance and there is no closest approach (relative speed under 1e-6 m/s)
 //   hmd       at that time the tracks turn so much that the range would be greatest there, not least
 //   a number that is not finite
-[[nodiscard]] Result<SampledTrack> placed_intruder(const SampledTrack& ownship, const SampledTrack& intruder,
-                                                   const ApproachRequest& approach);
+[[nodiscard]] Result<ModelFlight> placed_intruder(const ModelFlight& ownship, const ModelFlight& intruder,
+                                                  const ApproachRequest& approach);
 
 }  // namespace sigs

@@ -108,7 +108,7 @@ class Limits {
   double high_mps_ = std::numeric_limits<double>::infinity();
 };
 
-SampledTrack drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
+ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
   const FlightVariables variables = flight_variables(model);
   const Limits limits(model, variables);
   ModelState state = initial_state(model, random);
@@ -117,7 +117,7 @@ SampledTrack drawn_track(const EncounterModel& model, const SampledTrackSettings
   point.position_neu_m.z = value_of(state, variables.altitude) * kFoot_m;
   point.speed_mps = std::max(0.0, value_of(state, variables.speed) * kKnot_mps);
   steer(point, state, variables);
-  SampledTrack track{.points = {point}, .initial_values = state.values, .is_within_limits = limits.contain(point)};
+  ModelFlight track{.points = {point}, .initial_values = state.values, .is_within_limits = limits.contain(point)};
   for (int second = 1; second <= settings.duration_s; ++second) {
     point = moved_on(point, 1);
     point.time_s = second;
@@ -149,7 +149,7 @@ SampledPoint moved_on(const SampledPoint& point, double after_s) {
   return moved;
 }
 
-SampledPoint at_time(const SampledTrack& track, double time_s) {
+SampledPoint at_time(const ModelFlight& track, double time_s) {
   ENSURE(!track.points.empty() && time_s >= 0 && time_s <= track.duration_s());
   const auto second = std::min(static_cast<std::size_t>(time_s), track.points.size() - 1);
   const SampledPoint& before = track.points[second];
@@ -166,9 +166,9 @@ Result<void> check_can_fly(const EncounterModel& model) {
   return {};
 }
 
-SampledTrack sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
+ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
   ENSURE(settings.duration_s >= 1 && check_can_fly(model));
-  SampledTrack track = drawn_track(model, settings, random);
+  ModelFlight track = drawn_track(model, settings, random);
   for (int redraws = 1; !track.is_within_limits && redraws <= settings.max_redraws; ++redraws) {
     track = drawn_track(model, settings, random);
     track.redraws = redraws;

@@ -27,7 +27,7 @@ struct SampledPoint {
 [[nodiscard]] SampledPoint moved_on(const SampledPoint& point, double after_s);
 
 // A drawn flight: a point for each second. Position, heading and speed are continuous; vertical speed is not.
-struct SampledTrack {
+struct ModelFlight {
   std::vector<SampledPoint> points;    // at 0 s, 1 s, ...; at least one
   std::vector<double> initial_values;  // of all variables, in the file's units, the altitude rounded as below
   // Never below altitude 0, and always faster than the lowest and slower than the highest limit of the speed's bins. A
@@ -47,7 +47,7 @@ struct SampledTrackSettings {
 };
 
 // The place on the track at a time within it, by moved_on() from the point before.
-[[nodiscard]] SampledPoint at_time(const SampledTrack& track, double time_s);
+[[nodiscard]] SampledPoint at_time(const ModelFlight& track, double time_s);
 
 // Which variables fly the aircraft: "L" altitude in ft, "v" speed in kt, "\dot v" acceleration in kt/s, "\dot h"
 // vertical rate in ft/min, "\dot \psi" turn rate in deg/s. All but the altitude may be missing and are 0 then: balloons
@@ -59,7 +59,7 @@ struct SampledTrackSettings {
 // from then on the integrals of its rates; their bins stay the same and go on steering the rates. Needs a model that
 // can fly. Bins and values of all seconds are the same bits on every machine; positions also depend on the C library's
 // sine and cosine.
-[[nodiscard]] SampledTrack sampled_track(const EncounterModel& model, const SampledTrackSettings& settings,
-                                         ModelRandom& random);
+[[nodiscard]] ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings,
+                                        ModelRandom& random);
 
 }  // namespace sigs

@@ -16,7 +16,7 @@ namespace sigs {
 
 namespace {
 
-using Json = nlohmann::json;
+using AotJson = nlohmann::json;
 
 // Reads fields of one file; the first that is wrong is the file's error.
 class AotFields {
@@ -24,23 +24,23 @@ class AotFields {
   explicit AotFields(std::filesystem::path path) : path_(std::move(path)) {}
 
   // The document, or nothing.
-  [[nodiscard]] Result<Json> document() const {
+  [[nodiscard]] Result<AotJson> document() const {
     const Result<std::string> text = read_text(path_);
     if (!text) return fail(text.error());
     if (json_depth(*text) > kMaxNesting) return fail(path_.string(), "is nested too deeply");
     try {
-      return Json::parse(*text);
-    } catch (const Json::parse_error& error) {
+      return AotJson::parse(*text);
+    } catch (const AotJson::parse_error& error) {
       return fail(path_.string(), "is no JSON: wrong at " + text_position(*text, error.byte));
-    } catch (const Json::exception& error) {  // a number that is too large
+    } catch (const AotJson::exception& error) {  // a number that is too large
       return fail(path_.string(), std::string("is no JSON: ") + error.what());
     }
   }
 
   void enter(std::string place) { place_ = std::move(place); }
 
-  std::string text(const Json& object, const char* key) {
-    const Json* const found = field(object, key);
+  std::string text(const AotJson& object, const char* key) {
+    const AotJson* const found = field(object, key);
     if (found == nullptr || !found->is_string()) {
       wrong(key, "is not a text");
       return {};
@@ -48,20 +48,20 @@ class AotFields {
     return found->get<std::string>();
   }
 
-  double number(const Json& object, const char* key) {
-    const Json* const found = field(object, key);
+  double number(const AotJson& object, const char* key) {
+    const AotJson* const found = field(object, key);
     const double value = found != nullptr && found->is_number() ? found->get<double>() : std::nan("");
     if (!(std::abs(value) <= 1e9)) wrong(key, "is not a number of a magnitude up to 1e9");
     return value;
   }
 
-  int whole(const Json& object, const char* key) {
+  int whole(const AotJson& object, const char* key) {
     const double value = number(object, key);
     if (error_.empty() && value != std::floor(value)) wrong(key, "is not a whole number");
     return error_.empty() ? static_cast<int>(value) : 0;
   }
 
-  static const Json* field(const Json& object, const char* key) {
+  static const AotJson* field(const AotJson& object, const char* key) {
     if (!object.is_object()) return nullptr;
     const auto found = object.find(key);
     return found == object.end() || found->is_null() ? nullptr : &*found;
@@ -86,8 +86,8 @@ class AotFields {
 };
 
 // Left, top, width, height.
-AotBox box_of_corner(AotFields& fields, const Json& entity) {
-  const Json* const bb = AotFields::field(entity, "bb");
+AotBox box_of_corner(AotFields& fields, const AotJson& entity) {
+  const AotJson* const bb = AotFields::field(entity, "bb");
   std::array<double, 4> edges{};
   bool is_good = bb != nullptr && bb->is_array() && bb->size() == 4;
   for (std::size_t i = 0; is_good && i < 4; ++i) {
@@ -102,9 +102,9 @@ AotBox box_of_corner(AotFields& fields, const Json& entity) {
   return fields.checked({edges[0] + edges[2] / 2, edges[1] + edges[3] / 2, edges[2], edges[3]});
 }
 
-AotObject object_of(AotFields& fields, const Json& entity, int flight) {
+AotObject object_of(AotFields& fields, const AotJson& entity, int flight) {
   AotObject object{.flight = flight, .image = fields.text(entity, "img_name")};
-  const Json* const blob = AotFields::field(entity, "blob");
+  const AotJson* const blob = AotFields::field(entity, "blob");
   if (blob == nullptr) {
     fields.wrong("blob", "is missing");
     return object;
@@ -114,7 +114,7 @@ AotObject object_of(AotFields& fields, const Json& entity, int flight) {
   object.id = fields.text(entity, "id");
   if (AotFields::field(*blob, "range_distance_m") != nullptr) object.range_m = fields.number(*blob, "range_distance_m");
   object.box = box_of_corner(fields, entity);
-  const Json* const labels = AotFields::field(entity, "labels");
+  const AotJson* const labels = AotFields::field(entity, "labels");
   if (labels != nullptr && AotFields::field(*labels, "is_above_horizon") != nullptr)
     object.above_horizon = fields.number(*labels, "is_above_horizon");
   return object;
@@ -124,13 +124,13 @@ AotObject object_of(AotFields& fields, const Json& entity, int flight) {
 
 Result<AotTruth> read_aot_truth(const std::filesystem::path& path) {
   AotFields fields(path);
-  const Result<Json> document = fields.document();
+  const Result<AotJson> document = fields.document();
   if (!document) return fail(document.error());
-  const Json* const samples = AotFields::field(*document, "samples");
+  const AotJson* const samples = AotFields::field(*document, "samples");
   if (samples == nullptr || !samples->is_object()) return fields.failure("has no object \"samples\" of flights");
   AotTruth truth;
   for (const auto& [flight, sample] : samples->items()) {
-    const Json* const entities = AotFields::field(sample, "entities");
+    const AotJson* const entities = AotFields::field(sample, "entities");
     if (entities == nullptr || !entities->is_array())
       return fields.failure(fmt::format("samples.{} has no list \"entities\"", flight));
     const auto index = static_cast<int>(truth.flights.size());
@@ -149,19 +149,19 @@ Result<AotTruth> read_aot_truth(const std::filesystem::path& path) {
 
 Result<std::vector<AotReport>> read_aot_reports(const std::filesystem::path& path) {
   AotFields fields(path);
-  const Result<Json> document = fields.document();
+  const Result<AotJson> document = fields.document();
   if (!document) return fail(document.error());
   if (!document->is_array()) return fields.failure("is not a list of images");
   std::vector<AotReport> reports;
   int without_track = 0;
   for (std::size_t i = 0; i < document->size(); ++i) {
-    const Json& image = (*document)[i];
+    const AotJson& image = (*document)[i];
     fields.enter(fmt::format("[{}]", i));
     const std::string name = fields.text(image, "img_name");
-    const Json* const detections = AotFields::field(image, "detections");
+    const AotJson* const detections = AotFields::field(image, "detections");
     if (detections == nullptr || !detections->is_array()) fields.wrong("detections", "is not a list");
     for (std::size_t k = 0; !fields.is_wrong() && k < detections->size(); ++k) {
-      const Json& d = (*detections)[k];
+      const AotJson& d = (*detections)[k];
       fields.enter(fmt::format("[{}].detections[{}]", i, k));
       AotReport report{.image = name,
                        .box = fields.checked({fields.number(d, "x"), fields.number(d, "y"), fields.number(d, "w"),

@@ -11,7 +11,7 @@ namespace sigs {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using SummaryJson = nlohmann::ordered_json;
 
 struct AotRate {
   int detected = 0;
@@ -35,8 +35,8 @@ std::array<AotRate, kAotClasses> rates_of(const AotScore& score, const std::vect
   return rates;
 }
 
-Json json_of(const AotScore& score, const std::vector<AotEncounterScore>& scores) {
-  Json classes;
+SummaryJson json_of(const AotScore& score, const std::vector<AotEncounterScore>& scores) {
+  SummaryJson classes;
   const auto rates = rates_of(score, scores);
   for (std::size_t k = 0; k < kAotClasses; ++k)
     classes[kAotClassNames[k]] = {{"detected", rates[k].detected}, {"total", rates[k].total}, {"dr", rates[k].rate()}};
@@ -48,7 +48,7 @@ Json json_of(const AotScore& score, const std::vector<AotEncounterScore>& scores
 std::string aot_summary_json(const AotScore& score) {
   const auto share = [](int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0.0; };
   const AotPolicy& policy = score.policy;
-  Json json;
+  SummaryJson json;
   json["target_metrics"] = nullptr;
   json["target_value"] = nullptr;
   if (policy.target_fppi) json["target_metrics"] = "fppi", json["target_value"] = *policy.target_fppi;

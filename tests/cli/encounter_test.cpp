@@ -18,7 +18,7 @@ using namespace sigs::test;
 namespace {
 
 // Head-on at 100 m/s, 100 m beside, one height: 2000 m apart at the beginning.
-const std::string kHeadOn =
+const std::string kHeadOnPair =
     "name, sx, sy, sz, vx, vy, vz, time\n[none], [m], [m], [m], [m/s], [m/s], [m/s], [s]\n"
     "own, 0, 0, 500, 0, 50, 0, 0\nN1, 100, 2000, 500, 0, -50, 0, 0\n"
     "own, 0, 2000, 500, 0, 50, 0, 40\nN1, 100, 0, 500, 0, -50, 0, 40\n";
@@ -28,7 +28,7 @@ const std::string kHeadOn =
 TEST_CASE("flights in a file: a table on stdout, JSON with the closed form's numbers, a plot, and the flights again") {
   const TemporaryFolder folder;
   const std::string daa = (folder / "pair.daa").string();
-  write_file(daa, kHeadOn);
+  write_file(daa, kHeadOnPair);
   const std::string out = (folder / "out").string();
   const Run run = run_sigs("encounter " + daa + " --volume nmac --dmod-ft 1000 --zthr-ft 200 --json " + out +
                            ".json --plot " + out + ".png --daa " + out + ".daa");
@@ -86,7 +86,7 @@ TEST_CASE("mistakes end with the status that says so, name what is wrong, and wr
   const TemporaryFolder folder;
   const std::string daa = (folder / "pair.daa").string();
   const std::string out = (folder / "out.json").string();
-  write_file(daa, kHeadOn);
+  write_file(daa, kHeadOnPair);
   const Run volume = run_sigs("encounter " + daa + " --volume dwc --json " + out);
   CHECK(volume.status == 64);
   CHECK(has(volume.err, "small-uas"));
@@ -99,7 +99,7 @@ TEST_CASE("mistakes end with the status that says so, name what is wrong, and wr
   CHECK(other.status == 64);
   CHECK(has(other.err, "N1"));
   CHECK(run_sigs("encounter " + (folder / "none.daa").string()).status == 66);
-  write_file(daa, kHeadOn + "N1, 100, x, 500, 0, -50, 0, 41\n");
+  write_file(daa, kHeadOnPair + "N1, 100, x, 500, 0, -50, 0, 41\n");
   const Run broken = run_sigs("encounter " + daa + " --json " + out);
   CHECK(broken.status == 65);
   CHECK(has(broken.err, "line 7, column sy"));

@@ -7,13 +7,13 @@
 #include <random>
 #include <string>
 
+#include "encounter/units.h"
 #include "geo/local_frame.h"
 
 using namespace sigs;
 
 namespace {
 
-constexpr double kFoot_m = 0.3048;
 constexpr double kKnot_mps = 1852.0 / 3600;
 
 const std::string kPlain =

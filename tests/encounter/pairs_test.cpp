@@ -8,14 +8,13 @@
 
 #include "encounter/daa_file.h"
 #include "encounter/encounter.h"
+#include "encounter/units.h"
 #include "support/test_data.h"
 
 using namespace sigs;
 using namespace sigs::test;
 
 namespace {
-
-constexpr double kFoot_m = 0.3048;
 
 EncounterSummary pair(const std::string& name, double zthr_ft = 450) {
   const Result<EncounterFile> file = read_encounter_file((real_data() / "encounters/pairs" / name).string());

@@ -8,11 +8,12 @@
 #include <random>
 #include <vector>
 
+#include "encounter/units.h"
+
 using namespace sigs;
 
 namespace {
 
-constexpr double kFoot_m = 0.3048;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 WellClearVolume en_route() {

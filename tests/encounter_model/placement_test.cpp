@@ -21,13 +21,13 @@ glm::dvec2 velocity_of(const SampledPoint& point) {
   return point.speed_mps * glm::dvec2(std::cos(point.heading_rad), std::sin(point.heading_rad));
 }
 
-double range_m(const SampledTrack& own, const SampledTrack& intruder, double time_s) {
+double range_m(const ModelFlight& own, const ModelFlight& intruder, double time_s) {
   return glm::length(horizontal(at_time(intruder, time_s).position_neu_m - at_time(own, time_s).position_neu_m));
 }
 
 // Straight flight north, or steadily turning.
-SampledTrack steady(double speed_mps, double turn_rate_radps = 0, int duration_s = 60) {
-  SampledTrack track;
+ModelFlight steady(double speed_mps, double turn_rate_radps = 0, int duration_s = 60) {
+  ModelFlight track;
   SampledPoint point{.position_neu_m = {0, 0, 1000}, .speed_mps = speed_mps, .turn_rate_radps = turn_rate_radps};
   for (int second = 0; second <= duration_s; ++second) {
     point.time_s = second;
@@ -38,7 +38,7 @@ SampledTrack steady(double speed_mps, double turn_rate_radps = 0, int duration_s
 }
 
 // What was asked for, seen in the two tracks.
-void check_placed(const SampledTrack& own, const SampledTrack& intruder, const ApproachRequest& asked) {
+void check_placed(const ModelFlight& own, const ModelFlight& intruder, const ApproachRequest& asked) {
   const SampledPoint a = at_time(own, asked.time_s);
   const SampledPoint b = at_time(intruder, asked.time_s);
   const glm::dvec2 offset_m = horizontal(b.position_neu_m - a.position_neu_m);
@@ -59,9 +59,9 @@ void check_placed(const SampledTrack& own, const SampledTrack& intruder, const A
   }
 }
 
-bool is_refused(const SampledTrack& own, const SampledTrack& intruder, const ApproachRequest& asked,
+bool is_refused(const ModelFlight& own, const ModelFlight& intruder, const ApproachRequest& asked,
                 const std::string& words) {
-  const Result<SampledTrack> placed = placed_intruder(own, intruder, asked);
+  const Result<ModelFlight> placed = placed_intruder(own, intruder, asked);
   if (placed) return false;
   INFO(placed.error().text());
   CHECK(placed.error().text().find(words) != std::string::npos);
@@ -71,24 +71,24 @@ bool is_refused(const SampledTrack& own, const SampledTrack& intruder, const App
 }  // namespace
 
 TEST_CASE("head-on, crossing and overtaken straight flights meet at the place that geometry gives") {
-  const SampledTrack own = steady(50);
+  const ModelFlight own = steady(50);
   // Head-on at 70 m/s, 100 m to the right: at 40 s the ownship is at north 2000, and closing is 120 m/s.
-  const SampledTrack head_on =
+  const ModelFlight head_on =
       placed_intruder(own, steady(70), {.time_s = 40, .hmd_m = 100, .vmd_m = -30, .bearing_rad = 0}).value();
   CHECK(glm::length(head_on.points[40].position_neu_m - glm::dvec3(2000, 100, 970)) < 1e-9);
   CHECK(glm::length(head_on.points[0].position_neu_m - glm::dvec3(2000 + 70 * 40, 100, 970)) < 1e-9);
   // From the right at equal speeds with a right angle between the courses: it is seen at 45 degrees.
-  const SampledTrack crossing = placed_intruder(own, steady(50), {.time_s = 40, .bearing_rad = rad_of_deg(45)}).value();
+  const ModelFlight crossing = placed_intruder(own, steady(50), {.time_s = 40, .bearing_rad = rad_of_deg(45)}).value();
   CHECK(glm::length(crossing.points[0].position_neu_m - glm::dvec3(2000, 2000, 1000)) < 1e-8);
   // From behind, 20 m/s faster; on the right of one who looks back is the left of the flight.
-  const SampledTrack behind =
+  const ModelFlight behind =
       placed_intruder(own, steady(70), {.time_s = 40, .hmd_m = 100, .bearing_rad = rad_of_deg(180)}).value();
   CHECK(glm::length(behind.points[40].position_neu_m - glm::dvec3(2000, -100, 1000)) < 1e-9);
   CHECK(glm::length(behind.points[0].position_neu_m - glm::dvec3(2000 - 70 * 40, -100, 1000)) < 1e-8);
 }
 
 TEST_CASE("a slower intruder can be overtaken or met head-on: it is met") {
-  const SampledTrack placed = placed_intruder(steady(50), steady(20), {.time_s = 10}).value();
+  const ModelFlight placed = placed_intruder(steady(50), steady(20), {.time_s = 10}).value();
   CHECK(glm::length(placed.points[0].position_neu_m - glm::dvec3(500 + 20 * 10, 0, 1000)) < 1e-9);
 }
 
@@ -135,13 +135,13 @@ TEST_CASE("pairs of drawn flights have the miss distances, side and bearing that
   int refused = 0;
   for (std::uint64_t pair = 0; pair < 2000; ++pair) {
     ModelRandom random(99, pair);
-    const SampledTrack own = sampled_track(flying, {}, random);
-    const SampledTrack intruder = sampled_track(flying, {}, random);
+    const ModelFlight own = sampled_track(flying, {}, random);
+    const ModelFlight intruder = sampled_track(flying, {}, random);
     const ApproachRequest asked{.time_s = pair % 5 == 0 ? 30 : 60 * random.uniform(),
                                 .hmd_m = pair % 7 == 0 ? 0 : 3000 * (random.uniform() - 0.5),
                                 .vmd_m = 300 * (random.uniform() - 0.5),
                                 .bearing_rad = 2 * std::numbers::pi * (random.uniform() - 0.5)};
-    const Result<SampledTrack> placed = placed_intruder(own, intruder, asked);
+    const Result<ModelFlight> placed = placed_intruder(own, intruder, asked);
     if (!placed) {
       ++refused;
       continue;
@@ -149,7 +149,7 @@ TEST_CASE("pairs of drawn flights have the miss distances, side and bearing that
     ++placed_pairs;
     check_placed(own, *placed, asked);
     // Nothing but place and heading has changed: distances within the track are the same.
-    const auto length_m = [](const SampledTrack& track) {
+    const auto length_m = [](const ModelFlight& track) {
       return glm::length(track.points.back().position_neu_m - track.points.front().position_neu_m);
     };
     CHECK(std::abs(length_m(*placed) - length_m(intruder)) < 1e-9);

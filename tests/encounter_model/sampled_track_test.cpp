@@ -82,7 +82,7 @@ TEST_CASE("a drawn flight is continuous and flies what the model says, in the fi
   const EncounterModel model = small_flying();
   for (std::uint64_t number = 0; number < 200; ++number) {
     ModelRandom random(1, number);
-    const SampledTrack track = sampled_track(model, {.duration_s = 30, .level_step_ft = 0}, random);
+    const ModelFlight track = sampled_track(model, {.duration_s = 30, .level_step_ft = 0}, random);
     ModelRandom again(1, number);
     ModelState state = initial_state(model, again);
     double altitude_ft = state.values[0];
@@ -111,7 +111,7 @@ TEST_CASE("the altitude of a level flight is a multiple of 500 ft, never the gro
     ModelRandom random(1, number);
     ModelRandom again(1, number);
     const double drawn_ft = initial_state(model, again).values[0];
-    const SampledTrack track = sampled_track(model, {.duration_s = 1}, random);
+    const ModelFlight track = sampled_track(model, {.duration_s = 1}, random);
     const double altitude_ft = track.initial_values[0];
     if (track.initial_values[2] != 0 || drawn_ft <= 250) {
       CHECK(altitude_ft == drawn_ft);
@@ -132,7 +132,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
   int outside = 0;
   for (std::uint64_t number = 0; number < 500; ++number) {
     ModelRandom random(4, number);
-    const SampledTrack free = sampled_track(model, {.duration_s = 300}, random);
+    const ModelFlight free = sampled_track(model, {.duration_s = 300}, random);
     bool is_inside = true;
     for (const SampledPoint& point : free.points)
       is_inside =
@@ -140,7 +140,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
     CHECK(free.is_within_limits == is_inside);
     outside += is_inside ? 0 : 1;
     ModelRandom again(4, number);
-    const SampledTrack kept = sampled_track(model, {.duration_s = 300, .max_redraws = 1000}, again);
+    const ModelFlight kept = sampled_track(model, {.duration_s = 300, .max_redraws = 1000}, again);
     CHECK(kept.is_within_limits);
     CHECK((kept.redraws > 0) == !is_inside);
   }
@@ -155,7 +155,7 @@ TEST_CASE("every published model flies, and a seed gives the same bytes") {
     REQUIRE(check_can_fly(model));
     const auto bytes = [&](std::uint64_t seed) {
       ModelRandom random(seed);
-      const SampledTrack track = sampled_track(model, {.duration_s = 120}, random);
+      const ModelFlight track = sampled_track(model, {.duration_s = 120}, random);
       std::string text(track.points.size() * sizeof(SampledPoint), '\0');
       std::memcpy(text.data(), track.points.data(), text.size());
       return text;
