@@ -21,7 +21,8 @@ Call call_of(int argc, char** argv) {
 
 void stop(const std::string& why) {
   std::fprintf(stderr, "error: %s\n", why.c_str());
-  std::exit(EXIT_FAILURE);
+  std::fflush(nullptr);
+  std::_Exit(EXIT_FAILURE);  // other threads may still use what std::exit would destroy
 }
 
 }  // namespace sigs::accuracy

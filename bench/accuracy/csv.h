@@ -31,7 +31,7 @@ struct Call {
 };
 [[nodiscard]] Call call_of(int argc, char** argv);
 
-// Says why on standard error and ends the program.
+// Says why on standard error and ends the program, from any thread.
 [[noreturn]] void stop(const std::string& why);
 
 }  // namespace sigs::accuracy
