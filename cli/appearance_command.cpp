@@ -64,7 +64,7 @@ Result<void> check_names(const AppearanceOptions& options) {
   return {};
 }
 
-Result<Project> project_in(const fs::path& file) {
+Result<Project> project_of_file(const fs::path& file) {
   Result<ReadProject> read = read_project(file);
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
@@ -222,13 +222,13 @@ Result<void> run(const AppearanceOptions& options) {
   if (const Result<void> named = check_names(options); !named) return named;
   std::optional<Project> project;
   if (is_project_file(options.file)) {
-    Result<Project> read = project_in(options.file);
+    Result<Project> read = project_of_file(options.file);
     if (!read) return fail(read.error());
     project = std::move(*read);
   }
   std::optional<Project> into;
   if (!options.into.empty()) {
-    Result<Project> read = project_in(options.into);
+    Result<Project> read = project_of_file(options.into);
     if (!read) return fail(read.error());
     into = std::move(*read);
   }

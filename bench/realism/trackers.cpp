@@ -73,6 +73,17 @@ std::optional<cv::Point2d> place_for(const Stretch& stretch, const MeasuredTarge
   return middle ? std::optional(*middle - 0.5 * (low + high)) : std::nullopt;
 }
 
+// Boxes of the real ones' size about their own middles: a tracker learns what a box holds, and how much of it is
+// background must be alike.
+std::vector<Box> as_loose_as(const std::vector<Box>& real, std::vector<Box> boxes) {
+  for (std::size_t i = 0; i < std::min(boxes.size(), real.size()); ++i) {
+    Box& box = boxes[i];
+    box = {box.x + (box.width - real[i].width) / 2, box.y + (box.height - real[i].height) / 2, real[i].width,
+           real[i].height};
+  }
+  return boxes;
+}
+
 constexpr double kSameContrast = 0.2;  // share by which contrasts may differ
 const std::string kAtSameContrast = ", same contrast";
 
@@ -123,12 +134,14 @@ std::vector<Followed> followed(const RealClip& clip, const SampleOptions& option
     Project set = project;
     apply(settings, clip.name, set);
     const Insertion::Composed composed = expected(insertion.composed(set, CameraShake::as_real_target));
-    if (!composed.frames.empty()) add(settings.name, successes(composed.frames, composed.boxes));
+    if (!composed.frames.empty())
+      add(settings.name, successes(composed.frames, as_loose_as(stretch->boxes, composed.boxes)));
     if (!real->look.weber_rms) continue;
     const auto same = with_same_contrast(set, *real->look.weber_rms, insertion);
     if (!same) continue;
     const Insertion::Composed again = expected(insertion.composed(*same, CameraShake::as_real_target));
-    if (!again.frames.empty()) add(settings.name + kAtSameContrast, successes(again.frames, again.boxes));
+    if (!again.frames.empty())
+      add(settings.name + kAtSameContrast, successes(again.frames, as_loose_as(stretch->boxes, again.boxes)));
   }
   return all;
 }
