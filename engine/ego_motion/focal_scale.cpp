@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <thread>
 #include <vector>
 
 #include "base/threads.h"
 #include "ego_motion/rotation_fit.h"
+#include "ego_motion/sequence.h"
 
 namespace sigs {
 
@@ -97,18 +97,6 @@ double least_at(const Costs& costs) {
   return static_cast<double>(i) + std::clamp(shift, -0.5, 0.5);
 }
 
-// A fixed sequence of numbers.
-class Chance {
- public:
-  std::size_t below(std::size_t n) {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<std::size_t>(state_ >> 33) % n;
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
 }  // namespace
 
 std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad) {
@@ -131,7 +119,7 @@ std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double 
   const double at = least_at(all);
   if (*std::min_element(all.begin(), all.end()) > kLargestCost * static_cast<double>(pairs.size())) return std::nullopt;
   constexpr int kDraws = 200;
-  Chance chance;
+  Sequence chance;
   std::vector<double> drawn;
   for (int draw = 0; draw < kDraws; ++draw)
     drawn.push_back(least_at(sum_of([&](std::size_t) { return chance.below(costs.size()); })));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ego_motion/sequence.h"
 #include "ego_motion/turns.h"
 
 namespace sigs {
@@ -17,18 +18,6 @@ constexpr int kTrials = 60;                // with half of the pairs astray a pa
 constexpr double kTukey = 4.685;           // 95 % efficient on normal errors
 constexpr double kMadToSigma = 0.8493218;  // of the length of an error in two directions: 1 / sqrt(2 ln 2)
 constexpr double kLeastSigma_rad = 1e-7;
-
-// Numbers without order, the same each time (Numerical Recipes' quick generator).
-class Sequence {
- public:
-  std::size_t below(std::size_t count) {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<std::size_t>(state_ >> 33) % count;
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 double miss(const Eigen::Matrix3d& turn, const RayPair& pair) {
   return (turn * pair.before - pair.after).norm();
