@@ -228,6 +228,9 @@ void add_output(FieldList list, ExportSettings& output) {
               "less of it to be seen: no label; xml and csv leave nothing out");
   list.add("categories", &output.categories, "",
            "categories that labels count, in this order; empty: those of the intruders");
+  static const std::string encounter_help =
+      "volumes for the truth of the encounter; empty: none is written: " + listed(kWellClearNames);
+  list.add("encounter", &output.encounter, "", encounter_help);
 }
 
 }  // namespace

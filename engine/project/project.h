@@ -261,7 +261,7 @@ enum class CodecMatchChoice { none, footage, h264, mjpeg };
 
 struct CodecMatchSettings {
   CodecMatchChoice match = CodecMatchChoice::none;
-  int carried_frames = 0;  // images before this one that H.264 or MPEG has predicted from one another, 0..16
+  int carried_frames = 0;           // images before this one that H.264 or MPEG has predicted from one another, 0..16
   std::optional<double> quantiser;  // QP of H.264 (0..51) or percent of JPEG's table; none: as the stream says
 
   [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;
@@ -293,6 +293,12 @@ enum class MasksChoice { none, video, png };
 inline constexpr auto kLabelNames =
     std::to_array<std::string_view>({"xml", "coco", "yolo", "voc", "mot", "kitti", "cvat", "vot", "aot", "csv"});
 
+// The volumes that export.encounter may contain: the names of well_clear_volumes() in engine/encounter/well_clear.h, in
+// its order. They are repeated because this module may not include encounter; tests/scene/encounter_tracks_test.cpp
+// compares them.
+inline constexpr auto kWellClearNames =
+    std::to_array<std::string_view>({"dwc-en-route", "dwc-non-cooperative", "dwc-terminal", "small-uas", "nmac"});
+
 // What an export writes. crf: quality of h264, 0 (lossless) to 51. The two thresholds leave out labels of intruders
 // with fewer visible pixels, or a smaller visible share.
 struct ExportSettings {
@@ -304,6 +310,7 @@ struct ExportSettings {
   int label_least_pixels = 1;
   double label_least_visible_fraction = 0;
   std::vector<std::string> categories;  // empty: those of the intruders, in their order
+  std::vector<std::string> encounter;   // volumes of well clear; empty: no truth of the encounter is written
 
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };

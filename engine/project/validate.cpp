@@ -143,6 +143,16 @@ void check_labels(const ExportSettings& output, Problems& problems) {
   }
 }
 
+void check_encounter(const ExportSettings& output, Problems& problems) {
+  for (const std::string& volume : output.encounter) {
+    if (std::find(kWellClearNames.begin(), kWellClearNames.end(), volume) == kWellClearNames.end())
+      problems.push_back(
+          {"export.encounter", fmt::format("knows no volume \"{}\"; there are {}", volume, listed(kWellClearNames))});
+    if (is_twice(output.encounter, volume))
+      return problems.push_back({"export.encounter", fmt::format("has \"{}\" twice; leave one out", volume)});
+  }
+}
+
 void check_categories(const Project& project, Problems& problems) {
   const std::vector<std::string>& categories = project.output.categories;
   for (const std::string& category : categories)
@@ -170,6 +180,7 @@ std::vector<Problem> validate(const Project& project) {
   check_frames(project.footage, problems);
   check_output(project.output, problems);
   check_labels(project.output, problems);
+  check_encounter(project.output, problems);
   check_places(project, problems);
   check_track(project.camera, problems);
   check_categories(project, problems);

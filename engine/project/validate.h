@@ -17,8 +17,8 @@ struct Problem {
 };
 
 // Checks all that does not need the footage or the models: ranges, empty names, missing files, waypoints that are not
-// finite, not in order of time or missing, labels and categories, and codec and container that do not go together.
-// Empty: nothing is wrong.
+// finite, not in order of time or missing, labels, volumes and categories, and codec and container that do not go
+// together. Empty: nothing is wrong.
 [[nodiscard]] std::vector<Problem> validate(const Project& project);
 
 // The problem as an error that names the project file too: {"projects/x.json: intruders[0].model.file", "no such file

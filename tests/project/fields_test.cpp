@@ -35,12 +35,14 @@ TEST_CASE("numbers and vectors and names and texts are set by their key") {
   REQUIRE(set_field(p, "name=42").has_value());
   REQUIRE(set_field(p, "footage.last_frame=null").has_value());
   REQUIRE(set_field(p, "export.labels=[\"xml\"]").has_value());
+  REQUIRE(set_field(p, "export.encounter=[\"small-uas\", \"nmac\"]").has_value());
   REQUIRE(set_field(p, "intruders[0].trajectory.waypoints[1].position_m=[1,2,3]").has_value());
   CHECK(p.camera.speed_mps == 30);
   CHECK(p.light.position_m == glm::dvec3(0, 0, -500));
   CHECK(p.output.codec == CodecChoice::h264);
   CHECK(p.footage.video == "a=b.mkv");
   CHECK(p.name == "42");
+  CHECK(p.output.encounter == std::vector<std::string>{"small-uas", "nmac"});
   CHECK(p.intruders[0].trajectory.waypoints[1].position_m == glm::dvec3(1, 2, 3));
 }
 
@@ -61,6 +63,7 @@ TEST_CASE("an assignment without key or sign or with a wrong type is refused") {
   CHECK(refusal("=5").find("expected key=value") != std::string::npos);
   CHECK(refusal("camera.speed_mps=fast").find("expected a number, found \"fast\"") != std::string::npos);
   CHECK(refusal("camera.speed_mps=").find("expected a number") != std::string::npos);
+  CHECK(refusal("export.encounter=nmac").find("expected a list of texts") != std::string::npos);
   CHECK(refusal("camera.speed_mps=\xff").find("expected a number") != std::string::npos);
   CHECK(refusal("export.labels=" + std::string(50'000, '[') + std::string(50'000, ']')).find("expected a list") !=
         std::string::npos);

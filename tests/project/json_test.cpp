@@ -31,7 +31,8 @@ constexpr const char* kWhole = R"({
                                   {"position_m": [0.1, 1e7, -165]}]}},
     {"name": "second"}],
   "compositing": {"method": "classic", "blend": "display", "blur_px_per_m": 0.004, "supersampling": 3},
-  "export": {"video": {"codec": "h264", "container": "mkv", "crf": 23}, "masks": "png", "labels": []}
+  "export": {"video": {"codec": "h264", "container": "mkv", "crf": 23}, "masks": "png", "labels": [],
+             "encounter": ["nmac"]}
 })";
 
 Project whole() {
@@ -74,6 +75,15 @@ TEST_CASE("every key of a project file sets its field") {
   CHECK(p.output.codec == CodecChoice::h264);
   CHECK(p.output.masks == MasksChoice::png);
   CHECK(p.output.labels.empty());
+  CHECK(p.output.encounter == std::vector<std::string>{"nmac"});
+}
+
+TEST_CASE(
+    "a project that does not name volumes of well clear asks for no truth of encounters, and keeps asking for none") {
+  const Project p = parse_project(R"({"sigs": 1, "export": {"labels": ["csv"]}})", "x.json").value().project;
+  CHECK(p.output.encounter.empty());
+  CHECK(parse_project(text_of(p), "x.json").value().project.output.encounter.empty());
+  CHECK(error_text(R"({"sigs": 1, "export": {"encounter": "nmac"}})").find("export.encounter") != std::string::npos);
 }
 
 TEST_CASE("writing and reading again changes nothing") {

@@ -111,6 +111,20 @@ TEST_CASE_FIXTURE(Fixture, "codec, container and labels that do not go together 
   CHECK(wrong_fields() == Fields{"export.video.container", "export.labels"});
 }
 
+TEST_CASE_FIXTURE(Fixture,
+                  "a volume of well clear that nobody knows is named with those there are, and one given twice") {
+  project.output.encounter = {kWellClearNames.begin(), kWellClearNames.end()};
+  CHECK(wrong_fields().empty());
+  project.output.encounter = {"nmac", "hockey-puck"};
+  REQUIRE(wrong_fields() == Fields{"export.encounter"});
+  const std::string what = validate(project).front().what;
+  for (const std::string_view word : {"hockey-puck", "dwc-en-route", "small-uas", "nmac"})
+    CHECK_MESSAGE(what.find(word) != std::string::npos, what);
+  project.output.encounter = {"nmac", "small-uas", "nmac"};
+  CHECK(wrong_fields() == Fields{"export.encounter"});
+  CHECK(validate(project).front().what.find("\"nmac\" twice") != std::string::npos);
+}
+
 TEST_CASE_FIXTURE(Fixture, "a name that would leave the output folder is refused") {
   project.name = "../elsewhere";
   CHECK(wrong_fields().front() == "name");

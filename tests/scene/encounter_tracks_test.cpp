@@ -3,12 +3,20 @@
 
 #include <doctest/doctest.h>
 
+#include "encounter/well_clear.h"
+#include "project/project.h"
 #include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 #include "scene/scene_at.h"
 
 using namespace sigs;
 using namespace sigs::test;
+
+TEST_CASE("a project names the volumes of well clear that there are") {
+  std::vector<std::string> names;
+  for (const WellClearVolume& volume : well_clear_volumes()) names.push_back(volume.name);
+  CHECK(names == std::vector<std::string>(kWellClearNames.begin(), kWellClearNames.end()));
+}
 
 TEST_CASE("tracks of a scene are where its camera and its intruders are, and velocity is the change of place") {
   for (const char* const name : kSampleProjects) {
