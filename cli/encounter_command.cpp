@@ -136,16 +136,9 @@ Result<Flights> flights_of_project(const Project& project) {
   const Scene& scene = opened->scene;
   if (scene.intruders.empty())
     return fail(project.file.string() + ": intruders", "is empty; an encounter needs one", ErrorKind::bad_project);
-  Flights flights{.steps_s = times_of_frames_s(scene)};
-  flights.tracks.push_back(encounter_track_of_camera(scene));
-  for (std::size_t i = 0; i < scene.intruders.size(); ++i)
-    flights.tracks.push_back(encounter_track_of_intruder(scene, i));
-  // A file knows aircraft by their names alone.
-  std::map<std::string, int> seen;
-  for (EncounterTrack& track : flights.tracks) {
-    if (const int before = seen[track.name]++; before > 0) track.name += fmt::format("-{}", before + 1);
-    flights.samples.push_back(sampled(track, flights.steps_s));
-  }
+  Flights flights{.tracks = encounter_tracks_of(scene, {scene.first_frame, scene.last_frame}),
+                  .steps_s = times_of_frames_s(scene)};
+  for (const EncounterTrack& track : flights.tracks) flights.samples.push_back(sampled(track, flights.steps_s));
   return flights;
 }
 

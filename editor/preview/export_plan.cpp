@@ -60,6 +60,7 @@ std::vector<fs::path> outputs_of(const Project& project, const fs::path& folder)
   for (const std::string& label : output.labels)
     if (const LabelFormat* format = label_format(label))
       paths.push_back(folder / (project.name + std::string(format->suffix)));
+  if (!output.encounter.empty()) paths.push_back(folder / (project.name + std::string(kEncounterSuffix)));
   return paths;
 }
 

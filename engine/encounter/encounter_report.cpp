@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/text.h"
 
@@ -126,8 +127,6 @@ Json step_of(const EncounterSummary& summary, const EncounterRow& row) {
 Json encounter_of(const EncounterSummary& summary) {
   Json volumes = Json::array();
   for (const VolumeOutcome& outcome : summary.volumes) volumes.push_back(outcome_of(outcome));
-  Json steps = Json::array();
-  for (const EncounterRow& row : summary.rows) steps.push_back(step_of(summary, row));
   return {{"ownship", summary.own_name},
           {"intruder", summary.intruder_name},
           {"first_s", summary.first_s},
@@ -137,7 +136,46 @@ Json encounter_of(const EncounterSummary& summary) {
           {"nearest_step", summary.nearest_row ? Json(*summary.nearest_row) : Json(nullptr)},
           {"volumes", std::move(volumes)},
           {"nmac", outcome_of(summary.nmac)},
-          {"steps", std::move(steps)}};
+          {"steps", Json::array()}};
+}
+
+// As a member of a document, so many levels deep. Names from files may be no UTF-8.
+std::string indented(const Json& json, std::size_t levels) {
+  const std::string space(levels, ' ');
+  std::string text = space;
+  for (const char c : json.dump(1, ' ', false, Json::error_handler_t::replace)) {
+    text += c;
+    if (c == '\n') text += space;
+  }
+  return text;
+}
+
+using PutText = std::function<Result<void>(std::string_view)>;
+
+// A list whose items are made one by one, in place of an empty one at the end of `head`, which `tail` follows.
+Result<void> put_list(const PutText& put, std::string head, std::size_t items, std::size_t levels,
+                      const std::function<Result<void>(std::size_t)>& put_item, const std::string& tail) {
+  if (items == 0) return put(head + "[]" + tail);
+  if (const Result<void> begun = put(head + "[\n"); !begun) return begun;
+  for (std::size_t i = 0; i < items; ++i) {
+    if (i > 0)
+      if (const Result<void> between = put(",\n"); !between) return between;
+    if (const Result<void> item = put_item(i); !item) return item;
+  }
+  return put("\n" + std::string(levels, ' ') + "]" + tail);
+}
+
+// The text before and after the empty list that ends a document.
+std::pair<std::string, std::string> around_last_list(const std::string& text) {
+  const std::size_t at = text.rfind("[]");
+  return {text.substr(0, at), text.substr(at + 2)};
+}
+
+Result<void> put_encounter(const EncounterSummary& summary, const PutText& put) {
+  const auto [head, tail] = around_last_list(indented(encounter_of(summary), 2));
+  return put_list(
+      put, head, summary.rows.size(), 3,
+      [&](std::size_t i) { return put(indented(step_of(summary, summary.rows[i]), 4)); }, tail);
 }
 
 }  // namespace
@@ -164,12 +202,21 @@ std::string encounter_report_text(const EncounterSummary& summary) {
   return is_listed ? text : text + outcome_text(summary, summary.nmac);
 }
 
+Result<void> put_encounter_json(std::span<const EncounterSummary> encounters, const std::string& source,
+                                const std::function<Result<void>(std::string_view)>& put) {
+  const Json document{{"sigs_encounter", 1}, {"source", source}, {"encounters", Json::array()}};
+  const auto [head, tail] = around_last_list(indented(document, 0));
+  return put_list(
+      put, head, encounters.size(), 1, [&](std::size_t i) { return put_encounter(encounters[i], put); }, tail + "\n");
+}
+
 std::string encounter_json_text(std::span<const EncounterSummary> encounters, const std::string& source) {
-  Json all = Json::array();
-  for (const EncounterSummary& summary : encounters) all.push_back(encounter_of(summary));
-  const Json document{{"sigs_encounter", 1}, {"source", source}, {"encounters", std::move(all)}};
-  // Names from files may be no UTF-8.
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text;
+  static_cast<void>(put_encounter_json(encounters, source, [&text](std::string_view piece) -> Result<void> {
+    text += piece;
+    return {};
+  }));
+  return text;
 }
 
 }  // namespace sigs

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
+#include "base/result.h"
 #include "encounter/encounter.h"
 
 namespace sigs {
@@ -17,5 +20,10 @@ namespace sigs {
 // docs/encounters.md lists the members.
 //   source  the file that the flights come from
 [[nodiscard]] std::string encounter_json_text(std::span<const EncounterSummary> encounters, const std::string& source);
+
+// The same text piece by piece, so that memory does not grow with the number of rows. Ends with the first error of
+// `put`.
+[[nodiscard]] Result<void> put_encounter_json(std::span<const EncounterSummary> encounters, const std::string& source,
+                                              const std::function<Result<void>(std::string_view)>& put);
 
 }  // namespace sigs

@@ -141,7 +141,8 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
                          .own_body = scene.own_body,
                          .camera = scene.camera,
                          .thresholds = {.min_pixels = project.output.label_least_pixels,
-                                        .min_visible_fraction = project.output.label_least_visible_fraction}};
+                                        .min_visible_fraction = project.output.label_least_visible_fraction},
+                         .volumes = project.output.encounter};
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)
     sequence.intruders.push_back({.id = static_cast<int>(i),
                                   .name = scene.intruders[i].name,
@@ -176,6 +177,7 @@ struct OutputPaths {
   fs::path base;  // FOLDER/NAME
   fs::path video;
   fs::path masks;
+  fs::path encounter;
   std::vector<fs::path> all;
 };
 
@@ -183,10 +185,12 @@ OutputPaths output_paths(const ExportRequest& request, const VideoFormat& video,
   const fs::path base = request.folder / request.project.name;
   OutputPaths paths{.base = base,
                     .video = with_extension(base.string(), video),
-                    .masks = with_extension(base.string() + ".masks", masks)};
+                    .masks = with_extension(base.string() + ".masks", masks),
+                    .encounter = base.string() + std::string(kEncounterSuffix)};
   paths.all = {paths.video, paths.masks};
   for (const std::string& label : request.project.output.labels)
     paths.all.push_back(base.string() + std::string(label_format(label)->suffix));
+  if (!request.project.output.encounter.empty()) paths.all.push_back(paths.encounter);
   return paths;
 }
 
@@ -209,6 +213,16 @@ Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const
   Result<std::unique_ptr<LabelWriter>> writer = format.open(*staged, sequence);
   if (!writer) return fail(writer.error());
   return Labels{std::move(*writer)};
+}
+
+// What is in the file is known before the first frame.
+Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& project, const Scene& scene,
+                                           const FrameRange& range) {
+  Result<ExportedEncounters> encounters = ExportedEncounters::of(project, scene, range);
+  if (!encounters) return fail(encounters.error());
+  encounters_ = *std::move(encounters);
+  const Result<fs::path> staged = outputs_.add_file(path);
+  return staged ? encounters_->write_json(*staged) : fail(staged.error());
 }
 
 Result<void> check_output(const Project& project, const VideoInfo& footage) {
@@ -256,7 +270,7 @@ Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo
     if (!labels) return fail(labels.error());
     labels_.push_back(std::move(*labels));
   }
-  return {};
+  return output.encounter.empty() ? Result<void>() : write_encounters(paths.encounter, request.project, scene, range);
 }
 
 bool ExportFiles::write_labels(const FrameTruth& truth) {
@@ -272,6 +286,7 @@ bool ExportFiles::write_labels(const FrameTruth& truth) {
 }
 
 Result<void> ExportFiles::write(ComposedFrame frame) {
+  if (encounters_) encounters_->add_to(frame.truth);
   const int number = frame.truth.index;
   const double time_s = frame.image.time_s;
   bool goes_on = video_->put(std::move(frame.image), number);

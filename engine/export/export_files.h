@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/staged_outputs.h"
+#include "export/encounter_files.h"
 #include "export/export_project.h"
 #include "export/writer_thread.h"
 #include "frame/compose_frame.h"
@@ -49,6 +50,8 @@ class ExportFiles {
   [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format);
   [[nodiscard]] Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
                                            const LabelSequence& sequence);
+  [[nodiscard]] Result<void> write_encounters(const std::filesystem::path& path, const Project& project,
+                                              const Scene& scene, const FrameRange& range);
   [[nodiscard]] bool write_labels(const FrameTruth& truth);
   [[nodiscard]] Result<void> finish();
 
@@ -56,7 +59,8 @@ class ExportFiles {
   std::unique_ptr<WriterThread> video_;
   std::unique_ptr<WriterThread> masks_;  // nullptr: none are asked for
   std::vector<Labels> labels_;
-  std::filesystem::path image_folder_;  // where numbered images are written to; empty: a video is
+  std::optional<ExportedEncounters> encounters_;  // none: not asked for
+  std::filesystem::path image_folder_;            // where numbered images are written to; empty: a video is
 };
 
 // Whether a relative path is one of a pattern of LabelFormat::files.

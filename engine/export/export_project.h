@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -14,6 +15,9 @@
 #include "video/frame_source.h"
 
 namespace sigs {
+
+// What follows the project's name in the file that sums its encounters up (engine/export/encounter_files.h).
+inline constexpr std::string_view kEncounterSuffix = ".encounter.json";
 
 struct ExportRequest {
   Project project;
@@ -49,7 +53,8 @@ struct ExportControl {
 };
 
 // All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of images), NAME.masks.mkv (or
-// a folder NAME.masks) and NAME.xml. Each appears under its final name only when all are complete.
+// a folder NAME.masks), labels such as NAME.xml and, where encounters are asked for, NAME.encounter.json. Each appears
+// under its final name only when all are complete.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
 // Errors in a project's outputs that only the footage can show: h264 of an odd size. Names the field.

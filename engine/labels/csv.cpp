@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "labels/formats.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/csv.h"
+#include "base/ensure.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "labels/camera_text.h"
@@ -25,7 +28,22 @@ constexpr std::string_view kCsvHeader =
     "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted,"
     "camera_position_source,camera_attitude_source,camera_sd_x_deg,camera_sd_y_deg,camera_sd_z_deg,"
     "camera_latitude_deg,camera_longitude_deg,camera_height_m,latitude_deg,longitude_deg,height_m,"
-    "weber_contrast,rms_contrast,signal_to_noise,blur_px,motion_blur_px,visibility_m\r\n";
+    "weber_contrast,rms_contrast,signal_to_noise,blur_px,motion_blur_px,visibility_m";
+
+// With the columns of encounters where there are some; "dwc-en-route" becomes "dwc_en_route_lost" and so on, as names
+// of columns have no hyphens.
+std::string csv_header(const LabelSequence& sequence) {
+  std::string header(kCsvHeader);
+  if (!sequence.volumes.empty())
+    header +=
+        ",range_rate_mps,closing_speed_mps,bearing_deg,elevation_deg,hmd_m,vmd_m,"
+        "time_to_closest_approach_s,time_to_coaltitude_s";
+  for (std::string name : sequence.volumes) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    for (const char* const column : {"_lost", "_tau_mod_s", "_severity"}) header += "," + csv_field(name + column);
+  }
+  return header + "\r\n";
+}
 
 // One line, field by field.
 class CsvRow {
@@ -35,6 +53,8 @@ class CsvRow {
     text_ += csv_field(text);
   }
   void add(double number, int decimals = kLabelDecimals) { add(number_text(number, decimals)); }
+  // Infinite: empty.
+  void add_if_finite(double number) { std::isfinite(number) ? add(number) : add_empty(1); }
   void add(int number) { add(std::to_string(number)); }
   void add(const glm::dvec3& position_m) {
     for (int i = 0; i < 3; ++i) add(position_m[i]);
@@ -76,6 +96,22 @@ void add_appearance_fields(CsvRow& row, const IntruderTruth& truth) {
   row.add(*formation.visibility_m);
 }
 
+void add_encounter_fields(CsvRow& row, const IntruderTruth& truth, std::size_t volumes) {
+  if (volumes == 0) return;
+  if (!truth.encounter) return row.add_empty(8 + 3 * static_cast<int>(volumes));
+  const EncounterTruth& now = *truth.encounter;
+  for (const double number :
+       {now.range_rate_mps, now.closing_speed_mps, deg_of_rad(now.bearing_rad), deg_of_rad(now.elevation_rad),
+        now.hmd_m, now.vmd_m, now.time_to_closest_approach_s, now.time_to_coaltitude_s})
+    row.add_if_finite(number);
+  ENSURE(now.of_volumes.size() == volumes);
+  for (const WellClearTruth& volume : now.of_volumes) {
+    row.add(volume.is_lost ? "true" : "false");
+    row.add_if_finite(volume.tau_mod_s);
+    row.add(volume.severity);
+  }
+}
+
 class CsvLabels : public LabelWriter {
  public:
   CsvLabels(TextFile file, LabelSequence sequence) : file_(std::move(file)), sequence_(std::move(sequence)) {}
@@ -111,6 +147,7 @@ class CsvLabels : public LabelWriter {
     row.add_fields(camera_source_fields(frame.camera));
     row.add_fields(place_fields(truth.place));
     add_appearance_fields(row, truth);
+    add_encounter_fields(row, truth, sequence_.volumes.size());
     return row.line();
   }
 
@@ -132,7 +169,7 @@ class CsvLabels : public LabelWriter {
 Result<std::unique_ptr<LabelWriter>> open_csv(const std::filesystem::path& path, const LabelSequence& sequence) {
   Result<TextFile> file = TextFile::create(path);
   if (!file) return fail(file.error());
-  if (const Result<void> head = file->put(kCsvHeader); !head) return fail(head.error());
+  if (const Result<void> head = file->put(csv_header(sequence)); !head) return fail(head.error());
   return std::make_unique<CsvLabels>(std::move(*file), sequence);
 }
 

@@ -47,6 +47,7 @@ struct LabelSequence {
       own_body;  // CV_32FC1 of the image's size, 1 where the own body hides everything, 0 where nothing; empty: none
   std::optional<Camera> camera;  // nullopt: not known, and formats leave out what follows from it
   LabelThresholds thresholds;
+  std::vector<std::string> volumes = {};  // of EncounterTruth, by name; empty: the truth has no encounters
 };
 
 // The intruder with this id, which must exist.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "labels/sigs_xml.h"
 
+#include <cmath>
 #include <pugixml.hpp>
 #include <sstream>
 #include <string>
@@ -82,6 +83,32 @@ void add_appearance(pugi::xml_node node, const IntruderTruth& truth) {
   if (truth.image_formation.visibility_m) set(appearance, "visibility_m", *truth.image_formation.visibility_m);
 }
 
+// A number that is infinite does not come: it is left out.
+void set_if_finite(pugi::xml_node node, const char* name, double number) {
+  if (std::isfinite(number)) set(node, name, number);
+}
+
+void add_encounter(pugi::xml_node node, const IntruderTruth& truth) {
+  if (!truth.encounter) return;
+  const EncounterTruth& now = *truth.encounter;
+  pugi::xml_node encounter = node.append_child("encounter");
+  set(encounter, "range_rate_mps", now.range_rate_mps);
+  set(encounter, "closing_speed_mps", now.closing_speed_mps);
+  set(encounter, "bearing_deg", deg_of_rad(now.bearing_rad));
+  set(encounter, "elevation_deg", deg_of_rad(now.elevation_rad));
+  set(encounter, "hmd_m", now.hmd_m);
+  set(encounter, "vmd_m", now.vmd_m);
+  set(encounter, "time_to_closest_approach_s", now.time_to_closest_approach_s);
+  set_if_finite(encounter, "time_to_coaltitude_s", now.time_to_coaltitude_s);
+  for (const WellClearTruth& volume : now.of_volumes) {
+    pugi::xml_node well_clear = encounter.append_child("well_clear");
+    well_clear.append_attribute("volume") = xml_text(volume.volume).c_str();
+    well_clear.append_attribute("lost") = volume.is_lost;
+    set_if_finite(well_clear, "tau_mod_s", volume.tau_mod_s);
+    set(well_clear, "severity", volume.severity);
+  }
+}
+
 void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   pugi::xml_node node = frame.append_child("intruder");
   node.append_attribute("id") = truth.id;
@@ -95,6 +122,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   add_place(node, truth.place);
   add_box_elements(node, truth);
   add_appearance(node, truth);
+  add_encounter(node, truth);
 }
 
 // The declaration, the opening tag of the document and its element "footage".

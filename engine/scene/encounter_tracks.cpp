@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "scene/encounter_tracks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 namespace sigs {
@@ -42,9 +46,25 @@ EncounterTrack encounter_track_of_intruder(const Scene& scene, std::size_t intru
   return track;
 }
 
+std::vector<EncounterTrack> encounter_tracks_of(const Scene& scene, const FrameRange& frames) {
+  std::vector<EncounterTrack> tracks{encounter_track_of_camera(scene)};
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i) tracks.push_back(encounter_track_of_intruder(scene, i));
+  std::map<std::string, int> seen;
+  for (EncounterTrack& track : tracks) {
+    if (const int before = seen[track.name]++; before > 0) track.name += fmt::format("-{}", before + 1);
+    track.first_s = time_of_frame_s(scene.footage, frames.first);
+    track.last_s = time_of_frame_s(scene.footage, frames.last);
+  }
+  return tracks;
+}
+
 std::vector<double> times_of_frames_s(const Scene& scene) {
+  return times_of_frames_s(scene, {scene.first_frame, scene.last_frame});
+}
+
+std::vector<double> times_of_frames_s(const Scene& scene, const FrameRange& frames) {
   std::vector<double> times_s;
-  for (int frame = scene.first_frame; frame <= scene.last_frame; ++frame)
+  for (int frame = frames.first; frame <= frames.last; ++frame)
     times_s.push_back(time_of_frame_s(scene.footage, frame));
   std::sort(times_s.begin(), times_s.end());
   times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());

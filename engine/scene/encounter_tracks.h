@@ -17,7 +17,12 @@ namespace sigs {
 //   intruder  index in Scene::intruders
 [[nodiscard]] EncounterTrack encounter_track_of_intruder(const Scene& scene, std::size_t intruder);
 
-// Times of the scene's frames, rising: those of equal times once.
+// The camera, then the intruders in their order, from the first to the last of these frames. Names differ: of several
+// aircraft of one name the second has "-2" behind it, and so on.
+[[nodiscard]] std::vector<EncounterTrack> encounter_tracks_of(const Scene& scene, const FrameRange& frames);
+
+// Times of the frames, rising: those of equal times once. Without a range all frames of the scene.
 [[nodiscard]] std::vector<double> times_of_frames_s(const Scene& scene);
+[[nodiscard]] std::vector<double> times_of_frames_s(const Scene& scene, const FrameRange& frames);
 
 }  // namespace sigs

@@ -46,6 +46,27 @@ struct ImageFormation {
   std::optional<double> visibility_m = {};  // at which haze leaves 5 % of the contrast; none: clear air
 };
 
+// Well clear of an intruder at one time, for one volume.
+struct WellClearTruth {
+  std::string volume;  // its name, "dwc-en-route"
+  bool is_lost = false;
+  double tau_mod_s = 0;  // for the volume's DMOD; infinite: the horizontal distance does not fall
+  double severity = 0;   // of the loss, 0..100
+};
+
+// How an intruder moves against the camera's carrier at one time. docs/encounters.md has the formula of each.
+struct EncounterTruth {
+  double range_rate_mps = 0;                    // negative while the distance falls
+  double closing_speed_mps = 0;                 // the same with the other sign
+  double bearing_rad = 0;                       // to the right of the ownship's course over ground
+  double elevation_rad = 0;                     // above the horizontal plane through the camera
+  double hmd_m = 0;                             // horizontal distance at closest approach, on straight flight
+  double vmd_m = 0;                             // likewise how much higher the intruder is
+  double time_to_closest_approach_s = 0;        // on straight flight
+  double time_to_coaltitude_s = 0;              // infinite: it does not come
+  std::vector<WellClearTruth> of_volumes = {};  // in the order of LabelSequence::volumes
+};
+
 // The truth of one intruder in one frame. docs/annotation-format.md has the formula of each.
 struct IntruderTruth {
   int id = 0;
@@ -63,6 +84,7 @@ struct IntruderTruth {
   std::optional<GeodeticPosition> place = {};  // of the reference point; none where the world has no place on the Earth
   std::optional<Detectability> detectability = {};  // none where no pixel shows it
   ImageFormation image_formation = {};
+  std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
 };
 
 // What the frames are counted in, and which of them a set of labels holds.

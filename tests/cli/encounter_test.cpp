@@ -82,6 +82,34 @@ TEST_CASE("a project: the camera's path against each intruder, a step for each f
   CHECK(read_text(tiny.file("cube.obj")).value() == model);
 }
 
+TEST_CASE(
+    "an export with export.encounter writes the summary that the program prints, and its list of outputs names it") {
+  const TinyProject tiny(3);
+  const std::string summary = tiny.file("program.json").string();
+  REQUIRE(run_sigs("encounter " + tiny.project() + " --volume small-uas --volume nmac --json " + summary).status == 0);
+  const std::string command = "export " + tiny.project() + " --out " + tiny.file("out").string() +
+                              " --set 'export.encounter=[\"small-uas\",\"nmac\"]'";
+  const Run run = run_sigs(command);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  CHECK_MESSAGE(has(run.out, ".encounter.json"), run.out);
+  std::string exported;
+  for (const auto& entry : std::filesystem::directory_iterator(tiny.file("out")))
+    if (entry.path().string().ends_with(".encounter.json")) exported = entry.path().string();
+  nlohmann::json expected = nlohmann::json::parse(read_text(summary).value());
+  nlohmann::json found = nlohmann::json::parse(read_text(exported).value());
+  // The program names the file, the export the project.
+  expected.erase("source");
+  found.erase("source");
+  CHECK(found == expected);
+  CHECK(run_sigs(command).status == 73);
+  const Run unknown = run_sigs("export " + tiny.project() + " --out " + tiny.file("other").string() +
+                               " --set 'export.encounter=[\"nmac\",\"well\"]'");
+  CHECK(unknown.status == 78);
+  CHECK_MESSAGE(has(unknown.err, "export.encounter: knows no volume \"well\""), unknown.err);
+  CHECK_MESSAGE(has(unknown.err, "dwc-en-route"), unknown.err);
+  CHECK_FALSE(std::filesystem::exists(tiny.file("other")));
+}
+
 TEST_CASE("mistakes end with the status that says so, name what is wrong, and write nothing") {
   const TemporaryFolder folder;
   const std::string daa = (folder / "pair.daa").string();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,17 @@ IntruderTruth visible_intruder(int id) {
           .visible_box = cv::Rect(0, 7, 41, 13),
           .visible_pixels = 287,
           .amodal_box = Box{-1e6, 0.00004, 2e6, 0},
-          .horizon = HorizonSide::on};
+          .horizon = HorizonSide::on,
+          .encounter = EncounterTruth{.range_rate_mps = -61.5,
+                                      .closing_speed_mps = 61.5,
+                                      .bearing_rad = rad_of_deg(180),
+                                      .elevation_rad = rad_of_deg(-90),
+                                      .hmd_m = 1e8,
+                                      .vmd_m = -1e8,
+                                      .time_to_closest_approach_s = 1e15,
+                                      .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
+                                      .of_volumes = {{"dwc-en-route", true, 17.25, 100},
+                                                     {"nmac", false, std::numeric_limits<double>::infinity(), 0}}}};
 }
 
 IntruderTruth invisible_intruder(int id) {
@@ -110,6 +121,17 @@ const std::vector<Change> kBroken{
     {"<silhouette x=\"-1000000\" y=\"0\" width=\"2000000\"", "<silhouette x=\"-1000000\" y=\"0\" width=\"-1\""},
     {"id=\"1\"", "id=\"0\""},
     {" name=\"airliner", " title=\"airliner"},
+    {"<well_clear ", "<well-clear "},
+    {" range_rate_mps=\"-61.5\"", ""},
+    {"range_rate_mps=\"-61.5\"", "range_rate_mps=\"-6.15e1\""},
+    {"bearing_deg=\"180\"", "bearing_deg=\"270\""},
+    {"hmd_m=\"100000000\"", "hmd_m=\"-1\""},
+    {"time_to_closest_approach_s=\"1000000000000000\"", "time_to_closest_approach_s=\"inf\""},
+    {"volume=\"nmac\"", "volume=\"dwc-en-route\""},
+    {"lost=\"true\"", "lost=\"yes\""},
+    {" lost=\"true\"", ""},
+    {"tau_mod_s=\"17.25\"", "tau_mod_s=\"-17.25\""},
+    {"severity=\"100\"", "severity=\"100.5\""},
     {"</sigs>", "<extra/></sigs>"},
     {"</sigs>", "<footage/></sigs>"},
 };
@@ -126,6 +148,26 @@ TEST_CASE("the example on the annotation format's page is valid by the schema") 
   const std::vector<std::string> examples = blocks(page("annotation-format.md"), "xml");
   REQUIRE(!examples.empty());
   for (const std::string& example : examples) check_valid(example);
+}
+
+// As sigs wrote it before annotations had sides of the horizon, contrasts and encounters.
+TEST_CASE("an annotation file of an older sigs is valid by the schema") {
+  if (!has_xmllint()) return;
+  check_valid(R"(<?xml version="1.0" encoding="UTF-8"?>
+<sigs version="1">
+  <footage video="flight.mp4" width="1280" height="960" first_frame="5" last_frame="5" frame_rate="25/1" />
+  <frame index="5" time_s="0.2">
+    <camera x_m="0" y_m="0" z_m="-150" roll_deg="0" pitch_deg="0" yaw_deg="0" />
+    <intruder id="0" name="glider" in_picture="true" visible_fraction="1">
+      <position x_m="300" y_m="0" z_m="0" />
+      <distance m="300" />
+      <attitude roll_deg="0" pitch_deg="0" yaw_deg="0" />
+      <box x="1" y="2" width="3" height="4" />
+      <silhouette x="0.5" y="1.5" width="3" height="4" />
+    </intruder>
+  </frame>
+</sigs>
+)");
 }
 
 TEST_CASE("the schema refuses what the annotation format does not allow") {

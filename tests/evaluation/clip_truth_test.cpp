@@ -119,6 +119,32 @@ TEST_CASE("the annotation file of the documentation is read as documented") {
   CHECK_FALSE(clip->targets[1].frames[0].visible);
 }
 
+TEST_CASE("an annotation file of an older sigs, and one with encounters, are read alike") {
+  const TemporaryFolder folder;
+  const std::string now = read_text(written(folder)).value();
+  const std::string of_first = R"(visible_fraction="0.75" horizon="below">)";
+  const std::string older = replaced(now, of_first, R"(visible_fraction="0.75">)");
+  const std::string newer = replaced(now, "    </intruder>",
+                                     R"(      <encounter range_rate_mps="-6" closing_speed_mps="6" bearing_deg="1" )"
+                                     R"(elevation_deg="2" hmd_m="3" vmd_m="4" time_to_closest_approach_s="5">
+        <well_clear volume="nmac" lost="false" severity="0" />
+      </encounter>
+    </intruder>)");
+  REQUIRE(write_text(folder / "older.xml", older, false));
+  REQUIRE(write_text(folder / "newer.xml", newer, false));
+  const Result<ClipTruth> read = read_truth(folder / "truth.xml");
+  const Result<ClipTruth> read_older = read_truth(folder / "older.xml");
+  const Result<ClipTruth> read_newer = read_truth(folder / "newer.xml");
+  REQUIRE(read);
+  REQUIRE_MESSAGE(read_older, read_older.error().text());
+  REQUIRE_MESSAGE(read_newer, read_newer.error().text());
+  CHECK(read_older->targets[0].frames[0].horizon == HorizonSide::unknown);
+  for (const Result<ClipTruth>* const other : {&read_older, &read_newer})
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t k = other == &read_older ? 1 : 0; k < 3; ++k)
+        check_same((*other)->targets[i].frames[k], read->targets[i].frames[k]);
+}
+
 TEST_CASE("an invalid annotation file is refused with its line") {
   const TemporaryFolder folder;
   const Result<std::string> good = read_text(written(folder));

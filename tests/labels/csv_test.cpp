@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <map>
 #include <pugixml.hpp>
 #include <string>
@@ -64,6 +65,16 @@ IntruderTruth full(int id) {
   truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
   truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
   truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
+  truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
+                                   .closing_speed_mps = 61.23456789,
+                                   .bearing_rad = rad_of_deg(-12.5),
+                                   .elevation_rad = rad_of_deg(0.3333333333),
+                                   .hmd_m = 12.0000004,
+                                   .vmd_m = -1e8,
+                                   .time_to_closest_approach_s = 1e15,
+                                   .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
+                                   .of_volumes = {{"dwc-en-route", true, 17.25, 42.123456789},
+                                                  {"nmac", false, std::numeric_limits<double>::infinity(), 0}}};
   return truth;
 }
 
@@ -78,7 +89,8 @@ FrameTruth full_frame() {
 
 TEST_CASE("every number of the XML file is in the CSV file, character by character") {
   const TemporaryFolder folder;
-  const LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
+  LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
+  clip.volumes = {"dwc-en-route", "nmac"};
   write_labels("xml", folder / "l.xml", clip, {full_frame()});
   write_labels("csv", folder / "l.csv", clip, {full_frame()});
   pugi::xml_document document;
@@ -111,8 +123,46 @@ TEST_CASE("every number of the XML file is in the CSV file, character by charact
     for (const char* name :
          {"weber_contrast", "rms_contrast", "signal_to_noise", "blur_px", "motion_blur_px", "visibility_m"})
       compare(intruder.child("appearance"), name, name);
+    const pugi::xml_node encounter = intruder.child("encounter");
+    for (const char* name : {"range_rate_mps", "closing_speed_mps", "bearing_deg", "elevation_deg", "hmd_m", "vmd_m",
+                             "time_to_closest_approach_s", "time_to_coaltitude_s"})
+      compare(encounter, name, name);
+    for (const auto& [volume, column] : {std::pair("dwc-en-route", "dwc_en_route_"), std::pair("nmac", "nmac_")})
+      for (const std::string name : {"lost", "tau_mod_s", "severity"})
+        compare(encounter.find_child_by_attribute("well_clear", "volume", volume), name.c_str(), column + name);
   }
-  CHECK(compared == 2 * 35);
+  CHECK(compared == 2 * 49);
+}
+
+TEST_CASE("times that do not come have empty fields in CSV, and no attribute in XML; all others are there") {
+  const TemporaryFolder folder;
+  LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone"});
+  clip.volumes = {"dwc-en-route", "nmac"};
+  write_labels("csv", folder / "l.csv", clip, {full_frame()});
+  auto row = table_of(folder / "l.csv").at(0);
+  for (const char* const name : {"time_to_coaltitude_s", "nmac_tau_mod_s"}) CHECK(row.at(name).empty());
+  CHECK(row.at("bearing_deg") == "-12.5");
+  CHECK(row.at("vmd_m") == "-100000000");
+  CHECK(row.at("time_to_closest_approach_s") == "1000000000000000");
+  CHECK(row.at("dwc_en_route_lost") == "true");
+  CHECK(row.at("dwc_en_route_tau_mod_s") == "17.25");
+  CHECK(row.at("dwc_en_route_severity") == "42.123457");
+  CHECK(row.at("nmac_lost") == "false");
+  CHECK(row.at("nmac_severity") == "0");
+  // The other intruder of the frame has no encounter: every column is there, and empty.
+  CHECK(table_of(folder / "l.csv").at(1).at("range_rate_mps").empty());
+  CHECK(table_of(folder / "l.csv").at(1).at("nmac_severity").empty());
+  clip.volumes.clear();
+  write_labels("csv", folder / "none.csv", clip, {full_frame()});
+  CHECK_FALSE(table_of(folder / "none.csv").at(0).contains("range_rate_mps"));
+  write_labels("xml", folder / "l.xml", clip, {full_frame()});
+  pugi::xml_document document;
+  REQUIRE(document.load_file((folder / "l.xml").c_str()));
+  const pugi::xml_node encounter = document.child("sigs").child("frame").child("intruder").child("encounter");
+  CHECK(encounter.attribute("hmd_m"));
+  CHECK_FALSE(encounter.attribute("time_to_coaltitude_s"));
+  CHECK(encounter.first_child().attribute("tau_mod_s"));
+  CHECK_FALSE(encounter.last_child().attribute("tau_mod_s"));
 }
 
 TEST_CASE("a CSV row is complete in itself: it names its clip") {

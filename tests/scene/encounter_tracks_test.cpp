@@ -18,6 +18,22 @@ TEST_CASE("a project names the volumes of well clear that there are") {
   CHECK(names == std::vector<std::string>(kWellClearNames.begin(), kWellClearNames.end()));
 }
 
+TEST_CASE("aircraft of one name get different names, over the frames asked for") {
+  Scene scene = open_scene(sample_project(kSampleProjects[0]), sample_footage()).value();
+  scene.intruders.assign(4, scene.intruders.at(0));
+  scene.intruders[0].name = scene.intruders[1].name = "jet";
+  scene.intruders[2].name = "camera";
+  scene.intruders[3].name = "jet";
+  std::vector<std::string> names;
+  for (const EncounterTrack& track : encounter_tracks_of(scene, {3, 7})) {
+    names.push_back(track.name);
+    CHECK(track.first_s == time_of_frame_s(scene.footage, 3));
+    CHECK(track.last_s == time_of_frame_s(scene.footage, 7));
+  }
+  CHECK(names == std::vector<std::string>{"camera", "jet", "jet-2", "camera-2", "jet-3"});
+  CHECK(times_of_frames_s(scene, {3, 7}).size() == 5);
+}
+
 TEST_CASE("tracks of a scene are where its camera and its intruders are, and velocity is the change of place") {
   for (const char* const name : kSampleProjects) {
     CAPTURE(name);

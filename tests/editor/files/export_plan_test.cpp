@@ -22,6 +22,7 @@ TEST_CASE("the files that an export will write are known in advance, for every c
         project.output.masks = masks;
         project.output.labels =
             labels ? std::vector<std::string>(kLabelNames.begin(), kLabelNames.end()) : std::vector<std::string>{};
+        project.output.encounter = labels ? std::vector<std::string>{"nmac"} : std::vector<std::string>{};
         const std::filesystem::path folder = tiny.file("out");
         CHECK(outputs_there(project, folder).empty());
         const Result<ExportReport> report = export_project({.project = project, .folder = folder}, {});
