@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Error of `sigs appearance` against the truth and against run time: clips with known blur and noise, made by FFmpeg, and the samples,
-# whose haze and light are known, by frames used and image size.
+# Error of `sigs appearance` against the truth and against run time, by frames used and image size: clips with known blur and noise, made by
+# FFmpeg, the samples, whose haze and light are known, and made footage with known airlight and sun (bench_surroundings).
 #   bench/appearance.sh [BUILD]     default: build/release; some three minutes on two processors
 # Clips are left in BUILD/appearance.
 set -euo pipefail
@@ -23,8 +23,9 @@ board() { # SIGMA_PX WIDTH HEIGHT FILE
 }
 
 # The sample at half size, blurred until nothing of its own noise is left, with FFmpeg's noise: 5 has an sd of 2.51 codes, 9 one of 4.79, measured on an even gray image.
-noisy() { # STRENGTH WIDTH FILE
-  ffmpeg -nostdin -v error -y -i assets/footage/sample.mp4 -frames:v 60 -vf "scale=$2:-2:flags=area,gblur=sigma=1.2,noise=c0s=$1:c0f=t,format=yuv420p" -c:v ffv1 "$3"
+noisy() { # STRENGTH WIDTH FILE [CLIP SEED]
+  ffmpeg -nostdin -v error -y -i "assets/footage/${4:-sample}.mp4" -frames:v 60 \
+    -vf "scale=$2:-2:flags=area,gblur=sigma=1.2,noise=c0s=$1:c0f=t:all_seed=${5:--1},format=yuv420p" -c:v ffv1 "$3"
 }
 
 project() { # CLIP CAMERA FILE
@@ -42,6 +43,16 @@ def cell(name):
     text = '%.3g +- %.2g' % (q['value'], q['sd'])
     return text if truth == '-' else text + ' (%+.0f %%)' % (100 * (q['value'] / float(truth) - 1))
 print(' | '.join([str(report['frames_used'])] + [cell(name) for name in sys.argv[3:]]))
+END
+}
+
+over_brightness() { # TRUTH: frames used, then the largest error of the noise between 0.2 and 0.8 of the brightness
+  python3 - "$found" "$1" <<'END'
+import json, sys
+report, truth = json.load(open(sys.argv[1])), float(sys.argv[2])
+dark, bright = (next(q for q in report['quantities'] if q['name'] == 'noise at ' + end)['value'] for end in ('black', 'white'))
+errors = [((dark ** 2 * (1 - b) + bright ** 2 * b) ** 0.5 / truth - 1) * 100 for b in (0.2, 0.4, 0.6, 0.8)]
+print('%d | %+.1f %%' % (report['frames_used'], max(errors, key=abs)))
 END
 }
 
@@ -89,6 +100,25 @@ for strength in 5 9; do
     done
   done
 done
+echo
+echo "| held out: clip, seed | noise, sd | width, px | frames used | largest error from 0.2 to 0.8 of the brightness |"
+echo "|---|---|---|---|---|"
+for clip in table1_clear table1_clouds; do
+  for seed in 71 72; do
+    for strength in 5 9; do
+      truth=$([ $strength = 5 ] && echo 2.51 || echo 4.79)
+      for width in 640 320; do
+        noisy $strength $width "$folder/noisy.mkv" $clip $seed
+        for every in 15 3; do
+          "$sigs" appearance "$folder/noisy.mkv" --every $every --json >"$found"
+          echo "| $clip, $seed | $truth | $width | $(over_brightness $truth) |"
+        done
+      done
+    done
+  done
+done
+echo
+"$build/bench_surroundings"
 echo
 echo "| footage with calibration and attitude | frames used | visibility, m; truth 34500 | exposure; truth 1.2 in a clear sky |"
 echo "|---|---|---|---|"

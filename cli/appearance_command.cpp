@@ -6,7 +6,6 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "appearance/appearance.h"
 #include "appearance/project_hints.h"
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -197,7 +197,7 @@ class Outputs {
       if (const Result<void> done = write_bytes(out_, settings_of(found).dump(2) + "\n"); !done) return done;
     if (!plot_.empty()) {
       std::vector<uchar> bytes;
-      cv::imencode(".png", panel_page(panels_of(found)), bytes);
+      image_codecs::imencode(".png", panel_page(panels_of(found)), bytes);
       if (const Result<void> done = write_bytes(plot_, {bytes.begin(), bytes.end()}); !done) return done;
     }
     return staged_.commit();

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "appearance/similar_place.h"
 #include "base/csv.h"
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -263,7 +263,7 @@ Result<void> run(const CompareOptions& options) {
     return {};
   };
   const Result<void> drawn =
-      write(options.image, [&](const fs::path& to) { return cv::imwrite(to.string(), image_of(*columns)); });
+      write(options.image, [&](const fs::path& to) { return image_codecs::imwrite(to.string(), image_of(*columns)); });
   if (!drawn) return drawn;
   const Result<void> listed = write(options.csv, [&](const fs::path& to) {
     std::ofstream out(to, std::ios::binary);

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
@@ -66,7 +66,7 @@ Result<void> check_names(const EgoMotionOptions& options) {
 Result<cv::Mat> mask_of(const fs::path& path) {
   if (path.empty()) return cv::Mat();
   if (const Result<void> there = check_input_file(path, "mask"); !there) return fail(there.error());
-  cv::Mat mask = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat mask = image_codecs::imread(path.string(), cv::IMREAD_GRAYSCALE);
   if (mask.empty()) return fail(path.string(), "is no image that can be read");
   return mask;
 }
@@ -114,7 +114,7 @@ Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& 
   out << track_csv_text(track);
   out.close();
   if (!out) return fail(outputs.with_final_names({csv.string(), "could not be written", ErrorKind::write_failed}));
-  if (!plot.empty() && !cv::imwrite(plot.string(), attitude_plot(found.motion)))
+  if (!plot.empty() && !image_codecs::imwrite(plot.string(), attitude_plot(found.motion)))
     return fail(outputs.with_final_names({plot.string(), "could not be written", ErrorKind::write_failed}));
   return outputs.commit();
 }

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -194,7 +194,7 @@ Result<std::string> png_of(const std::vector<EncounterSummary>& encounters, cons
   const cv::Mat image = encounter_plot(encounters);
   if (image.empty()) return fail(options.file.string(), "has no step in the time that both fly, to be drawn");
   std::vector<uchar> bytes;
-  cv::imencode(".png", image, bytes);
+  image_codecs::imencode(".png", image, bytes);
   return std::string(bytes.begin(), bytes.end());
 }
 

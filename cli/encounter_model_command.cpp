@@ -6,11 +6,11 @@
 #include <fstream>
 #include <limits>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -89,7 +89,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
 
 Result<void> write_plot(const std::vector<ModelFlight>& tracks, const fs::path& staged) {
   std::vector<uchar> png;
-  cv::imencode(".png", flights_plot(tracks), png);
+  image_codecs::imencode(".png", flights_plot(tracks), png);
   std::ofstream out(staged, std::ios::binary);
   out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   out.close();

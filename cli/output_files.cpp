@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/output_files.h"
+#include "base/image_codecs.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <ranges>
 #include <string>
 #include <system_error>
@@ -40,7 +40,7 @@ Result<void> ImageFiles::write(const fs::path& path, const cv::Mat& image) {
   if (!staged_.contains(path))
     if (const Result<void> reserved = reserve(path); !reserved) return reserved;
   std::vector<uchar> bytes;
-  cv::imencode(".png", image, bytes);
+  image_codecs::imencode(".png", image, bytes);
   std::ofstream out(staged_[path], std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   out.close();

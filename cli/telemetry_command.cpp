@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "cli/commands.h"
@@ -68,7 +68,7 @@ Result<std::string> png_of(const Track& track) {
   if (image.empty())
     return fail(track.file.string(), "there is no attitude, rate or place in it that --plot could draw");
   std::vector<uchar> bytes;
-  cv::imencode(".png", image, bytes);
+  image_codecs::imencode(".png", image, bytes);
   return std::string(bytes.begin(), bytes.end());
 }
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/result.h"
@@ -74,7 +74,7 @@ Result<int> image_count_in(const fs::path& folder) {
 // Empty: it cannot be read.
 cv::Mat read_image(const fs::path& file) {
   try {
-    return cv::imread(file.string(), cv::IMREAD_COLOR);
+    return image_codecs::imread(file.string(), cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
     if (is_out_of_memory()) throw;
     return {};

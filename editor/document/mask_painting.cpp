@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/image_codecs.h"
 #include "base/staged_outputs.h"
 
 namespace sigs::editor {
@@ -16,7 +16,7 @@ namespace sigs::editor {
 Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, bool overwrite) {
   std::vector<uchar> bytes;
   try {
-    cv::imencode(".png", mask, bytes);
+    image_codecs::imencode(".png", mask, bytes);
   } catch (const cv::Exception&) {
     return fail(path.string(), "the mask cannot be written as a PNG", ErrorKind::write_failed);
   }
@@ -28,8 +28,8 @@ Result<cv::Mat> read_mask(const std::filesystem::path& path) {
   if (!bytes) return fail(bytes.error());
   cv::Mat mask;
   try {
-    mask = cv::imdecode(cv::Mat(1, static_cast<int>(bytes->size()), CV_8UC1, const_cast<char*>(bytes->data())),
-                        cv::IMREAD_UNCHANGED);
+    mask = image_codecs::imdecode(
+        cv::Mat(1, static_cast<int>(bytes->size()), CV_8UC1, const_cast<char*>(bytes->data())), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     mask = cv::Mat();
   }

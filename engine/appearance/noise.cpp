@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "appearance/grain_model.h"
+#include "appearance/noise_lasting.h"
 #include "appearance/noise_line.h"
 #include "appearance/quantiles.h"
 
@@ -20,6 +21,7 @@ constexpr int kBins = 20;  // of brightness
 constexpr int kFewestBlocks = 12;
 constexpr double kRounding = 1.0 / 12;  // variance of rounding to whole codes
 constexpr double kNone = 0.004;         // variance below which there is no noise: a code here and there
+constexpr double kWidestSpread_px = 3;  // the limit of the search is 4: a noise that has it has no end in a block
 constexpr double kUntextured = 1.3;     // variance over that of the noise
 // A block with more than this many times the variance of the floor is textured. Where neighbours share noise, blocks
 // have fewer independent samples, and their variances differ more.
@@ -181,7 +183,6 @@ class NoiseFit {
   struct Bin {
     std::vector<const NoiseBlock*> blocks;
     Floor variance;
-    double kept = 1;  // share of the variance that the next frame has again, where the codec did not repeat the block
   };
 
   void sort_by_brightness() {
@@ -213,8 +214,12 @@ class NoiseFit {
     for (Bin& bin : bins_) {
       const Floor change = change_floor(bin.blocks);
       if (change.count < kFewestBlocks) continue;
-      bin.kept = std::max(0.0, 1 - change.value / bin.variance.value);
-      kept.push_back(bin.kept);
+      std::vector<const NoiseBlock*> even;
+      for (const NoiseBlock* const block : bin.blocks)
+        if (!is_repeated(*block) && block->change() <= reach_ * change.value &&
+            block->variance <= reach_ * bin.variance.value)
+          even.push_back(block);
+      if (std::ssize(even) >= kFewestBlocks) kept.push_back(lasting_share(even));
     }
     if (kept.empty()) return;
     std::sort(kept.begin(), kept.end());
@@ -355,11 +360,18 @@ NoiseFound Noise::finish() const {
   const NoiseFit fit(blocks_, black_, white_, pairs_ > 0);
   if (!fit.has_levels()) return give_up("no flat parts: all is textured");
   if (fit.is_without_noise()) return give_up("flat parts have no noise at all: a drawing, or the codec removed it");
-  const Fitted spread = fit.spread_px();
-  found.spread_px = {spread.value, spread.sd, true, ""};
+  Fitted spread = fit.spread_px();
+  const bool is_left_of_image = spread.value > kWidestSpread_px;
+  if (is_left_of_image) spread = {0, 0};
   const NoiseLine line = fit.line(spread.value);
   found.sd_dark = sd_estimate(line.dark, line.dark_sd);
   found.sd_bright = sd_estimate(line.bright, line.bright_sd);
+  if (is_left_of_image)
+    found.spread_px.why = "neighbours share nearly all: that is what is left of the image, not noise";
+  else if (found.sd_dark.value <= found.sd_dark.sd && found.sd_bright.value <= found.sd_bright.sd)
+    found.spread_px.why = "too little noise";
+  else
+    found.spread_px = {spread.value, spread.sd, true, ""};
   found.panels.push_back(fit.panel(line, spread.value));
   found.panels.back().remark =
       fmt::format("sd {:.2f} at black, {:.2f} at white; {} blocks{}", found.sd_dark.value, found.sd_bright.value,

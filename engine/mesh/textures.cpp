@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/image_codecs.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
@@ -65,7 +65,7 @@ constexpr std::int64_t kMaxPixels = 8192LL * 8192;  // a quarter of a gigabyte i
 cv::Mat read_image(const fs::path& path) {
   if (!texture_problem(path).empty()) return {};
   try {
-    const cv::Mat texture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat texture = image_codecs::imread(path.string(), cv::IMREAD_UNCHANGED);
     return texture.empty() ? cv::Mat() : as_rgba(as_8_bit(texture));
   } catch (const cv::Exception&) {
     if (is_out_of_memory()) throw;  // a model without its texture would be wrong

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/point_tree.h"
 #include "mesh/mesh.h"
 
 namespace sigs {
@@ -12,6 +13,7 @@ namespace sigs {
 struct Model {
   Mesh mesh;
   std::vector<glm::vec3> points_m;     // measuring_points(mesh)
+  PointTree point_groups;              // the same in groups
   std::vector<glm::vec3> outermost_m;  // outermost_points(points_m)
 };
 

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
@@ -20,6 +19,7 @@
 #include <utility>
 
 #include "base/image.h"
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
@@ -83,7 +83,7 @@ cv::Mat gray_of(const cv::Mat& image) {
 
 cv::Mat image_in(const std::filesystem::path& path) {
   try {
-    return cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    return image_codecs::imread(path.string(), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     if (is_out_of_memory()) throw;
     return {};

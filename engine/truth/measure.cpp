@@ -67,39 +67,6 @@ IntruderTruth measured_one(const MeasuredLayers& layers, std::span<const Measure
 
 }  // namespace
 
-namespace {
-
-template <class PixelOf>
-std::optional<Silhouette> silhouette_by(std::span<const glm::vec3> points_in_body, const PixelOf& pixel_of) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  glm::dvec2 low(kInfinity);
-  glm::dvec2 high(-kInfinity);
-  bool all_have_image = true;
-  for (const glm::vec3& point : points_in_body) {
-    const std::optional<glm::dvec2> pixel = pixel_of(glm::dvec3(point));
-    if (!pixel) {
-      all_have_image = false;
-      continue;
-    }
-    low = glm::min(low, *pixel);
-    high = glm::max(high, *pixel);
-  }
-  if (low.x > high.x) return std::nullopt;
-  return Silhouette{{low.x, low.y, high.x - low.x, high.y - low.y}, all_have_image};
-}
-
-}  // namespace
-
-std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body,
-                                        const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
-  return silhouette_by(points_in_body, [&](const glm::dvec3& point) { return lens.pixel(camera_from_body * point); });
-}
-
-std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body, const RowMotion& motion,
-                                        const Lens& lens) {
-  return silhouette_by(points_in_body, [&](const glm::dvec3& point) { return motion.pixel(lens, point); });
-}
-
 float max_coverage(const cv::Mat& coverage) {
   if (coverage.empty()) return 0;
   double largest = 0;

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/image_codecs.h"
 #include "base/result.h"
 #include "base/threads.h"
 #include "video/frame.h"
@@ -38,7 +38,7 @@ Result<void> write_png(const fs::path& folder, const Frame& frame, int number) {
   const fs::path path = folder / fmt::format("frame_{:06}.png", number);
   std::vector<uchar> bytes;
   try {
-    cv::imencode(".png", png_image(frame), bytes);
+    image_codecs::imencode(".png", png_image(frame), bytes);
   } catch (const cv::Exception& problem) {
     return fail(path.string(), "cannot be written as PNG: " + problem.err, ErrorKind::write_failed);
   }

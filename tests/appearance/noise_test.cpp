@@ -160,6 +160,49 @@ TEST_CASE("noise that neighbours share, and that lasts, is told so") {
   }
 }
 
+TEST_CASE("texture that moves little does not count as noise that lasts") {
+  // Smooth waves that stand still under white noise: half of what a block varies by lasts.
+  Noise noise;
+  cv::RNG random(21);
+  cv::Mat waves(320, 640, CV_32FC1);
+  for (int y = 0; y < waves.rows; ++y)
+    for (int x = 0; x < waves.cols; ++x)
+      waves.at<float>(y, x) = static_cast<float>(50 + 0.2 * x + 1.7 * std::sin(0.55 * x) * std::cos(0.5 * y));
+  const auto frame = [&] {
+    Frame made = blank_frame(PixelLayout::gray, {640, 320}, {});
+    cv::Mat white(waves.size(), CV_32FC1);
+    random.fill(white, cv::RNG::NORMAL, 0, 2);
+    cv::Mat(waves + white).convertTo(made.planes[0], CV_8U);
+    return made;
+  };
+  for (int n = 0; n < 3; ++n) {
+    const Frame first = frame(), second = frame();
+    noise.add(first, &second);
+  }
+  const NoiseFound found = noise.finish();
+  REQUIRE(found.sd_dark.is_known);
+  CHECK(std::abs(found.sd_dark.value - 2) < 0.2);
+  CHECK(std::abs(found.sd_bright.value - 2) < 0.2);
+  REQUIRE(found.persistence.is_known);
+  CHECK(found.persistence.value < 0.06);
+}
+
+TEST_CASE("where rounding to codes is all the noise there is, its spread is not known") {
+  Noise noise;
+  const auto frame = [](double moved) {
+    Frame made = blank_frame(PixelLayout::gray, {640, 320}, {});
+    for (int y = 0; y < 320; ++y)
+      for (int x = 0; x < 640; ++x)
+        made.planes[0].at<uchar>(y, x) = static_cast<uchar>(std::lround(40 + 0.23 * x + 0.11 * y + moved));
+    return made;
+  };
+  const Frame first = frame(0), second = frame(0.4);
+  noise.add(first, &second);
+  const NoiseFound found = noise.finish();
+  CHECK_FALSE(found.spread_px.is_known);
+  CHECK_FALSE(found.spread_px.why.empty());
+}
+
 TEST_CASE("the rest of blurred noise in a block is as many random blocks have it") {
   cv::RNG random(5);
   for (const double spread_px : {0.0, 0.8, 1.6}) {

@@ -15,31 +15,6 @@ using namespace sigs::test;
 
 namespace {
 
-// Posts on a plain of uneven brightness: each a round roof of its own albedo, standing 9 m high on a trunk that is not
-// drawn, with the shadow of a pole 1.6 m thick.
-struct Posts {
-  double azimuth_rad = 0, elevation_rad = 0.6, height_m = 100;
-  bool has_shadows = true;
-
-  [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& ray) const {
-    if (ray.z <= 0.01) return {0.6, 0.65, 0.7};
-    const glm::dvec2 p = height_m / ray.z * glm::dvec2(ray.x, ray.y);
-    double light =
-        0.3 + 0.04 * cell_noise(static_cast<int>(std::floor(p.x / 5)), static_cast<int>(std::floor(p.y / 5)), 5);
-    constexpr double kSpacing_m = 26;
-    const glm::dvec2 square(std::floor(p.x / kSpacing_m), std::floor(p.y / kSpacing_m));
-    const int i = static_cast<int>(square.x), j = static_cast<int>(square.y);
-    const glm::dvec2 foot =
-        kSpacing_m * (square + glm::dvec2(0.4 + 0.2 * cell_noise(i, j, 11), 0.4 + 0.2 * cell_noise(i, j, 12)));
-    const glm::dvec2 away(-std::cos(azimuth_rad), -std::sin(azimuth_rad));
-    const glm::dvec2 off = p - foot;
-    const double along = glm::dot(off, away), across = off.x * away.y - off.y * away.x;
-    if (has_shadows && along > 0 && along < 6 / std::tan(elevation_rad) && std::abs(across) < 0.8) light *= 0.3;
-    if (glm::length(off) < 1.5) light = 0.75;
-    return glm::dvec3(light, light, 0.7 * light);
-  }
-};
-
 SunEstimate sun_of(const LightOfRay& light, const Attitude& attitude, const View& extra = {},
                    const std::optional<GivenSun>& given = std::nullopt) {
   const Camera camera = wide_camera({960, 720});
