@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kLoose = 1.2;  // of an inserted target's box, as the real ones' boxes are loose
 constexpr double kLooseMargin_px = 3;
-constexpr double kHighest_rad = 0.45;  // what is seen small is far, and so low above the horizon
 constexpr double kMostResizing = 1.6;  // of the first guess: a silhouette that is only told in part is not trusted more
 
 Box loosened(const Box& box) {
@@ -27,7 +26,7 @@ cv::Point2d middle_of(const Box& box) {
 }  // namespace
 
 Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch, const FootageShape& shape,
-                                  const MeasuredTarget& real, cv::Point2d middle_px, std::uint32_t seed,
+                                  const MeasuredTarget& real, cv::Point2d middle_px, const InsertedView& view,
                                   SceneFiles& files, ComposeContext& context) {
   Insertion insertion(stretch, shape, files, context);
   insertion.real_path_px_ = real.path_px;
@@ -35,8 +34,9 @@ Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch
   pose.middle_px = middle_px;
   pose.aspect = static_cast<double>(real.look.box.width) / real.look.box.height;
   pose.width_px = std::max(2.0, real.look.box.width - 1.0);
-  pose.seed = seed;
-  pose.highest_rad = kHighest_rad;
+  pose.seed = view.seed;
+  pose.highest_rad = view.highest_rad;
+  pose.growth_per_s = view.growth_per_s;
   if (stretch.reach() > 0)
     pose.step_px = (middle_of(stretch.boxes.back()) - middle_of(stretch.boxes.front())) / (2.0 * stretch.reach());
   // A silhouette by threshold is wider or narrower than the outline: both are to be the same by threshold.

@@ -64,7 +64,7 @@ TEST_CASE("the intruder beside is as wide as the real target, of about its aspec
   REQUIRE(real->path_px.size() == 7);
   CHECK(real->path_px.back().x == doctest::Approx(6).epsilon(0.01));
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
-    auto insertion = Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, seed, setting.files,
+    auto insertion = Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {.seed = seed}, setting.files,
                                      setting.context);
     if (!insertion && insertion.error().kind == ErrorKind::unavailable) return say_skipped(insertion.error().text());
     REQUIRE_MESSAGE(insertion, insertion.error().text());
@@ -95,7 +95,7 @@ TEST_CASE("with the camera's shake the intruder goes where the real target goes,
   REQUIRE(real);
   real->path_px = {{0, 0}, {3, 0}, {0, 2}, {0, 0}, {-3, 0}, {0, -2}, {1, 1}};
   auto insertion =
-      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, 1, setting.files, setting.context);
+      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {}, setting.files, setting.context);
   if (!insertion && insertion.error().kind == ErrorKind::unavailable) return say_skipped(insertion.error().text());
   REQUIRE(insertion);
   const auto composed = insertion->composed(setting.project, CameraShake::as_real_target);
@@ -115,7 +115,7 @@ TEST_CASE("a project without an intruder cannot be put beside") {
   const auto real = measured_target(stretch.frames, stretch.boxes);
   REQUIRE(real);
   const auto insertion =
-      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, 1, setting.files, setting.context);
+      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {}, setting.files, setting.context);
   REQUIRE_FALSE(insertion);
   CHECK(insertion.error().kind == ErrorKind::usage);
 }
