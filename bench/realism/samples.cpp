@@ -107,8 +107,9 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
                   .model = fs::path(project.intruders.front().model.file).stem().string(),
                   .targets = {{"real", *real}}};
     if (auto moved = moved_target(*stretch, *real, *place)) sample.targets.push_back({"moved", std::move(*moved)});
-    Insertion insertion = expected(
-        Insertion::make(project, *stretch, shape, *real, *place, {.seed = seed}, workplace.files, workplace.context));
+    Insertion insertion =
+        expected(Insertion::make(project, *stretch, shape, *real, *place, {.seed = seed, .tries = options.views},
+                                 workplace.files, workplace.context));
     for (const LookSettings& settings : options.settings) {
       Project set = project;
       apply(settings, clip.name, set);

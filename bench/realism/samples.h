@@ -37,6 +37,7 @@ struct SampleOptions {
   std::filesystem::path folder;        // for calibrations
   std::vector<LookSettings> settings;  // one inserted target for each
   int frames_per_clip = 6;
+  int views = 1;       // of each sample, of which the one with the area most like the real target's is taken
   bool steps = false;  // trackers: what is made equal to the real target is added step by step
 };
 

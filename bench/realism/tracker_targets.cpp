@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kReach = 30;             // frames before and after the middle one
 constexpr double kSameContrast = 0.2;  // share by which contrasts may differ
-constexpr std::uint32_t kViews = 8;    // of each model, among which one with the same silhouette is looked for
+constexpr std::uint32_t kViews = 6;    // of each model, among which one with the same silhouette is looked for
 constexpr double kHighest_rad = 1.0;   // elevation of these views: a turning aircraft shows its wings' whole area
 
 cv::Point2d middle_of_box(const Box& box) {
@@ -172,25 +172,30 @@ Insertion TrackerTargets::insertion_of(const Chosen& chosen, const MeasuredTarge
                                   workplace.context));
 }
 
-TrackerTargets::Chosen TrackerTargets::most_similar(const Chosen& first, const MeasuredTarget& real,
-                                                    Workplace& workplace) const {
-  Chosen best = first;
+void TrackerTargets::look_for_silhouette(const LookSettings& settings, Workplace& workplace) {
   double least = std::numeric_limits<double>::infinity();
+  MeasuredTarget real = real_;
+  real.path_px = own_path_px_;
   for (const ModelSettings& model : models_of(clip_.is_helicopter)) {
     if (!std::filesystem::exists(model.file)) continue;
     for (std::uint32_t n = 0; n < kViews; ++n) {
-      Chosen other = first;
-      other.project.intruders.front().model = model;
-      other.view.seed += n;
-      if (n % 2 == 1) other.view.highest_rad = kHighest_rad;
+      Chosen chosen{project_, {.seed = seed_ + n, .growth_per_s = growth_per_s_}};
+      apply(settings, clip_.name, chosen.project);
+      chosen.project.intruders.front().model = model;
+      if (n % 2 == 1) chosen.view.highest_rad = kHighest_rad;
       const auto target =
-          expected(insertion_of(other, real, workplace).middle_target(other.project, CameraShake::as_real_target));
+          expected(insertion_of(chosen, real, workplace).middle_target(chosen.project, CameraShake::as_real_target));
       if (!target || unlikeness(target->look, real.look) >= least) continue;
       least = unlikeness(target->look, real.look);
-      best = other;
+      similar_model_ = model;
+      similar_view_ = chosen.view;
     }
   }
-  return best;
+  // Where none is found in its box at all, the clip's model as it would be without this.
+  if (!std::isfinite(least)) {
+    similar_model_ = project_.intruders.front().model;
+    similar_view_ = {.seed = seed_, .growth_per_s = growth_per_s_};
+  }
 }
 
 // Boxes of the real ones' size: a tracker learns what a box holds, and how much of it is background must be alike.
@@ -213,7 +218,10 @@ std::optional<TrackedTarget> TrackerTargets::inserted(const LookSettings& settin
   Chosen chosen{project_, {.seed = seed_}};
   if (equal.growth) chosen.view.growth_per_s = growth_per_s_;
   apply(settings, clip_.name, chosen.project);
-  if (equal.silhouette) chosen = most_similar(chosen, real, workplace);
+  if (equal.silhouette) {
+    chosen.project.intruders.front().model = similar_model_;
+    chosen.view = similar_view_;
+  }
   Insertion insertion = insertion_of(chosen, real, workplace);
   if (equal.contrast) {
     if (!real.look.weber_rms) return std::nullopt;

@@ -51,6 +51,10 @@ class TrackerTargets {
   // The real target itself, cut out and put to the place; none where it is not found in each frame.
   [[nodiscard]] std::optional<TrackedTarget> moved() const;
 
+  // Looks once for the model and the view with the silhouette most like the real target's, as it is with these
+  // settings.
+  void look_for_silhouette(const LookSettings& settings, Workplace& workplace);
+
   // None where it lies outside the image, or where no light gives the same contrast.
   [[nodiscard]] std::optional<TrackedTarget> inserted(const LookSettings& settings, const Equalities& equal,
                                                       Workplace& workplace) const;
@@ -64,13 +68,14 @@ class TrackerTargets {
     InsertedView view;
   };
   [[nodiscard]] Insertion insertion_of(const Chosen& chosen, const MeasuredTarget& real, Workplace& workplace) const;
-  [[nodiscard]] Chosen most_similar(const Chosen& first, const MeasuredTarget& real, Workplace& workplace) const;
   [[nodiscard]] std::vector<Box> boxes_of(const Insertion::Composed& composed, bool on_own_path) const;
 
   RealClip clip_;
   Stretch stretch_;
   FootageShape shape_;
   Project project_;
+  ModelSettings similar_model_;
+  InsertedView similar_view_;
   MeasuredTarget real_;
   std::vector<cv::Point2d> box_path_px_, own_path_px_;
   double growth_per_s_ = 0;

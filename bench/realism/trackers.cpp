@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -53,13 +54,15 @@ std::string kind_of(const LookSettings& settings, const Equalities& equal) {
   return *equal.name == 0 ? settings.name : settings.name + " + " + equal.name;
 }
 
-std::vector<Equalities> equalities_of(const SampleOptions& options) {
+// What is made equal for one of the settings: all; of the last ones step by step where this is asked for.
+std::vector<Equalities> equalities_of(const SampleOptions& options, const LookSettings& settings) {
   const auto first = std::begin(kEqualitySteps), end = std::end(kEqualitySteps);
-  return {options.steps ? first : end - 1, end};
+  const bool in_steps = options.steps && &settings == &options.settings.back();
+  return {in_steps ? first : end - 1, end};
 }
 
 std::vector<Followed> followed(const RealClip& clip, const SampleOptions& options, Workplace& workplace) {
-  const auto targets = TrackerTargets::make(clip, options);
+  auto targets = TrackerTargets::make(clip, options);
   if (!targets) return {};
   std::vector<Followed> all;
   const auto add = [&](const std::string& kind, const std::optional<TrackedTarget>& target) {
@@ -70,9 +73,11 @@ std::vector<Followed> followed(const RealClip& clip, const SampleOptions& option
   };
   add("real", targets->real());
   add("moved", targets->moved());
+  targets->look_for_silhouette(options.settings.back(), workplace);
   for (const LookSettings& settings : options.settings)
-    for (const Equalities& equal : equalities_of(options))
+    for (const Equalities& equal : equalities_of(options, settings))
       add(kind_of(settings, equal), targets->inserted(settings, equal, workplace));
+  std::fprintf(stderr, "%s\n", clip.name.c_str());
   return all;
 }
 
@@ -186,7 +191,7 @@ void compare_trackers(const std::vector<RealClip>& clips, const SampleOptions& o
               one.figures.weber_rms, one.figures.growth_per_s, one.figures.frames_cut);
   std::vector<std::string> kinds{"moved"};
   for (const LookSettings& settings : options.settings)
-    for (const Equalities& equal : equalities_of(options)) kinds.push_back(kind_of(settings, equal));
+    for (const Equalities& equal : equalities_of(options, settings)) kinds.push_back(kind_of(settings, equal));
   write_tables(all, kinds, folder / "trackers.md");
 }
 

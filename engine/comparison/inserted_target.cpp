@@ -2,6 +2,8 @@
 #include "comparison/inserted_target.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "frame/compose_frame.h"
 
@@ -23,6 +25,17 @@ cv::Point2d middle_of(const Box& box) {
   return {box.x + box.width / 2, box.y + box.height / 2};
 }
 
+// By which factor an inserted target is to be seen larger, so that its silhouette is as wide as the real one's.
+double resizing(const TargetLook& look, const TargetLook& real) {
+  return std::clamp(static_cast<double>(real.box.width) / look.box.width, 1 / kMostResizing, kMostResizing);
+}
+
+// How far the areas differ once both are as wide: logarithm of their ratio, without its sign.
+double area_unlikeness(const TargetLook& look, const TargetLook& real) {
+  const double larger = static_cast<double>(real.box.width) / look.box.width;
+  return std::abs(std::log(look.area_px * larger * larger / real.area_px));
+}
+
 }  // namespace
 
 Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch, const FootageShape& shape,
@@ -33,7 +46,8 @@ Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch
   IntruderPose& pose = insertion.pose_;
   pose.middle_px = middle_px;
   pose.aspect = static_cast<double>(real.look.box.width) / real.look.box.height;
-  pose.width_px = std::max(2.0, real.look.box.width - 1.0);
+  const double wanted_px = std::max(2.0, real.look.box.width - 1.0);
+  pose.width_px = wanted_px;
   pose.seed = view.seed;
   pose.highest_rad = view.highest_rad;
   pose.growth_per_s = view.growth_per_s;
@@ -44,11 +58,22 @@ Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch
   sharp.compositing.blur_px_per_m = 0;
   sharp.appearance = {};
   const auto middle = static_cast<std::size_t>(stretch.reach());
-  const Result<Composed> first = insertion.composed_between(sharp, middle, middle + 1);
-  if (!first) return fail(first.error());
-  if (const auto look = first->frames.empty() ? std::nullopt : target_look(first->frames[0], first->boxes[0]))
-    pose.width_px *=
-        std::clamp(static_cast<double>(real.look.box.width) / look->box.width, 1 / kMostResizing, kMostResizing);
+  IntruderPose best = pose;
+  double least = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < view.tries; ++n) {
+    pose.seed = view.seed + static_cast<std::uint32_t>(n);
+    pose.width_px = wanted_px;
+    const Result<Composed> one = insertion.composed_between(sharp, middle, middle + 1);
+    if (!one) return fail(one.error());
+    const auto look = one->frames.empty() ? std::nullopt : target_look(one->frames[0], one->boxes[0]);
+    if (!look) continue;
+    pose.width_px *= resizing(*look, real.look);
+    const double unlike = area_unlikeness(*look, real.look);
+    if (unlike >= least) continue;
+    least = unlike;
+    best = pose;
+  }
+  pose = best;
   return insertion;
 }
 

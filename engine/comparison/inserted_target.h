@@ -20,8 +20,9 @@ enum class CameraShake { none, as_real_target };
 
 // From where the intruder is seen, and how that changes.
 struct InsertedView {
-  std::uint32_t seed = 1;                   // chooses among the attitudes
-  double highest_rad = 0.45;                // elevation above the horizon: what is seen small is far, and so low
+  std::uint32_t seed = 1;     // chooses among the attitudes
+  int tries = 1;              // views to choose from: the one whose silhouette's area is most like the real one's
+  double highest_rad = 0.45;  // elevation above the horizon: what is seen small is far, and so low
   std::optional<double> growth_per_s = {};  // as IntruderPose::growth_per_s; none: it flies with 60 m/s
 };
 
