@@ -137,8 +137,8 @@ TEST_CASE("where no edge tells it, chroma of JPEG images is taken to be sharper 
   };
   // Linear reading between samples 2 px apart: a triangle of variance 2 * 2 / 6 px^2; a sample of 4:2:0 is 2 px wide.
   CHECK(taken(QuantiserKind::jpeg) == doctest::Approx(std::sqrt(4 / 6.0) / 2).epsilon(0.03));
-  CHECK(taken(QuantiserKind::h264) == 1.2);
-  CHECK(taken(std::nullopt) == 1.2);
+  CHECK(taken(QuantiserKind::h264) == 0.9);
+  CHECK(taken(std::nullopt) == 0.9);
 }
 
 TEST_CASE("chroma spread beyond luma's is found in samples of the chroma planes") {
