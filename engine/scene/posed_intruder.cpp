@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/ensure.h"
 #include "scene/opened_project.h"
 
 namespace sigs {
@@ -82,6 +83,7 @@ View chosen_view(const std::vector<glm::vec3>& points_m, const IntruderPose& pos
         nearest = view;
       }
     }
+  ENSURE(least < 1e300);
   return near.empty() ? nearest : near[pose.seed * std::size_t{2654435761} % near.size()];
 }
 
