@@ -2,6 +2,8 @@
 # Whether inserted aircraft can be told from real ones: realism/README.md.
 #   bench/realism.sh [--matched] [--best] [BUILD]              the clips, at the defaults; some minutes on two processors
 #   bench/realism.sh stills|trackers [--matched] [--best] [BUILD]
+#   --steps    trackers: what each equality of the real and the inserted target changes, of the last settings; some minutes more
+#   --views N  of each inserted target, of which the one with the silhouette as large as the real one's is taken
 #   --matched  also by the settings that `sigs appearance` finds in each clip
 #   --best     also by these with bench/realism/best.json over them, chosen by hand on the tuning clips; needs --matched
 # Leaves tables, histograms and sheets in BUILD/realism, BUILD/realism-stills. The sheets show footage of others: they must not be
@@ -10,10 +12,15 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 what=clips
 case "${1:-}" in clips | stills | trackers) what=$1 && shift ;; esac
-matched= best=
-while [ "${1:-}" = --matched ] || [ "${1:-}" = --best ]; do
-  [ "$1" = --matched ] && matched=1
-  [ "$1" = --best ] && best=1
+matched= best= further=()
+while [[ "${1:-}" == --* ]]; do
+  case "$1" in
+    --matched) matched=1 ;;
+    --best) best=1 ;;
+    --steps) further+=("$1") ;;
+    --views) further+=("$1" "$2") && shift ;;
+    *) echo "$1: no such option" >&2 && exit 2 ;;
+  esac
   shift
 done
 build=${1:-build/release}
@@ -21,7 +28,7 @@ data=${SIGS_TEST_DATA:-../shared/data}
 folder=$build/realism
 [ $what = stills ] && folder=$build/realism-stills
 mkdir -p "$folder"
-options=(--shake)
+options=(--shake "${further[@]}")
 [ $what = clips ] || options+=("--$what")
 if [ -n "$matched" ]; then
   mkdir -p "$folder/matched"

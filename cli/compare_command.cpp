@@ -156,7 +156,7 @@ Result<CompareColumn> inserted(const fs::path& file, const CompareOptions& optio
   if (!project) return fail(project.error());
   if (!options.calibration.empty()) project->footage.calibration = fs::absolute(options.calibration).string();
   Result<Insertion> insertion = Insertion::make(*project, real.stretch, real.shape, real.target, place_px,
-                                                static_cast<std::uint32_t>(options.seed), files, context);
+                                                {.seed = static_cast<std::uint32_t>(options.seed)}, files, context);
   if (!insertion) return fail(insertion.error());
   auto target = insertion->target(*project, options.shake ? CameraShake::as_real_target : CameraShake::none);
   if (!target) return fail(target.error());

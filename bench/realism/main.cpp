@@ -23,11 +23,13 @@ struct Options {
   std::string folder, clip;
   std::vector<std::string> settings;
   int frames = 6;
+  int views = 1;
   int jobs = 2;
   bool tuning_only = false;
   bool shakes = false;
   bool stills = false;
   bool trackers = false;
+  bool steps = false;
 };
 
 std::vector<LookSettings> settings_of(const Options& options) {
@@ -112,6 +114,9 @@ int main(int count, char** arguments) {
   app.add_flag("--tuning", options.tuning_only, "the tuning clips alone");
   app.add_flag("--stills", options.stills, "the stills in place of the clips");
   app.add_flag("--trackers", options.trackers, "instead: how OpenCV's trackers follow real and inserted targets");
+  app.add_option("--views", options.views, "of each sample, of which the one as large as the real target is taken")
+      ->check(CLI::Range(1, 100));
+  app.add_flag("--steps", options.steps, "with --trackers: what each equality of real and inserted target changes");
   app.add_option("--frames", options.frames, "frames of each clip")->check(CLI::Range(1, 30));
   app.add_option("--jobs", options.jobs, "threads")->check(CLI::Range(1, 64));
   CLI11_PARSE(app, count, arguments);
@@ -122,8 +127,11 @@ int main(int count, char** arguments) {
     return clip.name.find(options.clip) == std::string::npos || (options.tuning_only && !clip.is_tuning);
   });
   if (clips.empty()) accuracy::stop(std::string(SIGS_TEST_DATA) + "/track: no clip with boxes");
-  const SampleOptions sampling{
-      .folder = folder / "calibrations", .settings = settings_of(options), .frames_per_clip = options.frames};
+  const SampleOptions sampling{.folder = folder / "calibrations",
+                               .settings = settings_of(options),
+                               .frames_per_clip = options.frames,
+                               .views = options.views,
+                               .steps = options.steps};
   if (options.trackers) {
     compare_trackers(clips, sampling, options.jobs, folder);
     return 0;

@@ -18,24 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr double kField_rad = std::numbers::pi / 3;
 
+// One of models_of(), the same for a seed whether or not the others' models are there.
 ModelSettings model_for(const RealClip& clip, std::uint32_t seed) {
-  const fs::path ours = fs::path(SIGS_ASSETS_DIR) / "models", others = fs::path(SIGS_TEST_DATA) / "models";
-  const ModelSettings dauphin{
-      .file = (others / "helicopter-dauphin/helicopter-dauphin.obj").string(), .forward = "-x", .up = "+y"};
-  if (clip.is_helicopter)
-    return seed % 2 == 0 && fs::exists(dauphin.file)
-               ? dauphin
-               : ModelSettings{.file = (ours / "helicopter/helicopter.obj").string()};
-  const ModelSettings aircraft[] = {
-      {.file = (ours / "airliner/airliner.obj").string()},
-      {.file = (ours / "light-aircraft/light-aircraft.obj").string()},
-      {.file = (ours / "airliner-grey/airliner.obj").string()},
-      {.file = (ours / "light-aircraft-grey/light-aircraft.obj").string()},
-      {.file = (ours / "light-aircraft-dark/light-aircraft.obj").string()},
-      {.file = (others / "boeing737-300/boeing737-300.obj").string(), .forward = "-x", .up = "+y"},
-      {.file = (others / "cessna172p-hires/cessna172p-hires.obj").string(), .forward = "-x", .up = "+y"}};
-  const ModelSettings& chosen = aircraft[seed % std::size(aircraft)];
-  return fs::exists(chosen.file) ? chosen : aircraft[seed % 2];
+  const std::vector<ModelSettings> models = models_of(clip.is_helicopter);
+  const ModelSettings& chosen = models[clip.is_helicopter ? 1 - seed % 2 : seed % models.size()];
+  return fs::exists(chosen.file) ? chosen : models[seed % (clip.is_helicopter ? 1 : 2)];
 }
 
 std::optional<MeasuredTarget> moved_target(const Stretch& stretch, const MeasuredTarget& real, cv::Point2d middle_px) {
@@ -55,6 +42,23 @@ std::optional<MeasuredTarget> moved_target(const Stretch& stretch, const Measure
 }
 
 }  // namespace
+
+std::vector<ModelSettings> models_of(bool is_helicopter) {
+  const fs::path ours = fs::path(SIGS_ASSETS_DIR) / "models", others = fs::path(SIGS_TEST_DATA) / "models";
+  const auto at = [](const fs::path& file) { return ModelSettings{.file = file.string()}; };
+  const auto as_flight_gear = [&](const char* file) {
+    return ModelSettings{.file = (others / file).string(), .forward = "-x", .up = "+y"};
+  };
+  if (is_helicopter)
+    return {at(ours / "helicopter/helicopter.obj"), as_flight_gear("helicopter-dauphin/helicopter-dauphin.obj")};
+  return {at(ours / "airliner/airliner.obj"),
+          at(ours / "light-aircraft/light-aircraft.obj"),
+          at(ours / "airliner-grey/airliner.obj"),
+          at(ours / "light-aircraft-grey/light-aircraft.obj"),
+          at(ours / "light-aircraft-dark/light-aircraft.obj"),
+          as_flight_gear("boeing737-300/boeing737-300.obj"),
+          as_flight_gear("cessna172p-hires/cessna172p-hires.obj")};
+}
 
 std::uint32_t seed_of(const std::string& text, int frame) {
   std::uint32_t hash = 2166136261U;  // FNV-1a
@@ -104,7 +108,8 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
                   .targets = {{"real", *real}}};
     if (auto moved = moved_target(*stretch, *real, *place)) sample.targets.push_back({"moved", std::move(*moved)});
     Insertion insertion =
-        expected(Insertion::make(project, *stretch, shape, *real, *place, seed, workplace.files, workplace.context));
+        expected(Insertion::make(project, *stretch, shape, *real, *place, {.seed = seed, .tries = options.views},
+                                 workplace.files, workplace.context));
     for (const LookSettings& settings : options.settings) {
       Project set = project;
       apply(settings, clip.name, set);

@@ -37,6 +37,8 @@ struct SampleOptions {
   std::filesystem::path folder;        // for calibrations
   std::vector<LookSettings> settings;  // one inserted target for each
   int frames_per_clip = 6;
+  int views = 1;       // of each sample, of which the one with the area most like the real target's is taken
+  bool steps = false;  // trackers: what is made equal to the real target is added step by step
 };
 
 // Why frames of a clip gave no sample.
@@ -54,6 +56,9 @@ struct Workplace {
 
 // The project of a clip: an aircraft of the clip's kind, the same in all its frames, a pinhole of 60 degrees.
 [[nodiscard]] Project project_of(const RealClip& clip, cv::Size size_px, const std::filesystem::path& folder);
+
+// The models to choose from, ours first. Those of FlightGear may be missing from the disk.
+[[nodiscard]] std::vector<ModelSettings> models_of(bool is_helicopter);
 
 // Seed of a sample: the same whatever else is measured.
 [[nodiscard]] std::uint32_t seed_of(const std::string& text, int frame);

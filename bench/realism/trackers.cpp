@@ -6,22 +6,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <mutex>
 
-#include "appearance/similar_place.h"
 #include "base/threads.h"
-#include "comparison/inserted_target.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/overlap.h"
-#include "scene/opened_project.h"
+#include "realism/tracker_targets.h"
 
 namespace sigs::bench {
 
 namespace {
 
-constexpr int kReach = 30;  // frames before and after the middle one
 const std::vector<std::string> kTrackers{"csrt", "kcf", "mosse", "medianflow"};
 constexpr int kBootstraps = 2000;
 
@@ -30,6 +28,7 @@ struct Followed {
   std::string clip, kind, tracker;
   bool is_tuning = false;
   double success = 0;  // mean overlap over the frames, which is the area under the success curve
+  TargetFigures figures;
 };
 
 // The area under the success curve (share of frames whose overlap exceeds a threshold, over all thresholds from 0 to 1)
@@ -51,98 +50,34 @@ std::map<std::string, double> successes(const std::vector<Frame>& frames, const 
   return all;
 }
 
-// Where the path of the target's middle goes to, against the middle frame.
-std::vector<cv::Point2d> path_of(const Stretch& stretch) {
-  const auto middle_of = [](const Box& box) { return cv::Point2d(box.x + box.width / 2, box.y + box.height / 2); };
-  std::vector<cv::Point2d> path;
-  for (const Box& box : stretch.boxes) path.push_back(middle_of(box) - middle_of(stretch.middle_box()));
-  return path;
+std::string kind_of(const LookSettings& settings, const Equalities& equal) {
+  return *equal.name == 0 ? settings.name : settings.name + " + " + equal.name;
 }
 
-// A place from which the whole path lies in the image. The rectangle that is looked for spans the path.
-std::optional<cv::Point2d> place_for(const Stretch& stretch, const MeasuredTarget& real, std::uint32_t seed) {
-  cv::Point2d low, high;
-  for (const cv::Point2d& at : real.path_px) {
-    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-  }
-  const cv::Rect& box = real.look.box;
-  const cv::Size size(static_cast<int>(high.x - low.x) + box.width + 8,
-                      static_cast<int>(high.y - low.y) + std::max(box.height, box.width / 2) + 8);
-  const auto middle = similar_place(stretch.middle_frame(), stretch.middle_box(), size, seed);
-  return middle ? std::optional(*middle - 0.5 * (low + high)) : std::nullopt;
-}
-
-// Boxes of the real ones' size about their own middles: a tracker learns what a box holds, and how much of it is
-// background must be alike.
-std::vector<Box> as_loose_as(const std::vector<Box>& real, std::vector<Box> boxes) {
-  for (std::size_t i = 0; i < std::min(boxes.size(), real.size()); ++i) {
-    Box& box = boxes[i];
-    box = {box.x + (box.width - real[i].width) / 2, box.y + (box.height - real[i].height) / 2, real[i].width,
-           real[i].height};
-  }
-  return boxes;
-}
-
-constexpr double kSameContrast = 0.2;  // share by which contrasts may differ
-const std::string kAtSameContrast = ", same contrast";
-
-// The project with its light so strong that the target's contrast to its background (Weber, root of the mean square) is
-// the real one's, within kSameContrast. None where no strength does that.
-std::optional<Project> with_same_contrast(const Project& project, double wanted, Insertion& insertion) {
-  std::optional<Project> nearest;
-  double least = std::log(1 + kSameContrast);
-  for (int step = -12; step <= 12; ++step) {
-    Project lit = project;
-    const double factor = std::pow(1.25, step);
-    if (lit.light.kind == LightKind::sun)
-      lit.light.exposure *= factor;
-    else
-      lit.light.color *= factor;
-    const auto target = expected(insertion.middle_target(lit, CameraShake::as_real_target));
-    if (!target || !target->look.weber_rms || !(*target->look.weber_rms > 0)) continue;
-    const double off = std::abs(std::log(*target->look.weber_rms / wanted));
-    if (off >= least) continue;
-    least = off;
-    nearest = lit;
-  }
-  return nearest;
+// What is made equal for one of the settings: all; of the last ones step by step where this is asked for.
+std::vector<Equalities> equalities_of(const SampleOptions& options, const LookSettings& settings) {
+  const auto first = std::begin(kEqualitySteps), end = std::end(kEqualitySteps);
+  const bool in_steps = options.steps && &settings == &options.settings.back();
+  return {in_steps ? first : end - 1, end};
 }
 
 std::vector<Followed> followed(const RealClip& clip, const SampleOptions& options, Workplace& workplace) {
-  FrameSource footage = opened(clip.path);
-  const FootageShape shape = shape_of(footage.info());
-  const int middle = static_cast<int>(clip.boxes.size()) / 2;
-  const auto stretch = expected(stretch_around(footage, clip.boxes, middle, kReach));
-  if (!stretch || stretch->reach() != kReach) return {};
-  auto real = measured_target({&stretch->middle_frame(), 1}, {&stretch->middle_box(), 1});
-  if (!real || real->look.is_cut) return {};
-  real->path_px = path_of(*stretch);
-  const std::uint32_t seed = seed_of(clip.name, middle);
-  const auto place = place_for(*stretch, *real, seed);
-  if (!place) return {};
+  auto targets = TrackerTargets::make(clip, options);
+  if (!targets) return {};
   std::vector<Followed> all;
-  const auto add = [&](const std::string& kind, const std::map<std::string, double>& by_tracker) {
-    for (const auto& [tracker, success] : by_tracker)
-      all.push_back({clip.name, kind, tracker, clip.is_tuning, success});
+  const auto add = [&](const std::string& kind, const std::optional<TrackedTarget>& target) {
+    if (!target) return;
+    const TargetFigures figures = targets->figures_of(*target);
+    for (const auto& [tracker, success] : successes(target->frames, target->boxes))
+      all.push_back({clip.name, kind, tracker, clip.is_tuning, success, figures});
   };
-  add("real", successes(stretch->frames, stretch->boxes));
-  const Project project = project_of(clip, shape.size_px, options.folder);
-  Insertion insertion =
-      expected(Insertion::make(project, *stretch, shape, *real, *place, seed, workplace.files, workplace.context));
-  for (const LookSettings& settings : options.settings) {
-    Project set = project;
-    apply(settings, clip.name, set);
-    const Insertion::Composed composed = expected(insertion.composed(set, CameraShake::as_real_target));
-    if (!composed.frames.empty())
-      add(settings.name, successes(composed.frames, as_loose_as(stretch->boxes, composed.boxes)));
-    if (!real->look.weber_rms) continue;
-    const auto same = with_same_contrast(set, *real->look.weber_rms, insertion);
-    if (!same) continue;
-    const Insertion::Composed again = expected(insertion.composed(*same, CameraShake::as_real_target));
-    if (!again.frames.empty())
-      add(settings.name + kAtSameContrast, successes(again.frames, as_loose_as(stretch->boxes, again.boxes)));
-  }
+  add("real", targets->real());
+  add("moved", targets->moved());
+  targets->look_for_silhouette(options.settings.back(), workplace);
+  for (const LookSettings& settings : options.settings)
+    for (const Equalities& equal : equalities_of(options, settings))
+      add(kind_of(settings, equal), targets->inserted(settings, equal, workplace));
+  std::fprintf(stderr, "%s\n", clip.name.c_str());
   return all;
 }
 
@@ -151,13 +86,14 @@ struct Difference {
   int clips = 0;
 };
 
-// Of inserted and real targets of the same clips.
-Difference difference_of(const std::vector<Followed>& all, const std::string& tracker, const std::string& kind) {
+// Of targets of the same clips; `real` stands for the kind that is compared against.
+Difference difference_of(const std::vector<Followed>& all, const std::string& tracker, const std::string& kind,
+                         const std::string& against) {
   std::map<std::string, std::pair<double, double>> by_clip;  // real, inserted
   for (const Followed& one : all) {
-    if (one.tracker != tracker || (one.kind != kind && one.kind != "real")) continue;
+    if (one.tracker != tracker || (one.kind != kind && one.kind != against)) continue;
     auto& pair = by_clip.emplace(one.clip, std::pair(-1.0, -1.0)).first->second;
-    (one.kind == "real" ? pair.first : pair.second) = one.success;
+    (one.kind == against ? pair.first : pair.second) = one.success;
   }
   std::erase_if(by_clip, [](const auto& entry) { return entry.second.first < 0 || entry.second.second < 0; });
   Difference difference{.clips = static_cast<int>(by_clip.size())};
@@ -183,6 +119,59 @@ Difference difference_of(const std::vector<Followed>& all, const std::string& tr
   return difference;
 }
 
+double middle_one(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// How like the real targets those of a kind are, apart from trackers: one line of a table. Ratios to the real one:
+// median, and median of the deviation either way, as a factor.
+std::string line_of_likeness(const std::vector<Followed>& all, const std::string& kind) {
+  std::map<std::string, std::pair<TargetFigures, TargetFigures>> by_clip;  // real, of this kind
+  for (const Followed& one : all) {
+    if (one.kind == "real") by_clip[one.clip].first = one.figures;
+    if (one.kind == kind) by_clip[one.clip].second = one.figures;
+  }
+  std::erase_if(by_clip, [](const auto& entry) { return !(entry.second.second.area_px > 0); });
+  std::string line = fmt::format("| {} | {} |", kind, by_clip.size());
+  for (const auto figure : {&TargetFigures::area_px, &TargetFigures::aspect, &TargetFigures::weber_rms}) {
+    std::vector<double> logs, sizes;
+    for (const auto& [clip, pair] : by_clip) logs.push_back(std::log(pair.second.*figure / pair.first.*figure));
+    for (const double value : logs) sizes.push_back(std::abs(value));
+    line += fmt::format(" {:.2f} ({:.2f}) |", std::exp(middle_one(logs)), std::exp(middle_one(sizes)));
+  }
+  std::vector<double> growths;
+  int cut = 0;
+  for (const auto& [clip, pair] : by_clip) {
+    growths.push_back(std::abs(pair.second.growth_per_s));
+    cut += pair.second.frames_cut;
+  }
+  return line + fmt::format(" {:.3f} | {} |\n", middle_one(growths), cut);
+}
+
+void write_tables(const std::vector<Followed>& all, const std::vector<std::string>& kinds,
+                  const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out << "| tracker | target | clips | success, real | success | difference to real | 95 % | difference to moved | 95 "
+         "% "
+         "|\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& kind : kinds)
+    for (const std::string& tracker : kTrackers) {
+      const Difference real = difference_of(all, tracker, kind, "real");
+      out << fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | **{:+.3f}** | {:+.2f} to {:+.2f} |", tracker, kind,
+                         real.clips, real.real, real.inserted, real.difference, real.low, real.high);
+      const Difference moved = difference_of(all, tracker, kind, "moved");
+      out << (kind == "moved"
+                  ? std::string(" | |\n")
+                  : fmt::format(" **{:+.3f}** | {:+.2f} to {:+.2f} |\n", moved.difference, moved.low, moved.high));
+    }
+  out << "\n| target | clips | area | aspect | contrast | growth, 1/s | frames cut |\n|---|---|---|---|---|---|---|\n"
+      << line_of_likeness(all, "real");
+  for (const std::string& kind : kinds) out << line_of_likeness(all, kind);
+}
+
 }  // namespace
 
 void compare_trackers(const std::vector<RealClip>& clips, const SampleOptions& options, int jobs,
@@ -195,18 +184,15 @@ void compare_trackers(const std::vector<RealClip>& clips, const SampleOptions& o
   });
   std::vector<Followed> all;
   for (const auto& some : by_clip) all.insert(all.end(), some.begin(), some.end());
-  accuracy::Csv table(folder / "trackers.csv", "clip,tuning,kind,tracker,success");
-  for (const Followed& one : all) table.row(one.clip, one.is_tuning, one.kind, one.tracker, one.success);
-  std::ofstream out(folder / "trackers.md");
-  out << "| tracker | inserted | clips | success, real | success, inserted | difference | 95 % |\n"
-         "|---|---|---|---|---|---|---|\n";
+  accuracy::Csv table(folder / "trackers.csv",
+                      "clip,tuning,kind,tracker,success,area_px,aspect,weber_rms,growth_per_s,frames_cut");
+  for (const Followed& one : all)
+    table.row(one.clip, one.is_tuning, one.kind, one.tracker, one.success, one.figures.area_px, one.figures.aspect,
+              one.figures.weber_rms, one.figures.growth_per_s, one.figures.frames_cut);
+  std::vector<std::string> kinds{"moved"};
   for (const LookSettings& settings : options.settings)
-    for (const std::string& kind : {settings.name, settings.name + kAtSameContrast})
-      for (const std::string& tracker : kTrackers) {
-        const Difference d = difference_of(all, tracker, kind);
-        out << fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | **{:+.3f}** | {:+.2f} to {:+.2f} |\n", tracker, kind,
-                           d.clips, d.real, d.inserted, d.difference, d.low, d.high);
-      }
+    for (const Equalities& equal : equalities_of(options, settings)) kinds.push_back(kind_of(settings, equal));
+  write_tables(all, kinds, folder / "trackers.md");
 }
 
 }  // namespace sigs::bench

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "appearance/quantiles.h"
+#include "video/frame_quantisers.h"
 #include "video/luma_stream.h"
 
 namespace sigs {
@@ -73,6 +74,7 @@ struct PointSpread::SharpEnd {
 
 void PointSpread::add(const Frame& frame, const cv::Mat& own_body) {
   ++frames_;
+  if (frame.quantisers && frame.quantisers->kind == QuantiserKind::jpeg) ++jpeg_frames_;
   layout_ = frame.layout;
   const bool is_limited = frame.layout != PixelLayout::rgb && frame.color.range == ColorRange::limited;
   const int lowest = is_limited ? 16 : 0;
@@ -268,10 +270,11 @@ void PointSpread::find_chroma(PointSpreadFound& found, const SharpEnd& end) cons
 }
 
 PointSpreadFound PointSpread::finish() const {
+  const bool is_jpeg = frames_ > 0 && jpeg_frames_ == frames_;
   PointSpreadFound found{.sigma_px = {.value = kDefaultPointSpread_px},
                          .sharpening = {.value = kDefaultSharpening},
                          .sharpening_px = {.value = kDefaultSharpening_px},
-                         .chroma_spread_px = {.value = kDefaultChromaSpread_px},
+                         .chroma_spread_px = {.value = is_jpeg ? kDefaultJpegChromaSpread_px : kDefaultChromaSpread_px},
                          .edges_found = static_cast<int>(edges_.size())};
   const SharpEnd end = edges_.empty() ? SharpEnd{} : sharp_end();
   const std::string why = why_not(end);

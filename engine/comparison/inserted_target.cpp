@@ -2,6 +2,8 @@
 #include "comparison/inserted_target.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "frame/compose_frame.h"
 
@@ -11,7 +13,6 @@ namespace {
 
 constexpr double kLoose = 1.2;  // of an inserted target's box, as the real ones' boxes are loose
 constexpr double kLooseMargin_px = 3;
-constexpr double kHighest_rad = 0.45;  // what is seen small is far, and so low above the horizon
 constexpr double kMostResizing = 1.6;  // of the first guess: a silhouette that is only told in part is not trusted more
 
 Box loosened(const Box& box) {
@@ -24,19 +25,32 @@ cv::Point2d middle_of(const Box& box) {
   return {box.x + box.width / 2, box.y + box.height / 2};
 }
 
+// By which factor an inserted target is to be seen larger, so that its silhouette is as wide as the real one's.
+double resizing(const TargetLook& look, const TargetLook& real) {
+  return std::clamp(static_cast<double>(real.box.width) / look.box.width, 1 / kMostResizing, kMostResizing);
+}
+
+// How far the areas differ once both are as wide: logarithm of their ratio, without its sign.
+double area_unlikeness(const TargetLook& look, const TargetLook& real) {
+  const double larger = static_cast<double>(real.box.width) / look.box.width;
+  return std::abs(std::log(look.area_px * larger * larger / real.area_px));
+}
+
 }  // namespace
 
 Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch, const FootageShape& shape,
-                                  const MeasuredTarget& real, cv::Point2d middle_px, std::uint32_t seed,
+                                  const MeasuredTarget& real, cv::Point2d middle_px, const InsertedView& view,
                                   SceneFiles& files, ComposeContext& context) {
   Insertion insertion(stretch, shape, files, context);
   insertion.real_path_px_ = real.path_px;
   IntruderPose& pose = insertion.pose_;
   pose.middle_px = middle_px;
   pose.aspect = static_cast<double>(real.look.box.width) / real.look.box.height;
-  pose.width_px = std::max(2.0, real.look.box.width - 1.0);
-  pose.seed = seed;
-  pose.highest_rad = kHighest_rad;
+  const double wanted_px = std::max(2.0, real.look.box.width - 1.0);
+  pose.width_px = wanted_px;
+  pose.seed = view.seed;
+  pose.highest_rad = view.highest_rad;
+  pose.growth_per_s = view.growth_per_s;
   if (stretch.reach() > 0)
     pose.step_px = (middle_of(stretch.boxes.back()) - middle_of(stretch.boxes.front())) / (2.0 * stretch.reach());
   // A silhouette by threshold is wider or narrower than the outline: both are to be the same by threshold.
@@ -44,11 +58,22 @@ Result<Insertion> Insertion::make(const Project& project, const Stretch& stretch
   sharp.compositing.blur_px_per_m = 0;
   sharp.appearance = {};
   const auto middle = static_cast<std::size_t>(stretch.reach());
-  const Result<Composed> first = insertion.composed_between(sharp, middle, middle + 1);
-  if (!first) return fail(first.error());
-  if (const auto look = first->frames.empty() ? std::nullopt : target_look(first->frames[0], first->boxes[0]))
-    pose.width_px *=
-        std::clamp(static_cast<double>(real.look.box.width) / look->box.width, 1 / kMostResizing, kMostResizing);
+  IntruderPose best = pose;
+  double least = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < view.tries; ++n) {
+    pose.seed = view.seed + static_cast<std::uint32_t>(n);
+    pose.width_px = wanted_px;
+    const Result<Composed> one = insertion.composed_between(sharp, middle, middle + 1);
+    if (!one) return fail(one.error());
+    const auto look = one->frames.empty() ? std::nullopt : target_look(one->frames[0], one->boxes[0]);
+    if (!look) continue;
+    pose.width_px *= resizing(*look, real.look);
+    const double unlike = area_unlikeness(*look, real.look);
+    if (unlike >= least) continue;
+    least = unlike;
+    best = pose;
+  }
+  pose = best;
   return insertion;
 }
 

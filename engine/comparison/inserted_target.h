@@ -18,17 +18,24 @@ namespace sigs {
 // taken from the real target's path.
 enum class CameraShake { none, as_real_target };
 
+// From where the intruder is seen, and how that changes.
+struct InsertedView {
+  std::uint32_t seed = 1;     // chooses among the attitudes
+  int tries = 1;              // views to choose from: the one whose silhouette's area is most like the real one's
+  double highest_rad = 0.45;  // elevation above the horizon: what is seen small is far, and so low
+  std::optional<double> growth_per_s = {};  // as IntruderPose::growth_per_s; none: it flies with 60 m/s
+};
+
 // The first intruder of a project, put into the frames of a real target, with a silhouette as wide and of about the
 // same aspect as the real one's, moving as that moves.
 class Insertion {
  public:
   // Chooses the attitude and finds the distance. The project's footage and camera give way to the clip's frames.
   //   middle_px  where, in the middle frame (appearance/similar_place.h)
-  //   seed       chooses among the attitudes
   // The stretch, files and context must outlive this object. Errors: as posed_scene and compose_frame.
   [[nodiscard]] static Result<Insertion> make(const Project& project, const Stretch& stretch, const FootageShape& shape,
-                                              const MeasuredTarget& real, cv::Point2d middle_px, std::uint32_t seed,
-                                              SceneFiles& files, ComposeContext& context);
+                                              const MeasuredTarget& real, cv::Point2d middle_px,
+                                              const InsertedView& view, SceneFiles& files, ComposeContext& context);
 
   // The frames with the intruder of a project that differs from the one above only in how things look, and its boxes.
   struct Composed {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/ensure.h"
 #include "scene/opened_project.h"
 
 namespace sigs {
@@ -15,6 +16,9 @@ namespace {
 constexpr int kLeastAround = 24;     // before and after the frame: path and camera are laid out
 constexpr double kNearAspect = 0.1;  // logarithm of the ratio to the wanted aspect
 constexpr double kStep_rad = std::numbers::pi / 24;
+constexpr double kLeastGrowth_per_s = 0.02;  // below it, any nose does: it hardly moves
+constexpr double kLeastRadial = 0.3;         // of a flight that is to change the size, as share of its speed
+constexpr double kLeastSpeed_mps = 1;        // so that the path has a direction
 
 // A direction from which an intruder with level wings is seen, and its box from there at a distance of 1 m times the
 // focal length, in metres.
@@ -24,6 +28,9 @@ struct View {
   cv::Rect2d box_m;          // right and down
 
   [[nodiscard]] double aspect() const { return box_m.width / box_m.height; }
+
+  // How fast the distance grows, as share of the speed along the nose.
+  [[nodiscard]] double radial() const { return std::cos(elevation_rad) * std::cos(yaw_rad); }
 };
 
 glm::dvec3 along(double heading_rad, double elevation_rad) {
@@ -47,6 +54,19 @@ glm::dquat turn_between(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::normalize(glm::dquat(1 + glm::dot(from, to), glm::cross(from, to)));
 }
 
+// Whether flying along the nose can change the size as the pose wants it.
+bool can_grow_so(const View& view, const IntruderPose& pose) {
+  if (std::abs(pose.growth_per_s.value_or(0)) < kLeastGrowth_per_s) return true;
+  return std::abs(view.radial()) >= kLeastRadial && (*pose.growth_per_s > 0) == (view.radial() < 0);
+}
+
+// The distance d changes by radial * speed, the size, which goes with 1 / d, by -radial * speed / d.
+double speed_of(const View& view, const IntruderPose& pose, double distance_m) {
+  if (!pose.growth_per_s) return pose.speed_mps;
+  if (std::abs(*pose.growth_per_s) < kLeastGrowth_per_s) return kLeastSpeed_mps;
+  return std::max(kLeastSpeed_mps, -*pose.growth_per_s * distance_m / view.radial());
+}
+
 // One of those whose aspect is near the wanted one, else the nearest.
 View chosen_view(const std::vector<glm::vec3>& points_m, const IntruderPose& pose) {
   std::vector<View> near;
@@ -55,6 +75,7 @@ View chosen_view(const std::vector<glm::vec3>& points_m, const IntruderPose& pos
   for (double elevation = pose.lowest_rad; elevation <= pose.highest_rad; elevation += kStep_rad)
     for (double yaw = 0; yaw < 2 * std::numbers::pi; yaw += kStep_rad) {
       const View view = view_from(points_m, elevation, yaw);
+      if (!can_grow_so(view, pose)) continue;
       const double off = pose.aspect > 0 ? std::abs(std::log(view.aspect() / pose.aspect)) : 0;
       if (off < kNearAspect) near.push_back(view);
       if (off < least) {
@@ -62,6 +83,7 @@ View chosen_view(const std::vector<glm::vec3>& points_m, const IntruderPose& pos
         nearest = view;
       }
     }
+  ENSURE(least < 1e300);
   return near.empty() ? nearest : near[pose.seed * std::size_t{2654435761} % near.size()];
 }
 
@@ -112,8 +134,9 @@ Result<Scene> posed_scene(const Project& project, const FootageShape& footage, S
   const glm::dvec3 there_m = start_m + distance_m * along(0, view.elevation_rad);
   const int around = std::max(kLeastAround, static_cast<int>(pose.path_px.size()) / 2 + 1);
   const double middle_s = time_of_frame_s(footage, frame);
+  const double speed_mps = speed_of(view, pose, distance_m);
   const auto position_at = [&](double time_s) {
-    return there_m + pose.speed_mps * (time_s - middle_s) * along(view.yaw_rad, 0);
+    return there_m + speed_mps * (time_s - middle_s) * along(view.yaw_rad, 0);
   };
   std::vector<WaypointSettings>& waypoints = bare.intruders.front().trajectory.waypoints;
   waypoints.clear();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -21,7 +22,11 @@ struct IntruderPose {
   // Where it is against middle_px in successive frames, the middle one of them being the pose's; an odd number. Frames
   // before and after go on by step_px. Empty: step_px alone.
   std::vector<cv::Point2d> path_px = {};
-  double speed_mps = 60;                       // through the world, along the nose
+  double speed_mps = 60;  // through the world, along the nose
+  // Share by which it grows in the image per second, below 0 where it shrinks. The nose then points towards the camera
+  // or away from it, and the speed, in place of speed_mps, is that with which flying on gives this, 1 m/s at least.
+  // Needs lowest_rad below 1.2: what is seen steeply from below cannot come nearer by flying on.
+  std::optional<double> growth_per_s = {};
   double lowest_rad = 0.1, highest_rad = 1.0;  // elevations above the horizon from which one is chosen
   std::uint32_t seed = 1;                      // chooses among the views whose aspect is near enough
 };

@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "appearance/slanted_target.h"
 #include "support/test_data.h"
+#include "video/frame_quantisers.h"
 #include "video/frame_source.h"
 
 using namespace sigs;
@@ -118,6 +121,24 @@ TEST_CASE("sharpening of a slanted-edge target is distinguished from its blur") 
     CHECK(std::abs(found.sharpening.value - sharpening) < 0.04 + 0.05 * sharpening);  // its sd is 0.04
     CHECK(std::abs(found.sharpening_px.value - 1.4) < 0.15 * 1.4);  // of weak sharpening, its width is less sure
   }
+}
+
+TEST_CASE("where no edge tells it, chroma of JPEG images is taken to be sharper than that of videos") {
+  const auto taken = [](std::optional<QuantiserKind> kind) {
+    const cv::Size size(64, 48), half(32, 24);
+    Frame frame{.layout = PixelLayout::yuv420,
+                .planes = {cv::Mat(size, CV_8UC1, 150), cv::Mat(half, CV_8UC1, 120), cv::Mat(half, CV_8UC1, 130)}};
+    if (kind) frame.quantisers = std::make_shared<FrameQuantisers>(FrameQuantisers{.kind = *kind});
+    PointSpread spread;
+    spread.add(frame);
+    const PointSpreadFound found = spread.finish();
+    CHECK_FALSE(found.chroma_spread_px.is_known);
+    return found.chroma_spread_px.value;
+  };
+  // Linear reading between samples 2 px apart: a triangle of variance 2 * 2 / 6 px^2; a sample of 4:2:0 is 2 px wide.
+  CHECK(taken(QuantiserKind::jpeg) == doctest::Approx(std::sqrt(4 / 6.0) / 2).epsilon(0.03));
+  CHECK(taken(QuantiserKind::h264) == 0.9);
+  CHECK(taken(std::nullopt) == 0.9);
 }
 
 TEST_CASE("chroma spread beyond luma's is found in samples of the chroma planes") {

@@ -64,8 +64,8 @@ TEST_CASE("the intruder beside is as wide as the real target, of about its aspec
   REQUIRE(real->path_px.size() == 7);
   CHECK(real->path_px.back().x == doctest::Approx(6).epsilon(0.01));
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
-    auto insertion = Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, seed, setting.files,
-                                     setting.context);
+    auto insertion = Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {.seed = seed},
+                                     setting.files, setting.context);
     if (!insertion && insertion.error().kind == ErrorKind::unavailable) return say_skipped(insertion.error().text());
     REQUIRE_MESSAGE(insertion, insertion.error().text());
     const auto composed = insertion->composed(setting.project, CameraShake::none);
@@ -95,7 +95,7 @@ TEST_CASE("with the camera's shake the intruder goes where the real target goes,
   REQUIRE(real);
   real->path_px = {{0, 0}, {3, 0}, {0, 2}, {0, 0}, {-3, 0}, {0, -2}, {1, 1}};
   auto insertion =
-      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, 1, setting.files, setting.context);
+      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {}, setting.files, setting.context);
   if (!insertion && insertion.error().kind == ErrorKind::unavailable) return say_skipped(insertion.error().text());
   REQUIRE(insertion);
   const auto composed = insertion->composed(setting.project, CameraShake::as_real_target);
@@ -108,6 +108,57 @@ TEST_CASE("with the camera's shake the intruder goes where the real target goes,
   }
 }
 
+TEST_CASE("of several views the one is taken whose silhouette is as large as the real target's") {
+  Setting setting;
+  const Stretch stretch = moving_rectangle({0, 0});
+  const auto real = measured_target(stretch.frames, stretch.boxes);
+  REQUIRE(real);
+  double largest = 0;
+  std::vector<double> areas_px;
+  for (const int tries : {1, 1, 1, 1, 1, 6}) {
+    const auto seed = static_cast<std::uint32_t>(tries == 1 ? areas_px.size() : 0);
+    auto insertion = Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300},
+                                     {.seed = seed, .tries = tries}, setting.files, setting.context);
+    if (!insertion && insertion.error().kind == ErrorKind::unavailable) return say_skipped(insertion.error().text());
+    REQUIRE_MESSAGE(insertion, insertion.error().text());
+    const auto target = insertion->middle_target(setting.project, CameraShake::none);
+    REQUIRE(target);
+    REQUIRE(*target);
+    areas_px.push_back((*target)->look.area_px);
+    if (tries == 1) largest = std::max(largest, areas_px.back());
+  }
+  // A rectangle is fuller than any aircraft, so the largest of the views 0 to 4, or view 5, is the most similar one.
+  CHECK(areas_px.back() > 0.97 * largest);  // the sizes in whole pixels shift areas a little
+}
+
+TEST_CASE("into gray footage a gray intruder is put, whatever colours its paint and the light have") {
+  Setting setting;
+  const Stretch stretch = moving_rectangle({0, 0});
+  const auto real = measured_target(stretch.frames, stretch.boxes);
+  REQUIRE(real);
+  setting.project.intruders.front().model.file =
+      (source_dir() / "assets/models/light-aircraft/light-aircraft.obj").string();
+  setting.project.light.kind = LightKind::sun;
+  setting.project.light.sun = {.azimuth_deg = 165, .elevation_deg = 25};
+  setting.project.light.sky_color = {0.2, 0.4, 0.9};
+  setting.project.appearance.chroma_spread_px = 1.2;
+  setting.project.appearance.haze.visibility_m = 5000;
+  for (const double saturation : {1.0, 0.0}) {
+    setting.project.appearance.saturation = saturation;  // 0 is what is found in gray footage
+    auto insertion =
+        Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {}, setting.files, setting.context);
+    if (!insertion && insertion.error().kind == ErrorKind::unavailable) return say_skipped(insertion.error().text());
+    REQUIRE_MESSAGE(insertion, insertion.error().text());
+    const auto composed = insertion->composed(setting.project, CameraShake::none);
+    REQUIRE(composed);
+    REQUIRE(composed->frames.size() == 7);
+    CHECK(cv::countNonZero(composed->frames[3].planes[0] != stretch.frames[3].planes[0]) > 100);
+    const int colored =
+        cv::countNonZero(composed->frames[3].planes[1] != 128) + cv::countNonZero(composed->frames[3].planes[2] != 128);
+    CHECK((colored > 0) == (saturation > 0));
+  }
+}
+
 TEST_CASE("a project without an intruder cannot be put beside") {
   Setting setting;
   setting.project.intruders.clear();
@@ -115,7 +166,7 @@ TEST_CASE("a project without an intruder cannot be put beside") {
   const auto real = measured_target(stretch.frames, stretch.boxes);
   REQUIRE(real);
   const auto insertion =
-      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, 1, setting.files, setting.context);
+      Insertion::make(setting.project, stretch, setting.shape, *real, {400, 300}, {}, setting.files, setting.context);
   REQUIRE_FALSE(insertion);
   CHECK(insertion.error().kind == ErrorKind::usage);
 }
