@@ -80,7 +80,8 @@ std::vector<SliceRule> slice_rules() {
   const auto lies = [](const char* name, HorizonSide side) {
     return SliceRule{"horizon", name, [side](const TargetFrame& frame) { return frame.horizon == side; }};
   };
-  return {between("range", "below 100 m", 0, 100, range_m),
+  return {SliceRule{"all", "any", [](const TargetFrame&) { return true; }},
+          between("range", "below 100 m", 0, 100, range_m),
           between("range", "100 to 300 m", 100, 300, range_m),
           between("range", "300 to 700 m", 300, 700, range_m),
           between("range", "700 to 1500 m", 700, 1500, range_m),

@@ -33,7 +33,7 @@ struct GroupShare {
 
 // Frames in which some of an intruder is visible, at any range, that have something in common.
 struct FrameSlice {
-  std::string by;    // "range", "size", "contrast", "horizon", "visible"
+  std::string by;    // "all", "range", "size", "contrast", "horizon", "visible"
   std::string name;  // "100 to 300 m"
   int frames = 0;    // (frame, intruder) pairs
   int matched = 0;

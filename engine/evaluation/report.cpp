@@ -144,7 +144,7 @@ std::vector<std::string> uncounted_in(const DetectionReport& report) {
   if (score.encounters_too_far > 0)
     reasons.push_back(fmt::format("{}the intruder comes no nearer than {} m (--max-closest-range)",
                                   not_counted(score.encounters_too_far), exact_text(policy.max_closest_range_m)));
-  if (score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
+  if (report.remarks.empty() && score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
     reasons.push_back(fmt::format("there is no encounter: no intruder is seen within {} m (--max-range)",
                                   exact_text(policy.max_range_m)));
   return reasons;

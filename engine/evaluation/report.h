@@ -31,6 +31,7 @@ struct DetectionReport {
   DetectionPolicy policy;
   std::vector<DetectionScore> scores;
   std::vector<std::vector<FrameSlice>> slices;  // of each detector; empty: not asked for
+  std::vector<std::string> remarks = {};        // what the truth does not say (left_out_of)
 };
 
 // A table for a terminal: one row for each tracker or detector.

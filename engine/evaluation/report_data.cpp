@@ -275,7 +275,8 @@ std::string evaluation_json(const DetectionReport& report) {
             {"kind", "detect"},
             {"films", json_lines(report.clips)},
             {"policy", json_of(report.policy, report)},
-            {"detectors", scores_of(report.scores)}};
+            {"detectors", scores_of(report.scores)},
+            {"remarks", json_lines(report.remarks)}};
   for (std::size_t i = 0; i < report.slices.size(); ++i) json["detectors"][i]["frames_by"] = json_of(report.slices[i]);
   return json.dump(1) + "\n";
 }

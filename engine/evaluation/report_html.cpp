@@ -119,6 +119,7 @@ std::string report_html(const TrackReport& report, const std::vector<ReportPlot>
 std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
   const std::string clips = count_text(std::ssize(report.clips), "film");
   std::string body = table_html(table_of(report));
+  for (const std::string& remark : report.remarks) body += element("p", remark + ".") + "\n";
   for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())
     body += element("h2", "Encounters") + "\n" + table_html(encounters);
