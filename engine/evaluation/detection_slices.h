@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,14 @@ struct FrameSlice {
   int matched = 0;
   Interval rate;  // of matched / frames, by drawing flights: one intruder of one clip
 };
+
+// What makes a frame, in which some of the intruder is visible, part of a slice.
+struct SliceRule {
+  std::string by;
+  std::string name;
+  std::function<bool(const TargetFrame&)> has;
+};
+[[nodiscard]] std::vector<SliceRule> slice_rules();
 
 // All slices, those without frames too, in the same order for each detector. Contrast is the RMS contrast of the
 // labels; frames whose labels do not have it are in none of its slices.

@@ -19,15 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kFiles{"slices.csv",
-                                                 "summary.csv",
-                                                 "frames.csv",
-                                                 "encounters.csv",
-                                                 "evaluation.json",
-                                                 "report.html",
-                                                 "summary.json",
-                                                 "encounters_by_detection.csv",
-                                                 "encounters_by_track.csv"};
+constexpr std::array<std::string_view, 10> kFiles{"slices.csv",
+                                                  "clips.csv",
+                                                  "summary.csv",
+                                                  "frames.csv",
+                                                  "encounters.csv",
+                                                  "evaluation.json",
+                                                  "report.html",
+                                                  "summary.json",
+                                                  "encounters_by_detection.csv",
+                                                  "encounters_by_track.csv"};
 constexpr std::array<std::string_view, 8> kPlotNames{"center_error", "x_error",       "y_error",
                                                      "precision",    "success",       "normalized_precision",
                                                      "first_range",  "detection_rate"};
@@ -103,6 +104,10 @@ Result<WrittenReport> write_report(const fs::path& folder, const DetectionReport
   std::vector<NamedText> details{{"encounters.csv", encounters_csv(report)}};
   if (!report.slices.empty()) details.emplace_back("slices.csv", slices_csv(report));
   return write_all(folder, report, details);
+}
+
+Result<WrittenReport> write_report(const fs::path& folder, const TrackSetReport& report) {
+  return write_all(folder, report, {{"clips.csv", clips_csv(report)}, {"slices.csv", slices_csv(report)}});
 }
 
 Result<WrittenReport> write_report(const fs::path& folder, const AotTruth& truth, const AotScore& score) {

@@ -274,7 +274,7 @@ TEST_CASE("the size of images is read from PNG and JPEG headers") {
   folder.put("y/images/1.jpg", std::string("\xff\xd8\xff\xe0\0\4ab\xff\xc0\0\x0b\x08\0\x32\0\x64\1", 19));
   CHECK(*only_clip(folder.folder / "y").truth.targets[0].frames[0].visible == Box{24.5, 12, 50, 25});
   for (const std::string& damaged : {std::string("\xff\xd8\xff\xe0\0\0\0\0\0\0\0\0\0\0", 14), std::string("\xff\xd8"),
-                                    std::string("GIF89a"), png.substr(0, 20), std::string()}) {
+                                     std::string("GIF89a"), png.substr(0, 20), std::string()}) {
     folder.put("y/images/1.jpg", damaged);
     check_problem(folder.folder / "y", "1.jpg: its size cannot be read");
   }
