@@ -162,7 +162,7 @@ Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup gro
 Result<TrackInput> read_track_input(const TrackRequest& request, const fs::path& path) {
   if (!request.input.settings.empty()) return fail("--set", "goes with a project, not with labels", ErrorKind::usage);
   if (request.frames) return fail("--frames", "goes with a project; labels have their own", ErrorKind::usage);
-  if (!is_folder(path)) {
+  if (!is_sequence_folder(path)) {
     Result<ClipTruth> truth = read_truth(path);
     if (!truth) return fail(truth.error());
     return TrackInput{.name = path.stem().string(), .labels = path, .truth = std::move(*truth)};

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <opencv2/core/types.hpp>
 
+#include "base/input_file.h"
 #include "evaluation/clips.h"
 #include "evaluation/detection_score.h"
 #include "evaluation/detection_slices.h"
@@ -357,6 +358,34 @@ TEST_CASE("a truth that is wrong is refused in one line that says where") {
   folder.put("y/labels/frame_3.txt", "");
   fs::remove(folder.folder / "y/labels/frame_99999999.txt");
   CHECK(only_clip(folder.folder / "y", {.size_px = {100, 50}, .stills = true}).truth.frames() == 2);
+}
+
+TEST_CASE("a truth that is cut off or damaged anywhere is read or refused in one line") {
+  const TruthFolder folder;
+  coco_truth(folder);
+  mot_truth(folder);
+  folder.put("y/labels/frame_1.txt", "0 0.2 0.2 0.2 0.2\n0 0.1 0.1 0.3 0.1 0.3 0.3\n");
+  folder.put("g.json", R"({"samples": {"f": {"metadata": {"fps": 10, "number_of_frames": 9}, "entities": [
+    {"img_name": "a", "id": "A1", "bb": [1, 1, 2, 2], "blob": {"frame": 5, "range_distance_m": 3}}]}}})");
+  const std::pair<const char*, const char*> cases[] = {{"tiny.coco.json", "tiny.coco.json"},
+                                                       {"tiny.mot", "tiny.mot/gt/gt.txt"},
+                                                       {"tiny.mot", "tiny.mot/seqinfo.ini"},
+                                                       {"y", "y/labels/frame_1.txt"},
+                                                       {"g.json", "g.json"}};
+  for (const auto& [input, file] : cases) {
+    const std::string whole = read_text(folder.folder / file).value();
+    CAPTURE(file);
+    for (std::size_t at = 0; at < whole.size(); ++at)
+      for (const char letter : {'\0', '9', '-', '"', '}'}) {
+        std::string changed = whole.substr(0, at);
+        if (letter != '\0') changed += letter + whole.substr(at + 1);
+        write_file(folder.folder / file, changed);
+        const std::string problem = problem_of(folder.folder / input, {.size_px = {100, 50}});
+        if (problem.find('\n') != std::string::npos) FAIL_CHECK(problem);
+      }
+    write_file(folder.folder / file, whole);
+    CHECK(problem_of(folder.folder / input, {.size_px = {100, 50}}).empty());
+  }
 }
 
 }  // namespace sigs::test
