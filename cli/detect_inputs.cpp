@@ -34,10 +34,13 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
   clips.push_back(
       {.name = name,
        .labels = labels,
+       .results_name = name,
        .split = video.value("split", nlohmann::json()).is_string() ? video["split"] : nlohmann::json(""),
        .frames = video.value("frames", nlohmann::json()).is_number_integer() ? video["frames"].get<int>() : 0});
   return {};
 }
+
+}  // namespace
 
 Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const std::string& split) {
   const fs::path index = folder / "index.json";
@@ -61,26 +64,59 @@ Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const st
   return clips;
 }
 
+namespace {
+
 Result<void> check_labels(const fs::path& labels, const std::vector<ClipFiles>& before) {
-  if (labels.extension() == ".json")
-    return fail(labels.string(), "is not labels (.xml); of a project sigs export makes them", ErrorKind::usage);
   for (const ClipFiles& clip : before)
     if (std::error_code code; fs::equivalent(clip.labels, labels, code))
       return fail(labels.string(), "is named twice; each clip counts once", ErrorKind::usage);
   return {};
 }
 
-Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& split) {
-  if (inputs.size() == 1 && is_folder(inputs.front())) return clips_of_dataset(inputs.front(), split);
+bool is_own_labels(const fs::path& path) {
+  return !is_folder(path) && lower_extension(path) != ".json";
+}
+
+// The clips of another program's truth.
+Result<void> add_truth(const fs::path& path, const TruthOptions& options, std::vector<ClipFiles>& clips,
+                       std::vector<std::string>& names) {
+  Result<std::vector<TruthClip>> truths = read_truth_clips(path, options);
+  if (!truths) return fail(truths.error());
+  for (TruthClip& truth : *truths) {
+    names.push_back(free_name(truth.name, names));
+    const std::string results_name = truth.name;
+    clips.push_back({.name = names.back(), .labels = path, .truth = std::move(truth), .results_name = results_name});
+  }
+  return {};
+}
+
+Result<void> check_truth_options(const Paths& inputs, const TruthOptions& options) {
+  const bool is_asked = !options.size_px.empty() || options.rate_hz > 0 || !options.classes.empty() || options.stills;
+  if (is_asked && std::ranges::all_of(inputs, is_own_labels))
+    return fail("--size, --rate, --classes, --stills", "go with truths of other programs; labels of SIGS say it all",
+                ErrorKind::usage);
+  return {};
+}
+
+Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& split, const TruthOptions& options) {
+  std::error_code code;  // a dataset has a folder labels/ too
+  const bool is_dataset = inputs.size() == 1 && is_folder(inputs.front()) &&
+                          (fs::exists(inputs.front() / "index.json", code) || !is_truth_folder(inputs.front()));
+  if (is_dataset) return clips_of_dataset(inputs.front(), split);
   if (!split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
+  if (const Result<void> good = check_truth_options(inputs, options); !good) return fail(good.error());
   std::vector<ClipFiles> clips;
   std::vector<std::string> names;
   for (const fs::path& labels : inputs) {
-    if (is_folder(labels))
+    if (is_folder(labels) && !is_truth_folder(labels))
       return fail(labels.string(), "is a folder; name label files, or one dataset alone", ErrorKind::usage);
     if (const Result<void> good = check_labels(labels, clips); !good) return fail(good.error());
+    if (!is_own_labels(labels)) {
+      if (const Result<void> added = add_truth(labels, options, clips, names); !added) return fail(added.error());
+      continue;
+    }
     names.push_back(free_name(labels.stem().string(), names));
-    clips.push_back({.name = names.back(), .labels = labels});
+    clips.push_back({.name = names.back(), .labels = labels, .results_name = labels.stem().string()});
   }
   return clips;
 }
@@ -94,15 +130,16 @@ std::string endings_in(const Paths& there) {
   return endings.size() == 1 ? *endings.begin() : ".csv, .json or .txt";
 }
 
-// The one file in a detector's folder that has the clip's name.
-Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
+}  // namespace
+
+Result<fs::path> results_in(const fs::path& folder, const std::string& name) {
   const Result<Paths> there = folder_contents(folder);
   if (!there) return fail(there.error());
   Paths found;
   for (const fs::path& path : *there)
-    if (std::error_code code; path.stem() == clip.name && fs::is_regular_file(path, code)) found.push_back(path);
+    if (std::error_code code; path.stem() == name && fs::is_regular_file(path, code)) found.push_back(path);
   if (found.empty())
-    return fail((folder / clip.name).string() + endings_in(*there),
+    return fail((folder / name).string() + endings_in(*there),
                 "no results for this clip; where nothing was detected, they are a file without boxes",
                 ErrorKind::cannot_read);
   if (found.size() > 1)
@@ -111,22 +148,23 @@ Result<fs::path> results_of(const fs::path& folder, const ClipFiles& clip) {
   return found.front();
 }
 
-// "runs/yolo/" has the name yolo.
 std::string name_of_folder(const fs::path& folder) {
   const fs::path plain = folder.lexically_normal();
   const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
   return name.empty() || name == "." || name == ".." ? "detector" : name.string();
 }
 
+namespace {
+
 Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folders) {
   DetectInputs inputs{.clips = std::move(clips)};
   for (const fs::path& folder : folders) {
     inputs.detectors.push_back(free_name(name_of_folder(folder), inputs.detectors));
     for (ClipFiles& clip : inputs.clips) {
-      if (clip.labels.stem() != clip.name)
+      if (clip.results_name != clip.name)
         return fail(clip.labels.string(), "another clip is called so too; name their results' files in order",
                     ErrorKind::usage);
-      const Result<fs::path> file = results_of(folder, clip);
+      const Result<fs::path> file = results_in(folder, clip.results_name);
       if (!file) return fail(file.error());
       clip.results.push_back(*file);
     }
@@ -162,7 +200,15 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
     inputs.clips.front().results = files;
     return inputs;
   }
+  const bool is_one_truth = std::ranges::all_of(
+      inputs.clips, [&](const ClipFiles& clip) { return clip.truth && clip.labels == inputs.clips.front().labels; });
   const bool is_json = std::ranges::all_of(files, [](const fs::path& file) { return file.extension() == ".json"; });
+  if (files.size() != inputs.clips.size() && is_one_truth && is_json) {
+    inputs.is_shared = true;
+    for (ClipFiles& clip : inputs.clips) clip.results = files;
+    for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+    return inputs;
+  }
   if (files.size() != inputs.clips.size() && inputs.clips.front().frames > 0 && is_json)
     return by_shared_files(std::move(inputs.clips), files);
   if (files.size() != inputs.clips.size())
@@ -191,12 +237,13 @@ std::string free_name(const std::string& name, const std::vector<std::string>& t
   return free;
 }
 
-Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, const std::string& split) {
+Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, const std::string& split,
+                                   const TruthOptions& options) {
   for (const Paths* const paths : {&inputs, &results})
     for (const fs::path& path : *paths)
       if (std::error_code code; !fs::exists(path, code))
         return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
-  Result<std::vector<ClipFiles>> clips = clips_of(inputs, split);
+  Result<std::vector<ClipFiles>> clips = clips_of(inputs, split, options);
   if (!clips) return fail(clips.error());
   const auto folders = std::count_if(results.begin(), results.end(), is_folder);
   if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);

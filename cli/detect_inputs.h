@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "evaluation/results.h"
+#include "evaluation/truth_files.h"
 
 namespace sigs::cli {
 
@@ -15,6 +16,8 @@ namespace sigs::cli {
 struct ClipFiles {
   std::string name;  // no two are alike
   std::filesystem::path labels;
+  std::optional<TruthClip> truth;              // read already, where the labels are another program's
+  std::string results_name;                    // results' files are called so
   std::vector<std::filesystem::path> results;  // one for each detector
   std::string split;                           // of a dataset's clip
   int frames = 0;                              // of a dataset's clip; 0: not known
@@ -24,19 +27,31 @@ struct ClipFiles {
 
 struct DetectInputs {
   std::vector<std::string> detectors;  // no two are alike
+  bool is_shared = false;              // each detector has one file of all clips, which names images as the truth does
   std::vector<ClipFiles> clips;
 };
 
 // Which results go with which labels.
-//   inputs   label files, or one folder of a dataset
+//   inputs   label files, truths of other programs (evaluation/truth_files.h), or one folder of a dataset
 //   results  a folder for each detector, in which NAME.csv or the like tells of the clip NAME; or, for label files, one
 //            file for each in the same order; or, for one label file, a file for each detector; or, for one split of a
-//            dataset, a file in COCO's layout for each detector, with the image_id of the split's coco labels
+//            dataset, a file in COCO's layout for each detector, with the image_id of the split's coco labels; or, for
+//            one truth of another program, a file for each detector that names images as the truth does
 //   split    only these clips of a dataset; empty: all
 // Errors name what is missing or left over.
 [[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,
                                                  const std::vector<std::filesystem::path>& results,
-                                                 const std::string& split);
+                                                 const std::string& split, const TruthOptions& options);
+
+// The index of a dataset: its clips, or those of one split; no results.
+[[nodiscard]] Result<std::vector<ClipFiles>> clips_of_dataset(const std::filesystem::path& folder,
+                                                              const std::string& split);
+
+// The file in a tracker's or detector's folder that has the clip's name. Errors: none, or several.
+[[nodiscard]] Result<std::filesystem::path> results_in(const std::filesystem::path& folder, const std::string& name);
+
+// "runs/yolo/" has the name yolo.
+[[nodiscard]] std::string name_of_folder(const std::filesystem::path& folder);
 
 // A warning where results name a clip of another name. Layouts that name none say nothing.
 void warn_of_other_clip(const Results& results, const std::filesystem::path& file, const std::string& clip);

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.h"
 #include "cli/detect_inputs.h"
 #include "cli/evaluate_aot.h"
 #include "cli/evaluation_folder.h"
@@ -28,6 +29,7 @@ constexpr const char* kEvaluateDetectFooter =
     "  sigs evaluate detect a.xml b.xml --results a.csv b.csv --min-score 0.3\n"
     "  sigs evaluate detect datasets/mine --split test --results runs/one runs/two --out report\n"
     "  sigs evaluate detect datasets/mine --split test --results coco_results.json\n"
+    "  sigs evaluate detect MOT17/train/MOT17-02 --results found.txt --classes 1\n"
     "  sigs evaluate detect groundtruth.json --rules aot --results result.json --target-hfar 0.5 --out report";
 
 struct DetectOptions {
@@ -35,6 +37,8 @@ struct DetectOptions {
   std::vector<fs::path> results;
   std::string split;
   ResultsFormat format = ResultsFormat::automatic;
+  TruthOptions truth;
+  std::string size;
   DetectionPolicy policy;
   std::string rules = "sigs";
   AotPolicy aot;
@@ -42,25 +46,73 @@ struct DetectOptions {
   bool force = false;
 };
 
+tl::unexpected<Error> interrupted() {
+  return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+}
+
+// The results of one detector on one clip.
+Result<Results> results_of(const ClipFiles& files, const fs::path& file, const FootageTruth& footage,
+                           ResultsFormat format) {
+  Result<Results> results = read_results(file, footage,
+                                         ResultsOptions{.format = format,
+                                                        .multiple_per_frame = true,
+                                                        .first_image_id = files.first_image_id,
+                                                        .last_image_id = files.last_image_id,
+                                                        .images = files.truth ? &files.truth->images : nullptr});
+  if (results) warn_of_other_clip(*results, file, files.results_name);
+  return results;
+}
+
+void warn_of_boxes_elsewhere(const Results& results, const fs::path& file) {
+  if (results.boxes_elsewhere > 0)
+    print_warning({file.string(),
+                   count_text(results.boxes_elsewhere, "box") + " of images that the truth does not have: left out"});
+}
+
+// Of detectors that have one file for all clips.
+Result<std::vector<std::vector<DetectedClip>>> shared_clips(const DetectInputs& inputs, ResultsFormat format) {
+  std::vector<const TruthClip*> truths;
+  for (const ClipFiles& files : inputs.clips) truths.push_back(&*files.truth);
+  std::vector<std::vector<DetectedClip>> clips;
+  for (const fs::path& file : inputs.clips.front().results) {
+    if (interrupt_flag().load()) return interrupted();
+    Result<std::vector<Results>> results = read_shared_results(file, truths, format);
+    if (!results) return fail(results.error());
+    warn_of_boxes_elsewhere(results->front(), file);
+    clips.emplace_back();
+    for (std::size_t i = 0; i < truths.size(); ++i)
+      clips.back().push_back(
+          {.name = inputs.clips[i].name, .truth = truths[i]->truth, .results = std::move((*results)[i])});
+  }
+  return clips;
+}
+
 // Everything that is read: truths once, then the results of each detector.
 Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs, ResultsFormat format) {
+  if (inputs.is_shared) return shared_clips(inputs, format);
   std::vector<std::vector<DetectedClip>> clips(inputs.detectors.size());
   for (const ClipFiles& files : inputs.clips) {
-    if (interrupt_flag().load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-    const Result<ClipTruth> truth = read_truth(files.labels);
+    if (interrupt_flag().load()) return interrupted();
+    const Result<ClipTruth> truth = files.truth ? Result<ClipTruth>(files.truth->truth) : read_truth(files.labels);
     if (!truth) return fail(truth.error());
     for (std::size_t i = 0; i < clips.size(); ++i) {
-      Result<Results> results = read_results(files.results[i], truth->footage,
-                                             ResultsOptions{.format = format,
-                                                            .multiple_per_frame = true,
-                                                            .first_image_id = files.first_image_id,
-                                                            .last_image_id = files.last_image_id});
+      Result<Results> results = results_of(files, files.results[i], truth->footage, format);
       if (!results) return fail(results.error());
-      warn_of_other_clip(*results, files.results[i], files.labels.stem().string());
+      warn_of_boxes_elsewhere(*results, files.results[i]);
       clips[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
     }
   }
   return clips;
+}
+
+// "1280x960"
+Result<cv::Size> size_of(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  const bool is_size = std::sscanf(text.c_str(), "%7dx%7d%c", &width, &height, &rest) == 2 && width > 0 && height > 0;
+  if (!is_size) return fail("--size", text + " is no size such as 1280x960", ErrorKind::usage);
+  return cv::Size(width, height);
 }
 
 Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
@@ -68,6 +120,7 @@ Result<DetectionReport> report_of(const DetectOptions& options, const DetectInpu
   if (!clips) return fail(clips.error());
   DetectionReport report{.policy = options.policy};
   for (const ClipFiles& files : inputs.clips) report.clips.push_back(files.name);
+  report.remarks = left_out_of(clips->front());
   for (std::size_t i = 0; i < clips->size(); ++i) {
     report.scores.push_back(score_detections(inputs.detectors[i], (*clips)[i], options.policy));
     report.slices.push_back(frame_slices((*clips)[i], options.policy));
@@ -81,6 +134,7 @@ void print(const DetectionReport& report) {
   for (const std::string& text : {intervals_text(report), slices_text(report)})
     if (!text.empty()) std::printf("\n%s", text.c_str());
   std::fflush(stdout);
+  for (const std::string& remark : report.remarks) print_warning({"", remark});
   for (const std::string& reason : uncounted_in(report)) print_warning({"", reason});
 }
 
@@ -104,7 +158,13 @@ Result<void> run(const DetectOptions& options) {
     return fail("--target-fppi, --target-hfar and --min-track-length", "need --rules aot", ErrorKind::usage);
   if (options.policy.false_overlap > options.policy.match_overlap)
     return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
-  const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split);
+  TruthOptions truth = options.truth;
+  if (!options.size.empty()) {
+    const Result<cv::Size> size_px = size_of(options.size);
+    if (!size_px) return fail(size_px.error());
+    truth.size_px = *size_px;
+  }
+  const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split, truth);
   if (!inputs) return fail(inputs.error());
   defer_interrupts();
   std::optional<EvaluationFolder> folder;
@@ -154,6 +214,21 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
   }
 }
 
+void add_truth_options(CLI::App& command, DetectOptions& options) {
+  command.add_option("--size", options.size, "size of the images of a yolo truth; else read from the images")
+      ->option_text("WxH");
+  command.add_option("--rate", options.truth.rate_hz, "frames a second of another program's truth; else as it says")
+      ->type_name("HZ")
+      ->check(from_to(1e-3, 1e6));
+  command
+      .add_option("--classes", options.truth.classes,
+                  "of another program's truth: only these classes count, boxes of others are ignored")
+      ->option_text("NAMES ...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_flag("--stills", options.truth.stills, "images of a coco or yolo truth are no video: gaps are allowed");
+}
+
 void add_aot_options(CLI::App& command, DetectOptions& options) {
   command
       .add_option("--rules", options.rules,
@@ -176,7 +251,10 @@ Command add_evaluate_detect(CLI::App& evaluate) {
   CLI::App* const command =
       evaluate.add_subcommand("detect", "measure detectors on clips: encounters detected, false alarms");
   const auto options = std::make_shared<DetectOptions>();
-  command->add_option("LABELS", options->inputs, "exported clips' NAME.xml, or the folder of a dataset")
+  command
+      ->add_option("LABELS", options->inputs,
+                   "exported clips' NAME.xml, the folder of a dataset, or another program's truth: a coco or aot "
+                   "file, a mot or yolo folder")
       ->required()
       ->check(not_empty());
   command
@@ -188,6 +266,7 @@ Command add_evaluate_detect(CLI::App& evaluate) {
       ->check(not_empty());
   command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
   add_format_option(*command, options->format);
+  add_truth_options(*command, *options);
   add_policy_options(*command, options->policy);
   add_aot_options(*command, *options);
   add_report_options(*command, options->folder, options->force);

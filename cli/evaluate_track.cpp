@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/detect_inputs.h"
+#include "cli/evaluate_track_set.h"
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
 #include "cli/tracked_clip.h"
@@ -19,7 +20,6 @@
 #include "project/json.h"
 #include "scene/opened_project.h"
 #include "scene/scene_files.h"
-#include "tracked_clip.h"
 
 namespace sigs::cli {
 
@@ -31,13 +31,16 @@ constexpr const char* kEvaluateTrackFooter =
     "Examples:\n"
     "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf,mosse --out report\n"
     "  sigs evaluate track out/crossing.xml --tracker all --min-side 8\n"
-    "  sigs evaluate track out/crossing.xml --results mine.txt --format otb --out report";
+    "  sigs evaluate track out/crossing.xml --results mine.txt --format otb --out report\n"
+    "  sigs evaluate track OTB100/Biker --tracker csrt\n"
+    "  sigs evaluate track datasets/mine --split test --tracker csrt,kcf --jobs 8 --out report";
 
 struct TrackOptions {
   TrackRequest request;
   std::string truth = "visible";
   std::string frames;
   int jobs = 0;
+  std::string split;
   fs::path folder;
   bool force = false;
 };
@@ -134,6 +137,9 @@ std::vector<fs::path> files_named_by(const ProjectOptions& options) {
 Result<void> run(const TrackOptions& options) {
   const Result<TrackRequest> request = request_of(options);
   if (!request) return fail(request.error());
+  if (is_track_set(request->input.file))
+    return evaluate_track_set(*request, options.split, options.folder, options.force);
+  if (!options.split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
   defer_interrupts();
   std::optional<EvaluationFolder> folder;
   if (!options.folder.empty()) {
@@ -178,10 +184,14 @@ void add_scoring_options(CLI::App& command, TrackOptions& options) {
 }  // namespace
 
 Command add_evaluate_track(CLI::App& evaluate) {
-  CLI::App* const command = evaluate.add_subcommand("track", "measure trackers on one clip: centre error, overlap");
+  CLI::App* const command =
+      evaluate.add_subcommand("track", "measure trackers on one clip or many: centre error, overlap");
   const auto options = std::make_shared<TrackOptions>();
   TrackRequest& request = options->request;
-  command->add_option("PROJECT_OR_LABELS", request.input.file, "a project, or an exported clip's NAME.xml")
+  command
+      ->add_option("PROJECT_OR_LABELS", request.input.file,
+                   "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
+                   "many clips: a dataset, or such sequences")
       ->required()
       ->check(not_empty());
   std::string known = "all";
@@ -191,10 +201,13 @@ Command add_evaluate_track(CLI::App& evaluate) {
       ->option_text("NAMES ...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--results", request.results, "what trackers have reported, a file for each; may be repeated")
-      ->option_text("FILES ...")
+  command
+      ->add_option("--results", request.results,
+                   "what trackers have reported, a file for each, of many clips a folder for each; may be repeated")
+      ->option_text("FILES|DIRS ...")
       ->check(not_empty());
   add_format_option(*command, request.format);
+  command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
   add_scoring_options(*command, *options);
   command->add_option("--video", request.video, "images of the labels; else those beside them")
       ->option_text("FILE")
@@ -202,7 +215,9 @@ Command add_evaluate_track(CLI::App& evaluate) {
   add_report_options(*command, options->folder, options->force);
   command->add_option("--frames", options->frames, "only these frames of a project's footage")->option_text("A-B");
   add_set_option(*command, request.input);
-  command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
+  command
+      ->add_option("--jobs", options->jobs,
+                   "frames composed, or clips followed, side by side; 0: one less than processor cores")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   add_progress_option(*command, request.progress);

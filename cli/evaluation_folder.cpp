@@ -33,6 +33,19 @@ bool is_result_file(const fs::path& path) {
          std::find(trackers.begin(), trackers.end(), path.stem().string()) != trackers.end();
 }
 
+// Named after a tracker that ran, with nothing but a file for each clip, as evaluate track writes it of many.
+bool is_results_folder(const fs::path& path) {
+  const std::span<const std::string_view> trackers = tracker_names();
+  std::error_code code;
+  if (fs::symlink_status(path, code).type() != fs::file_type::directory) return false;
+  if (std::find(trackers.begin(), trackers.end(), path.filename().string()) == trackers.end()) return false;
+  const Result<std::vector<fs::path>> files = folder_contents(path);
+  return files && std::all_of(files->begin(), files->end(), [](const fs::path& file) {
+           std::error_code quiet;
+           return file.extension() == ".csv" && fs::symlink_status(file, quiet).type() == fs::file_type::regular;
+         });
+}
+
 // The first entry of the folder that no evaluation writes; empty: there is none.
 Result<std::string> foreign_content_of(const fs::path& folder) {
   const Result<std::vector<fs::path>> paths = folder_contents(folder);
@@ -44,7 +57,7 @@ Result<std::string> foreign_content_of(const fs::path& folder) {
     const Result<std::vector<fs::path>> results = folder_contents(path);
     if (!results) return fail(results.error());
     for (const fs::path& result : *results)
-      if (!is_result_file(result)) return "results/" + result.filename().string();
+      if (!is_result_file(result) && !is_results_folder(result)) return "results/" + result.filename().string();
   }
   return std::string();
 }

@@ -8,129 +8,25 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
-#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/result.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "base/threads.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "evaluation/clip_truth.h"
 #include "evaluation/opencv_tracker.h"
+#include "evaluation/sequence_truth.h"
 #include "export/frame_stream.h"
-#include "labels/labels.h"
-#include "video/frame_source.h"
 
 namespace sigs::cli {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// The images that a label file belongs to: an exported video, or a folder of numbered images.
-class LabelledImages {
- public:
-  // Beside NAME.xml: NAME.mkv, .mp4, .avi or the folder NAME. Error cannot_read: there is none, or more than one.
-  [[nodiscard]] static Result<fs::path> beside(const fs::path& labels);
-
-  // Error bad_data where number or size of the images are not those of the labels.
-  [[nodiscard]] static Result<LabelledImages> open(const fs::path& path, const ClipTruth& clip);
-
-  // The image of a frame, by the footage's number; CV_8UC3, BGR.
-  [[nodiscard]] Result<cv::Mat> at(int frame);
-
- private:
-  LabelledImages(fs::path path, FootageTruth footage) : path_(std::move(path)), footage_(footage) {}
-
-  fs::path path_;
-  FootageTruth footage_;
-  std::optional<FrameSource> video_;  // none: path_ is a folder
-};
-
-Result<void> check_size(const fs::path& path, cv::Size size, const FootageTruth& footage) {
-  if (size == footage.size_px) return {};
-  return fail(path.string(),
-              fmt::format("is {}, the labels are of {}", image_size_text(size), image_size_text(footage.size_px)));
-}
-
-Result<void> check_count(const fs::path& path, int count, const ClipTruth& clip) {
-  if (count == clip.frames()) return {};
-  return fail(path.string(), fmt::format("has {} frames, the labels have {}", count, clip.frames()));
-}
-
-Result<int> image_count_in(const fs::path& folder) {
-  const Result<std::vector<fs::path>> paths = folder_contents(folder);
-  if (!paths) return fail(paths.error());
-  return static_cast<int>(std::count_if(paths->begin(), paths->end(), [](const fs::path& path) {
-    return path.filename().string().starts_with("frame_") && path.extension() == ".png";
-  }));
-}
-
-// Empty: it cannot be read.
-cv::Mat read_image(const fs::path& file) {
-  try {
-    return image_codecs::imread(file.string(), cv::IMREAD_COLOR);
-  } catch (const cv::Exception&) {
-    if (is_out_of_memory()) throw;
-    return {};
-  }
-}
-
-Result<fs::path> LabelledImages::beside(const fs::path& labels) {
-  std::vector<fs::path> found;
-  std::error_code code;
-  for (const char* const extension : {".mkv", ".mp4", ".avi", ""})
-    if (const fs::path path = fs::path(labels).replace_extension(extension); fs::exists(path, code))
-      found.push_back(path);
-  if (found.empty())
-    return fail(labels.string(),
-                fmt::format("has neither {}.mkv, .mp4, .avi nor a folder {} beside it; name its images with --video",
-                            labels.stem().string(), labels.stem().string()),
-                ErrorKind::cannot_read);
-  if (found.size() > 1)
-    return fail(labels.string(),
-                fmt::format("has both {} and {} beside it; choose with --video", found[0].filename().string(),
-                            found[1].filename().string()),
-                ErrorKind::cannot_read);
-  return found.front();
-}
-
-Result<LabelledImages> LabelledImages::open(const fs::path& path, const ClipTruth& clip) {
-  LabelledImages images(path, clip.footage);
-  if (is_folder(path)) {
-    const Result<int> count = image_count_in(path);
-    if (!count) return fail(count.error());
-    if (const Result<void> fits = check_count(path, *count, clip); !fits) return fail(fits.error());
-    if (const Result<cv::Mat> first = images.at(clip.footage.first_frame); !first) return fail(first.error());
-    return images;
-  }
-  Result<FrameSource> video = FrameSource::open(path, &interrupt_flag());
-  if (!video) return fail(video.error());
-  Result<void> fits = check_size(path, video->info().size_px, clip.footage);
-  if (fits) fits = check_count(path, video->info().frame_count(), clip);
-  if (!fits) return fail(fits.error());
-  images.video_ = std::move(*video);
-  return images;
-}
-
-Result<cv::Mat> LabelledImages::at(int frame) {
-  if (video_) {
-    const Result<Frame> image = video_->read(frame - footage_.first_frame);
-    if (!image) return fail(image.error());
-    return bgr_of(*image);
-  }
-  const fs::path file = path_ / image_name(frame);
-  if (const Result<void> there = check_input_file(file, "image"); !there) return fail(there.error());
-  const cv::Mat image = read_image(file);
-  if (image.empty()) return fail(file.string(), "cannot be read as an image");
-  if (const Result<void> fits = check_size(file, image.size(), footage_); !fits) return fail(fits.error());
-  return image;
-}
 
 // Which intruder is tracked. Names are those of the clip's, in their order.
 Result<int> target_of(const TrackRequest& request, const std::vector<std::string>& names) {
@@ -169,24 +65,29 @@ Result<void> check_interrupt() {
   return {};
 }
 
-Error never_trackable(const TrackRequest& request, const TrackedClip& clip) {
+Error never_trackable(const TrackRequest& request, const TrackedClip& clip, const fs::path& file) {
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
   std::string what = fmt::format("intruder {} is in no frame seen with sides of at least {} px", target.id,
                                  number_text(request.min_side_px, 3));
   if (request.policy.min_visible_fraction > 0)
     what += fmt::format(" and to {} %", number_text(100 * request.policy.min_visible_fraction, 3));
-  return {request.input.file.string(), what + ": there is nothing to follow"};
+  return {file.string(), what + ": there is nothing to follow"};
+}
+
+// A tracker of which nothing else is known must have started.
+Result<TrackedClip> checked_start(const TrackRequest& request, TrackedClip clip) {
+  if (clip.results.empty() && !request.trackers.empty() && request.results.empty())
+    return fail("--tracker", "none could be started: " + clip.remarks.front());
+  return clip;
 }
 
 Result<TrackedClip> finished(const TrackRequest& request, TrackedClip clip, const TrackerGroup& group) {
   const std::optional<TrackPolicy> policy = started(request, clip);
-  if (!policy) return fail(never_trackable(request, clip));
+  if (!policy) return fail(never_trackable(request, clip, request.input.file));
   clip.policy = *policy;
   clip.results = group.results();
   clip.remarks = group.remarks();
-  if (clip.results.empty() && !request.trackers.empty() && request.results.empty())
-    return fail("--tracker", "none could be started: " + clip.remarks.front());
-  return clip;
+  return checked_start(request, std::move(clip));
 }
 
 // Errors in results are reported before a long pass, except the frame in which the tracker was started: a layout with a
@@ -239,56 +140,107 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   return finished(request, std::move(tracked), group);
 }
 
-// The images that the trackers get, from the first on.
-Result<void> track_images(const TrackRequest& request, TrackedClip& clip, TrackerGroup& group, int first) {
-  Result<fs::path> path = request.video;
-  if (path->empty()) path = LabelledImages::beside(request.input.file);
-  if (!path) return fail(path.error());
-  Result<LabelledImages> images = LabelledImages::open(*path, clip.truth);
-  if (!images) return fail(images.error());
-  Progress progress(progress_style(request.progress));
-  const int last = clip.truth.footage.last_frame;
-  Result<void> step;
-  for (int frame = first; step && frame <= last; ++frame) {
-    step = check_interrupt();
-    const Result<cv::Mat> image = step ? images->at(frame) : Result<cv::Mat>(cv::Mat());
-    if (step && !image) step = fail(image.error());
-    if (step) track_frame(group, clip, frame, *image, request);
-    if (step) progress.update(frame - first + 1, last - first + 1);
-  }
-  progress.end();
-  return step;
-}
-
 Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup group) {
-  const std::string file = request.input.file.string();
-  if (!request.input.settings.empty()) return fail("--set", "goes with a project, not with labels", ErrorKind::usage);
-  if (request.frames) return fail("--frames", "goes with a project; labels have their own", ErrorKind::usage);
-  Result<ClipTruth> truth = read_truth(request.input.file);
-  if (!truth) return fail(truth.error());
-  TrackedClip clip{.name = request.input.file.stem().string(), .truth = std::move(*truth)};
+  Result<TrackInput> input = read_track_input(request, request.input.file);
+  if (!input) return fail(input.error());
   std::vector<std::string> names;
-  for (const TargetTruth& target : clip.truth.targets) names.push_back(target.name);
+  for (const TargetTruth& target : input->truth.targets) names.push_back(target.name);
   const Result<int> target = target_of(request, names);
   if (!target) return fail(target.error());
-  clip.target = *target;
-  const std::optional<TrackPolicy> policy = started(request, clip);
-  if (!policy) return fail(never_trackable(request, clip));
-  if (!request.trackers.empty())
-    if (const Result<void> shown = track_images(request, clip, group, policy->from_frame); !shown)
-      return fail(shown.error());
-  return finished(request, std::move(clip), group);
+  Progress progress(progress_style(request.progress));
+  Result<TrackedClip> clip = tracked_input(request, *input, *target, std::move(group), [&](int done, int total) {
+    progress.update(done, total);
+    return true;
+  });
+  progress.end();
+  if (!clip) return clip;
+  return checked_start(request, std::move(*clip));
 }
 
 }  // namespace
+
+Result<TrackInput> read_track_input(const TrackRequest& request, const fs::path& path) {
+  if (!request.input.settings.empty()) return fail("--set", "goes with a project, not with labels", ErrorKind::usage);
+  if (request.frames) return fail("--frames", "goes with a project; labels have their own", ErrorKind::usage);
+  if (!is_sequence_folder(path)) {
+    Result<ClipTruth> truth = read_truth(path);
+    if (!truth) return fail(truth.error());
+    return TrackInput{.name = path.stem().string(), .labels = path, .truth = std::move(*truth)};
+  }
+  if (request.policy.truth == TruthBox::amodal)
+    return fail("--truth silhouette", "the truth of " + path.string() + " has one box, of what can be seen",
+                ErrorKind::usage);
+  Result<SequenceTruth> sequence = read_sequence_truth(path);
+  if (!sequence) return fail(sequence.error());
+  return TrackInput{.name = sequence->name,
+                    .labels = path,
+                    .truth = std::move(sequence->truth),
+                    .images = sequence->images,
+                    .image_names = ImageNames::in_order};
+}
+
+std::optional<TrackPolicy> started_policy(const TrackRequest& request, const TrackInput& input, int target) {
+  return policy_from_start(input.truth, input.truth.targets[static_cast<std::size_t>(target)], request.policy,
+                           request.min_side_px);
+}
+
+namespace {
+
+Result<LabelledImages> images_of(const TrackRequest& request, const TrackInput& input) {
+  Result<fs::path> path = request.video.empty() ? input.images : request.video;
+  if (path->empty() && is_folder(input.labels))
+    return fail(input.labels.string(),
+                "has neither images (img/, color/ or its own) nor a video; name them with --video",
+                ErrorKind::cannot_read);
+  if (path->empty()) path = LabelledImages::beside(input.labels);
+  if (!path) return fail(path.error());
+  return LabelledImages::open(*path, input.truth, input.image_names);
+}
+
+// The images that the trackers get, from the first on.
+Result<void> track_images(const TrackRequest& request, const TrackInput& input, TrackedClip& clip, TrackerGroup& group,
+                          const FrameCounter& on_frame) {
+  Result<LabelledImages> images = images_of(request, input);
+  if (!images) return fail(images.error());
+  const int first = clip.policy.from_frame;
+  const int last = clip.truth.footage.last_frame;
+  for (int frame = first; frame <= last; ++frame) {
+    if (const Result<void> on = check_interrupt(); !on) return on;
+    const Result<cv::Mat> image = images->at(frame);
+    if (!image) return fail(image.error());
+    if (clip.truth.footage.size_px.empty()) clip.truth.footage.size_px = image->size();
+    track_frame(group, clip, frame, *image, request);
+    if (!on_frame(frame - first + 1, last - first + 1)) return fail("", "stopped", ErrorKind::interrupted);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<TrackedClip> tracked_input(const TrackRequest& request, const TrackInput& input, int target, TrackerGroup group,
+                                  const FrameCounter& on_frame) {
+  TrackedClip clip{.name = input.name, .truth = input.truth, .target = target};
+  const std::optional<TrackPolicy> policy = started_policy(request, input, target);
+  if (!policy) return fail(never_trackable(request, clip, input.labels));
+  clip.policy = *policy;
+  if (!request.trackers.empty())
+    if (const Result<void> shown = track_images(request, input, clip, group, on_frame); !shown)
+      return fail(shown.error());
+  clip.results = group.results();
+  clip.remarks = group.remarks();
+  return clip;
+}
 
 Result<TrackedClip> tracked_clip(const TrackRequest& request) {
   Result<TrackerGroup> group = TrackerGroup::make(request.trackers);
   if (!group) return fail("--tracker " + group.error().where, group.error().what, group.error().kind);
   const std::string extension = lower_extension(request.input.file);
-  if (extension == ".xml") return tracked_labels(request, std::move(*group));
+  if (extension == ".xml" || is_sequence_folder(request.input.file)) return tracked_labels(request, std::move(*group));
   if (extension != ".json")
-    return fail(request.input.file.string(), "is neither a project (.json) nor labels (.xml)", ErrorKind::usage);
+    return fail(
+        request.input.file.string(),
+        "is neither a project (.json) nor labels (.xml), nor a folder of a dataset or of an otb or vot sequence",
+        ErrorKind::usage);
   if (!request.video.empty()) return fail("--video", "goes with labels; a project makes its images", ErrorKind::usage);
   return tracked_project(request, std::move(*group));
 }

@@ -106,6 +106,17 @@ double overlap_with(const std::optional<Box>& truth, const Box& reported, const 
   return truth ? extended_overlap(*truth, reported, policy.min_area_px2) : 0;
 }
 
+// At least half of the report lies in a box that is ignored (COCO counts its crowd regions so), or it is near one.
+bool is_near_ignored(const ClipTruth& truth, std::size_t frame, const Box& reported, const DetectionPolicy& policy) {
+  if (truth.ignored.empty()) return false;
+  return std::ranges::any_of(truth.ignored[frame], [&](const Box& box) {
+    const double width = std::min(box.x + box.width, reported.x + reported.width) - std::max(box.x, reported.x);
+    const double height = std::min(box.y + box.height, reported.y + reported.height) - std::max(box.y, reported.y);
+    const double share = width > 0 && height > 0 ? width * height / (reported.width * reported.height) : 0;
+    return share >= 0.5 || !exceeds(policy.false_overlap, extended_overlap(box, reported, policy.min_area_px2));
+  });
+}
+
 // Compares one report with all targets and adds its matches. Returns false for a false alarm, near none of them.
 bool matches_or_is_near(const ClipTruth& truth, std::size_t frame, const ReportedBox& reported,
                         const DetectionPolicy& policy, ClipMatches& matches) {
@@ -116,7 +127,7 @@ bool matches_or_is_near(const ClipTruth& truth, std::size_t frame, const Reporte
     nearest = std::max({nearest, visible, overlap_with(target.amodal_box, reported.box, policy)});
     if (target.visible && !exceeds(policy.match_overlap, visible)) matches.tracks[i][frame].insert(reported.track);
   }
-  return !exceeds(policy.false_overlap, nearest);
+  return !exceeds(policy.false_overlap, nearest) || is_near_ignored(truth, frame, reported.box, policy);
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ struct ClipMatches {
 };
 
 // Matches the reports of a clip with its truth. A report can match several targets, and a target several reports. A
-// report at a hidden intruder (one with an amodal box and no visible box) is no false alarm.
+// report at a hidden intruder (one with an amodal box and no visible box) is no false alarm, nor is one near a box that
+// is ignored (ClipTruth::ignored), or at least half of which lies in it.
 [[nodiscard]] ClipMatches matches_of(const DetectedClip& clip, const DetectionPolicy& policy);
 
 }  // namespace sigs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +34,17 @@ struct AotObject {
   double above_horizon = 0;  // 1 above, -1 below, 0 across or not stated
 };
 
+// A flight, and what the file's metadata state of it; 0: nothing. The challenge's own rules use none of that.
+struct AotFlight {
+  std::string name;
+  double rate_hz = 0;
+  int frames = 0;
+  cv::Size size_px;
+};
+
 struct AotTruth {
-  std::vector<std::string> flights;  // rising
-  std::vector<AotObject> objects;    // by flight and frame
+  std::vector<AotFlight> flights;  // by rising name
+  std::vector<AotObject> objects;  // by flight and frame
 };
 
 // groundtruth.json: {"samples": {FLIGHT: {"entities": [{"img_name", "blob": {"frame", "range_distance_m"}, "id", "bb",

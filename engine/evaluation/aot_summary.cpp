@@ -86,7 +86,7 @@ std::string aot_encounters_csv(const AotTruth& truth, const AotScore& score,
     const auto frame = [&](int object) { return truth.objects[static_cast<std::size_t>(object)].frame; };
     const AotEncounterScore& s = scores[i];
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", encounter.number,
-                        csv_field(truth.flights[static_cast<std::size_t>(encounter.flight)]),
+                        csv_field(truth.flights[static_cast<std::size_t>(encounter.flight)].name),
                         frame(encounter.objects.front()), frame(encounter.objects.back()), encounter.objects.size(),
                         encounter.objects.size(), s.matched_rows, exact_text(encounter.above_horizon),
                         exact_text(s.largest_share), exact_text(s.range_m),

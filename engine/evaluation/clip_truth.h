@@ -21,7 +21,7 @@ struct TargetFrame {
   std::optional<Box> amodal_box;  // around the whole of it, hidden or not; nullopt: no part of it has an image
   double visible_fraction = 0;    // of the whole, 0 to 1
   int visible_pixels = 0;         // number of them; 0 also where a file does not give it
-  double distance_m = 0;
+  double distance_m = 0;          // from the camera; NaN: not known
   HorizonSide horizon = HorizonSide::unknown;
   std::optional<double> rms_contrast = {};  // of its visible pixels against the footage; none: not known
 };
@@ -38,6 +38,11 @@ struct ClipTruth {
   FootageTruth footage;
   std::vector<double> times_s;       // of each frame
   std::vector<TargetTruth> targets;  // by id
+  // Of truths that other programs have written (truth_files.h):
+  std::vector<std::vector<Box>> ignored =
+      {};                 // of each frame, boxes that no report has to match; empty: there are none
+  bool has_ids = true;    // a target is one object throughout; else its boxes are of any objects
+  bool has_times = true;  // times_s are known; else they are frames at an invented rate
 
   [[nodiscard]] int frames() const { return static_cast<int>(times_s.size()); }
 };

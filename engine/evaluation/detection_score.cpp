@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/detection_score.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/ensure.h"
@@ -111,12 +114,15 @@ void add_clip(DetectionScore& sum, Pairs& pairs, const DetectedClip& clip, const
   ENSURE(rate_hz > 0);
   const ClipMatches matches = matches_of(clip, policy);
   sum.frames += clip.truth.frames();
-  sum.hours += clip.truth.frames() / rate_hz / 3600;
+  sum.hours += clip.truth.has_times ? clip.truth.frames() / rate_hz / 3600 : std::numeric_limits<double>::quiet_NaN();
   sum.false_alarm_boxes += matches.false_boxes;
   sum.false_alarm_tracks += static_cast<int>(matches.false_tracks.size()) + matches.untracked_false_boxes;
   for (std::size_t i = 0; i < clip.truth.targets.size(); ++i) {
     const MatchedTarget matched_target{clip, clip.truth.targets[i], matches.tracks[i], rate_hz};
-    for (const EncounterSpan& encounter : encounters_of(matched_target.target, rate_hz, policy)) {
+    const bool has_encounters = clip.truth.has_ids && clip.truth.has_times;
+    const std::vector<EncounterSpan> encounters =
+        has_encounters ? encounters_of(matched_target.target, rate_hz, policy) : std::vector<EncounterSpan>();
+    for (const EncounterSpan& encounter : encounters) {
       if (is_long_enough(encounter, rate_hz, policy))
         add_encounter(sum, score_of(matched_target, encounter, policy), policy);
       else
@@ -140,6 +146,44 @@ double mean_first_range_m(const std::vector<EncounterScore>& encounters) {
 }
 
 }  // namespace
+
+std::vector<std::string> left_out_of(const std::vector<DetectedClip>& clips) {
+  int objects = 0;
+  int without_range = 0;
+  int without_ids = 0;
+  int without_times = 0;
+  for (const DetectedClip& clip : clips) {
+    without_ids += !clip.truth.has_ids;
+    without_times += !clip.truth.has_times;
+    for (const TargetTruth& target : clip.truth.targets) {
+      const auto is_seen = [](const TargetFrame& frame) { return frame.visible.has_value(); };
+      objects += std::ranges::any_of(target.frames, is_seen);
+      without_range +=
+          std::ranges::any_of(target.frames, is_seen) && std::ranges::none_of(target.frames, [&](const TargetFrame& f) {
+            return is_seen(f) && std::isfinite(f.distance_m);
+          });
+    }
+  }
+  const auto of_clips = [&](int count) {
+    return count == static_cast<int>(clips.size()) ? std::string("the truth")
+                                                   : fmt::format("the truth of {} of {} clips", count, clips.size());
+  };
+  std::vector<std::string> sentences;
+  if (without_range > 0 && without_range == objects)
+    sentences.emplace_back("the truth has no ranges: EDR, AFDR and the range of first detection are left out");
+  else if (without_range > 0)
+    sentences.push_back(fmt::format(
+        "the range of {} of {} objects is not known: EDR, AFDR and the range of first detection are of the others",
+        without_range, objects));
+  if (without_ids > 0)
+    sentences.push_back(
+        of_clips(without_ids) +
+        " does not say which boxes are of one object: EDR and the range of first detection leave it out");
+  if (without_times > 0)
+    sentences.push_back(of_clips(without_times) +
+                        " has no frame rate: EDR leaves it out, and HFAR is left out; --rate states one");
+  return sentences;
+}
 
 double DetectionRate::rate() const {
   return ratio(detected, encounters);

@@ -72,7 +72,7 @@ struct DetectionScore {
   int encounters_too_short = 0;  // shorter than min_encounter_s, at any range: not counted, not listed
   int encounters_too_far = 0;    // of the others, those that never come within max_closest_range_m: not counted either
   int frames = 0;
-  double hours = 0;
+  double hours = 0;                  // NaN where the truth of a clip has no times
   int false_alarm_tracks = 0;        // tracks with at least one false alarm; a box without a track counts as one
   double false_alarms_per_hour = 0;  // HFAR: false_alarm_tracks / hours; NaN for no hours
   int false_alarm_boxes = 0;
@@ -84,5 +84,9 @@ struct DetectionScore {
 // Scores the results of one detector. Track numbers are per clip: two clips may both have a track 7.
 [[nodiscard]] DetectionScore score_detections(const std::string& name, const std::vector<DetectedClip>& clips,
                                               const DetectionPolicy& policy);
+
+// Which figures leave out what since the truth does not say it (ranges, identities, rates), a sentence each; empty: the
+// truth of SIGS says it all. Objects of unknown range are in no encounter, and a report at one is no false alarm.
+[[nodiscard]] std::vector<std::string> left_out_of(const std::vector<DetectedClip>& clips);
 
 }  // namespace sigs

@@ -57,12 +57,6 @@ double share_of(const std::vector<GroupShare>& groups, std::span<const std::size
   return sum.whole > 0 ? sum.part / sum.whole : std::nan("");
 }
 
-struct SliceRule {
-  const char* by;
-  const char* name;
-  std::function<bool(const TargetFrame&)> has;
-};
-
 SliceRule between(const char* by, const char* name, double low, double high,
                   const std::function<double(const TargetFrame&)>& quantity) {
   return {by, name, [=](const TargetFrame& frame) {
@@ -70,6 +64,8 @@ SliceRule between(const char* by, const char* name, double low, double high,
             return value >= low && value < high;
           }};
 }
+
+}  // namespace
 
 std::vector<SliceRule> slice_rules() {
   constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -80,7 +76,8 @@ std::vector<SliceRule> slice_rules() {
   const auto lies = [](const char* name, HorizonSide side) {
     return SliceRule{"horizon", name, [side](const TargetFrame& frame) { return frame.horizon == side; }};
   };
-  return {between("range", "below 100 m", 0, 100, range_m),
+  return {SliceRule{"all", "any", [](const TargetFrame&) { return true; }},
+          between("range", "below 100 m", 0, 100, range_m),
           between("range", "100 to 300 m", 100, 300, range_m),
           between("range", "300 to 700 m", 300, 700, range_m),
           between("range", "700 to 1500 m", 700, 1500, range_m),
@@ -101,8 +98,6 @@ std::vector<SliceRule> slice_rules() {
           between("visible", "half to 0.95", 0.5, 0.95, visible),
           between("visible", "from 0.95", 0.95, kAny, visible)};
 }
-
-}  // namespace
 
 Interval share_interval(const std::vector<GroupShare>& groups) {
   return interval_of(groups.size(), [&](std::span<const std::size_t> drawn) { return share_of(groups, drawn); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,20 @@ struct GroupShare {
 
 // Frames in which some of an intruder is visible, at any range, that have something in common.
 struct FrameSlice {
-  std::string by;    // "range", "size", "contrast", "horizon", "visible"
+  std::string by;    // "all", "range", "size", "contrast", "horizon", "visible"
   std::string name;  // "100 to 300 m"
   int frames = 0;    // (frame, intruder) pairs
   int matched = 0;
   Interval rate;  // of matched / frames, by drawing flights: one intruder of one clip
 };
+
+// What makes a frame, in which some of the intruder is visible, part of a slice.
+struct SliceRule {
+  std::string by;
+  std::string name;
+  std::function<bool(const TargetFrame&)> has;
+};
+[[nodiscard]] std::vector<SliceRule> slice_rules();
 
 // All slices, those without frames too, in the same order for each detector. Contrast is the RMS contrast of the
 // labels; frames whose labels do not have it are in none of its slices.

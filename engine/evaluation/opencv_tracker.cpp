@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <mutex>
 #include <opencv2/tracking.hpp>
 #include <opencv2/tracking/tracking_legacy.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -82,11 +83,22 @@ std::string known_names() {
   return names;
 }
 
-// OpenCV's trackers use the thread's random generator, the boosting ones the C library's too. Both are seeded for each
-// image, so that no tracker depends on the others.
-void seed(int frame) {
+// Of the trackers these draw from the C library's generator, which all threads share.
+bool uses_c_generator(std::string_view name) {
+  return name == "mil" || name == "tld" || name == "boosting";
+}
+
+// One call of such a tracker at a time, from the seed to its end, so that its numbers do not depend on other clips.
+std::mutex& c_generator_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// OpenCV's trackers use the thread's random generator, some the C library's too. Both are seeded for each image, so
+// that no tracker depends on the others.
+void seed(std::string_view name, int frame) {
   cv::theRNG().state = 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
-  std::srand(static_cast<unsigned>(frame) + 1U);
+  if (uses_c_generator(name)) std::srand(static_cast<unsigned>(frame) + 1U);
 }
 
 // The box in whole pixels: edges rounded to the nearest border between pixels, at least one pixel wide and high.
@@ -147,8 +159,10 @@ struct OpenCvTracker::Impl {
   // Calls OpenCV; no exception of its own gets out.
   Result<void> guarded(int frame, const char* what, const std::function<Result<void>()>& call) const {
     const std::string where = results.name + ": " + frame_text(frame);
+    std::unique_lock<std::mutex> lock(c_generator_mutex(), std::defer_lock);
+    if (uses_c_generator(results.name)) lock.lock();
     try {
-      seed(frame);
+      seed(results.name, frame);
       return call();
     } catch (const std::exception& thrown) {
       return fail(where, fmt::format("OpenCV cannot {} it: {}", what, one_line(thrown)));

@@ -21,7 +21,8 @@ namespace sigs {
 [[nodiscard]] std::span<const std::string_view> tracker_names();
 
 // One of OpenCV's trackers on one clip: it is started once and then given each image in order. The same images and box
-// give the same results: random numbers depend on the frame number alone, not on other trackers run in turn.
+// give the same results: random numbers depend on the frame number alone, not on other trackers run in turn or on other
+// threads.
 class OpenCvTracker {
  public:
   // name: one of tracker_names(). Error usage: there is no tracker of this name.

@@ -19,15 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kFiles{"slices.csv",
-                                                 "summary.csv",
-                                                 "frames.csv",
-                                                 "encounters.csv",
-                                                 "evaluation.json",
-                                                 "report.html",
-                                                 "summary.json",
-                                                 "encounters_by_detection.csv",
-                                                 "encounters_by_track.csv"};
+constexpr std::array<std::string_view, 10> kFiles{"slices.csv",
+                                                  "clips.csv",
+                                                  "summary.csv",
+                                                  "frames.csv",
+                                                  "encounters.csv",
+                                                  "evaluation.json",
+                                                  "report.html",
+                                                  "summary.json",
+                                                  "encounters_by_detection.csv",
+                                                  "encounters_by_track.csv"};
 constexpr std::array<std::string_view, 8> kPlotNames{"center_error", "x_error",       "y_error",
                                                      "precision",    "success",       "normalized_precision",
                                                      "first_range",  "detection_rate"};
@@ -105,6 +106,10 @@ Result<WrittenReport> write_report(const fs::path& folder, const DetectionReport
   return write_all(folder, report, details);
 }
 
+Result<WrittenReport> write_report(const fs::path& folder, const TrackSetReport& report) {
+  return write_all(folder, report, {{"clips.csv", clips_csv(report)}, {"slices.csv", slices_csv(report)}});
+}
+
 Result<WrittenReport> write_report(const fs::path& folder, const AotTruth& truth, const AotScore& score) {
   ReportFolder out(folder);
   Result<void> step = out.put("summary.json", aot_summary_json(score));
@@ -144,7 +149,7 @@ std::vector<std::string> uncounted_in(const DetectionReport& report) {
   if (score.encounters_too_far > 0)
     reasons.push_back(fmt::format("{}the intruder comes no nearer than {} m (--max-closest-range)",
                                   not_counted(score.encounters_too_far), exact_text(policy.max_closest_range_m)));
-  if (score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
+  if (report.remarks.empty() && score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
     reasons.push_back(fmt::format("there is no encounter: no intruder is seen within {} m (--max-range)",
                                   exact_text(policy.max_range_m)));
   return reasons;

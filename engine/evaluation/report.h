@@ -10,6 +10,7 @@
 #include "evaluation/detection_score.h"
 #include "evaluation/detection_slices.h"
 #include "evaluation/track_score.h"
+#include "evaluation/track_set.h"
 
 namespace sigs {
 
@@ -31,15 +32,18 @@ struct DetectionReport {
   DetectionPolicy policy;
   std::vector<DetectionScore> scores;
   std::vector<std::vector<FrameSlice>> slices;  // of each detector; empty: not asked for
+  std::vector<std::string> remarks = {};        // what the truth does not say (left_out_of)
 };
 
 // A table for a terminal: one row for each tracker or detector.
 [[nodiscard]] std::string table_text(const TrackReport& report);
 [[nodiscard]] std::string table_text(const DetectionReport& report);
+[[nodiscard]] std::string table_text(const TrackSetReport& report);
 
 // What the figures count and what they leave out, as sentences; docs/evaluation.md gives the reasons.
 [[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);
+[[nodiscard]] std::vector<std::string> policies_of(const TrackSetReport& report);
 
 // Frames matched by range, size, contrast, horizon and visible share, a row for each slice that has frames and a column
 // for each detector.
@@ -48,6 +52,10 @@ struct DetectionReport {
 // How sure the encounter detection rates are: a line for each detector, then one for each detector against the first.
 // Detectors must have been scored on the same clips.
 [[nodiscard]] std::string intervals_text(const DetectionReport& report);
+
+// The same of trackers on many clips: the mean overlap in frames of each slice; success AUC by drawing clips.
+[[nodiscard]] std::string slices_text(const TrackSetReport& report);
+[[nodiscard]] std::string intervals_text(const TrackSetReport& report);
 
 // Why encounters are not counted, a sentence for each reason; empty: all are.
 [[nodiscard]] std::vector<std::string> uncounted_in(const DetectionReport& report);
@@ -67,6 +75,10 @@ struct WrittenReport {
 // The same with summary.csv, encounters.csv, slices.csv, evaluation.json, the plots detection_rate and first_range, and
 // report.html.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const DetectionReport& report);
+
+// Of trackers on many clips: summary.csv, clips.csv, slices.csv, evaluation.json, the plots precision, success and
+// normalized_precision, and report.html.
+[[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const TrackSetReport& report);
 
 // By the rules of the Airborne Object Tracking challenge: summary.json, encounters_by_detection.csv and
 // encounters_by_track.csv, as its own program writes them.

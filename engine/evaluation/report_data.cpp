@@ -41,18 +41,25 @@ std::string flag(bool is_so) {
 
 }  // namespace
 
+std::string track_figure_names() {
+  return "scored_frames,reported_frames,lost_frames,reported_absent_frames,mean_center_error_px,"
+         "median_center_error_px,p95_center_error_px,mean_x_error_px,mean_y_error_px,precision_at_20_px,success_auc,"
+         "normalized_precision_auc,mean_overlap,measured_frames_per_s";
+}
+
+std::string track_figures_csv(const TrackScore& score) {
+  return cells({std::to_string(score.scored), std::to_string(score.reported), std::to_string(score.lost),
+                std::to_string(score.reported_absent), exact_text(score.mean_center_error_px),
+                exact_text(score.median_center_error_px), exact_text(score.p95_center_error_px),
+                exact_text(score.mean_dx_px), exact_text(score.mean_dy_px), exact_text(score.precision_at_20),
+                exact_text(score.success_auc), exact_text(score.normalized_precision_auc),
+                exact_text(score.mean_overlap), exact_text(score.frames_per_s)});
+}
+
 std::string summary_csv(const TrackReport& report) {
-  std::string text =
-      "tracker,scored_frames,reported_frames,lost_frames,reported_absent_frames,mean_center_error_px,"
-      "median_center_error_px,p95_center_error_px,mean_x_error_px,mean_y_error_px,precision_at_20_px,success_auc,"
-      "normalized_precision_auc,mean_overlap,measured_frames_per_s\n";
+  std::string text = "tracker," + track_figure_names() + "\n";
   for (const TrackScore& score : report.scores)
-    text += row(
-        {line_text(score.name), std::to_string(score.scored), std::to_string(score.reported),
-         std::to_string(score.lost), std::to_string(score.reported_absent), exact_text(score.mean_center_error_px),
-         exact_text(score.median_center_error_px), exact_text(score.p95_center_error_px), exact_text(score.mean_dx_px),
-         exact_text(score.mean_dy_px), exact_text(score.precision_at_20), exact_text(score.success_auc),
-         exact_text(score.normalized_precision_auc), exact_text(score.mean_overlap), exact_text(score.frames_per_s)});
+    text += csv_field(line_text(score.name)) + "," + track_figures_csv(score) + "\n";
   return text;
 }
 
@@ -139,7 +146,9 @@ Json curve(std::span<const double> shares, double last_threshold) {
   return {{"thresholds", thresholds}, {"shares", std::vector<double>(shares.begin(), shares.end())}};
 }
 
-Json json_of(const TrackScore& score) {
+}  // namespace
+
+nlohmann::ordered_json track_json(const TrackScore& score) {
   return {{"name", line_text(score.name)},
           {"scored_frames", score.scored},
           {"reported_frames", score.reported},
@@ -158,6 +167,12 @@ Json json_of(const TrackScore& score) {
           {"precision", curve(score.precision, 50)},
           {"success", curve(score.success, 1)},
           {"normalized_precision", curve(score.normalized_precision, 0.5)}};
+}
+
+namespace {
+
+Json json_of(const TrackScore& score) {
+  return track_json(score);
 }
 
 Json json_of(const FootageTruth& footage) {
@@ -275,7 +290,8 @@ std::string evaluation_json(const DetectionReport& report) {
             {"kind", "detect"},
             {"films", json_lines(report.clips)},
             {"policy", json_of(report.policy, report)},
-            {"detectors", scores_of(report.scores)}};
+            {"detectors", scores_of(report.scores)},
+            {"remarks", json_lines(report.remarks)}};
   for (std::size_t i = 0; i < report.slices.size(); ++i) json["detectors"][i]["frames_by"] = json_of(report.slices[i]);
   return json.dump(1) + "\n";
 }

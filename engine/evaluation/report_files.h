@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,18 @@ namespace sigs {
 [[nodiscard]] std::string evaluation_json(const DetectionReport& report);
 [[nodiscard]] std::string slices_csv(const DetectionReport& report);
 
+[[nodiscard]] std::string summary_csv(const TrackSetReport& report);  // a row for each tracker
+[[nodiscard]] std::string clips_csv(const TrackSetReport& report);    // a row for each clip and tracker
+[[nodiscard]] std::string slices_csv(const TrackSetReport& report);
+[[nodiscard]] std::string evaluation_json(const TrackSetReport& report);
+
+// Fields of a row of summary.csv and clips.csv: the figures of one tracker, and their names.
+[[nodiscard]] std::string track_figures_csv(const TrackScore& score);
+[[nodiscard]] std::string track_figure_names();
+
+// The figures and curves of one tracker in evaluation.json.
+[[nodiscard]] nlohmann::ordered_json track_json(const TrackScore& score);
+
 // A plot as the content of an SVG file.
 struct ReportPlot {
   std::string name;   // of its files, without extension
@@ -31,10 +44,12 @@ struct ReportPlot {
 // A page that refers to no other file.
 [[nodiscard]] std::string report_html(const TrackReport& report, const std::vector<ReportPlot>& images);
 [[nodiscard]] std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images);
+[[nodiscard]] std::string report_html(const TrackSetReport& report, const std::vector<ReportPlot>& images);
 
 // What is drawn: errors over frames and curves of a tracker, rates and ranges of a detector.
 [[nodiscard]] std::vector<Plot> plots_of(const TrackReport& report);
 [[nodiscard]] std::vector<Plot> plots_of(const DetectionReport& report);
+[[nodiscard]] std::vector<Plot> plots_of(const TrackSetReport& report);
 
 // A column of a report's table; the cells of all columns are in the same order.
 struct TableColumn {
@@ -48,6 +63,14 @@ struct TableColumn {
 // The table of a report, a row for each tracker or detector. The first column has the names.
 [[nodiscard]] std::vector<TableColumn> table_of(const TrackReport& report);
 [[nodiscard]] std::vector<TableColumn> table_of(const DetectionReport& report);
+[[nodiscard]] std::vector<TableColumn> table_of(const TrackSetReport& report);
+
+// A row for each slice that has frames, a column for each tracker.
+[[nodiscard]] std::vector<TableColumn> slices_of(const TrackSetReport& report);
+
+// Lines that say how sure a share of groups is: one for each name, then one for each name against the first.
+[[nodiscard]] std::string interval_lines(const std::string& title, const std::vector<std::string>& names,
+                                         const std::vector<std::vector<GroupShare>>& shares);
 
 // A row for each detector and encounter.
 [[nodiscard]] std::vector<TableColumn> encounters_of(const DetectionReport& report);

@@ -96,9 +96,11 @@ std::string page(const std::string& title, const std::string& body) {
 
 std::string clip_text(const TrackReport& report) {
   const FootageTruth& footage = report.footage;
-  return fmt::format("{}, {} pixels, frames {} to {}, {} frames/s. Followed: {}, from frame {}.", footage.video,
+  const bool has_rate = footage.frame_rate_num > 0;
+  return fmt::format("{}, {} pixels, frames {} to {}{}. Followed: {}, from frame {}.", footage.video,
                      image_size_text(footage.size_px, " x "), footage.first_frame, footage.last_frame,
-                     fixed_text(rate_hz(footage), 2), report.target, report.policy.from_frame);
+                     has_rate ? fmt::format(", {} frames/s", fixed_text(rate_hz(footage), 2)) : "", report.target,
+                     report.policy.from_frame);
 }
 
 }  // namespace
@@ -119,12 +121,25 @@ std::string report_html(const TrackReport& report, const std::vector<ReportPlot>
 std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
   const std::string clips = count_text(std::ssize(report.clips), "film");
   std::string body = table_html(table_of(report));
+  for (const std::string& remark : report.remarks) body += element("p", remark + ".") + "\n";
   for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())
     body += element("h2", "Encounters") + "\n" + table_html(encounters);
   return page("Detectors on " + clips, body + plots_html(images) + element("h2", "What is counted") + "\n" +
                                            list_of(policies_of(report)) + element("h2", "Films") + "\n" +
                                            list_of(report.clips));
+}
+
+std::string report_html(const TrackSetReport& report, const std::vector<ReportPlot>& images) {
+  const std::string clips = count_text(std::ssize(report.clips), "clip");
+  std::vector<std::string> names;
+  for (const TrackSetClip& clip : report.clips) names.push_back(clip.name + ": " + clip.target);
+  std::string body = table_html(table_of(report)) + "<pre>" + escaped_text(intervals_text(report)) + "</pre>\n" +
+                     element("h2", "By what the intruder looks like") + "\n" + table_html(slices_of(report));
+  if (!report.remarks.empty()) body += element("h2", "Remarks") + "\n" + list_of(report.remarks);
+  return page("Trackers on " + clips, body + plots_html(images) + element("h2", "What is counted") + "\n" +
+                                          list_of(policies_of(report)) + element("h2", "Clips") + "\n" +
+                                          list_of(names));
 }
 
 }  // namespace sigs

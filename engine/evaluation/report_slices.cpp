@@ -59,22 +59,30 @@ std::string slices_csv(const DetectionReport& report) {
   return text;
 }
 
-std::string intervals_text(const DetectionReport& report) {
-  if (report.scores.empty() || report.scores.front().encounters.empty()) return "";
-  std::string text = "EDR, 95 % when encounters are drawn anew\n";
-  std::vector<std::vector<GroupShare>> shares;
-  for (const DetectionScore& score : report.scores) {
-    shares.push_back(encounter_shares(score));
-    text += fmt::format("  {}: {}\n", line_text(score.name), interval_text(share_interval(shares.back())));
-  }
-  for (std::size_t i = 1; i < shares.size(); ++i) {
+std::string interval_lines(const std::string& title, const std::vector<std::string>& names,
+                           const std::vector<std::vector<GroupShare>>& shares) {
+  std::string text = title + "\n";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("  {}: {}\n", line_text(names[i]), interval_text(share_interval(shares[i])));
+  for (std::size_t i = 1; i < names.size(); ++i) {
     const Interval interval = difference_interval(shares[i], shares.front());
     const bool is_apart = interval.low > 0 || interval.high < 0;
     text +=
-        fmt::format("  {} less {}: {}, {}\n", line_text(report.scores[i].name), line_text(report.scores.front().name),
-                    interval_text(interval), is_apart ? "they can be distinguished" : "they cannot be distinguished");
+        fmt::format("  {} less {}: {}, {}\n", line_text(names[i]), line_text(names.front()), interval_text(interval),
+                    is_apart ? "they can be distinguished" : "they cannot be distinguished");
   }
   return text;
+}
+
+std::string intervals_text(const DetectionReport& report) {
+  if (report.scores.empty() || report.scores.front().encounters.empty()) return "";
+  std::vector<std::vector<GroupShare>> shares;
+  std::vector<std::string> names;
+  for (const DetectionScore& score : report.scores) {
+    names.push_back(score.name);
+    shares.push_back(encounter_shares(score));
+  }
+  return interval_lines("EDR, 95 % when encounters are drawn anew", names, shares);
 }
 
 }  // namespace sigs

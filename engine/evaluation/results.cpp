@@ -108,8 +108,12 @@ Result<Results> read_results(const std::filesystem::path& path, const FootageTru
     if (!detected) return fail(detected.error());
     format = *detected;
   }
-  if (options.last_image_id && format != ResultsFormat::coco)
-    return fail(path.string(), "tells of several clips and is not in the layout coco; name a file for each clip");
+  const bool names_images = options.images != nullptr && format == ResultsFormat::aot;
+  if (options.last_image_id && format != ResultsFormat::coco && !names_images)
+    return fail(
+        path.string(),
+        "tells of several clips and is not in the layout coco, nor aot with a truth that names images; name a file "
+        "for each clip");
   Result<Results> results = read_as(format, file);
   if (results) results->name = results_name(path);
   return results;

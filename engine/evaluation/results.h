@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,7 +35,8 @@ struct Results {
   std::string name;                                // of the tracker, for tables and plots
   std::map<int, std::vector<ReportedBox>> frames;  // by the footage's frame number; no entry: nothing reported
   std::set<int> initializations;                   // frames in which it was given the truth (VOT's 1): not scored
-  std::string clip;  // name of the clip according to a file, the folder of its images; empty: not given
+  std::string clip;         // name of the clip according to a file, the folder of its images; empty: not given
+  int boxes_elsewhere = 0;  // left out, since the truth does not have their images
   std::optional<double> frames_per_s;  // of the tracker alone, where it is known
 
   [[nodiscard]] const ReportedBox* best_at(int frame) const;  // highest score, first of equals; nullptr: none
@@ -44,6 +46,14 @@ struct Results {
 // frames count from 0 or 1.
 enum class ResultsFormat { automatic, otb, vot, mot, csv, aot, coco };
 [[nodiscard]] std::span<const std::string_view> results_format_names();  // in the order of the enum
+
+// The frames of a clip by what a truth file calls their images (truth_files.h). Where such a file is the truth, results
+// in the layouts aot and coco name images as it does.
+struct ImageNumbers {
+  // Names as the file has them, and without folder and extension where that is not ambiguous.
+  std::map<std::string, int, std::less<>> by_name;
+  std::map<int, int> by_id;  // by COCO's image_id; empty: the file has none
+};
 
 // How a file is to be read.
 struct ResultsOptions {
@@ -57,6 +67,9 @@ struct ResultsOptions {
   // Layout coco, one file for several clips: the last image_id of all of them. Boxes of the other clips are ignored;
   // any other layout is an error.
   std::optional<int> last_image_id;
+  // Layouts aot and coco: the clip's images. Boxes of others are left out and counted (Results::boxes_elsewhere).
+  // null: images are numbered as above. Must outlive the call.
+  const ImageNumbers* images = nullptr;
 };
 
 // Reads a result file of a clip. Errors: cannot_read; bad_data with file and line for a number of lines that does not

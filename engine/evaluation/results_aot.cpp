@@ -135,7 +135,11 @@ bool AotReader::on_object_end() {
 
 bool AotReader::add_image() {
   if (!image_.name) return fails(image_.line, "has no img_name");
-  const std::optional<int> frame = frame_of_image(*image_.name);
+  const std::optional<int> frame = frame_named(*image_.name);
+  if (!frame && file().options.images != nullptr) {
+    leave_out(static_cast<int>(image_.detections.size()));
+    return true;
+  }
   if (!frame)
     return fails(image_.line, fmt::format("img_name {} does not end with a frame number, as frame_000123.png does",
                                           in_quotes(*image_.name)));

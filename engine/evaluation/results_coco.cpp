@@ -110,10 +110,11 @@ bool CocoReader::on_object_end() {
   return add_entry();
 }
 
-// The footage's number of the entry's frame; nullopt after fails().
+// The footage's number of the entry's frame; nullopt after fails(), and for an image that the truth does not have.
 std::optional<int> CocoReader::frame_of_entry() {
   if (entry_.image_name) {
-    const std::optional<int> frame = frame_of_image(*entry_.image_name);
+    const std::optional<int> frame = frame_named(*entry_.image_name);
+    if (!frame && file().options.images != nullptr) return std::nullopt;
     if (!frame)
       fails(entry_.line,
             fmt::format("image_id {} is neither a number nor an image's name that ends with one, as frame_000123",
@@ -122,6 +123,11 @@ std::optional<int> CocoReader::frame_of_entry() {
     return frame;
   }
   const std::optional<int> id = integer_of(*entry_.image_id);
+  const ImageNumbers* const images = file().options.images;
+  if (id && images != nullptr && !images->by_id.empty()) {
+    const auto found = images->by_id.find(*id);
+    return found == images->by_id.end() ? std::nullopt : std::optional(found->second);
+  }
   if (!id || *id < 1) {
     fails(entry_.line, "image_id is not a whole number from 1; 1 is the clip's first frame");
     return std::nullopt;
@@ -140,7 +146,11 @@ bool CocoReader::add_entry() {
   if (!entry_.box) return fails(entry_.line, "has no bbox");
   if (entry_.box->size() != 4) return fails(entry_.line, "bbox is not a list of 4 numbers: left, top, width, height");
   const std::optional<int> frame = frame_of_entry();
-  if (!frame) return false;
+  if (!frame && has_failed()) return false;
+  if (!frame) {
+    leave_out(1);
+    return true;
+  }
   const FootageTruth& clip = file().clip;
   if (file().options.last_image_id && (*frame < clip.first_frame || *frame > clip.last_frame)) return true;
   // COCO's origin is the upper left corner of the first pixel.

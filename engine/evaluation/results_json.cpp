@@ -94,6 +94,7 @@ Result<Results> JsonListReader::read() {
     return fail(error_);
   Results results = builder_.results();
   results.clip = clip_;
+  results.boxes_elsewhere = boxes_elsewhere_;
   return results;
 }
 
@@ -113,6 +114,14 @@ bool JsonListReader::add_box(int frame, const Box& box, double score, double tra
   const int number = *whole_track < 0 ? kNoTrack : *whole_track;
   const Result<void> added = builder_.add(frame, {.box = box, .score = score, .track = number, .line = line});
   return added || fails(added.error());
+}
+
+std::optional<int> JsonListReader::frame_named(std::string_view image) const {
+  const ImageNumbers* const images = file_.options.images;
+  if (images == nullptr || images->by_name.empty()) return frame_of_image(image);
+  if (const auto found = images->by_name.find(image); found != images->by_name.end()) return found->second;
+  const auto by_stem = images->by_name.find(stem_of_image(image));
+  return by_stem == images->by_name.end() ? std::nullopt : std::optional(by_stem->second);
 }
 
 void JsonListReader::set_clip_of_image(const std::string& image) {
@@ -170,9 +179,13 @@ Result<ResultsFormat> json_format(const ResultsFile& file) {
                     "bbox (coco)");
 }
 
+std::string_view stem_of_image(std::string_view image) {
+  const std::string_view name = image.substr(image.find_last_of("/\\") + 1);  // npos + 1 is 0
+  return name.substr(0, name.find_last_of('.'));
+}
+
 std::optional<int> frame_of_image(std::string_view image) {
-  std::string_view name = image.substr(image.find_last_of("/\\") + 1);  // npos + 1 is 0
-  name = name.substr(0, name.find_last_of('.'));
+  const std::string_view name = stem_of_image(image);
   const auto is_digit = [](char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; };
   const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_digit).base();
   const std::string_view digits = name.substr(static_cast<std::size_t>(begin - name.begin()));

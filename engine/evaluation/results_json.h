@@ -50,13 +50,18 @@ class JsonListReader : private nlohmann::json_sax<nlohmann::json> {
   // Keeps the error with its line, from 1, and what is wrong. Returns false.
   bool fails(int line, const std::string& what);
 
+  [[nodiscard]] bool has_failed() const { return !error_.what.empty(); }
+
   // Adds a box; track is a number of the file, which must be whole, negative for none.
   [[nodiscard]] bool add_box(int frame, const Box& box, double score, double track, int line);
 
   [[nodiscard]] const ResultsFile& file() const { return file_; }
   [[nodiscard]] const std::string& key() const { return key_; }  // of the value being read; empty: none yet
   [[nodiscard]] int line() const { return line_; }               // of the file, from 1, at which the parser is
-  void set_clip_of_image(const std::string& image);              // Results::clip; the first image that names one counts
+  // The footage's number of an image's frame: by ResultsOptions::images, else the number at the end of its name.
+  [[nodiscard]] std::optional<int> frame_named(std::string_view image) const;
+  void leave_out(int boxes) { boxes_elsewhere_ += boxes; }  // of an image that the truth does not have
+  void set_clip_of_image(const std::string& image);         // Results::clip; the first image that names one counts
 
  private:
   bool fails(const Error& error);
@@ -82,11 +87,15 @@ class JsonListReader : private nlohmann::json_sax<nlohmann::json> {
   int line_ = 1;
   bool is_one_line_ = file_.text.find('\n') >= file_.text.find_last_not_of(" \r\n");
   std::string clip_;
+  int boxes_elsewhere_ = 0;
   ResultsBuilder builder_;
   Error error_;
   int skipped_depth_ = 0;  // number of open objects and lists of keys that are not read
   std::string key_;
 };
+
+// An image's name without folder and extension.
+[[nodiscard]] std::string_view stem_of_image(std::string_view image);
 
 // The frame number at the end of an image's name without extension: 123 of "flight/frame_000123.png". nullopt: there
 // are no digits, or more than an int has.

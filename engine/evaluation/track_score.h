@@ -77,6 +77,10 @@ struct TrackScore {
 [[nodiscard]] TrackScore score_track(const ClipTruth& clip, const TargetTruth& target, const Results& results,
                                      const TrackPolicy& policy);
 
+// The figures of one tracker over all frames of several clips, each frame counting alike. frames are those of all
+// clips, one behind the other; frames_per_s is of all frames by all time.
+[[nodiscard]] TrackScore pooled_score(const std::string& name, const std::vector<const TrackScore*>& clips);
+
 // The first frame in which a tracker can be started: the policy counts it, and both sides of its true box are at least
 // min_side_px. The footage's number; nullopt: there is none.
 [[nodiscard]] std::optional<int> first_frame_to_track(const ClipTruth& clip, const TargetTruth& target,

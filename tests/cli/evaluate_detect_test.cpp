@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -181,6 +182,47 @@ TEST_CASE("an encounter that stays beyond the maximum range is not counted, and 
                            " --min-encounter 0 --max-closest-range 5 --results " + file);
   CHECK(run.status == 0);
   CHECK_MESSAGE(run.err.find("warning: 1 encounter is not counted") != std::string::npos, run.err);
+}
+
+TEST_CASE("the labels of one export are the same truth in every layout that is read") {
+  const Fixture fixture;
+  const TinyProject& tiny = fixture.tiny;
+  REQUIRE(run_sigs("export " + tiny.project() + " --masks none --labels xml,coco,mot,yolo,aot --codec png --out " +
+                   tiny.out())
+              .status == 0);
+  const std::string stem = tiny.file("out/tiny").string();
+  const std::string found = fixture.put("found.csv", fixture.right("one", true));
+  std::map<std::string, nlohmann::json> scores;
+  std::map<std::string, std::string> warnings;
+  for (const std::string& truth :
+       {stem + ".xml", stem + ".coco.json", stem + ".aot.json", stem + ".mot", stem + ".yolo"}) {
+    const Run run = fixture.detect(truth + " --results " + found + fixture.out());
+    REQUIRE_MESSAGE(run.status == 0, truth << run.err);
+    const std::string layout = truth.substr(stem.size());
+    scores[layout] = fixture.report()["detectors"][0];
+    warnings[layout] = run.err;
+    CHECK(scores[layout]["false_boxes_per_frame"] == 0.1);
+    CHECK(scores[layout]["frames_by"]["all"][0]["frames"] == 10);
+    CHECK(scores[layout]["frames_by"]["all"][0]["matched"] == 10);
+    CHECK(scores[layout]["frames_by"]["size"] == scores[".xml"]["frames_by"]["size"]);
+  }
+  for (const std::string layout : {".coco.json", ".aot.json"}) {
+    CHECK(scores[layout]["encounter_detection_rate"]["all"] == scores[".xml"]["encounter_detection_rate"]["all"]);
+    CHECK(scores[layout]["frame_detection_rate"] == 1.0);
+    CHECK(scores[layout]["mean_first_range_m"].get<double>() ==
+          doctest::Approx(scores[".xml"]["mean_first_range_m"].get<double>()));
+    CHECK_MESSAGE(warnings[layout].empty(), warnings[layout]);
+  }
+  for (const std::string layout : {".coco.json", ".aot.json", ".mot"})
+    CHECK(scores[layout]["false_alarms_per_hour"].get<double>() ==
+          doctest::Approx(scores[".xml"]["false_alarms_per_hour"].get<double>()).epsilon(1e-4));
+  CHECK_MESSAGE(has(warnings[".mot"], "the truth has no ranges: EDR, AFDR"), warnings[".mot"]);
+  CHECK_MESSAGE(has(warnings[".yolo"], "does not say which boxes are of one object"), warnings[".yolo"]);
+  CHECK_MESSAGE(has(warnings[".yolo"], "no frame rate"), warnings[".yolo"]);
+  CHECK(scores[".yolo"]["false_alarms_per_hour"].is_null());
+  CHECK(scores[".mot"]["frame_detection_rate"].is_null());
+  CHECK(fixture.detect(stem + ".xml --rate 10 --results " + found).status == 64);
+  CHECK(has(fixture.detect(stem + ".yolo --size 10 --results " + found).err, "--size: 10 is no size"));
 }
 
 }  // namespace sigs::test

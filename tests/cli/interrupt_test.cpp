@@ -94,3 +94,20 @@ TEST_CASE("the first signal ends the opening of a video") {
   CHECK_MESSAGE((terminated == 130 || terminated == 143), terminated);
   CHECK(tiny.files_out() == 0);
 }
+
+TEST_CASE("the first signal ends an evaluation of many clips, side by side, and leaves nothing behind") {
+  const TinyProject tiny;
+  for (const std::string name : {"one", "two"}) {
+    const fs::path folder = tiny.file("set") / name;
+    fs::create_directories(folder);
+    write_file(folder / "groundtruth_rect.txt", "1,1,9,9\n1,1,9,9\n");
+    fs::copy_file(tiny.file("clip.mkv"), folder / (name + ".mkv"));
+    fs::resize_file(folder / (name + ".mkv"), std::uintmax_t{1} << 38);  // sparse
+  }
+  CHECK(status_after(SIGINT,
+                     {"evaluate", "track", tiny.file("set").string(), "--tracker", "mosse", "--jobs", "2", "--out",
+                      tiny.file("report").string()},
+                     tiny.file("set") / "one" / "one.mkv") == 130);
+  CHECK_FALSE(fs::exists(tiny.file("report")));
+  CHECK_FALSE(fs::exists(tiny.file("report.part")));
+}

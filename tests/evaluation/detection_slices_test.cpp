@@ -98,7 +98,7 @@ TEST_CASE("a report says which detectors can be distinguished") {
   CHECK(text.find("two less one: ") != std::string::npos);
   CHECK(text.find("0.000, they cannot be distinguished") != std::string::npos);
   CHECK(text.find("they can be distinguished", text.find("three less one")) != std::string::npos);
-  CHECK(intervals_text({}).empty());
+  CHECK(intervals_text(DetectionReport{}).empty());
   CHECK(slices_text(report).empty());
 }
 
