@@ -37,7 +37,7 @@ ffmpeg -v error -y -i "$work/frame_100.png" -vf "crop=900:420:200:150,scale=1350
   docs/images/models.jpg
 
 # The editor, as a test drives it.
-"$build"/test_editor_ui_test --test-case='a person authors*,a person finds the own body*,a person loads trackers*,the footage is matched*' >"$work/ui_test.log" || {
+"$build"/test_editor_ui_test --test-case='a person authors*,a person finds the own body*,a person loads trackers*,the footage is matched*,a click on an entry*' >"$work/ui_test.log" || {
   cat "$work/ui_test.log"
   exit 1
 }
@@ -53,3 +53,4 @@ editor_image stages ui_test-stages-classic
 editor_image own-body own-body-found
 editor_image results results-loaded
 editor_image appearance appearance-matched
+editor_image encounter encounter-lanes-shown

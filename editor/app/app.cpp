@@ -143,7 +143,8 @@ void App::ask_preview() {
                    .footage = needs_.footage,
                    .stages = needs_.stages,
                    .compare_with = needs_.compare_with,
-                   .turntable = needs_.turntable});
+                   .turntable = needs_.turntable,
+                   .encounters = needs_.encounters});
 }
 
 void App::advance(const PreviewOutput& shown) {

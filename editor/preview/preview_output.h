@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
+#include "editor/preview/encounter_survey.h"
 #include "frame/compose_frame.h"
 #include "scene/draft.h"
 #include "scene/flight.h"
@@ -82,6 +83,8 @@ struct Survey {
   // Known once all frames are there: where the flight exceeds a limit, and where it is nearest to the camera.
   std::vector<FlightFlag> flags;
   ClosestApproach closest;
+  // Null: not asked for, or not made yet; also for an intruder without waypoints.
+  std::shared_ptr<const EncounterSurvey> encounter;
 };
 
 // A small image of an intruder's model by itself, as turntable_image() draws it.
@@ -123,6 +126,8 @@ struct PreviewRequest {
     [[nodiscard]] bool operator==(const Turntable&) const = default;
   };
   std::optional<Turntable> turntable;
+  // Survey::encounter is wanted too.
+  bool encounters = false;
 
   [[nodiscard]] bool operator==(const PreviewRequest&) const = default;
 };

@@ -208,8 +208,10 @@ bool PreviewRenderer::prefetch(const PreviewSnapshot& snapshot) {
 }
 
 // The survey of the revision before stays for a moment, so that it does not shrink and grow with every step of a drag.
-bool PreviewRenderer::survey() {
+bool PreviewRenderer::survey(const PreviewRequest& wanted) {
   if (!scene_fits()) return false;
+  survey_builder_.want_volumes(wanted.encounters ? shown_volumes(*wanted.revision.project)
+                                                 : std::vector<WellClearVolume>());
   if (survey_content_ != scene_->content) {
     survey_builder_.begin(scene_);
     survey_content_ = scene_->content;
@@ -243,7 +245,7 @@ bool PreviewRenderer::step(const PreviewSnapshot& snapshot) {
   for (int i = 0; i < kBackgroundTasks; ++i) {
     next_background_task_ = (next_background_task_ + 1) % kBackgroundTasks;
     const bool did = next_background_task_ == 0   ? prefetch(snapshot)
-                     : next_background_task_ == 1 ? survey()
+                     : next_background_task_ == 1 ? survey(*snapshot.wanted)
                                                   : render_turntable(snapshot);
     if (did) return true;
   }

@@ -79,7 +79,7 @@ class PreviewRenderer {
   bool render_extras(const PreviewSnapshot& snapshot);
   // One frame ahead of the playhead.
   bool prefetch(const PreviewSnapshot& snapshot);
-  bool survey();
+  bool survey(const PreviewRequest& wanted);
   bool render_turntable(const PreviewSnapshot& snapshot);
   // False where the footage's frame is not decoded yet.
   bool compose(int frame, bool was_wanted);

@@ -73,7 +73,15 @@ void SurveyBuilder::begin(std::shared_ptr<const OpenedScene> scene) {
                   Survey{.revision = scene_->revision, .first_frame = opened.first_frame});
   next_frame_ = opened.first_frame;
   next_whole_ = 0;
+  next_encounter_ = 0;
   handed_out_ = 0;
+}
+
+void SurveyBuilder::want_volumes(std::vector<WellClearVolume> volumes) {
+  const auto has_same_name = [](const WellClearVolume& a, const WellClearVolume& b) { return a.name == b.name; };
+  if (std::equal(volumes.begin(), volumes.end(), volumes_.begin(), volumes_.end(), has_same_name)) return;
+  volumes_ = std::move(volumes);
+  next_encounter_ = 0;
 }
 
 namespace {
@@ -130,8 +138,17 @@ void SurveyBuilder::look_at_whole(std::size_t intruder) {
   surveys_[intruder].flags = flight_flags(scene_->draft.scene, id);
 }
 
+void SurveyBuilder::look_at_encounter(std::size_t intruder) {
+  const int id = scene_->draft.intruder_of_project[intruder];
+  if (id < 0) return;
+  surveys_[intruder].encounter =
+      std::make_shared<const EncounterSurvey>(encounter_survey(scene_->draft.scene, id, volumes_));
+}
+
 void SurveyBuilder::step() {
-  if (!points_)
+  if (has_encounter_to_make())
+    look_at_encounter(next_encounter_++);
+  else if (!points_)
     points_.emplace(scene_->draft.scene);
   else if (next_frame_ <= last_frame())
     look_at_frame(next_frame_++);

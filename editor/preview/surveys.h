@@ -17,8 +17,13 @@ class SurveyBuilder {
   // Begins the surveys of a scene, and drops those of the one before.
   void begin(std::shared_ptr<const OpenedScene> scene);
 
+  // For which Survey::encounter is made, first of all; it is made anew for others. Empty: it is not made.
+  void want_volumes(std::vector<WellClearVolume> volumes);
+
   // Whether there is nothing left to do; true without a scene.
-  [[nodiscard]] bool done() const { return !scene_ || (next_frame_ > last_frame() && next_whole_ >= surveys_.size()); }
+  [[nodiscard]] bool done() const {
+    return !scene_ || (next_frame_ > last_frame() && next_whole_ >= surveys_.size() && !has_encounter_to_make());
+  }
 
   // Works for about budget_s seconds, at least one step. True where there is enough new to be shown.
   bool work(double budget_s);
@@ -32,12 +37,16 @@ class SurveyBuilder {
   void look_at_frame(int frame);
   void look_at_camera(double time_s);
   void look_at_whole(std::size_t intruder);
+  [[nodiscard]] bool has_encounter_to_make() const { return !volumes_.empty() && next_encounter_ < surveys_.size(); }
+  void look_at_encounter(std::size_t intruder);
 
   std::shared_ptr<const OpenedScene> scene_;
   std::optional<VisibilityEstimator> points_;
   std::vector<Survey> surveys_;
   int next_frame_ = 0;
   std::size_t next_whole_ = 0;
+  std::vector<WellClearVolume> volumes_;
+  std::size_t next_encounter_ = 0;
   // Frames that the last call of surveys() gave out.
   std::size_t handed_out_ = 0;
 };

@@ -30,6 +30,8 @@ struct ViewNeeds {
   std::optional<MethodChoice> compare_with;
   // An image of one intruder's model.
   std::optional<PreviewRequest::Turntable> turntable;
+  // Survey::encounter.
+  bool encounters = false;
   // The view that is worked in takes undo and redo itself: the program's own keys for them do nothing in this update.
   bool own_undo = false;
   // A view has taken Escape.

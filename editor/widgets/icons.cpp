@@ -311,6 +311,11 @@ void snap(IconPen& pen) {
   pen.line({{0.45F, -0.45F}, {0.85F, -0.45F}});
 }
 
+void cylinder(IconPen& pen) {
+  pen.line({{-0.8F, -0.45F}, {-0.4F, -0.7F}, {0.4F, -0.7F}, {0.8F, -0.45F}, {0.4F, -0.2F}, {-0.4F, -0.2F}}, true);
+  pen.line({{-0.8F, -0.45F}, {-0.8F, 0.5F}, {-0.4F, 0.75F}, {0.4F, 0.75F}, {0.8F, 0.5F}, {0.8F, -0.45F}});
+}
+
 void more(IconPen& pen) {
   for (const float x : {-0.714F, 0.0F, 0.714F}) pen.dot({x, 0}, 0.214F);
 }
@@ -319,11 +324,11 @@ using Shape = void (*)(IconPen&);
 
 // In the order of Icon.
 constexpr Shape kShapes[] = {
-    play,     pause,         back,           forward, to_start,     to_end,       loop,   plus,  trash,
-    copy,     folder,        file,           warning, info,         check,        cross,  reset, search,
-    settings, fit,           aircraft,       mark_in, mark_out,     chevron_left, box,    path,  waypoints,
-    horizon,  own_body,      grid,           wipe,    target,       brush,        eraser, undo,  redo,
-    orbit,    view_from_top, view_from_side, camera,  fit_contents, perspective,  snap,   more,
+    play,     pause,         back,           forward, to_start,     to_end,       loop,   plus,     trash,
+    copy,     folder,        file,           warning, info,         check,        cross,  reset,    search,
+    settings, fit,           aircraft,       mark_in, mark_out,     chevron_left, box,    path,     waypoints,
+    horizon,  own_body,      grid,           wipe,    target,       brush,        eraser, undo,     redo,
+    orbit,    view_from_top, view_from_side, camera,  fit_contents, perspective,  snap,   cylinder, more,
 };
 static_assert(std::size(kShapes) == static_cast<std::size_t>(Icon::more) + 1);
 

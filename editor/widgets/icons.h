@@ -51,6 +51,7 @@ enum class Icon {
   fit_contents,  // four corners about a dot
   perspective,
   snap,
+  cylinder,
   more,  // three dots
 };
 

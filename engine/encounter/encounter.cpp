@@ -271,4 +271,16 @@ Result<EncounterSummary> encounter_of(const EncounterTrack& own, const Encounter
   return summary;
 }
 
+Result<NearestMoment> nearest_horizontal_moment(const EncounterTrack& own, const EncounterTrack& intruder) {
+  if (const Result<void> sound = check(own, intruder, {}); !sound) return fail(sound.error());
+  const double first_s = std::max(own.first_s, intruder.first_s);
+  const double last_s = std::min(own.last_s, intruder.last_s);
+  const RelativeMotionAt motion = [&](double time_s) { return relative_state(own.at(time_s), intruder.at(time_s)); };
+  NearestSearch search(&NearestMoment::horizontal_m, horizontal_rate, moment_at(motion, first_s));
+  for_each_smooth_piece(motion, first_s, last_s, merged(own.knots_s, intruder.knots_s),
+                        rounding_of(own, intruder, first_s, last_s),
+                        [&](const SmoothPiece& piece) { search.visit(piece, motion); });
+  return search.nearest();
+}
+
 }  // namespace sigs

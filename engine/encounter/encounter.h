@@ -80,4 +80,8 @@ struct EncounterSummary {
 [[nodiscard]] Result<EncounterSummary> encounter_of(const EncounterTrack& own, const EncounterTrack& intruder,
                                                     const EncounterSettings& settings);
 
+// EncounterSummary::nearest_horizontal alone, in a small part of the time. Errors as above.
+[[nodiscard]] Result<NearestMoment> nearest_horizontal_moment(const EncounterTrack& own,
+                                                              const EncounterTrack& intruder);
+
 }  // namespace sigs

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -47,6 +48,21 @@ void note(const std::string& text, bool is_warning) {
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
   ImGui::PopStyleColor();
+}
+
+void frame_link(const ViewContext& context, const std::string& text, double frame, ImU32 shade) {
+  ImGui::PushStyleColor(ImGuiCol_Text, shade);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, faded(shade, 0.5));
+  tooltip_for_item("Go to this frame");
+  if (ImGui::IsItemClicked()) context.edits.go_to_frame(static_cast<int>(std::lround(frame)));
 }
 
 bool ButtonFlow::button(const char* label, const char* tooltip, bool enabled) {

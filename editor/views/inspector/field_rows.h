@@ -72,6 +72,9 @@ class FieldRows {
 // Pale wrapped text beside fields.
 void note(const std::string& text, bool is_warning = false);
 
+// Wrapped text that is clicked to go to a frame.
+void frame_link(const ViewContext& context, const std::string& text, double frame, ImU32 shade);
+
 // Buttons with texts, side by side as long as there is room.
 class ButtonFlow {
  public:

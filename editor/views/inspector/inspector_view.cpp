@@ -67,6 +67,7 @@ void draw_export(const ViewContext& context, FieldRows& rows) {
     RowOptions look;
     if (field.key == "export.video.crf" && !is_h264) look.off_because = "Counts for h264 alone.";
     if (field.key == "export.labels") look.names = {"xml"};
+    if (field.key == "export.encounter") look.names.assign(kWellClearNames.begin(), kWellClearNames.end());
     return look;
   });
   ImGui::Spacing();
@@ -183,6 +184,7 @@ void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
   block(context, "Light", false, [&] { light_.draw(context, rows); });
   block(context, "Intruders", true, [&] { model_.draw(context, rows); });
   block(context, "Trajectory", true, [&] { trajectory_.draw(context, rows); });
+  block(context, "Encounter", false, [&] { encounter_.draw(context, rows); });
   block(context, "Compositing", false, [&] { draw_compositing(context, rows); });
   block(context, "Appearance", false, [&] { appearance_.draw(context, rows); });
   block(context, "Export", false, [&] { draw_export(context, rows); });

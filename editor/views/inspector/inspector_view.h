@@ -9,6 +9,7 @@
 #include "editor/document/field_edits.h"
 #include "editor/views/context.h"
 #include "editor/views/inspector/appearance_block.h"
+#include "editor/views/inspector/encounter_block.h"
 #include "editor/views/inspector/problems.h"
 #include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/inspector/trajectory.h"
@@ -48,6 +49,7 @@ class InspectorView {
   ModelBlock model_;
   AppearanceBlock appearance_;
   TrajectoryBlock trajectory_;
+  EncounterBlock encounter_;
   std::string filter_;
   // Title of the block that is to be opened, and for how many updates yet: rows appear only when they are drawn.
   std::string block_to_open_;

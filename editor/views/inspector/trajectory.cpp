@@ -87,22 +87,6 @@ std::string frames_text(const FlightFlag& flag) {
   return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
 }
 
-// Wrapped text that is clicked to go to a frame.
-void frame_link(const ViewContext& context, const std::string& text, double frame, ImU32 shade) {
-  ImGui::PushStyleColor(ImGuiCol_Text, shade);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 high = ImGui::GetItemRectMax();
-  ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, faded(shade, 0.5));
-  tooltip_for_item("Go to this frame");
-  if (ImGui::IsItemClicked()) context.edits.go_to_frame(static_cast<int>(std::lround(frame)));
-}
-
 }  // namespace
 
 Visibility visibility_of(const Survey& survey, int frames) {

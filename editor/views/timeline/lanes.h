@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "editor/views/timeline/error_lane.h"
@@ -32,7 +33,8 @@ class LaneRows {
   // What is kept of a lane from one update to the next.
   struct LaneState {
     LaneStyle style;
-    bool is_shown;
+    // As it was ticked or unticked; none: by the style, and "Well clear" only where export.encounter names volumes.
+    std::optional<bool> is_chosen = {};
     // Of survey_.
     LaneValues values = {};
   };
@@ -43,6 +45,7 @@ class LaneRows {
   [[nodiscard]] bool shows_errors(const ViewContext& context) const;
   // Of one curve, in screen pixels; with room for all lanes that are drawn, folded groups left out.
   [[nodiscard]] float curve_height(float room_px, bool with_errors) const;
+  [[nodiscard]] bool is_shown(const LaneState& lane) const;
   // Hidden are those that are not ticked, of a folded group, and of a camera that nothing turns.
   [[nodiscard]] bool is_drawn(const LaneState& lane) const;
   // Those of one group from y downwards.
@@ -50,6 +53,8 @@ class LaneRows {
                   RulerRow& ruler);
   [[nodiscard]] float height_of(LaneGroup group, float curve, bool with_errors) const;
   void draw_lane(const ViewContext& context, const Row& row, RulerRow& ruler);
+  // The mouse on the lane "Well clear", ImGui's last item; true where a mark has it.
+  bool jumps_to_mark(const ViewContext& context, const TimelineStrip& strip);
 
   std::vector<LaneState> lanes_;  // one for each of lane_styles(), in its order
   bool shows_errors_ = true;      // where there are any
@@ -57,7 +62,9 @@ class LaneRows {
   std::shared_ptr<const Survey> survey_;  // of the current intruder
   LaneGroups groups_;                     // have headers where the camera has lanes
   OffsetDrag offset_;
-  bool camera_turns_ = false;  // in this update
+  bool camera_turns_ = false;   // in this update
+  bool names_volumes_ = false;  // export.encounter does, in this update
+  bool has_jumped_ = false;     // since the press that is held
 };
 
 }  // namespace sigs::editor

@@ -157,6 +157,7 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
   if (handle_.dragging()) return;
   if (over && holding_ == Holding::nothing && handle_.part() == GizmoPart::none)
     hovered_ = pick_at(canvas, world, dv(ImGui::GetMousePos()));
+  move_approach(world, canvas, look);
   if (hovered_.what.kind != Selected::nothing) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   if (over) press(world, canvas);
   hold(canvas.rect(), look);
@@ -169,6 +170,14 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
   }
   const bool may_type = !ImGui::GetIO().WantTextInput && !ImGui::GetIO().KeyCtrl;
   if (may_type && pressed(Key::n)) enter_position(world, world.context.document.selection());
+}
+
+void WorldTools::move_approach(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
+  const bool is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing && handle_.part() == GizmoPart::none &&
+                       hovered_.what.kind != Selected::waypoint;
+  const double snap_m = snap_now_m(canvas, look, look.eye.target_m);
+  approach_.update(world, canvas, is_free, snap_m);
+  if (approach_.has_mouse()) hovered_ = {};
 }
 
 void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
@@ -208,7 +217,7 @@ void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left);
   const bool middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   const bool right = ImGui::IsMouseClicked(ImGuiMouseButton_Right);
-  if (handle_.part() != GizmoPart::none && left) return;  // the handle has had it
+  if ((handle_.part() != GizmoPart::none || approach_.has_mouse()) && left) return;  // a handle has had it
   if (holding_ != Holding::nothing || !(left || middle || right)) return;
   held_px_ = 0;
   hovered_ = pick_at(canvas, world, dv(ImGui::GetMousePos()));
@@ -312,6 +321,8 @@ void WorldTools::draw(WorldCanvas& canvas, const WorldContext& world, const Worl
     handle_.probe_places(world.context.ui_probe, at_m, {.camera = canvas.eye(), .rect = canvas.rect()});
     if (handle_.dragging() && moved_to_) draw_readout(canvas, *target, snap_now_m(canvas, look, at_m));
   }
+  approach_.draw(canvas, world);
+  if (const std::vector<std::string> lines = approach_.readout(); !lines.empty()) draw_plate(canvas, lines);
   draw_entry(world);
   if (const std::optional<Selection> what = menu_.draw(world)) enter_position(world, *what);
 }

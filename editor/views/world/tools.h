@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "editor/views/context.h"
+#include "editor/views/world/approach_handle.h"
 #include "editor/views/world/picks.h"
 #include "editor/views/world/view_presets.h"
 #include "editor/widgets/gizmo_handle.h"
@@ -51,6 +52,8 @@ class WorldTools {
   // What a press beside the handle has become: orbiting or panning the view, or a menu when it is let go.
   enum class Holding { nothing, orbit, pan, menu };
 
+  // The closest approach takes the mouse where no waypoint is nearer.
+  void move_approach(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   // Lets the handle of what is selected take the mouse, and moves that point.
   void move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   void begin_drag(const WorldContext& world, const Movable& moved);
@@ -67,6 +70,7 @@ class WorldTools {
   void draw_readout(WorldCanvas& canvas, const Movable& moved, double snap_m) const;
 
   GizmoHandle handle_;
+  ApproachHandle approach_;
   // What the handle moves while it is dragged.
   Selection dragged_;
   DragGesture gesture_;

@@ -59,12 +59,16 @@ WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTarge
   return result;
 }
 
-WorldToolbarResult draw_world_toolbar(WorldViewState& look) {
+WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe) {
   WorldToolbarResult answer;
   const auto preset = [&](ToolButton button, WorldViewPreset wanted) {
     button.on = look.preset == wanted;
     return ToolbarItem{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
   };
+  ToolbarItem volumes = toggle_item(
+      {"volumes", Icon::cylinder, "", "Volumes of well clear around the camera: export.encounter, else small-uas"},
+      look.volumes);
+  volumes.drawn = [&] { ui_probe.note_item("world/volumes"); };
   const std::vector<ToolbarItem> items{
       preset(
           {"orbit", Icon::orbit, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
@@ -83,6 +87,7 @@ WorldToolbarResult draw_world_toolbar(WorldViewState& look) {
              const bool is_on = look.eye.projection == Projection::perspective;
              look.eye.projection = is_on ? Projection::parallel : Projection::perspective;
            }},
+      volumes,
       toggle_item({"snap", Icon::snap, "", "Move in round steps (Ctrl: the other way for once)"}, look.snap),
   };
   draw_toolbar(items);

@@ -6,6 +6,7 @@
 
 #include "editor/geometry/lens_projection.h"
 #include "editor/geometry/orbit_camera.h"
+#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 
@@ -19,6 +20,8 @@ struct WorldViewState {
   WorldViewPreset preset = WorldViewPreset::orbit;
   // Drags go in round steps; holding Ctrl turns it round.
   bool snap = false;
+  // The volumes of well clear are drawn around the camera.
+  bool volumes = false;
   // The user has moved the camera since the project was opened: it is not framed anew by itself.
   bool touched = false;
 };
@@ -47,6 +50,6 @@ struct WorldToolbarResult {
 };
 
 // One row over the world view, at the cursor.
-[[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look);
+[[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe);
 
 }  // namespace sigs::editor

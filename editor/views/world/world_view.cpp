@@ -9,6 +9,7 @@
 #include "editor/views/waypoint_actions.h"
 #include "editor/views/world/scene.h"
 #include "editor/views/world/view_presets.h"
+#include "editor/views/world/volumes.h"
 #include "editor/widgets/keys.h"
 
 namespace sigs::editor {
@@ -63,7 +64,7 @@ void WorldView::look_at_opened_project(const WorldContext& world, const ScreenRe
   if (is_opened) {
     opened_revision_ = revision;
     framed_with_scene_ = false;
-    look_ = {.snap = look_.snap};
+    look_ = {.snap = look_.snap, .volumes = look_.volumes};
     preset(world, rect, WorldViewPreset::orbit, look_);
   }
   if (framed_with_scene_ || world.model.revision < opened_revision_) return;
@@ -84,6 +85,7 @@ void WorldView::draw_world(WorldCanvas& canvas, const WorldContext& world) {
   tools_.keep_handle_free(canvas, world);
   draw_ground(canvas);
   draw_light(canvas, world, hovered);
+  if (look_.volumes) draw_volumes(canvas, world);
   draw_closest_approaches(canvas, world);
   draw_camera(canvas, world, hovered);
   draw_trajectories(canvas, world);
@@ -93,7 +95,7 @@ void WorldView::draw_world(WorldCanvas& canvas, const WorldContext& world) {
 }
 
 void WorldView::draw(const ViewContext& context) {
-  const WorldToolbarResult request = draw_world_toolbar(look_);
+  const WorldToolbarResult request = draw_world_toolbar(look_, context.ui_probe);
   const ScreenRect rect = canvas_rect();
   if (rect.size().x < 16 || rect.size().y < 16) return;
   refresh_model(context);

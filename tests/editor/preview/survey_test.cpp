@@ -148,3 +148,25 @@ TEST_CASE("each survey has the camera's turns in all frames, and none where noth
     CHECK(survey->camera[25].attitude.pitch_rad - survey->camera[0].attitude.pitch_rad == doctest::Approx(0.25));
   }
 }
+
+TEST_CASE("an encounter is surveyed where it is wanted, anew for other volumes, and not where nobody shows it") {
+  SurveyBuilder maker;
+  maker.begin(long_scene(200));
+  while (!maker.done()) (void)maker.work(1);
+  CHECK(maker.surveys()[0]->encounter == nullptr);
+  maker.want_volumes({well_clear_volume("small-uas").value()});
+  CHECK_FALSE(maker.done());
+  while (!maker.done()) CHECK(maker.work(1));
+  const auto first = maker.surveys();
+  REQUIRE(first[0]->encounter != nullptr);
+  REQUIRE(first[1]->encounter != nullptr);
+  CHECK(first[0]->estimates.size() == 200);
+  CHECK(first[0]->encounter->horizontal_range_m.size() == 200);
+  maker.want_volumes({well_clear_volume("small-uas").value()});  // the same
+  CHECK(maker.done());
+  maker.want_volumes({well_clear_volume("nmac").value(), well_clear_volume("dwc-terminal").value()});
+  while (!maker.done()) (void)maker.work(1);
+  CHECK(maker.surveys()[0]->encounter->volumes.size() == 2);
+  maker.want_volumes({});
+  CHECK(maker.done());
+}
