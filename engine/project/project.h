@@ -195,10 +195,15 @@ struct TrajectoryPlan {
   [[nodiscard]] bool operator==(const TrajectoryPlan&) const = default;
 };
 
+// What a detector should make of it: an intruder, or something else in the air that it should not report, such as a
+// bird, which labels state with its own category.
+enum class RoleChoice { intruder, distractor };
+
 // One intruder: its name in the annotations, its category in the labels, its model and its flight.
 struct IntruderSettings {
   std::string name = "intruder";
   std::string category = "airplane";
+  RoleChoice role = RoleChoice::intruder;
   ModelSettings model;
   TrajectoryPlan trajectory;
   std::string unknown_json;
@@ -261,7 +266,7 @@ enum class CodecMatchChoice { none, footage, h264, mjpeg };
 
 struct CodecMatchSettings {
   CodecMatchChoice match = CodecMatchChoice::none;
-  int carried_frames = 0;  // images before this one that H.264 or MPEG has predicted from one another, 0..16
+  int carried_frames = 0;           // images before this one that H.264 or MPEG has predicted from one another, 0..16
   std::optional<double> quantiser;  // QP of H.264 (0..51) or percent of JPEG's table; none: as the stream says
 
   [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;

@@ -63,6 +63,7 @@ struct IntruderTruth {
   std::optional<GeodeticPosition> place = {};  // of the reference point; none where the world has no place on the Earth
   std::optional<Detectability> detectability = {};  // none where no pixel shows it
   ImageFormation image_formation = {};
+  bool is_distractor = false;  // what detectors should not report, such as a bird
 };
 
 // What the frames are counted in, and which of them a set of labels holds.
