@@ -110,7 +110,7 @@ Result<ReadFlights> read_flown_tracks(const std::filesystem::path& file) {
   if (read.tracks.empty())
     if (const Result<Track> log = read_track(file); log) read = flights_of(*log);
   if (!read.tracks.empty()) return read;
-  if (!paths) return fail(paths.error());
+  if (!paths) return fail(paths.error().where, paths.error().what + "; nor is it a flight log, .daa or CSV of pairs");
   return fail(file.string(), "has no flight with times: of each at least two points at different times are needed");
 }
 
