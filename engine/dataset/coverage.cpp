@@ -169,7 +169,10 @@ Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& vide
   for (const PlannedVideo* const video : videos) {
     if (is_set(cancel)) return fail("", "interrupted", ErrorKind::interrupted);
     const std::optional<Scene> scene = opener.scene_of(video->project);
-    if (!scene) return fail(video->name, "the files of this video cannot be opened", ErrorKind::cannot_read);
+    if (!scene) {
+      ++coverage.unopened;
+      continue;
+    }
     const VisibilityEstimator estimator(*scene);
     ++coverage.videos;
     coverage.frames += scene->last_frame - scene->first_frame + 1;

@@ -49,6 +49,7 @@ struct CoverageCounts {
 
 struct Coverage {
   int videos = 0;
+  int unopened = 0;  // further videos, of which a file cannot be opened; nothing is known of them
   long long frames = 0;
   CoverageCounts intruders;
   CoverageCounts distractors;
@@ -60,7 +61,7 @@ struct Coverage {
 
 // Of planned videos, all frames of each, without rendering (VisibilityEstimator of scene/visibility.h). Sizes are
 // within 1 % of the labels'; which frames show a body is estimated where it is at the image's edge, behind the own body
-// or other bodies, or smaller than a pixel. Error: files of a video cannot be opened; interrupted.
+// or other bodies, or smaller than a pixel. Error: interrupted.
 [[nodiscard]] Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& videos,
                                                   const std::atomic<bool>* cancel = nullptr);
 

@@ -120,6 +120,8 @@ std::string coverage_text(const Coverage& coverage, const std::string& title) {
       fmt::format("coverage, {}: {}, {}; intruders in view {} times", title, count_text(coverage.videos, "video"),
                   count_text(coverage.frames, "frame"), coverage.intruders.sights);
   if (has_distractors) text += fmt::format(", distractors {} times", coverage.distractors.sights);
+  if (coverage.unopened > 0)
+    text += fmt::format("; without {} whose files cannot be opened", count_text(coverage.unopened, "video"));
   text += "\n";
   for (const CoverageSection& section : sections_of(coverage)) {
     text += fmt::format("{:<12}{:>14}{:>10}", section.title, "", "intruders");
@@ -139,7 +141,10 @@ std::string coverage_text(const Coverage& coverage, const std::string& title) {
 }
 
 std::string coverage_json(const Coverage& coverage, const std::string& title) {
-  Json json{{"coverage", title}, {"videos", coverage.videos}, {"frames", coverage.frames}};
+  Json json{{"coverage", title},
+            {"videos", coverage.videos},
+            {"unopened_videos", coverage.unopened},
+            {"frames", coverage.frames}};
   for (const bool of_distractors : {false, true}) {
     const CoverageCounts& counts = of_distractors ? coverage.distractors : coverage.intruders;
     Json& group = json[of_distractors ? "distractors" : "intruders"];

@@ -68,6 +68,19 @@ TEST_CASE("what a made dataset covers is what its labels say line by line, and w
   CHECK(predicted->intruders.horizon == counted->intruders.horizon);
 }
 
+TEST_CASE("a video whose model cannot be read is left out of the prediction, and the table says so") {
+  TinyPlan tiny(3, 6);
+  write_file(tiny.inputs().file("broken.obj"), "no model");
+  tiny.plan.videos[1].project.intruders[0].model.file = tiny.inputs().file("broken.obj").string();
+  std::vector<const PlannedVideo*> videos;
+  for (const PlannedVideo& video : tiny.plan.videos) videos.push_back(&video);
+  const Result<Coverage> coverage = predicted_coverage(videos);
+  REQUIRE(coverage);
+  CHECK(coverage->videos == 2);
+  CHECK(coverage->unopened == 1);
+  CHECK(coverage_text(*coverage, "predicted").find("without 1 video whose files") != std::string::npos);
+}
+
 TEST_CASE("coverage counts known annotations in the right bins, as text, JSON and a plot") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "v");
