@@ -3,8 +3,10 @@
 #   bench/dataset.sh [RUNS] [BUILD] [PART] [RECIPE]
 # default: 3 interleaved runs of build/release on part 1/5 of projects/table1/table1.json; PART all: every video.
 # Medians. The dataset command also checks its inputs, makes checksums and waits for the disk; single exports do not.
+#   bench/dataset.sh coverage [BUILD]    runs bench/dataset_coverage.sh: time to plan, coverage against labels
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ "${1:-}" != coverage ] || exec bench/dataset_coverage.sh "${2:-build/release}"
 runs=${1:-3}
 sigs=$PWD/${2:-build/release}/sigs
 part=${3:-1/5}

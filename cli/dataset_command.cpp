@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "cli/dataset_coverage.h"
 #include "cli/dataset_table.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -34,7 +35,8 @@ constexpr const char* kDatasetFooter =
     "  sigs dataset projects/table1/table1.json --out table1\n"
     "  sigs dataset projects/table1/table1.json --out table1 --resume --set export.video.codec=h264\n"
     "  sigs dataset projects/table1/table1.json --out table1 --resume --shard 2/8\n"
-    "  sigs dataset projects/table1/table1.json --out table1 --merge";
+    "  sigs dataset projects/table1/table1.json --out table1 --merge\n"
+    "  sigs dataset projects/table1/table1.json --out table1 --coverage";
 
 struct DatasetOptions {
   std::filesystem::path recipe;
@@ -46,6 +48,8 @@ struct DatasetOptions {
   std::string only;  // names, separated by commas
   bool merge = false;
   bool dry_run = false;
+  bool coverage = false;
+  CoverageOptions coverage_files;
   std::string progress = "auto";
 };
 
@@ -151,13 +155,19 @@ void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
 
 // The table, and the errors of the request.
 Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& videos,
-                  const std::vector<std::optional<Visibility>>& visibilities, const std::filesystem::path& recipe) {
+                  const std::vector<std::optional<Visibility>>& visibilities, const DatasetOptions& options) {
   const Result<std::string> table = table_of(videos, visibilities);
   if (!table) return fail(table.error());
   std::fputs(table->c_str(), stdout);
+  if (!options.merge && !videos.empty()) {
+    const Result<Coverage> coverage = predicted_coverage(videos, &interrupt_flag());
+    if (!coverage) return fail(coverage.error());
+    std::fputs("\n", stdout);
+    if (const Result<void> done = report_coverage(*coverage, "predicted", options.coverage_files); !done) return done;
+  }
   if (std::fflush(stdout) != 0) return fail("stdout", "could not be written", ErrorKind::write_failed);
   warn_of_unseen(videos, visibilities);
-  const Result<void> possible = check_impossible(plan, recipe);
+  const Result<void> possible = check_impossible(plan, options.recipe);
   if (plan.unopened.empty()) return possible;
   for (const UnopenedVideo& video : plan.unopened) print_error({video.name, video.error.text(), video.error.kind});
   return fail("", count_text(plan.unopened.size(), "video") + " cannot be made", plan.unopened.front().error.kind);
@@ -177,11 +187,29 @@ Result<void> print_report(const DatasetReport& report) {
               report.failures.front().error.kind);
 }
 
+// What the dataset that was made covers.
+Result<void> print_counted(const DatasetOptions& options) {
+  if (options.dry_run) return fail("--coverage", "counts what was made; --dry-run predicts it", ErrorKind::usage);
+  std::filesystem::path folder = options.folder;
+  if (folder.empty()) {
+    const Result<ReadRecipe> read = read_recipe(options.recipe);
+    if (!read) return fail(read.error());
+    folder = read->recipe.name;
+  }
+  const Result<Coverage> coverage = counted_coverage(folder, &interrupt_flag());
+  if (!coverage) return fail(coverage.error());
+  return report_coverage(*coverage, "counted from the labels", options.coverage_files);
+}
+
 Result<void> run(const DatasetOptions& options) {
   if (options.merge && (options.resume || !options.shard.empty() || !options.only.empty()))
     return fail("--merge", "exports nothing, so it goes without --resume, --shard and --only", ErrorKind::usage);
   if (!options.shard.empty() && !options.only.empty())
     return fail("--only", "names the videos to make, so it goes without --shard", ErrorKind::usage);
+  if (options.coverage_files.has_any() && !options.dry_run && !options.coverage)
+    return fail(options.coverage_files.json.empty() ? "--plot" : "--json", "goes with --dry-run or --coverage",
+                ErrorKind::usage);
+  if (options.coverage) return print_counted(options);
   DatasetRequest request{
       .jobs = options.jobs, .resume = options.resume, .index = options.only.empty(), .merge_only = options.merge};
   if (!options.shard.empty()) {
@@ -196,7 +224,7 @@ Result<void> run(const DatasetOptions& options) {
   if (!options.merge) visibilities = visibilities_of(videos, kVisibilityFrames, &interrupt_flag());
   if (options.dry_run) {
     if (options.merge) visibilities.resize(videos.size());
-    return list(*plan, videos, visibilities, options.recipe);
+    return list(*plan, videos, visibilities, options);
   }
   if (plan->videos.empty() && plan->unopened.empty()) return check_impossible(*plan, options.recipe);
   if (!options.merge) warn_of_unseen(videos, visibilities);
@@ -234,6 +262,14 @@ Command add_dataset_command(CLI::App& program) {
       ->check(not_empty());
   command->add_flag("--merge", options->merge, "export nothing: make the index of videos that are there");
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
+  command->add_flag("--coverage", options->coverage,
+                    "make nothing: count in the annotations of the dataset in --out what it covers");
+  command->add_option("--json", options->coverage_files.json, "write what --dry-run or --coverage prints of it as JSON")
+      ->option_text("FILE")
+      ->check(output_path());
+  command->add_option("--plot", options->coverage_files.plot, "draw the same as histograms; a PNG")
+      ->option_text("FILE")
+      ->check(output_path());
   command->footer(kDatasetFooter);
   add_set_option(*command, options->project);
   add_progress_option(*command, options->progress);

@@ -135,6 +135,11 @@ std::string resamples_count(const PlannedVideo& video) {
   return count > 0 ? std::to_string(count) : "-";
 }
 
+// Quantities of further bodies ("other2.bearing_deg") would make the table too wide; entry.json has them.
+bool is_shown(const std::string& quantity) {
+  return !quantity.starts_with("other");
+}
+
 // One table's videos: those of the same quantities.
 struct Block {
   std::set<std::string> quantities;
@@ -145,7 +150,8 @@ std::vector<Block> blocks_of(const std::vector<const PlannedVideo*>& videos) {
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < videos.size(); ++i) {
     std::set<std::string> quantities;
-    for (const auto& [quantity, value] : videos[i]->sampled) quantities.insert(quantity);
+    for (const auto& [quantity, value] : videos[i]->sampled)
+      if (is_shown(quantity)) quantities.insert(quantity);
     auto block =
         std::find_if(blocks.begin(), blocks.end(), [&](const Block& one) { return one.quantities == quantities; });
     if (block == blocks.end()) block = blocks.insert(block, {quantities, {}});
@@ -180,7 +186,8 @@ std::vector<Column> columns_of(const Block& block, const Measured& all) {
                            size_range_text(all.visibilities[i]), resamples_count(video)});
     for (std::size_t c = 0; c < fixed; ++c) columns[c].cells.push_back(row[c]);
     std::size_t c = fixed;
-    for (const auto& [quantity, value] : video.sampled) columns[c++].cells.push_back(rounded_text(value));
+    for (const auto& [quantity, value] : video.sampled)
+      if (is_shown(quantity)) columns[c++].cells.push_back(rounded_text(value));
   }
   return columns;
 }

@@ -10,7 +10,7 @@ int main(int count, char** arguments) {
     return 64;
   }
   using namespace sigs::models;
-  for (const auto model : {airliner, light_aircraft, helicopter, quadcopter})
+  for (const auto model : {airliner, light_aircraft, helicopter, quadcopter, bird, balloon, insect})
     if (!write_model(model(), arguments[1])) return 74;
   return 0;
 }

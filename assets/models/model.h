@@ -43,6 +43,11 @@ struct Model {
 [[nodiscard]] Model helicopter();
 [[nodiscard]] Model quadcopter();
 
+// Distractors. The insect is flat: a spot as an insect on the lens looks, out of focus, seen from behind (along +x).
+[[nodiscard]] Model bird();
+[[nodiscard]] Model balloon();
+[[nodiscard]] Model insect();
+
 // Writes NAME/NAME.obj, NAME/NAME.mtl and its textures below `folder`. Each further livery becomes a folder
 // NAME-LIVERY with an MTL and textures, and with NAME-LIVERY.obj as a symbolic link to the one OBJ: an OBJ finds its
 // MTL in the folder in which it is opened. On an error prints it on stderr and returns false.

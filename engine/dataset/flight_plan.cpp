@@ -11,6 +11,7 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "dataset/encounter.h"
+#include "dataset/track_flight.h"
 
 namespace sigs {
 
@@ -35,25 +36,8 @@ using Values = std::map<std::string, double>;
 template <class T>
 using Possible = tl::expected<T, std::string>;
 
-// The frames between which the flight is fixed: two different ones, so that a video of one frame has a velocity too.
-struct Ends {
-  FrameRange frames;
-  double first_s = 0;
-  double length_s = 0;
-};
-
-Ends ends_of(const FlightContext& context) {
-  const FrameRange frames{context.frames.first, std::max(context.frames.last, context.frames.first + 1)};
-  const double first_s = time_of_frame_s(context.footage, frames.first);
-  return {frames, first_s, time_of_frame_s(context.footage, frames.last) - first_s};
-}
-
 glm::dvec3 camera_velocity_mps(const FlightContext& context) {
   return {context.camera.speed_mps, 0, 0};
-}
-
-glm::dvec3 camera_position_m(const FlightContext& context, double time_s) {
-  return context.camera.position_m + time_s * camera_velocity_mps(context);
 }
 
 std::optional<double> value_of(const Values& values, const char* name) {
@@ -103,7 +87,7 @@ Possible<RelativeMotion> template_motion(FlightKind kind, const Values& values, 
 }
 
 // Where neither time nor range is given, the closest approach is in the last frame.
-EncounterTiming timing_of(const Values& values, const Ends& ends) {
+EncounterTiming timing_of(const Values& values, const FlightEnds& ends) {
   EncounterTiming timing{.closing_speed_mps = value_of(values, "closing_speed_mps"),
                          .time_of_closest_approach_s = value_of(values, "time_of_closest_approach_s"),
                          .range_m = value_of(values, "range_m")};
@@ -112,7 +96,7 @@ EncounterTiming timing_of(const Values& values, const Ends& ends) {
   return timing;
 }
 
-Possible<Encounter> encounter_of(const Values& values, const Ends& ends) {
+Possible<Encounter> encounter_of(const Values& values, const FlightEnds& ends) {
   return timed_encounter({.miss_distance_m = values.at("miss_distance_m"),
                           .miss_angle_deg = values.at("miss_angle_deg"),
                           .bearing_deg = values.at("bearing_deg"),
@@ -135,27 +119,9 @@ std::string ways_out(FlightKind kind, const Values& values) {
   return is_crossing(kind) ? "distance_m or frames" : "from_distance_m, to_distance_m or frames";
 }
 
-Possible<void> check_speed(FlightKind kind, const Values& values, double speed_mps, const FlightContext& context) {
-  const std::optional<Span>& limits = context.speed_limits_mps;
-  if (!limits || (speed_mps >= limits->low && speed_mps <= limits->high)) return {};
-  return tl::unexpected(
-      fmt::format("speed_mps: the intruder would have to fly {} m/s; its aircraft flies {} to {}; change {}, or the "
-                  "aircraft's speed_limits_mps",
-                  short_number_text(speed_mps), short_number_text(limits->low), short_number_text(limits->high),
-                  ways_out(kind, values)));
-}
-
-Possible<void> check_waypoint(FlightKind kind, const WaypointSettings& waypoint) {
-  const glm::dvec3& p_m = waypoint.position_m;
-  const char* const height =
-      kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
-  const std::string frame = fmt::format(" in frame {}", std::lround(*waypoint.frame));
-  if (p_m.z > kRounding_m)
-    return tl::unexpected(
-        fmt::format("{}: the intruder is underground{}, {} m below z = 0", height, frame, short_number_text(p_m.z)));
-  if (glm::max(glm::max(std::abs(p_m.x), std::abs(p_m.y)), std::abs(p_m.z)) > kMaxCoordinate_m)
-    return tl::unexpected("the intruder is farther than 1e8 m from the world's origin" + frame);
-  return {};
+// The quantities on which the height depends.
+const char* heights_of(FlightKind kind) {
+  return kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
 }
 
 Possible<RelativeMotion> motion_of(FlightKind kind, const Values& values, const FlightContext& context,
@@ -169,20 +135,52 @@ Possible<RelativeMotion> motion_of(FlightKind kind, const Values& values, const 
 
 }  // namespace
 
+FlightEnds ends_of(const FlightContext& context) {
+  const FrameRange frames{context.frames.first, std::max(context.frames.last, context.frames.first + 1)};
+  const double first_s = time_of_frame_s(context.footage, frames.first);
+  return {frames, first_s, time_of_frame_s(context.footage, frames.last) - first_s};
+}
+
+glm::dvec3 camera_position_m(const FlightContext& context, double time_s) {
+  return context.camera.position_m + time_s * camera_velocity_mps(context);
+}
+
+Possible<void> check_speed(double speed_mps, const FlightContext& context, const std::string& change) {
+  const std::optional<Span>& limits = context.speed_limits_mps;
+  if (!limits || (speed_mps >= limits->low && speed_mps <= limits->high)) return {};
+  return tl::unexpected(fmt::format(
+      "speed_mps: the intruder would have to fly {} m/s; its aircraft flies {} to {}; change {}, or the "
+      "aircraft's speed_limits_mps",
+      short_number_text(speed_mps), short_number_text(limits->low), short_number_text(limits->high), change));
+}
+
+Possible<void> check_waypoint(const WaypointSettings& waypoint, const char* height) {
+  const glm::dvec3& p_m = waypoint.position_m;
+  const std::string frame = fmt::format(" in frame {}", std::lround(*waypoint.frame));
+  if (p_m.z > kRounding_m)
+    return tl::unexpected(
+        fmt::format("{}: the intruder is underground{}, {} m below z = 0", height, frame, short_number_text(p_m.z)));
+  if (glm::max(glm::max(std::abs(p_m.x), std::abs(p_m.y)), std::abs(p_m.z)) > kMaxCoordinate_m)
+    return tl::unexpected("the intruder is farther than 1e8 m from the world's origin" + frame);
+  return {};
+}
+
 Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, const FlightContext& context) {
   if (const Possible<void> checked = check_values(kind, values); !checked) return tl::unexpected(checked.error());
-  const Ends ends = ends_of(context);
+  const FlightEnds ends = ends_of(context);
   if (!(ends.length_s > 0)) return tl::unexpected(std::string("frames: the footage's times do not increase"));
+  if (kind == FlightKind::encounter_model || kind == FlightKind::recorded)
+    return planned_track_flight(kind, values, context);
   PlannedFlight flight;
   const Possible<RelativeMotion> motion = motion_of(kind, values, context, flight.derived);
   if (!motion) return tl::unexpected(motion.error());
   const double speed_mps = glm::length(motion->velocity_mps + camera_velocity_mps(context));
-  if (const Possible<void> checked = check_speed(kind, values, speed_mps, context); !checked)
+  if (const Possible<void> checked = check_speed(speed_mps, context, ways_out(kind, values)); !checked)
     return tl::unexpected(checked.error());
   for (const auto& [frame, since_s] : {std::pair{ends.frames.first, 0.0}, std::pair{ends.frames.last, ends.length_s}}) {
     flight.waypoints.push_back(
         {.frame = frame, .position_m = camera_position_m(context, ends.first_s + since_s) + motion->at(since_s)});
-    const Possible<void> checked = check_waypoint(kind, flight.waypoints.back());
+    const Possible<void> checked = check_waypoint(flight.waypoints.back(), heights_of(kind));
     if (!checked) return tl::unexpected(checked.error());
   }
   flight.derived["speed_mps"] = speed_mps;

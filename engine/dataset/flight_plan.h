@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "camera/camera.h"
 #include "dataset/encounter.h"
 #include "dataset/flight_quantities.h"
+#include "dataset/flown_track.h"
 #include "dataset/sample.h"
 #include "project/project.h"
 #include "scene/scene.h"
@@ -24,12 +26,38 @@ struct FlightContext {
   const FootageShape& footage;
   FrameRange frames;                     // of the video
   std::optional<Span> speed_limits_mps;  // of the aircraft
+  // Of the kinds encounter_model and recorded alone: what they are taken from, and 64 random bits to sample it with.
+  const FlightSource* source = nullptr;
+  std::uint64_t random_bits = 0;
 };
 
 struct PlannedFlight {
-  std::vector<WaypointSettings> waypoints;  // two: in the first frame and in the last one (of one frame: in the next)
-  std::map<std::string, double> derived;    // "speed_mps", "nearest_m" and, of an encounter, its timing
+  // Two: in the first frame and in the last one (of one frame: in the next). Of a drawn or recorded flight more, all of
+  // which an interpolating trajectory has to pass at their frames.
+  std::vector<WaypointSettings> waypoints;
+  std::map<std::string, double> derived;  // "speed_mps", "nearest_m" and, of an encounter, its timing
 };
+
+// The frames between which a flight is fixed: two different ones, so that a video of one frame has a velocity too.
+struct FlightEnds {
+  FrameRange frames;
+  double first_s = 0;  // time of the first, of the footage
+  double length_s = 0;
+};
+[[nodiscard]] FlightEnds ends_of(const FlightContext& context);
+
+// The camera, flying straight on.
+//   time_s  of the footage
+[[nodiscard]] glm::dvec3 camera_position_m(const FlightContext& context, double time_s);
+
+// The reason why the aircraft does not fly that fast, or nothing.
+//   change  the quantities on which the speed depends: "closing_speed_mps or bearing_deg"
+[[nodiscard]] tl::expected<void, std::string> check_speed(double speed_mps, const FlightContext& context,
+                                                          const std::string& change);
+
+// The reason why a waypoint cannot be, or nothing: it is underground or farther than 1e8 m from the world's origin.
+//   height  the quantities on which its height depends
+[[nodiscard]] tl::expected<void, std::string> check_waypoint(const WaypointSettings& waypoint, const char* height);
 
 // The waypoints of a flight. values: one for each quantity of the kind that is given or has a default. Where there is
 // no such flight: the reason in one line, which names the quantity. Reasons are an encounter that cannot be, a value

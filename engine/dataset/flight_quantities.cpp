@@ -11,10 +11,12 @@ namespace {
 constexpr double kMaxDistance_m = 1e7;
 constexpr double kMaxSpeed_mps = 1e4;
 constexpr double kMaxTime_s = 1e6;
+constexpr double kMaxRecordedTime_s = 1e7;
 constexpr double kMaxPlace_percent = 1000;
 
-constexpr std::array<FlightKind, 5> kKinds{FlightKind::left_right, FlightKind::right_left, FlightKind::approaching,
-                                           FlightKind::moving_away, FlightKind::encounter};
+constexpr std::array<FlightKind, 7> kKinds{FlightKind::left_right,  FlightKind::right_left, FlightKind::approaching,
+                                           FlightKind::moving_away, FlightKind::encounter,  FlightKind::encounter_model,
+                                           FlightKind::recorded};
 
 constexpr FlightQuantity place(std::string_view name, double standard, std::string_view help) {
   return {name, -kMaxPlace_percent, kMaxPlace_percent, standard, false, help};
@@ -30,7 +32,7 @@ constexpr std::string_view kFromY = "the same from the upper edge (0) to the low
 constexpr std::string_view kToY = "and in the last frame";
 
 constexpr FlightQuantity distance(std::string_view name, double standard, std::string_view help) {
-  return {name, 1, kMaxDistance_m, standard, false, help};
+  return {name, 0.02, kMaxDistance_m, standard, false, help};
 }
 
 constexpr std::string_view kClosestHelp = "distance where it crosses the middle of its way";
@@ -69,11 +71,42 @@ constexpr std::array kEncounter{
                    "after the video's first frame; none: the last frame's, where range_m does not say it"},
     FlightQuantity{"range_m", 0, kMaxDistance_m, std::nullopt, false, "distance in the first frame"}};
 
+constexpr FlightQuantity kHmd{
+    "hmd_m",
+    -kMaxDistance_m,
+    kMaxDistance_m,
+    std::nullopt,
+    true,
+    "horizontal distance at the closest approach; to who looks where it comes from it passes on the "
+    "right, negative: on the left"};
+constexpr FlightQuantity kVmd{"vmd_m", -kMaxDistance_m, kMaxDistance_m,
+                              0.0,     false,           "the intruder's height above the camera at that time"};
+constexpr FlightQuantity kTrackBearing{
+    "bearing_deg", -360,  360,
+    0.0,           false, "of where it comes from at that time, to the right of the camera's direction of flight"};
+constexpr FlightQuantity kTrackTime{"time_of_closest_approach_s",
+                                    0,
+                                    kMaxTime_s,
+                                    std::nullopt,
+                                    false,
+                                    "after the video's first frame, within the video; none: the last frame's"};
+
+constexpr std::array kEncounterModel{kHmd, kVmd, kTrackBearing, kTrackTime};
+constexpr std::array kRecorded{
+    kHmd,
+    kVmd,
+    kTrackBearing,
+    kTrackTime,
+    FlightQuantity{"recorded_time_s", 0, kMaxRecordedTime_s, std::nullopt, false,
+                   "time in the recording, from its first point, of the closest approach; none: sampled evenly"},
+    FlightQuantity{"smoothing_s", 0, 120, 2.0, false,
+                   "the path is the mean over so many seconds; noise and steps of the recorded heights need more"}};
+
 }  // namespace
 
 std::string_view name_of(FlightKind kind) {
-  constexpr std::array<std::string_view, 5> kNames{"left_right", "right_left", "approaching", "moving_away",
-                                                   "encounter"};
+  constexpr std::array<std::string_view, 7> kNames{"left_right", "right_left",      "approaching", "moving_away",
+                                                   "encounter",  "encounter_model", "recorded"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
@@ -98,6 +131,10 @@ std::span<const FlightQuantity> quantities_of(FlightKind kind) {
       return kMovingAway;
     case FlightKind::encounter:
       return kEncounter;
+    case FlightKind::encounter_model:
+      return kEncounterModel;
+    case FlightKind::recorded:
+      return kRecorded;
   }
   return {};
 }

@@ -8,9 +8,9 @@
 
 namespace sigs {
 
-// The kind of a flight: one of the four of the paper's Table 1, which are given by places in the image, or an encounter
-// (encounter.h).
-enum class FlightKind { left_right, right_left, approaching, moving_away, encounter };
+// The kind of a flight: one of the four of the paper's Table 1, which are given by places in the image; an encounter
+// (encounter.h); or a flight drawn from an encounter model or recorded, placed as an encounter (track_flight.h).
+enum class FlightKind { left_right, right_left, approaching, moving_away, encounter, encounter_model, recorded };
 
 // Names as recipes write them: "left_right".
 [[nodiscard]] std::string_view name_of(FlightKind kind);

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <memory>
 
 #include "export/export_project.h"
+#include "scene/model.h"
 #include "scene/opened_project.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
@@ -26,6 +28,20 @@ Result<FootageShape> opened_shape(const std::string& path) {
   const Result<FrameSource> source = FrameSource::open(path);
   if (!source) return fail(source.error());
   return shape_of(source->info());
+}
+
+// A model of one metre for each unit of its file at the size of the settings, with what an estimate needs alone: its
+// bounds and outermost points. So videos whose sizes are sampled share one file read. Null: it has no length.
+std::shared_ptr<const Model> model_of_size(const Model& unit, const ModelSettings& settings) {
+  const double length = double(unit.mesh.high_m.x) - double(unit.mesh.low_m.x);
+  if (settings.length_m > 0 && !(length > 0)) return nullptr;
+  const auto factor = static_cast<float>(settings.length_m > 0 ? settings.length_m / length : settings.scale);
+  auto model = std::make_shared<Model>();
+  model->mesh.low_m = factor * unit.mesh.low_m;
+  model->mesh.high_m = factor * unit.mesh.high_m;
+  model->mesh.radius_m = factor * unit.mesh.radius_m;
+  for (const glm::vec3& point_m : unit.outermost_m) model->outermost_m.push_back(factor * point_m);
+  return model;
 }
 
 // Opens the backgrounds of one recipe.
@@ -114,11 +130,28 @@ void VideoVisibility::remember(const std::string& video, const FootageShape& sha
   shapes_[video] = shape;
 }
 
-std::optional<Visibility> VideoVisibility::visibility_of(const Project& project, int frames) {
+std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
   const std::optional<FootageShape> footage = shape_of_footage(resolved(project, project.footage.video).string());
   if (!footage) return std::nullopt;
-  const Result<Scene> scene = open_scene(project, *footage, files_);
+  Project unit = project;
+  for (IntruderSettings& intruder : unit.intruders) {
+    intruder.model.scale = 1;
+    intruder.model.length_m = 0;
+  }
+  Result<Scene> scene = open_scene(unit, *footage, files_);
   if (!scene || scene->intruders.empty()) return std::nullopt;
+  for (std::size_t i = 0; i < scene->intruders.size(); ++i) {
+    std::shared_ptr<const Model> model = model_of_size(*scene->intruders[i].model, project.intruders[i].model);
+    if (!model) return std::nullopt;
+    scene->intruders[i].model = model.get();
+    scene->models.push_back(std::move(model));
+  }
+  return *std::move(scene);
+}
+
+std::optional<Visibility> VideoVisibility::visibility_of(const Project& project, int frames) {
+  const std::optional<Scene> scene = scene_of(project);
+  if (!scene) return std::nullopt;
   return estimated_visibilities(*scene, frames).front();
 }
 

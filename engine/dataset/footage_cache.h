@@ -43,6 +43,10 @@ class VideoVisibility {
   // names cannot be opened.
   [[nodiscard]] std::optional<Visibility> visibility_of(const Project& project, int frames);
 
+  // The opened project, with models that have bounds and outermost points alone (scene/model.h): enough for estimates.
+  // None where the files that it names cannot be opened.
+  [[nodiscard]] std::optional<Scene> scene_of(const Project& project);
+
  private:
   [[nodiscard]] std::optional<FootageShape> shape_of_footage(const std::string& path);
 

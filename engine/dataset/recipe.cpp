@@ -22,10 +22,11 @@ namespace sigs {
 namespace {
 
 // Settings that the recipe has elsewhere for each video; where they belong.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPerVideoSettings{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kPerVideoSettings{
     {{"name", "videos[].name"},
      {"footage.", "backgrounds[].footage"},
      {"intruders[0].name", "aircraft[].name"},
+     {"intruders[0].role", "aircraft[].distractor"},
      {"intruders[0].model.", "aircraft[].model"}}};
 
 void make_paths_absolute(Project& project) {
@@ -208,6 +209,34 @@ std::optional<Span> read_speed_limits(RecipeNode& node) {
   return limits;
 }
 
+std::vector<std::string> read_liveries(RecipeNode& node) {
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::absolute(node.log().file, code).parent_path();
+  std::vector<std::string> files;
+  for (const std::string& name : node.texts("liveries")) {
+    const std::filesystem::path file = (folder / name).lexically_normal();
+    if (!std::filesystem::is_regular_file(file, code))
+      node.log().wrong(fmt::format("{}[{}]", node.key_of("liveries"), files.size()),
+                       file.string() + " is no file that can be read", ErrorKind::cannot_read);
+    files.push_back(file.string());
+  }
+  return files;
+}
+
+Quantity read_scale(RecipeNode& node) {
+  const Quantity scale = read_quantity(node, "scale").value_or(Quantity{.value = 1});
+  const Span span = span_of(scale);
+  if (span.low < 1e-3 || span.high > 1e3) node.log().wrong(node.key_of("scale"), "must lie between 0.001 and 1000");
+  return scale;
+}
+
+bool read_distractor(RecipeNode& node) {
+  const Json* const json = node.value("distractor");
+  if (json != nullptr && !json->is_boolean())
+    node.log().wrong(node.key_of("distractor"), "expected true or false, found " + shown(*json));
+  return json != nullptr && json->is_boolean() && json->get<bool>();
+}
+
 Aircraft read_aircraft(RecipeNode node, const Project& base) {
   Project project = base;
   IntruderSettings& intruder = project.intruders.front();
@@ -216,6 +245,9 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   if (aircraft.category.empty()) node.log().wrong(node.key_of("category"), "is empty; labels count by it");
   read_section(node, "model", "intruders[0].model", project);
   aircraft.model = intruder.model;
+  aircraft.liveries = read_liveries(node);
+  aircraft.scale = read_scale(node);
+  aircraft.is_distractor = read_distractor(node);
   aircraft.speed_limits_mps = read_speed_limits(node);
   check_tags(aircraft.tags, node);
   node.done();

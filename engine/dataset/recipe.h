@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "dataset/flight_quantities.h"
+#include "dataset/flown_track.h"
 #include "dataset/sample.h"
 #include "project/project.h"
 
@@ -31,6 +32,9 @@ struct Aircraft {
   std::string name;
   std::string category = "airplane";
   ModelSettings model;                   // its path is absolute
+  std::vector<std::string> liveries;     // models of the same shape, absolute; one is sampled; empty: `model` alone
+  Quantity scale{.value = 1};            // factor of the model's size
+  bool is_distractor = false;            // what detectors should not report, such as a bird
   std::optional<Span> speed_limits_mps;  // over ground; none: any speed is allowed
   std::map<std::string, std::string> tags;
 };
@@ -39,6 +43,7 @@ struct FlightPlan {
   std::string name;  // used in names of videos
   FlightKind kind = FlightKind::left_right;
   std::map<std::string, Quantity> quantities;  // those that the recipe gives; names: flight_quantities.h
+  FlightSource source;                         // of the kinds encounter_model and recorded
 };
 
 // Numbers of the light that a group of videos samples in place of the background's: "light_x_m", "light_y_m",
@@ -49,6 +54,14 @@ struct LightPlan {
 
 // The light with the sampled numbers in it; those that were not sampled stay.
 [[nodiscard]] LightSettings with_sampled_light(LightSettings light, const std::map<std::string, double>& sampled);
+
+// What else flies in the videos of a group: a sampled number of bodies, each of a sampled aircraft and flight.
+struct OthersPlan {
+  Quantity count{.value = 1};         // rounded down, 0 to kMaxOthers
+  std::vector<std::string> aircraft;  // names, at least one
+  std::vector<FlightPlan> flights;
+};
+inline constexpr int kMaxOthers = 100;
 
 // A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each; or, where
 // is_sampled, `count` videos whose background, aircraft and flight are sampled.
@@ -62,10 +75,12 @@ struct VideoGroup {
   // How often at most a video that cannot be flown, or whose intruder is never in the image, is sampled again; none: it
   // is sampled once, visible or not.
   std::optional<int> resamples;
-  std::vector<LightPlan> lights;  // one of them is sampled; empty: the background's light
-  std::optional<int> frames;      // length in frames; none: to the last frame of the background
-  Quantity first_frame;           // counted from the background's first frame; rounded down
-  std::string split;              // fixed; empty: sampled
+  std::vector<LightPlan> lights;               // one of them is sampled; empty: the background's light
+  std::map<std::string, Quantity> appearance;  // numbers of the project, by key: "appearance.haze.visibility_m"
+  std::vector<OthersPlan> others;
+  std::optional<int> frames;  // length in frames; none: to the last frame of the background
+  Quantity first_frame;       // counted from the background's first frame; rounded down
+  std::string split;          // fixed; empty: sampled
   std::map<std::string, std::string> tags;
 };
 

@@ -71,6 +71,29 @@ class RecipeNode {
                                                   const std::vector<std::string>& settings);
 void read_splits(RecipeNode& recipe_node, Recipe& recipe);
 
+// A list of flights, and what files they name (relative to the recipe's folder) say. A flight given as a text is its
+// kind; anything else is taken as it is.
+//   list  null, or no list of at least one flight: error in the log
+//   key   of the list
+[[nodiscard]] std::vector<FlightPlan> read_flights(const Json* list, const std::string& key, RecipeLog& log);
+
+// A group's "appearance": { "haze.visibility_m": QUANTITY, ... }: numbers of the project below `appearance`, within
+// their limits, by their keys in the project. Those that `settings` (KEY=VALUE given beside the recipe) set are left
+// out.
+[[nodiscard]] std::map<std::string, Quantity> read_appearance(RecipeNode& group,
+                                                              const std::vector<std::string>& settings);
+
+// A group's "others": a list of OthersPlan; without the key none.
+[[nodiscard]] std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe);
+
+// The aircraft that a group or its others select by the key "aircraft"; `standard` where there is no such key.
+[[nodiscard]] std::vector<std::string> selected_names(RecipeNode& group, const char* key,
+                                                      const std::vector<std::string>& there,
+                                                      const std::vector<std::string>& standard);
+
+// A quantity; none where there is no such key or it has another form, which is written to the log.
+[[nodiscard]] std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name);
+
 // Error in the log where a tag has a name that every video has as a tag of its own: background, aircraft, flight.
 void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node);
 

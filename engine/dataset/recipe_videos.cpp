@@ -116,84 +116,20 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The names that a group selects from all; all where it selects none.
-std::vector<std::string> picked(RecipeNode& group, const char* key, const std::vector<std::string>& there) {
-  std::vector<std::string> names = group.texts(key);
-  if (names.empty()) return there;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
-    if (!has(there, names[i]))
-      group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
-    if (std::count(names.begin(), names.end(), names[i]) > 1)
-      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
-  }
-  return names;
-}
-
-std::string kinds() {
+// All aircraft that are no distractors; where there are none, all.
+std::vector<std::string> intruders_of(const Recipe& recipe) {
   std::vector<std::string> names;
-  for (const FlightKind kind : all_flight_kinds()) names.emplace_back(name_of(kind));
-  return listed(names);
+  for (const Aircraft& aircraft : recipe.aircraft)
+    if (!aircraft.is_distractor) names.push_back(aircraft.name);
+  return names.empty() ? names_of(recipe.aircraft) : names;
 }
 
-std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name) {
-  const Json* const json = node.value(name);
-  if (json == nullptr) return std::nullopt;
-  const tl::expected<Quantity, std::string> quantity = quantity_of(*json);
-  if (quantity) return *quantity;
-  node.log().wrong(node.key_of(name), quantity.error());
-  return std::nullopt;
-}
-
-// Any two of the three, or one of the first two alone.
-void check_timing(const FlightPlan& flight, RecipeNode& node) {
-  const bool speed = flight.quantities.contains("closing_speed_mps");
-  const bool range = flight.quantities.contains("range_m");
-  const bool time = flight.quantities.contains("time_of_closest_approach_s");
-  if (!speed && !range) node.log().wrong(node.key_of("closing_speed_mps"), "is missing; give it or range_m");
-  if (speed && range && time)
-    node.log().wrong(node.key_of("range_m"),
-                     "follows from closing_speed_mps and time_of_closest_approach_s; give two of the three");
-}
-
-FlightPlan read_flight(RecipeNode node) {
-  FlightPlan flight;
-  const std::string kind_name = node.needed_text("kind");
-  const std::optional<FlightKind> kind = flight_kind_of(kind_name);
-  if (!kind) {
-    node.log().wrong(node.key_of("kind"), fmt::format("is \"{}\"; there are {}", kind_name, kinds()));
-    return flight;
-  }
-  flight.kind = *kind;
-  flight.name = node.text("name").value_or(kind_name);
-  for (const FlightQuantity& quantity : quantities_of(*kind)) {
-    const std::optional<Quantity> given = read_quantity(node, quantity.name);
-    if (given) flight.quantities[std::string(quantity.name)] = *given;
-    if (!given && quantity.required)
-      node.log().wrong(node.key_of(quantity.name), "is missing: " + std::string(quantity.help));
-  }
-  if (*kind == FlightKind::encounter) check_timing(flight, node);
-  node.done();
-  return flight;
-}
-
-// A flight given as a text is its kind; anything else is taken as it is.
-std::vector<FlightPlan> read_flights(RecipeNode& group, bool is_sampled) {
+// The flights of a group; of a sampled one without any the standard encounter.
+std::vector<FlightPlan> flights_in(RecipeNode& group, bool is_sampled) {
   static const Json random_encounter = Json::parse(kRandomEncounter);
-  std::vector<FlightPlan> flights;
   const Json* list = group.value("flights");
   if (list == nullptr && is_sampled) list = &random_encounter;
-  if (list == nullptr || !list->is_array() || list->empty()) {
-    group.log().wrong(group.key_of("flights"), "expected a list of at least one flight");
-    return flights;
-  }
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const Json& item = list->at(i);
-    const std::string key = fmt::format("{}[{}]", group.key_of("flights"), i);
-    const Json named{{"kind", item}};
-    flights.push_back(read_flight(RecipeNode(item.is_string() ? named : item, key, group.log())));
-  }
-  return flights;
+  return read_flights(list, group.key_of("flights"), group.log());
 }
 
 void check_split(const std::string& split, RecipeNode& group, const Recipe& recipe) {
@@ -235,10 +171,13 @@ void check_sampled_name(const VideoGroup& group, RecipeNode& node) {
 VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<std::string>& settings) {
   VideoGroup group;
   read_count(node, group);
-  group.backgrounds = picked(node, "backgrounds", names_of(recipe.backgrounds));
-  group.aircraft = picked(node, "aircraft", names_of(recipe.aircraft));
-  group.flights = read_flights(node, group.is_sampled);
+  const std::vector<std::string> backgrounds = names_of(recipe.backgrounds);
+  group.backgrounds = selected_names(node, "backgrounds", backgrounds, backgrounds);
+  group.aircraft = selected_names(node, "aircraft", names_of(recipe.aircraft), intruders_of(recipe));
+  group.flights = flights_in(node, group.is_sampled);
   group.lights = read_lights(node, settings);
+  group.appearance = read_appearance(node, settings);
+  group.others = read_others(node, recipe);
   group.name = node.text("name").value_or(standard_name(group));
   group.frames = node.whole("frames", 1, kMaxFrames);
   group.first_frame = read_quantity(node, "first_frame").value_or(Quantity{});

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
+#include <variant>
 
 #include "dataset/flight_plan.h"
+#include "project/fields.h"
 
 namespace sigs {
 
@@ -21,6 +24,10 @@ class Sampler {
 
   [[nodiscard]] double number(const Quantity& quantity, const std::string& name) const {
     return sampled(quantity, {seed_, video_, name + ending_});
+  }
+
+  [[nodiscard]] std::uint64_t bits(const std::string& name) const {
+    return random_bits({seed_, video_, name + ending_});
   }
 
   // One of so many, with equal probability.
@@ -45,12 +52,13 @@ std::map<std::string, std::string> tags_of(const Recipe& recipe, const VideoSpec
   return tags;
 }
 
-std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler& sampler) {
+// `prefix` distinguishes the flights of one video.
+std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler& sampler, const std::string& prefix) {
   std::map<std::string, double> values;
   for (const FlightQuantity& quantity : quantities_of(flight.kind)) {
     const std::string name(quantity.name);
     if (const auto given = flight.quantities.find(name); given != flight.quantities.end())
-      values[name] = sampler.number(given->second, name);
+      values[name] = sampler.number(given->second, prefix + name);
     else if (quantity.standard)
       values[name] = *quantity.standard;
   }
@@ -87,9 +95,8 @@ std::vector<std::string> categories_of(const Recipe& recipe) {
 }
 
 Project project_of(const Recipe& recipe, const VideoSpec& spec, const FrameRange& frames,
-                   std::vector<WaypointSettings> waypoints, const std::map<std::string, double>& light) {
+                   const std::map<std::string, double>& light) {
   const Background& background = recipe.backgrounds[spec.background];
-  const Aircraft& aircraft = recipe.aircraft[spec.aircraft];
   Project project = recipe.base;
   project.name = spec.name;
   project.footage = background.footage;
@@ -98,12 +105,97 @@ Project project_of(const Recipe& recipe, const VideoSpec& spec, const FrameRange
   project.camera = background.camera;
   project.light = with_sampled_light(background.light, light);
   project.output.categories = categories_of(recipe);
-  IntruderSettings& intruder = project.intruders.front();
-  intruder.name = aircraft.name;
-  intruder.category = aircraft.category;
-  intruder.model = aircraft.model;
-  intruder.trajectory.waypoints = std::move(waypoints);
+  project.intruders.clear();
   return project;
+}
+
+// A body of a video: which aircraft, on which flight.
+struct Flyer {
+  const Aircraft& aircraft;
+  const FlightPlan& flight;
+  std::string prefix;  // of the names of its quantities; empty: the video's first
+};
+
+// One with quantities that are sampled is named so in the entry's `drawn`.
+void sample_model(const Flyer& flyer, const Sampler& sampler, PlannedVideo& video, ModelSettings& model) {
+  const Aircraft& aircraft = flyer.aircraft;
+  if (!aircraft.liveries.empty()) {
+    model.file = aircraft.liveries[sampler.pick(aircraft.liveries.size(), flyer.prefix + "livery")];
+    if (flyer.prefix.empty()) video.tags.emplace("livery", std::filesystem::path(model.file).stem().string());
+  }
+  if (aircraft.scale == Quantity{.value = 1}) return;
+  const double scale = sampler.number(aircraft.scale, flyer.prefix + "scale");
+  (model.length_m > 0 ? model.length_m : model.scale) *= scale;
+  video.sampled[flyer.prefix + "scale"] = scale;
+}
+
+// "bird", "bird 2", ...
+std::string unused_name(const Project& project, const std::string& name) {
+  int same = 0;
+  for (const IntruderSettings& intruder : project.intruders)
+    same += intruder.name == name || intruder.name.starts_with(name + " ") ? 1 : 0;
+  return same == 0 ? name : fmt::format("{} {}", name, same + 1);
+}
+
+// Adds a body to the project, or says why it cannot fly so.
+tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& recipe, FlightContext context,
+                                          const Sampler& sampler, PlannedVideo& video) {
+  std::map<std::string, double> values = values_of(flyer.flight, sampler, flyer.prefix);
+  context.speed_limits_mps = flyer.aircraft.speed_limits_mps;
+  context.source = &flyer.flight.source;
+  context.random_bits = sampler.bits(flyer.prefix + "flight_source");
+  tl::expected<PlannedFlight, std::string> planned = planned_flight(flyer.flight.kind, values, context);
+  if (!planned) return tl::unexpected(planned.error());
+  values.merge(planned->derived);
+  for (const auto& [name, value] : values) video.sampled[flyer.prefix + name] = value;
+  IntruderSettings intruder = recipe.base.intruders.front();
+  intruder.name = unused_name(video.project, flyer.aircraft.name);
+  intruder.category = flyer.aircraft.category;
+  intruder.role = flyer.aircraft.is_distractor ? RoleChoice::distractor : RoleChoice::intruder;
+  intruder.model = flyer.aircraft.model;
+  sample_model(flyer, sampler, video, intruder.model);
+  if (planned->waypoints.size() > 2) {  // a drawn or recorded flight passes its waypoints
+    intruder.trajectory.spline = SplineChoice::interpolating;
+    intruder.trajectory.timing = TimingChoice::frames;
+  }
+  intruder.trajectory.waypoints = std::move(planned->waypoints);
+  video.project.intruders.push_back(std::move(intruder));
+  return {};
+}
+
+// What else flies. Keys of random numbers are those of the names in `drawn`, "other3.bearing_deg".
+tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGroup& group, const FlightContext& context,
+                                           const Sampler& sampler, PlannedVideo& video) {
+  int number = 0;
+  for (std::size_t i = 0; i < group.others.size(); ++i) {
+    const OthersPlan& others = group.others[i];
+    const auto count =
+        std::min(kMaxOthers, static_cast<int>(sampler.number(others.count, fmt::format("others[{}].count", i))));
+    for (int n = 0; n < count; ++n) {
+      const std::string prefix = fmt::format("other{}.", ++number);
+      const std::string& name = others.aircraft[sampler.pick(others.aircraft.size(), prefix + "aircraft")];
+      const Flyer flyer{.aircraft = recipe.aircraft[index_of(recipe.aircraft, name)],
+                        .flight = others.flights[sampler.pick(others.flights.size(), prefix + "flight")],
+                        .prefix = prefix};
+      if (const auto added = add_flyer(flyer, recipe, context, sampler, video); !added)
+        return tl::unexpected(fmt::format("others[{}].{}", i, added.error()));
+    }
+  }
+  return {};
+}
+
+// Samples the numbers of the image's appearance.
+void sample_appearance(const VideoGroup& group, const Sampler& sampler, PlannedVideo& video) {
+  if (group.appearance.empty()) return;
+  for (const Field& field : fields_of(video.project)) {
+    const auto quantity = group.appearance.find(field.key);
+    if (quantity == group.appearance.end()) continue;
+    const double number = sampler.number(quantity->second, field.key);
+    video.sampled[field.key] = number;
+    if (auto* const* const real = std::get_if<double*>(&field.value)) **real = number;
+    if (auto* const* const whole = std::get_if<int*>(&field.value)) **whole = static_cast<int>(std::floor(number));
+    if (auto* const* const optional = std::get_if<std::optional<double>*>(&field.value)) **optional = number;
+  }
 }
 
 }  // namespace
@@ -122,26 +214,24 @@ VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again) {
 tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
                                                       const OpenedBackground& background, int again) {
   const VideoGroup& group = recipe.groups[spec.group];
-  const FlightPlan& flight = group.flights[spec.flight];
   const Sampler sampler(recipe.seed, spec.name, again);
   const tl::expected<FrameRange, std::string> frames = frames_of(group, sampler, background.frames);
   if (!frames) return tl::unexpected(frames.error());
+  const std::map<std::string, double> light = light_of(group, sampler);
   PlannedVideo video{.name = spec.name, .split = group.split, .tags = tags_of(recipe, spec)};
-  video.sampled = values_of(flight, sampler);
-  tl::expected<PlannedFlight, std::string> planned =
-      planned_flight(flight.kind, video.sampled,
-                     {.camera = recipe.backgrounds[spec.background].camera,
-                      .lens = background.lens,
-                      .footage = background.footage,
-                      .frames = *frames,
-                      .speed_limits_mps = recipe.aircraft[spec.aircraft].speed_limits_mps});
-  if (!planned) return tl::unexpected(planned.error());
-  video.sampled.merge(planned->derived);
+  video.project = project_of(recipe, spec, *frames, light);
+  const FlightContext context{.camera = recipe.backgrounds[spec.background].camera,
+                              .lens = background.lens,
+                              .footage = background.footage,
+                              .frames = *frames};
+  const Flyer first{.aircraft = recipe.aircraft[spec.aircraft], .flight = group.flights[spec.flight]};
+  tl::expected<void, std::string> step = add_flyer(first, recipe, context, sampler, video);
+  if (step) step = add_others(recipe, group, context, sampler, video);
+  if (!step) return tl::unexpected(step.error());
   if (group.first_frame.kind != Quantity::Kind::fixed)
     video.sampled["first_frame"] = frames->first - background.frames.first;
-  const std::map<std::string, double> light = light_of(group, sampler);
   video.sampled.insert(light.begin(), light.end());
-  video.project = project_of(recipe, spec, *frames, std::move(planned->waypoints), light);
+  sample_appearance(group, sampler, video);
   return video;
 }
 

@@ -74,7 +74,8 @@ Result<void> add_frame(ClipTruth& clip, const FrameTruth& truth) {
   std::vector<TargetInFrame> targets;
   targets.reserve(truth.intruders.size());
   for (const IntruderTruth& intruder : truth.intruders)
-    targets.push_back({.id = intruder.id, .name = intruder.name, .frame = target_frame_of(intruder)});
+    if (!intruder.is_distractor)
+      targets.push_back({.id = intruder.id, .name = intruder.name, .frame = target_frame_of(intruder)});
   return add_frame(clip, truth.index, truth.time_s, targets);
 }
 
@@ -169,6 +170,14 @@ TargetInFrame target_of(AttributeReader& reader, pugi::xml_node intruder) {
   return target;
 }
 
+bool is_distractor(AttributeReader& reader, pugi::xml_node intruder) {
+  if (!intruder.attribute("role")) return false;
+  const std::string_view role = reader.text(intruder, "role");
+  if (role != "distractor" && role != "intruder")
+    reader.wrong(intruder, fmt::format("intruder role: {} is neither intruder nor distractor", in_quotes(role)));
+  return role == "distractor";
+}
+
 // "30000/1001"
 void read_rate(AttributeReader& reader, pugi::xml_node node, FootageTruth& footage) {
   const std::string_view rate = reader.text(node, "frame_rate");
@@ -196,7 +205,8 @@ void read_frame(AttributeReader& reader, pugi::xml_node node, ClipTruth& clip) {
   const int index = reader.integer(node, "index", kMinInt);
   const double time_s = reader.number(node, "time_s");
   std::vector<TargetInFrame> targets;
-  for (const pugi::xml_node intruder : node.children("intruder")) targets.push_back(target_of(reader, intruder));
+  for (const pugi::xml_node intruder : node.children("intruder"))
+    if (!is_distractor(reader, intruder)) targets.push_back(target_of(reader, intruder));
   if (reader.failed()) return;
   if (index > clip.footage.last_frame)
     return reader.wrong(node,

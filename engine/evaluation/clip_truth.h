@@ -33,7 +33,8 @@ struct TargetTruth {
   std::vector<TargetFrame> frames;  // one for each of ClipTruth::times_s
 };
 
-// The truth of a clip: frames footage.first_frame to last_frame.
+// The truth of a clip: frames footage.first_frame to last_frame. Distractors are no targets: what a detector finds there
+// is a false alarm.
 struct ClipTruth {
   FootageTruth footage;
   std::vector<double> times_s;       // of each frame

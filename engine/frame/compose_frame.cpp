@@ -129,6 +129,11 @@ void add_image_formation(const Scene& scene, const std::vector<IntruderLayers>& 
                                     .visibility_m = is_direct ? scene.appearance.haze.visibility_m : std::nullopt};
 }
 
+void mark_distractors(const Scene& scene, FrameTruth& truth) {
+  for (IntruderTruth& intruder : truth.intruders)
+    intruder.is_distractor = scene.intruders[static_cast<std::size_t>(intruder.id)].is_distractor;
+}
+
 // Places of the camera and of the intruders on the Earth.
 void add_places(const Scene& scene, const SceneMoment& moment, FrameTruth& truth) {
   if (!scene.earth) return;
@@ -184,6 +189,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   add_detectability(composed.truth.intruders, composed.image, footage_luma, scene);
   add_image_formation(scene, far_to_near, composed.truth);
   add_places(scene, moment, composed.truth);
+  mark_distractors(scene, composed.truth);
   for (const IntruderLayers& layers : far_to_near) {
     composed.op_counts += layers.op_counts;
     composed.times.draw_s += layers.draw_s;

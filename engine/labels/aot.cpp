@@ -74,11 +74,14 @@ class AotLabels : public LabelWriter {
   // The rest of "blob", and what else an entity has that is an object.
   [[nodiscard]] std::string object_text(const IntruderTruth& labelled) const {
     const cv::Rect& box = *labelled.visible_box;
-    return fmt::format(
-        R"(, "range_distance_m": {}}}, "id": {}, "bb": [{}, {}, {}, {}], "labels": {{"is_above_horizon": {}}})",
-        number_text(glm::length(labelled.position_m), kLabelDecimals),
-        json_string(object_id(labelled_intruder(sequence_, labelled.id))), box.x, box.y, box.width, box.height,
-        horizon_code(labelled.horizon));
+    // In the data set what is no aircraft of an encounter, such as a bird, has no range.
+    const std::string range =
+        labelled.is_distractor
+            ? ""
+            : fmt::format(R"(, "range_distance_m": {})", number_text(glm::length(labelled.position_m), kLabelDecimals));
+    return fmt::format(R"({}}}, "id": {}, "bb": [{}, {}, {}, {}], "labels": {{"is_above_horizon": {}}})", range,
+                       json_string(object_id(labelled_intruder(sequence_, labelled.id))), box.x, box.y, box.width,
+                       box.height, horizon_code(labelled.horizon));
   }
 
   TextFile file_;

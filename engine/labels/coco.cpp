@@ -159,6 +159,7 @@ class CocoLabels : public LabelWriter {
     if (!intruder.visible.empty())
       annotation["segmentation"] = rle_of(intruder.visible, *intruder.visible_box, sequence_.footage.size_px);
     annotation["iscrowd"] = 0;
+    if (intruder.is_distractor) annotation["distractor"] = true;
     annotation["video_id"] = kVideoId;
     annotation["track_id"] = intruder.id;
     annotation["visible_fraction"] = rounded(intruder.visible_fraction);

@@ -249,6 +249,9 @@ std::vector<Field> fields_of(Project& project) {
     FieldList(fields, prefix).add("name", &intruder.name, "", "what the annotations call it");
     FieldList(fields, prefix).add("category", &intruder.category, "", "what kind of thing labels call it").required =
         true;
+    FieldList(fields, prefix)
+        .add("role", choice_of(intruder.role, {"intruder", "distractor"}), "",
+             "distractor: what detectors should not report, such as a bird; evaluation counts it as no intruder");
     add_model(FieldList(fields, prefix + "model."), intruder.model);
     add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {

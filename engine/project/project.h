@@ -195,10 +195,15 @@ struct TrajectoryPlan {
   [[nodiscard]] bool operator==(const TrajectoryPlan&) const = default;
 };
 
+// What a detector should make of it: an intruder, or something else in the air that it should not report, such as a
+// bird, which labels state with its own category.
+enum class RoleChoice { intruder, distractor };
+
 // One intruder: its name in the annotations, its category in the labels, its model and its flight.
 struct IntruderSettings {
   std::string name = "intruder";
   std::string category = "airplane";
+  RoleChoice role = RoleChoice::intruder;
   ModelSettings model;
   TrajectoryPlan trajectory;
   std::string unknown_json;

@@ -174,7 +174,9 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
     const bool has_waypoint = !clean.intruders[i].trajectory.waypoints.empty();
     draft.intruder_of_project.push_back(has_waypoint ? static_cast<int>(scene.intruders.size()) : -1);
     const std::shared_ptr<const Model> model = drafted_model(clean, i, draft, files);
-    if (has_waypoint) add_intruder(scene, clean.intruders[i].name, model, drafted_trajectory(project, clean, i, draft));
+    if (!has_waypoint) continue;
+    add_intruder(scene, clean.intruders[i].name, model, drafted_trajectory(project, clean, i, draft));
+    scene.intruders.back().is_distractor = clean.intruders[i].role == RoleChoice::distractor;
   }
   scene.issues = plausibility_issues(clean, scene, draft.intruder_of_project);
   // A field with a problem is not reported as implausible too.

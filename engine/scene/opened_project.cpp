@@ -56,6 +56,7 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
     const OrProblem<Trajectory> trajectory = scene_trajectory(project, i, scene);
     if (!trajectory) return failed(trajectory.error());
     add_intruder(scene, project.intruders[i].name, *model, *trajectory);
+    scene.intruders.back().is_distractor = project.intruders[i].role == RoleChoice::distractor;
   }
   scene.issues = plausibility_issues(project, scene);
   return scene;

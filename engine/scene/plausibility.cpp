@@ -180,7 +180,9 @@ std::vector<Problem> plausibility_issues(const Project& project, const Scene& sc
     if (intruder_of_project[i] < 0) continue;
     const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(intruder_of_project[i])];
     const std::string key = key_of_intruder(i);
-    if (intruder.model != nullptr) check_model(project.intruders[i].model, *intruder.model, key + ".model", issues);
+    // The limits are those of aircraft; an insect is smaller.
+    if (intruder.model != nullptr && !intruder.is_distractor)
+      check_model(project.intruders[i].model, *intruder.model, key + ".model", issues);
     check_flight(scene, intruder, key + ".trajectory", issues);
     if (std::optional<Problem> overshoot = overshoot_issue(project, i, scene)) issues.push_back(*std::move(overshoot));
   }

@@ -52,6 +52,7 @@ struct SceneIntruder {
   std::string name;
   const Model* model = nullptr;  // one of Scene::models
   Trajectory trajectory;
+  bool is_distractor = false;  // RoleChoice::distractor
 };
 
 // Attitude of the aircraft that carries the camera, at one moment. The identity: wings level, nose along world X.

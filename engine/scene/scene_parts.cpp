@@ -210,7 +210,7 @@ void add_intruder(Scene& scene, const std::string& name, const std::shared_ptr<c
     const std::vector<Warning>& warnings = model->mesh.warnings;
     scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
   }
-  scene.intruders.push_back({name, model.get(), trajectory});
+  scene.intruders.push_back({.name = name, .model = model.get(), .trajectory = trajectory});
 }
 
 }  // namespace sigs

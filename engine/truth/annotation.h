@@ -85,6 +85,7 @@ struct IntruderTruth {
   std::optional<Detectability> detectability = {};  // none where no pixel shows it
   ImageFormation image_formation = {};
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
+  bool is_distractor = false;  // what detectors should not report, such as a bird
 };
 
 // What the frames are counted in, and which of them a set of labels holds.

@@ -35,8 +35,12 @@ std::vector<Sample> samples() {
   return {sample("airliner"), sample("light-aircraft"), sample("helicopter"), sample("quadcopter")};
 }
 
+// What is no aircraft.
+const std::vector<std::string> kDistractors = {"bird", "bird-dark", "balloon", "balloon-silver", "insect"};
+
 std::vector<Sample> samples_and_liveries() {
   std::vector<Sample> all = samples();
+  for (const std::string& name : kDistractors) all.push_back(sample(name));
   for (const std::string& name : kLiveries) all.push_back(sample(name));
   return all;
 }
@@ -163,6 +167,26 @@ TEST_CASE("the models stay small") {
     CHECK(s.obj.faces.size() <= 12000);
     CHECK(std::filesystem::file_size(s.obj_path) <= 1024 * 1024);
   }
+}
+
+TEST_CASE("distractors are small files, true to size, and fade out where they are to") {
+  for (const std::string& name : kDistractors) {
+    const Sample s = sample(name);
+    CHECK(std::filesystem::file_size(s.obj_path) <= 128 * 1024);
+    const auto [low, high] = bounds(s.obj, is_anything);
+    const glm::dvec3 size_m = high - low;
+    if (name.starts_with("bird")) CHECK((size_m.y > 1.2 && size_m.y < 1.6));  // a gull's span
+    if (name.starts_with("balloon")) CHECK((size_m.y > 0.25 && size_m.y < 0.35));
+    if (name == "insect") CHECK((size_m.x == 0 && size_m.y > 0.003 && size_m.z < 0.02));
+  }
+  const Sample insect = sample("insect");
+  double before = 1;
+  for (int ring = 1; ring <= 18; ++ring) {
+    const double opacity = insect.mtl.materials.at("spot_" + std::to_string(ring)).opacity;
+    CHECK(opacity <= before);
+    before = opacity;
+  }
+  CHECK(before < 0.05);
 }
 
 TEST_CASE("every index in the models refers to an existing element") {

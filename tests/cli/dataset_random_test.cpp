@@ -39,6 +39,31 @@ int sum_of(const Json& redraws) {
 
 }  // namespace
 
+TEST_CASE("a dry run predicts what a dataset covers, and its labels say the same once it is made") {
+  const TinyRecipe recipe;
+  write_file(recipe.file("recipe.json"), kRandom);
+  const std::string files = " --json " + recipe.out("predicted.json") + " --plot " + recipe.out("predicted.png");
+  const Run dry = recipe.run("out", "--dry-run" + files);
+  CHECK_MESSAGE(dry.status == 0, dry.err);
+  CHECK_MESSAGE(has(dry.out, "coverage, predicted: 6 videos, 36 frames; intruders in view "), dry.out);
+  CHECK(fs::file_size(recipe.file("predicted.png")) > 1000);
+  CHECK_FALSE(fs::exists(recipe.file("out")));
+  CHECK(recipe.run("out", "--dry-run" + files).status == 73);  // the files are there
+
+  CHECK(recipe.run("out", "--coverage").status == 66);  // no dataset
+  CHECK(recipe.run("out", "--json " + recipe.out("x.json")).status == 64);
+  CHECK(recipe.run("out", "--coverage --dry-run").status == 64);
+  const Run made = recipe.run("out");
+  REQUIRE_MESSAGE(made.status == 0, made.err);
+  const Run counted = recipe.run("out", "--coverage --json " + recipe.out("counted.json"));
+  CHECK_MESSAGE(counted.status == 0, counted.err);
+  CHECK_MESSAGE(has(counted.out, "coverage, counted from the labels: 6 videos, 36 frames"), counted.out);
+  const Json predicted = Json::parse(read_text(recipe.file("predicted.json")).value());
+  const Json found = Json::parse(read_text(recipe.file("counted.json")).value());
+  for (const char* const quantity : {"range_m", "horizon"})
+    CHECK(predicted["intruders"][quantity] == found["intruders"][quantity]);
+}
+
 TEST_CASE("the requested number of random videos is made, and repeated samples are reported everywhere") {
   const TinyRecipe recipe;
   write_file(recipe.file("recipe.json"), kRandom);

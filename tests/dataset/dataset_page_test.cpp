@@ -53,7 +53,8 @@ Plan plan_of_example(std::size_t n) {
 }  // namespace
 
 TEST_CASE("the dataset's page has the quantities of the flights as the program has them") {
-  for (const FlightKind kind : {FlightKind::left_right, FlightKind::approaching, FlightKind::encounter}) {
+  for (const FlightKind kind : {FlightKind::left_right, FlightKind::approaching, FlightKind::encounter,
+                                FlightKind::encounter_model, FlightKind::recorded}) {
     CAPTURE(name_of(kind));
     CHECK(table_rows(page("dataset.md"), "| " + std::string(name_of(kind)) + " | range | default | meaning |") ==
           rows_in_code(kind));

@@ -209,7 +209,8 @@ TEST_CASE("errors of a recipe are reported with their key") {
       {"/videos/0/flights", nlohmann::ordered_json::array(),
        "videos[0].flights: expected a list of at least one flight"},
       {"/videos/0/flights/0", "loop",
-       "videos[0].flights[0].kind: is \"loop\"; there are left_right, right_left, approaching, moving_away, encounter"},
+       "videos[0].flights[0].kind: is \"loop\"; there are left_right, right_left, approaching, moving_away, encounter, "
+       "encounter_model, recorded"},
       {"/videos/0/flights/0", far,
        "videos[0].flights[0].miss_distance_m: is missing: distance at the closest point of approach"},
       {"/videos/0/flights/0", timeless, "videos[0].flights[0].closing_speed_mps: is missing; give it or range_m"},

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <fstream>
+
 #include "base/staged_outputs.h"
 #include "labels/sigs_xml.h"
 #include "support/comma_locale.h"
@@ -143,6 +145,34 @@ TEST_CASE("an annotation file of an older sigs, and one with encounters, are rea
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t k = other == &read_older ? 1 : 0; k < 3; ++k)
         check_same((*other)->targets[i].frames[k], read->targets[i].frames[k]);
+}
+
+TEST_CASE("a distractor is no target, neither read nor composed, and does not take the place of one") {
+  const TemporaryFolder folder;
+  FrameTruth frame = some_frame(7);
+  frame.intruders[0].is_distractor = true;
+  ClipTruth composed{.footage = some_footage()};
+  REQUIRE(add_frame(composed, frame));
+  const std::filesystem::path path = folder / "truth.xml";
+  Result<SigsXmlWriter> writer = SigsXmlWriter::open(path, some_footage());
+  REQUIRE(writer);
+  for (int index = 7; index <= 9; ++index) {
+    FrameTruth next = some_frame(index);
+    next.intruders[0].is_distractor = true;
+    REQUIRE(writer->write(next));
+  }
+  REQUIRE(writer->finish());
+  const Result<ClipTruth> read = read_truth(path);
+  REQUIRE_MESSAGE(read, read.error().text());
+  for (const ClipTruth* const clip : {&composed, &*read}) {
+    REQUIRE(clip->targets.size() == 1);
+    CHECK(clip->targets[0].id == 1);
+    CHECK(clip->targets[0].name == "glider");
+  }
+  std::ofstream(path) << replaced(read_text(path).value(), "role=\"distractor\"", "role=\"decoy\"");
+  const Result<ClipTruth> wrong = read_truth(path);
+  REQUIRE(!wrong);
+  CHECK(wrong.error().text().find("role") != std::string::npos);
 }
 
 TEST_CASE("an invalid annotation file is refused with its line") {

@@ -131,6 +131,15 @@ TEST_CASE("odd names and far intruders are plain JSON") {
   CHECK(written_aot(clip, {frame_of(0, {truth})})["samples"].contains("bad \xEF\xBF\xBD"));
 }
 
+TEST_CASE("a distractor has a box and no range, as what is no planned encounter in the original") {
+  IntruderTruth bird = visible_intruder(0, {1, 1, 2, 2});
+  bird.is_distractor = true;
+  const nlohmann::json entity = entities_of(synthetic_sequence(0, 0, {"bird"}), {frame_of(0, {bird})}).at(0);
+  CHECK(entity["id"] == "Bird1");
+  CHECK(entity["bb"] == nlohmann::json{1, 1, 2, 2});
+  CHECK_FALSE(entity["blob"].contains("range_distance_m"));
+}
+
 TEST_CASE("the airborne data does not depend on the locale") {
   const TemporaryFolder folder;
   IntruderTruth truth = visible_intruder(0, {1, 1, 2, 2});

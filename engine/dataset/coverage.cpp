@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "dataset/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <string_view>
+
+#include "base/pose.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "base/xml_text.h"
+#include "dataset/footage_cache.h"
+#include "dataset/video_name.h"
+#include "evaluation/text_parsing.h"
+#include "project/json_reading.h"
+#include "scene/scene_at.h"
+#include "scene/visibility.h"
+#include "truth/measure.h"
+
+namespace sigs {
+
+namespace {
+
+template <class Limits>
+void count_in(std::vector<long long>& bins, const Limits& limits, double value) {
+  ++bins.at(static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin()));
+}
+
+double bearing_deg_of(const glm::dvec3& in_camera_m) {
+  return deg_of_rad(std::atan2(in_camera_m.y, in_camera_m.x));
+}
+
+// What of one scene can be seen in a frame.
+void add_sights(const Project& project, const Scene& scene, const VisibilityEstimator& estimator, int frame,
+                Coverage& coverage) {
+  const std::vector<VisibilityEstimate> estimates = estimator.all_at(frame);
+  const SceneMoment moment = scene_at(scene, frame);
+  for (const PlacedIntruder& placed : moment.intruders) {
+    const auto i = static_cast<std::size_t>(placed.id);
+    const VisibilityState state = estimates[i].visibility_state;
+    if (state != VisibilityState::in_view && state != VisibilityState::partly_occluded) continue;
+    const SceneIntruder& intruder = scene.intruders[i];
+    coverage.add({.category = project.intruders[i].category,
+                  .is_distractor = intruder.is_distractor,
+                  .range_m = estimates[i].distance_m,
+                  .size_px = estimates[i].size_px,
+                  .bearing_deg = bearing_deg_of(placed.camera_from_body.translation_m),
+                  .horizon = scene.horizon_is_known ? horizon_side_of(intruder.model->outermost_m,
+                                                                      placed.camera_from_body, moment.up_in_camera)
+                                                    : HorizonSide::unknown});
+  }
+}
+
+bool is_set(const std::atomic<bool>* cancel) {
+  return cancel != nullptr && *cancel;
+}
+
+// A number of an annotation; not a number where it is missing.
+double attribute_of(pugi::xml_node node, const char* name) {
+  const std::optional<double> number = number_of(trimmed(node.attribute(name).value()));
+  return number.value_or(std::nan(""));
+}
+
+HorizonSide horizon_called(std::string_view name) {
+  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above})
+    if (name == name_of(side)) return side;
+  return HorizonSide::unknown;
+}
+
+// The sight that an element `intruder` tells of. Error without a place: a number is missing.
+Result<Sight> sight_of(pugi::xml_node intruder, const std::map<std::string, std::string>& categories) {
+  const pugi::xml_node position = intruder.child("position");
+  const pugi::xml_node silhouette = intruder.child("silhouette");
+  Sight sight{.is_distractor = std::string_view(intruder.attribute("role").value()) == "distractor",
+              .range_m = attribute_of(intruder.child("distance"), "m"),
+              .size_px = std::max(attribute_of(silhouette, "width"), attribute_of(silhouette, "height")),
+              .bearing_deg = bearing_deg_of({attribute_of(position, "x_m"), attribute_of(position, "y_m"), 0}),
+              .horizon = horizon_called(intruder.attribute("horizon").value())};
+  const auto category = categories.find(intruder.attribute("id").value());
+  sight.category = category == categories.end() ? "?" : category->second;
+  if (std::isfinite(sight.range_m) && std::isfinite(sight.size_px) && std::isfinite(sight.bearing_deg)) return sight;
+  return fail("", fmt::format("intruder {}: distance, position or silhouette is missing or no number",
+                              line_text(intruder.attribute("id").value())));
+}
+
+// Categories of a video's intruders by their ids, from its project.
+std::map<std::string, std::string> categories_in(const std::filesystem::path& project) {
+  std::map<std::string, std::string> categories;
+  const Result<std::string> text = read_text(project);
+  const Result<Json> json = text ? parsed_json(*text, project.string(), ErrorKind::bad_data) : fail(text.error());
+  if (!json || !json->is_object() || !json->contains("intruders")) return categories;
+  std::size_t id = 0;
+  for (const Json& intruder : json->at("intruders")) {
+    const auto category = intruder.is_object() ? intruder.find("category") : intruder.end();
+    const bool is_given = intruder.is_object() && category != intruder.end() && category->is_string();
+    categories[std::to_string(id++)] = is_given ? category->get<std::string>() : IntruderSettings{}.category;
+  }
+  return categories;
+}
+
+Result<void> count_video(const std::filesystem::path& folder, const std::string& name, Coverage& coverage) {
+  const std::filesystem::path file = folder / name / (name + ".xml");
+  const Result<std::string> text = read_text(file);
+  if (!text)
+    return fail(text.error().where, text.error().what + "; counting needs annotations: export.labels with xml",
+                text.error().kind);
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(text->data(), text->size());
+  const pugi::xml_node root = document.child("sigs");
+  if (!parsed || !root) return fail(file.string(), "is no SIGS annotation file");
+  const std::map<std::string, std::string> categories = categories_in(folder / name / (name + ".json"));
+  ++coverage.videos;
+  for (const pugi::xml_node frame : root.children("frame")) {
+    ++coverage.frames;
+    for (const pugi::xml_node intruder : frame.children("intruder")) {
+      if (!intruder.child("box")) continue;
+      const Result<Sight> sight = sight_of(intruder, categories);
+      if (!sight)
+        return fail(file.string(),
+                    fmt::format("frame {}: {}", line_text(frame.attribute("index").value()), sight.error().what));
+      coverage.add(*sight);
+    }
+  }
+  return {};
+}
+
+// Names of the videos in a dataset's index.
+Result<std::vector<std::string>> names_in_index(const std::filesystem::path& file) {
+  const Result<std::string> text = read_text(file);
+  if (!text) return fail(text.error());
+  const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
+  if (!json) return fail(json.error());
+  if (!json->is_object() || !json->contains("videos") || !json->at("videos").is_array())
+    return fail(file.string(), "is no index of a dataset: it has no list \"videos\"");
+  std::vector<std::string> names;
+  for (const Json& video : json->at("videos")) {
+    const auto name = video.is_object() ? video.find("name") : video.end();
+    if (!video.is_object() || name == video.end() || !name->is_string())
+      return fail(file.string(), fmt::format("videos[{}] has no name", names.size()));
+    names.push_back(name->get<std::string>());
+    if (const std::string wrong = wrong_with_video_name(names.back()); !wrong.empty())
+      return fail(file.string(), fmt::format("videos[{}].name {}", names.size() - 1, wrong));
+  }
+  return names;
+}
+
+}  // namespace
+
+void CoverageCounts::add(const Sight& sight) {
+  ++sights;
+  count_in(range, kRangeLimits_m, sight.range_m);
+  count_in(size, kSizeLimits_px, sight.size_px);
+  count_in(bearing, kBearingLimits_deg, sight.bearing_deg);
+  ++horizon.at(static_cast<std::size_t>(sight.horizon));
+}
+
+void Coverage::add(const Sight& sight) {
+  (sight.is_distractor ? distractors : intruders).add(sight);
+  ++categories[sight.category];
+}
+
+Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& videos, const std::atomic<bool>* cancel) {
+  VideoVisibility opener;
+  Coverage coverage;
+  for (const PlannedVideo* const video : videos) {
+    if (is_set(cancel)) return fail("", "interrupted", ErrorKind::interrupted);
+    const std::optional<Scene> scene = opener.scene_of(video->project);
+    if (!scene) {
+      ++coverage.unopened;
+      continue;
+    }
+    const VisibilityEstimator estimator(*scene);
+    ++coverage.videos;
+    coverage.frames += scene->last_frame - scene->first_frame + 1;
+    for (int frame = scene->first_frame; frame <= scene->last_frame; ++frame)
+      add_sights(video->project, *scene, estimator, frame, coverage);
+  }
+  return coverage;
+}
+
+Result<Coverage> counted_coverage(const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
+  const Result<std::vector<std::string>> names = names_in_index(folder / "index.json");
+  if (!names) return fail(names.error());
+  Coverage coverage;
+  for (const std::string& name : *names) {
+    if (is_set(cancel)) return fail("", "interrupted", ErrorKind::interrupted);
+    if (const Result<void> counted = count_video(folder, name, coverage); !counted) return fail(counted.error());
+  }
+  return coverage;
+}
+
+}  // namespace sigs
