@@ -154,19 +154,21 @@ Box box_of_numbers(const std::array<double, 4>& box) {
   return {box[0] - kEdgeFrom0, box[1] - kEdgeFrom0, box[2], box[3]};
 }
 
+// true, false, 1 or 0; not there: false.
+bool flag_of(JsonFields& fields, const json& entry, const char* key) {
+  const json* const value = JsonFields::field(entry, key);
+  if (value == nullptr) return false;
+  if (value->is_boolean()) return value->get<bool>();
+  const int number = fields.whole(entry, key);
+  if (number != 0 && number != 1) fields.wrong(key, "is neither 0 nor 1");
+  return number == 1;
+}
+
 // An annotation; what SIGS adds to the layout is read where it is there.
 TrueBox box_of_annotation(JsonFields& fields, const json& entry, const std::map<int, std::string>& categories) {
   TrueBox box{.box = box_of_numbers(fields.four_numbers(entry, "bbox"))};
-  const auto flag = [&](const char* key) {
-    const json* const value = JsonFields::field(entry, key);
-    if (value == nullptr) return false;
-    if (value->is_boolean()) return value->get<bool>();
-    const int number = fields.whole(entry, key);
-    if (number != 0 && number != 1) fields.wrong(key, "is neither 0 nor 1");
-    return number == 1;
-  };
-  box.is_ignored = flag("iscrowd");
-  box.is_ignored |= flag("ignore");
+  box.is_ignored = flag_of(fields, entry, "iscrowd");
+  box.is_ignored |= flag_of(fields, entry, "ignore");
   const int category = fields.whole(entry, "category_id");
   const auto named = categories.find(category);
   if (named == categories.end() && !categories.empty() && !fields.is_wrong())
@@ -209,7 +211,10 @@ Result<void> add_annotations(JsonFields& fields, const json& document, const std
     const auto found = places.find(image);
     if (!fields.is_wrong() && found == places.end())
       fields.wrong("image_id", fmt::format("{} is no image of the file", image));
+    // A distractor of ours, such as a bird: a report at it is a false alarm, as in the annotation file.
+    const bool is_distractor = flag_of(fields, (*annotations)[i], "distractor");
     if (fields.is_wrong()) break;
+    if (is_distractor) continue;
     box.frame = found->second.frame;
     if (const Result<void> added = builders[found->second.video].add(box); !added)
       return fields.failure(place + ": " + added.error().what);

@@ -164,7 +164,7 @@ TEST_CASE("a distractor is no target, neither read nor composed, and does not ta
   REQUIRE(writer->finish());
   const Result<ClipTruth> read = read_truth(path);
   REQUIRE_MESSAGE(read, read.error().text());
-  for (const ClipTruth* const clip : {&composed, &*read}) {
+  for (const ClipTruth* const clip : std::initializer_list<const ClipTruth*>{&composed, &*read}) {
     REQUIRE(clip->targets.size() == 1);
     CHECK(clip->targets[0].id == 1);
     CHECK(clip->targets[0].name == "glider");

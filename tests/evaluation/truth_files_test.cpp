@@ -60,6 +60,7 @@ fs::path coco_truth(const TruthFolder& folder) {
     "annotations": [
       {"id": 1, "image_id": 9, "category_id": 7, "bbox": [10, 5, 20, 10], "iscrowd": 0, "track_id": 4},
       {"id": 2, "image_id": 5, "category_id": 7, "bbox": [60, 20, 20, 20], "iscrowd": 1},
+      {"id": 4, "image_id": 5, "category_id": 7, "bbox": [30, 20, 9, 9], "track_id": 6, "distractor": true},
       {"id": 3, "image_id": 2, "category_id": 7, "bbox": [10, 5, 20, 10], "track_id": 4}]})");
 }
 
