@@ -169,7 +169,8 @@ TEST_CASE("a distractor is no target, neither read nor composed, and does not ta
     CHECK(clip->targets[0].id == 1);
     CHECK(clip->targets[0].name == "glider");
   }
-  std::ofstream(path) << replaced(read_text(path).value(), "role=\"distractor\"", "role=\"decoy\"");
+  const std::string decoy = replaced(read_text(path).value(), "role=\"distractor\"", "role=\"decoy\"");
+  REQUIRE(write_text(path, decoy, true));
   const Result<ClipTruth> wrong = read_truth(path);
   REQUIRE(!wrong);
   CHECK(wrong.error().text().find("role") != std::string::npos);
