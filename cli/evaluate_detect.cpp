@@ -105,16 +105,6 @@ Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInp
   return clips;
 }
 
-// "1280x960"
-Result<cv::Size> size_of(const std::string& text) {
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  const bool is_size = std::sscanf(text.c_str(), "%7dx%7d%c", &width, &height, &rest) == 2 && width > 0 && height > 0;
-  if (!is_size) return fail("--size", text + " is no size such as 1280x960", ErrorKind::usage);
-  return cv::Size(width, height);
-}
-
 Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
   const Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.format);
   if (!clips) return fail(clips.error());
@@ -160,7 +150,7 @@ Result<void> run(const DetectOptions& options) {
     return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
   TruthOptions truth = options.truth;
   if (!options.size.empty()) {
-    const Result<cv::Size> size_px = size_of(options.size);
+    const Result<cv::Size> size_px = size_of_option(options.size);
     if (!size_px) return fail(size_px.error());
     truth.size_px = *size_px;
   }

@@ -126,19 +126,10 @@ void print_mesh(const Mesh& mesh) {
   for (const Warning& warning : mesh.warnings) print_warning(warning);
 }
 
-// "1280x960". Error usage.
-Result<cv::Size> size_of(const std::string& text) {
-  cv::Size size;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 || size.height < 1)
-    return fail("--size " + text, "expected WIDTHxHEIGHT, as in 1280x960", ErrorKind::usage);
-  return size;
-}
-
 Result<void> info_of_calibration(const std::filesystem::path& path, const std::string& size_text) {
   std::optional<cv::Size> size;
   if (!size_text.empty()) {
-    const Result<cv::Size> given = size_of(size_text);
+    const Result<cv::Size> given = size_of_option(size_text);
     if (!given) return fail(given.error());
     size = *given;
   }

@@ -195,4 +195,13 @@ void print_error(const Error& error) {
   std::fprintf(stderr, "error: %s\n", Error{error.where, with_options(error.what), error.kind}.text().c_str());
 }
 
+Result<cv::Size> size_of_option(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  const bool is_size = std::sscanf(text.c_str(), "%7dx%7d%c", &width, &height, &rest) == 2 && width > 0 && height > 0;
+  if (!is_size) return fail("--size", text + " is no size such as 1280x960", ErrorKind::usage);
+  return cv::Size(width, height);
+}
+
 }  // namespace sigs::cli

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
+#include <opencv2/core/types.hpp>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ void add_setting_option(CLI::App& command, const SettingOption& option, OptionSe
 
 // For what is written: the same, and not "-", which stands for standard output elsewhere.
 [[nodiscard]] CLI::Validator output_path();
+
+// The value of --size, as in "1280x960". Error usage.
+[[nodiscard]] Result<cv::Size> size_of_option(const std::string& text);
 
 // A number of this range. CLI::Range lets NaN through.
 [[nodiscard]] CLI::Validator from_to(double low, double high);

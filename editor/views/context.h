@@ -106,6 +106,11 @@ struct DragGesture {
   }
 };
 
+// The scene of what is shown; null: there is none yet.
+[[nodiscard]] inline const Scene* shown_scene(const ViewContext& context) {
+  return context.shown.scene ? &context.shown.scene->draft.scene : nullptr;
+}
+
 // A drag that begins at a place of the screen in this update.
 [[nodiscard]] inline DragGesture drag_gesture_at(const ViewContext& context, const glm::dvec2& mouse,
                                                  std::string name = {}) {

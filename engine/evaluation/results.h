@@ -49,7 +49,7 @@ enum class ResultsFormat { automatic, otb, vot, mot, csv, aot, coco };
 
 // The frames of a clip by what a truth file calls their images (truth_files.h). Where such a file is the truth, results
 // in the layouts aot and coco name images as it does.
-struct ImageNumbers {
+struct FramesOfImages {
   // Names as the file has them, and without folder and extension where that is not ambiguous.
   std::map<std::string, int, std::less<>> by_name;
   std::map<int, int> by_id;  // by COCO's image_id; empty: the file has none
@@ -69,7 +69,7 @@ struct ResultsOptions {
   std::optional<int> last_image_id;
   // Layouts aot and coco: the clip's images. Boxes of others are left out and counted (Results::boxes_elsewhere).
   // null: images are numbered as above. Must outlive the call.
-  const ImageNumbers* images = nullptr;
+  const FramesOfImages* images = nullptr;
 };
 
 // Reads a result file of a clip. Errors: cannot_read; bad_data with file and line for a number of lines that does not

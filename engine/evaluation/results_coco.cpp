@@ -123,7 +123,7 @@ std::optional<int> CocoReader::frame_of_entry() {
     return frame;
   }
   const std::optional<int> id = integer_of(*entry_.image_id);
-  const ImageNumbers* const images = file().options.images;
+  const FramesOfImages* const images = file().options.images;
   if (id && images != nullptr && !images->by_id.empty()) {
     const auto found = images->by_id.find(*id);
     return found == images->by_id.end() ? std::nullopt : std::optional(found->second);

@@ -117,7 +117,7 @@ bool JsonListReader::add_box(int frame, const Box& box, double score, double tra
 }
 
 std::optional<int> JsonListReader::frame_named(std::string_view image) const {
-  const ImageNumbers* const images = file_.options.images;
+  const FramesOfImages* const images = file_.options.images;
   if (images == nullptr || images->by_name.empty()) return frame_of_image(image);
   if (const auto found = images->by_name.find(image); found != images->by_name.end()) return found->second;
   const auto by_stem = images->by_name.find(stem_of_image(image));

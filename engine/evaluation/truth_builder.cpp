@@ -117,7 +117,7 @@ Result<ClipTruth> TruthBuilder::clip() {
   return std::move(clip_);
 }
 
-void add_short_names(ImageNumbers& images) {
+void add_short_names(FramesOfImages& images) {
   std::map<std::string, int, std::less<>> uses;
   for (const auto& [name, frame] : images.by_name) ++uses[std::string(stem_of_image(name))];
   const std::map<std::string, int, std::less<>> full = images.by_name;

@@ -65,8 +65,8 @@ inline constexpr int kMaxClipFrames = 10'000'000;
 //   stated_by  the header's field, for the message
 [[nodiscard]] Result<void> check_length(int frames, std::size_t boxes, const char* stated_by);
 
-// Adds the images' names without folder and extension, where only one image has it (ImageNumbers::by_name).
-void add_short_names(ImageNumbers& images);
+// Adds the images' names without folder and extension, where only one image has it (FramesOfImages::by_name).
+void add_short_names(FramesOfImages& images);
 
 // The frame of each image of a folder of numbered images by the number at the end of its name, or, for stills, its
 // place. Error bad_data: a name without number, a number twice, a gap.

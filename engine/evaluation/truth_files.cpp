@@ -98,7 +98,7 @@ Result<std::vector<TruthClip>> read_truth_clips(const fs::path& path, const Trut
 Result<std::vector<Results>> read_shared_results(const fs::path& path, const std::vector<const TruthClip*>& clips,
                                                  ResultsFormat format) {
   // All clips one behind the other as if they were one.
-  ImageNumbers images;
+  FramesOfImages images;
   std::set<std::string, std::less<>> ambiguous;
   std::vector<int> begins{0};
   std::int64_t total = 0;

@@ -18,7 +18,7 @@ namespace sigs {
 struct TruthClip {
   std::string name;  // of the video, flight or sequence; results' files are called so
   ClipTruth truth;
-  ImageNumbers images;  // what the file calls the frames
+  FramesOfImages images;  // what the file calls the frames
 };
 
 // What a layout may not say.

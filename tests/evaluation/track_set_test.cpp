@@ -14,17 +14,17 @@
 namespace sigs::test {
 namespace {
 
-const Box kTarget{99.5, 49.5, 20, 10};
+const Box kFollowed{99.5, 49.5, 20, 10};
 
 // A clip of `frames` frames in which the first tracker is `dx` px beside the truth and the second reports every other
 // frame, exactly.
 TrackSetClip scored_clip(const std::string& name, int frames, double dx, double distance_m) {
-  const ClipTruth clip = clip_of(frames, 10, [&](int) { return visible_at(kTarget, distance_m); });
+  const ClipTruth clip = clip_of(frames, 10, [&](int) { return visible_at(kFollowed, distance_m); });
   Results beside{.name = "beside"};
   Results exact{.name = "exact"};
   for (int i = 0; i < frames; ++i) {
-    report(beside, i, moved(kTarget, dx, 0));
-    if (i % 2 == 0) report(exact, i, kTarget);
+    report(beside, i, moved(kFollowed, dx, 0));
+    if (i % 2 == 0) report(exact, i, kFollowed);
   }
   TrackSetClip scored{.name = name, .target = "intruder 0", .truth = clip.targets[0].frames};
   for (const Results& results : {beside, exact})

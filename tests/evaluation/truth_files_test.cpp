@@ -91,7 +91,7 @@ void check_tiny(const ClipTruth& truth, int ignored_in_1) {
 }
 
 // Overlap by counting: sums over a grid of a tenth of a pixel.
-double counted_overlap(const Box& a, const Box& b) {
+double gridded_overlap(const Box& a, const Box& b) {
   const auto in = [](const Box& box, double x, double y) {
     return x > box.x && x < box.x + box.width && y > box.y && y < box.y + box.height;
   };
@@ -148,7 +148,7 @@ TEST_CASE("figures that need no range are the same for a truth without one, and 
   report(results, 0, shifted, kNoTrack);
   report(results, 0, {80, 40, 5, 5}, kNoTrack);
   report(results, 1, {30, 0, 12, 12}, kNoTrack);
-  CHECK(counted_overlap(kObject, shifted) == doctest::Approx(14.0 / 26).epsilon(0.01));  // more than 0.2: a match
+  CHECK(gridded_overlap(kObject, shifted) == doctest::Approx(14.0 / 26).epsilon(0.01));  // more than 0.2: a match
   const DetectionScore expected = score_detections("eye", {{"own", own, results}}, {});
   CHECK(expected.false_alarm_boxes == 2);
   for (const fs::path& path : {coco_truth(folder), mot_truth(folder)}) {

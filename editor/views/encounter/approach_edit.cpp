@@ -49,10 +49,6 @@ std::optional<PresentApproach> approach_between(const EncounterTrack& own, const
   return present;
 }
 
-const Scene* scene_of(const ViewContext& context) {
-  return context.shown.scene ? &context.shown.scene->draft.scene : nullptr;
-}
-
 // Only the misses are others.
 bool keeps_motion(const PlannedApproach& a, const PlannedApproach& b) {
   return a.time_s == b.time_s && a.closing_speed_mps == b.closing_speed_mps && a.climb_mps == b.climb_mps &&
@@ -104,7 +100,7 @@ tl::expected<std::vector<WaypointSettings>, std::string> straight(const Approach
 std::optional<PresentApproach> present_approach(const ViewContext& context, int intruder) {
   const std::optional<int> in_scene = scene_intruder(context, intruder);
   if (!in_scene) return std::nullopt;
-  const Scene& scene = *scene_of(context);
+  const Scene& scene = *shown_scene(context);
   return approach_between(encounter_track_of_camera(scene),
                           encounter_track_of_intruder(scene, static_cast<std::size_t>(*in_scene)), scene.footage);
 }
@@ -121,7 +117,7 @@ const PresentApproach* PresentApproachMemory::of(const ViewContext& context, int
 std::optional<ApproachStart> approach_start(const ViewContext& context, int intruder) {
   const std::optional<int> in_scene = scene_intruder(context, intruder);
   if (!in_scene || context.shown.scene->revision != context.document.revision().number) return std::nullopt;
-  const Scene& scene = *scene_of(context);
+  const Scene& scene = *shown_scene(context);
   const double first = scene.first_frame;
   const double last = std::max(scene.last_frame, scene.first_frame + 1);
   ApproachStart start{.intruder = intruder,

@@ -17,10 +17,6 @@ namespace sigs::editor {
 
 namespace {
 
-const Scene* scene_of(const ViewContext& context) {
-  return context.shown.scene ? &context.shown.scene->draft.scene : nullptr;
-}
-
 std::string covered_text(const std::vector<CarrierAttitude>& turns) {
   return fmt::format("{} attitudes, {:.2f} to {:.2f} s of the footage", turns.size(), turns.front().time_s,
                      turns.back().time_s);
@@ -28,7 +24,7 @@ std::string covered_text(const std::vector<CarrierAttitude>& turns) {
 
 RowOptions look_of_camera(const ViewContext& context, const Field& field) {
   RowOptions look;
-  const Scene* const scene = scene_of(context);
+  const Scene* const scene = shown_scene(context);
   const bool has_path = scene != nullptr && scene->motion.path;
   if (field.key == "camera.position_m" && !glm::any(movable_axes(context))) look.off_because = kWhyCameraIsFixed;
   if (field.key == "camera.speed_mps" && has_path) look.off_because = "The log says how the camera moves.";
@@ -100,14 +96,14 @@ void draw_camera_log(const ViewContext& context, FieldRows& rows) {
   rows.row("camera.readout_s");
   rows.row("camera.exposure_s");
   const double time_s = time_of(context, context.document.playhead());
-  if (const Scene* const scene = scene_of(context))
+  if (const Scene* const scene = shown_scene(context))
     for (const std::string& line : lines_of_motion(scene->motion, time_s)) note(line);
   draw_estimate(context);
 }
 
 void draw_place_on_earth(const ViewContext& context, FieldRows& rows) {
   rows.rows("geo.");
-  const Scene* const scene = scene_of(context);
+  const Scene* const scene = shown_scene(context);
   if (scene == nullptr) return;
   const std::string text = place_text(*scene);
   note(text.empty() ? "Not known: neither stated nor in a log." : text);

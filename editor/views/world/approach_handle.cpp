@@ -14,7 +14,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kReach_px = 10;
+constexpr double kHandleReach_px = 10;
 constexpr glm::dvec3 kUp{0, 0, -1};
 
 double rounded_to(double value, double step) {
@@ -115,7 +115,7 @@ void ApproachHandle::update(const WorldContext& world, const WorldCanvas& canvas
   const std::optional<int> intruder = current_intruder(context);
   const std::optional<PresentApproach> now = intruder && mouse_is_free ? shown(context) : std::nullopt;
   const std::optional<glm::dvec2> at = now ? canvas.in_sight(now->intruder.position_m, 8) : std::nullopt;
-  is_hovered_ = at && glm::distance(*at, dv(ImGui::GetMousePos())) <= static_cast<double>(scaled(kReach_px));
+  is_hovered_ = at && glm::distance(*at, dv(ImGui::GetMousePos())) <= static_cast<double>(scaled(kHandleReach_px));
   if (!is_hovered_) return;
   ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
