@@ -162,7 +162,7 @@ Result<void> put_list(const PutText& put, std::string head, std::size_t items, s
       if (const Result<void> between = put(",\n"); !between) return between;
     if (const Result<void> item = put_item(i); !item) return item;
   }
-  return put("\n" + std::string(levels, ' ') + "]" + tail);
+  return put(fmt::format("\n{:{}}]{}", "", levels, tail));
 }
 
 // The text before and after the empty list that ends a document.
