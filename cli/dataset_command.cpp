@@ -206,9 +206,10 @@ Result<void> run(const DatasetOptions& options) {
     return fail("--merge", "exports nothing, so it goes without --resume, --shard and --only", ErrorKind::usage);
   if (!options.shard.empty() && !options.only.empty())
     return fail("--only", "names the videos to make, so it goes without --shard", ErrorKind::usage);
-  if (options.coverage_files.has_any() && !options.dry_run && !options.coverage)
-    return fail(options.coverage_files.json.empty() ? "--plot" : "--json", "goes with --dry-run or --coverage",
-                ErrorKind::usage);
+  const bool shows_coverage = options.coverage || (options.dry_run && !options.merge);
+  if (options.coverage_files.has_any() && !shows_coverage)
+    return fail(options.coverage_files.json.empty() ? "--plot" : "--json",
+                "goes with --dry-run, without --merge, or with --coverage", ErrorKind::usage);
   if (options.coverage) return print_counted(options);
   DatasetRequest request{
       .jobs = options.jobs, .resume = options.resume, .index = options.only.empty(), .merge_only = options.merge};

@@ -227,8 +227,9 @@ TEST_CASE("a full disk and a folder that cannot be created are reported as such"
 
 TEST_CASE("an invalid command line exits with status 64") {
   const TinyRecipe recipe;
-  for (const char* const more : {"--shard 0/3", "--shard 4/3", "--shard 1", "--shard 1/3x", "--shard /", "--jobs -1",
-                                 "--merge --resume", "--merge --shard 1/2", "--out ''"})
+  for (const char* const more :
+       {"--shard 0/3", "--shard 4/3", "--shard 1", "--shard 1/3x", "--shard /", "--jobs -1", "--merge --resume",
+        "--merge --shard 1/2", "--merge --dry-run --json x.json", "--plot x.png", "--out ''"})
     CHECK_MESSAGE(recipe.run("out", more).status == 64, more);
   CHECK_FALSE(fs::exists(recipe.out("out")));
   CHECK(run_sigs("dataset").status == 64);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/views/view_fixture.h"
 #include "encounter/encounter.h"
 #include "project/places.h"
 #include "scene/encounter_tracks.h"
@@ -40,9 +41,9 @@ Project passing() {
 }
 
 // As the editor has it, without a window and without files: each edit opens a scene anew.
-struct Authoring {
+struct Authoring : ViewFixture {
   explicit Authoring(const Project& project, std::shared_ptr<const PiecewiseCubic> path = {})
-      : document(project), camera_path(std::move(path)) {
+      : ViewFixture(project), camera_path(std::move(path)) {
     document.set_frame_count(200);
     open();
   }
@@ -61,7 +62,7 @@ struct Authoring {
     shown.scene = std::make_shared<const OpenedScene>(std::move(opened));
   }
   void apply() {
-    document.apply(edits.take_edits());
+    ViewFixture::apply();
     open();
   }
   [[nodiscard]] PresentApproach present() const { return present_approach(context, 0).value(); }
@@ -77,15 +78,7 @@ struct Authoring {
     return document.project().intruders[0].trajectory.waypoints;
   }
 
-  Document document;
   std::shared_ptr<const PiecewiseCubic> camera_path;
-  PreviewOutput shown;
-  Settings settings;
-  Textures textures;
-  Edits edits;
-  ViewNeeds needs;
-  UiProbe ui_probe;
-  ViewContext context{document, shown, settings, textures, edits, needs, ui_probe};
 };
 
 // By the search over the scene's flights, which knows nothing of the form: 1 mm and 1 ms.

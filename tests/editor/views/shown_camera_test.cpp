@@ -7,6 +7,7 @@
 
 #include "base/pose.h"
 #include "editor/views/inspector/camera_log.h"
+#include "editor/views/view_fixture.h"
 #include "editor/views/world/picks.h"
 #include "scene/scene_parts.h"
 #include "spline/splines.h"
@@ -17,8 +18,8 @@ using namespace sigs::editor;
 namespace {
 
 // A camera whose log leads it 10 m/s to the right from (1, 2, -150) and turns it by 90 degrees in 10 s.
-struct ByLog {
-  explicit ByLog(glm::bvec3 moves_with_start = glm::bvec3(true)) : document(project_of()) {
+struct ByLog : ViewFixture {
+  explicit ByLog(glm::bvec3 moves_with_start = glm::bvec3(true)) : ViewFixture(project_of()) {
     const FootageShape shape{.size_px = {1280, 960}, .times_s = {0, 0.04}};
     OpenedScene opened{.revision = 1,
                        .project = std::make_shared<const Project>(document.project()),
@@ -37,16 +38,6 @@ struct ByLog {
     project.camera.speed_mps = 30;
     return project;
   }
-  void apply() { document.apply(edits.take_edits()); }
-
-  Document document;
-  PreviewOutput shown;
-  Settings settings;
-  Textures textures;
-  Edits edits;
-  ViewNeeds needs;
-  UiProbe ui_probe;
-  ViewContext context{document, shown, settings, textures, edits, needs, ui_probe};
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/views/view_fixture.h"
 #include "editor/widgets/theme.h"
 
 using namespace sigs;
@@ -29,8 +30,8 @@ Project crossing() {
 }
 
 // A window's view of a document, without a window.
-struct Bystander {
-  explicit Bystander(const Project& project) : document(project) {
+struct Bystander : ViewFixture {
+  explicit Bystander(const Project& project) : ViewFixture(project) {
     ImGui::CreateContext();
     load_fonts(15);
     render_turntable.curves.push_back({.intruder = 0,
@@ -48,16 +49,7 @@ struct Bystander {
   [[nodiscard]] std::optional<glm::dvec3> place(const glm::dvec2& mouse) {
     return place_for_waypoint(WorldCanvas(list, eye, kRect), world, mouse);
   }
-  void apply() { document.apply(edits.take_edits()); }
 
-  Document document;
-  PreviewOutput shown;
-  Settings settings;
-  Textures textures;
-  Edits edits;
-  ViewNeeds needs;
-  UiProbe ui_probe;
-  ViewContext context{document, shown, settings, textures, edits, needs, ui_probe};
   WorldModel render_turntable;
   WorldMoment moment;
   WorldContext world{context, render_turntable, moment};
