@@ -8,7 +8,7 @@ import os
 import pathlib
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
@@ -74,7 +74,7 @@ class Footage:
     size_px: tuple[int, int]
     frame_count: int
     frame_rate: tuple[int, int]
-    times_s: NDArray[np.float64]
+    times_s: NDArray[np.float64] = field(repr=False)
     codec: str
     layout: str
 

@@ -16,8 +16,8 @@ FrameIterator::FrameIterator(const ProjectObject& project, const std::optional<F
   auto made = std::make_unique<Stream>();
   made->jobs = jobs;
   const Project copy = project.project();
-  made->stream.emplace(made->opener.wait_for(
-      [&](const std::atomic<bool>* cancel) { return FrameStream::open(copy, frames, cancel); }));
+  made->stream.emplace(
+      made->opener.wait_for([&](const std::atomic<bool>* cancel) { return FrameStream::open(copy, frames, cancel); }));
   range_ = made->stream->range();
   warnings_ = made->stream->warnings();
   stream_ = ProcessBound<Stream>(std::move(made));
@@ -41,8 +41,8 @@ void FrameIterator::close() {
 
 std::shared_ptr<FrameObject> FrameIterator::next() {
   if (stream_.is_inherited())
-    throw Raised({"frames", "belong to the process that this one was forked from; call frames() here",
-                  ErrorKind::usage});
+    throw Raised(
+        {"frames", "belong to the process that this one was forked from; call frames() here", ErrorKind::usage});
   Stream& stream = *stream_.get();
   Result<std::optional<ComposedFrame>> frame = [&]() -> Result<std::optional<ComposedFrame>> {
     const py::gil_scoped_release released;
@@ -74,8 +74,9 @@ void add_iterator_class(py::module_& module) {
            py::arg("project"), py::arg("frames"), py::arg("jobs"))
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &FrameIterator::next)
-      .def("__len__", [](const FrameIterator& self) { return self.range().last - self.range().first + 1; },
-           "Number of frames from the first to the last, whether taken or not.")
+      .def(
+          "__len__", [](const FrameIterator& self) { return self.range().last - self.range().first + 1; },
+          "Number of frames from the first to the last, whether taken or not.")
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](FrameIterator& self, const py::args&) { self.close(); })
       .def_property_readonly(

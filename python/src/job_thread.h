@@ -15,8 +15,8 @@
 
 namespace sigs::python {
 
-// A thread that does one job after another while Python goes on: the caller waits without Python's lock (GIL), and looks
-// for signals meanwhile, so that Ctrl-C works. OpenGL contexts and decoders live on one such thread.
+// A thread that does one job after another while Python goes on: the caller waits without Python's lock (GIL), and
+// looks for signals meanwhile, so that Ctrl-C works. OpenGL contexts and decoders live on one such thread.
 class JobThread {
  public:
   // Raises the error unavailable where the system gives no more threads.

@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -64,11 +65,19 @@ py::dict export_to(const ProjectObject& object, const std::filesystem::path& fol
   JobThread thread;
   const ExportReport report = thread.wait_for(
       [&](const std::atomic<bool>* cancel) {
-        return export_project(request, {.progress = [&](int done, int total) { reported.put(done, total); },
-                                        .cancel = cancel});
+        return export_project(request,
+                              {.progress = [&](int done, int total) { reported.put(done, total); }, .cancel = cancel});
       },
       [&] { reported.report(); });
   return dict_of(report);
+}
+
+// Mesa's software renderer would keep threads that a forked process lacks but waits for; without them each thread that
+// composes renders by itself, to the same bytes. Its messages on displays that there are not would go to stderr. Both
+// can be set otherwise before the import.
+void prepare_opengl() {
+  setenv("LP_NUM_THREADS", "0", 0);
+  setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
 
 }  // namespace
@@ -76,6 +85,7 @@ py::dict export_to(const ProjectObject& object, const std::filesystem::path& fol
 PYBIND11_MODULE(_sigs, module) {
   module.doc() = "The engine of SIGS. Use the package sigs, which wraps it.";
   module.attr("__version__") = SIGS_VERSION;
+  prepare_opengl();
   translate_errors();
   add_frame_class(module);
   add_project_class(module);

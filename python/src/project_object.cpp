@@ -2,6 +2,7 @@
 #include "project_object.h"
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <limits>
@@ -63,7 +64,8 @@ py::list ProjectObject::fields() const {
 
 void ProjectObject::assign(const std::string& assignment) {
   Project changed = project_;
-  value_or_raise(set_field(changed, assignment));
+  if (Result<void> set = set_field(changed, assignment); !set)
+    throw Raised({assignment, std::move(set.error().what), set.error().kind});
   keep_places(project_, changed);
   project_ = std::move(changed);
 }
@@ -170,8 +172,10 @@ void add_project_class(py::module_& module) {
       .def_static("read", &read, py::arg("path"), "Reads a project file: the project, and a list of warnings.")
       .def_static("parse", &parse, py::arg("text"), py::arg("path"),
                   "The project of a file's text; relative paths start in the folder of `path`.")
-      .def("text", [](const ProjectObject& object) { return text_of(object.project()); }, "The project as JSON text.")
-      .def("path", [](const ProjectObject& object) { return object.project().file; }, "Where it was read from.")
+      .def(
+          "text", [](const ProjectObject& object) { return text_of(object.project()); }, "The project as JSON text.")
+      .def(
+          "path", [](const ProjectObject& object) { return object.project().file; }, "Where it was read from.")
       .def(
           "write",
           [](const ProjectObject& object, const std::filesystem::path& path, bool overwrite) {

@@ -93,12 +93,11 @@ py::object object_of(const IntruderTruth& truth) {
 
 py::object camera_object(const FrameTruth& truth) {
   const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(truth.camera);
-  return class_of("CameraTruth")("position_m"_a = tuple_of(truth.camera_position_m),
-                                 "attitude_deg"_a = object_of(truth.camera_attitude),
-                                 "position_source"_a = truth.camera.position_source,
-                                 "attitude_source"_a = truth.camera.attitude_source,
-                                 "attitude_sd_deg"_a = sd_deg ? py::object(tuple_of(*sd_deg)) : py::none(),
-                                 "place"_a = object_of(truth.camera.place));
+  return class_of("CameraTruth")(
+      "position_m"_a = tuple_of(truth.camera_position_m), "attitude_deg"_a = object_of(truth.camera_attitude),
+      "position_source"_a = truth.camera.position_source, "attitude_source"_a = truth.camera.attitude_source,
+      "attitude_sd_deg"_a = sd_deg ? py::object(tuple_of(*sd_deg)) : py::none(),
+      "place"_a = object_of(truth.camera.place));
 }
 
 }  // namespace

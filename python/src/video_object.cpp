@@ -28,8 +28,8 @@ VideoObject::~VideoObject() {
 VideoObject::Opened& VideoObject::opened() {
   if (opened_.get() == nullptr || opened_.get()->thread.was_cancelled()) {
     auto made = std::make_unique<Opened>();
-    made->source.emplace(made->thread.wait_for(
-        [&](const std::atomic<bool>* cancel) { return FrameSource::open(path_, cancel); }));
+    made->source.emplace(
+        made->thread.wait_for([&](const std::atomic<bool>* cancel) { return FrameSource::open(path_, cancel); }));
     opened_ = ProcessBound<Opened>(std::move(made));
   }
   return *opened_.get();
@@ -40,8 +40,7 @@ Frame VideoObject::read(int n) {
   if (n < -count || n >= count)
     throw py::index_error("frame " + std::to_string(n) + ": the video has frames 0 to " + std::to_string(count - 1));
   Opened& opened = this->opened();
-  return opened.thread.wait_for(
-      [&](const std::atomic<bool>*) { return opened.source->read(n < 0 ? n + count : n); });
+  return opened.thread.wait_for([&](const std::atomic<bool>*) { return opened.source->read(n < 0 ? n + count : n); });
 }
 
 namespace {
@@ -76,10 +75,13 @@ void add_video_class(py::module_& module) {
       .def(py::init([](std::filesystem::path path) { return std::make_shared<VideoObject>(std::move(path)); }),
            py::arg("path"), "Opens a video and builds the index of its frames.")
       .def("__len__", [](const VideoObject& video) { return video.info().frame_count(); })
-      .def("__getitem__", [](VideoObject& video, int n) { return image_of(video.read(n)); }, py::arg("n"))
-      .def("planes", [](VideoObject& video, int n) { return planes_of(video.read(n)); }, py::arg("n"),
-           "The samples of frame n as they are stored: a tuple of arrays, one for each plane.")
-      .def_property_readonly("path", [](const VideoObject& video) { return video.info().path; }, "The file.")
+      .def(
+          "__getitem__", [](VideoObject& video, int n) { return image_of(video.read(n)); }, py::arg("n"))
+      .def(
+          "planes", [](VideoObject& video, int n) { return planes_of(video.read(n)); }, py::arg("n"),
+          "The samples of frame n as they are stored: a tuple of arrays, one for each plane.")
+      .def_property_readonly(
+          "path", [](const VideoObject& video) { return video.info().path; }, "The file.")
       .def_property_readonly(
           "size_px",
           [](const VideoObject& video) {
@@ -97,10 +99,11 @@ void add_video_class(py::module_& module) {
             return py::array_t<double>(static_cast<py::ssize_t>(times_s.size()), times_s.data());
           },
           "Presentation time of each frame in seconds, 0 for the first: float64 [frames].")
-      .def_property_readonly("layout", [](const VideoObject& video) { return name_of(video.info().layout); },
-                             "How the planes are stored: 'gray', 'yuv420', 'yuv422', 'yuv444' or 'rgb'.")
-      .def_property_readonly("codec", [](const VideoObject& video) { return video.info().codec; },
-                             "Name of the codec: 'h264'.")
+      .def_property_readonly(
+          "layout", [](const VideoObject& video) { return name_of(video.info().layout); },
+          "How the planes are stored: 'gray', 'yuv420', 'yuv422', 'yuv444' or 'rgb'.")
+      .def_property_readonly(
+          "codec", [](const VideoObject& video) { return video.info().codec; }, "Name of the codec: 'h264'.")
       .def("__repr__", [](const VideoObject& video) {
         return "<sigs.Video '" + video.info().path.string() + "', " + std::to_string(video.info().frame_count()) +
                " frames>";
