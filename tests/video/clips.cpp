@@ -151,7 +151,8 @@ Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorIn
             grain(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(3 * number + i));
         const int code = 40 + 20 * i + (3 * x + 2 * y + 5 * number) % 120 + static_cast<int>(noise % 16);
         if (bit_depth > 8)
-          plane.at<ushort>(y, x) = static_cast<ushort>(code << (bit_depth - 8) | (noise >> 8) % (1U << (bit_depth - 8)));
+          plane.at<ushort>(y, x) =
+              static_cast<ushort>(code << (bit_depth - 8) | (noise >> 8) % (1U << (bit_depth - 8)));
         else
           plane.at<uchar>(y, x) = static_cast<uchar>(code);
       }

@@ -144,6 +144,8 @@ TEST_CASE("colour range, matrix, primaries, transfer function and chroma site ar
           CAPTURE(static_cast<int>(codec));
           CAPTURE(static_cast<int>(container));
           CAPTURE(static_cast<int>(site));
+          // AV1's own header has no number for midway; Matroska has.
+          if (codec == VideoCodec::av1 && container == Container::mp4 && site == ChromaSite::center) continue;
           const TemporaryFolder folder;
           VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {64, 48});
           format.color.range = range;
@@ -179,7 +181,8 @@ TEST_CASE("colours that the footage leaves unstated stay unstated") {
     write_clip(folder / "a", format, 2);
     const ColorInfo color = opened(folder / "a").info().color;
     CHECK(!color.matrix_stated);
-    CHECK(!color.range_stated);
+    // The streams of HEVC and AV1 always state a range: limited where nothing else is known.
+    format.color.range_stated = codec == VideoCodec::hevc || codec == VideoCodec::av1;
     CHECK(color == format.color);
   }
 }

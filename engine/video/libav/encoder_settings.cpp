@@ -18,6 +18,7 @@ namespace {
 // The same for all machines: the results of x264's motion search and lookahead depend on the number of threads, and its
 // hand-written routines differ in the last bit between processors unless cpu-independent is set.
 constexpr int kH264Threads = 4;
+constexpr int kAv1Threads = 4;
 constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
 constexpr int kKeyInterval = 60;  // about two seconds: an editor scrubs through it
 
@@ -62,14 +63,23 @@ void set_up_hevc(AVCodecContext& context, const VideoFormat& format, AVDictionar
   av_dict_set(options, "x265-params", parameters.c_str(), 0);
 }
 
-// libaom's packets are the same for each number of threads. Speed 6 of 0 to 8.
-void set_up_av1(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
+// What AV1's stream says of the chroma site (AV1 specification, 6.4.2): vertical is left, colocated is top_left; it has
+// no number for midway, which only Matroska states.
+int av1_chroma_position(const Encoding& encoding) {
+  if (encoding.layout != PixelLayout::yuv420 || encoding.color.chroma_site == ChromaSite::center) return 0;
+  return encoding.color.chroma_site == ChromaSite::left ? 1 : 2;
+}
+
+// libaom's packets depend on whether there is more than one thread, so that the number is fixed. Speed 6 of 0 to 8.
+void set_up_av1(AVCodecContext& context, const VideoFormat& format, const Encoding& encoding, AVDictionary** options) {
   context.gop_size = kKeyInterval;
-  context.thread_count = frame_threads(format.threads);
+  context.thread_count = kAv1Threads;
   av_dict_set(options, "crf", crf_of(format).c_str(), 0);
   av_dict_set(options, "cpu-used", "6", 0);
   av_dict_set(options, "row-mt", "1", 0);
-  if (format.crf <= 0) av_dict_set(options, "aom-params", "lossless=1", 0);
+  std::string parameters = fmt::format("chroma-sample-position={}", av1_chroma_position(encoding));
+  if (format.crf <= 0) parameters += ":lossless=1";
+  av_dict_set(options, "aom-params", parameters.c_str(), 0);
 }
 
 void set_up_mjpeg(AVCodecContext& context, const VideoFormat& format) {
@@ -106,7 +116,7 @@ Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encodin
   if (format.codec == VideoCodec::ffv1) set_up_ffv1(*context, format, &options);
   if (format.codec == VideoCodec::h264) set_up_h264(*context, format, encoding, &options);
   if (format.codec == VideoCodec::hevc) set_up_hevc(*context, format, &options);
-  if (format.codec == VideoCodec::av1) set_up_av1(*context, format, &options);
+  if (format.codec == VideoCodec::av1) set_up_av1(*context, format, encoding, &options);
   if (format.codec == VideoCodec::mjpeg) set_up_mjpeg(*context, format);
   const int error = avcodec_open2(context.get(), codec, &options);
   av_dict_free(&options);
