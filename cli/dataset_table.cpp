@@ -27,6 +27,9 @@ double bytes_a_pixel(const ExportSettings& output) {
       return 0.38;
     case CodecChoice::h264:
       return 0.017;
+    case CodecChoice::hevc:
+    case CodecChoice::av1:
+      return 0.012;
     case CodecChoice::mjpeg:
       return 0.13;
     case CodecChoice::png:

@@ -46,8 +46,8 @@ struct SettingText {
 };
 
 constexpr SettingText kSettings[] = {
-    {"--codec", "export.video.codec", "NAME", "ffv1, h264, mjpeg or png"},
-    {"--crf", "export.video.crf", "N", "quality of h264: 0 lossless to 51 worst"},
+    {"--codec", "export.video.codec", "NAME", "ffv1, h264, hevc, av1, mjpeg or png"},
+    {"--crf", "export.video.crf", "N", "quality: 0 lossless to 51 worst (h264, hevc), 63 (av1)"},
     {"--container", "export.video.container", "NAME", "mkv, mp4 or avi"},
     {"--method", "compositing.method", "NAME", "direct, classic or plain"},
     {"--masks", "export.masks", "NAME", "video, png or none"},

@@ -83,6 +83,7 @@ double length_s(const VideoInfo& video) {
 void print_video(const VideoInfo& video) {
   std::printf("video: %s, %s, %s (%s), container %s\n", video.codec.c_str(), image_size_text(video.size_px).c_str(),
               name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
+  if (video.bit_depth > 8) std::printf("bits a sample: %d\n", video.bit_depth);
   if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
   std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
               video.variable_frame_rate ? " (variable)" : "", length_s(video));

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "labels/labels.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
@@ -27,7 +28,8 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, avi for mjpeg; png gives a folder of images.
+// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg; png gives a folder of
+// images.
 std::string ending_of(const ExportSettings& output) {
   if (output.codec == CodecChoice::png) return "";
   switch (output.container) {
@@ -40,7 +42,7 @@ std::string ending_of(const ExportSettings& output) {
     case ContainerChoice::automatic:
       break;
   }
-  if (output.codec == CodecChoice::h264) return ".mp4";
+  if (max_crf(video_codec_of(output.codec)) > 0) return ".mp4";
   return output.codec == CodecChoice::mjpeg ? ".avi" : ".mkv";
 }
 

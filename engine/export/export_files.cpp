@@ -54,20 +54,6 @@ Result<void> check_label_folder(const fs::path& folder, const LabelFormat& forma
 
 namespace {
 
-VideoCodec codec_of(CodecChoice choice) {
-  switch (choice) {
-    case CodecChoice::ffv1:
-      return VideoCodec::ffv1;
-    case CodecChoice::h264:
-      return VideoCodec::h264;
-    case CodecChoice::mjpeg:
-      return VideoCodec::mjpeg;
-    case CodecChoice::png:
-      return VideoCodec::png;
-  }
-  return VideoCodec::ffv1;
-}
-
 Container container_of(const ExportSettings& output) {
   switch (output.container) {
     case ContainerChoice::mkv:
@@ -81,6 +67,8 @@ Container container_of(const ExportSettings& output) {
   }
   switch (output.codec) {
     case CodecChoice::h264:
+    case CodecChoice::hevc:
+    case CodecChoice::av1:
       return Container::mp4;
     case CodecChoice::mjpeg:
       return Container::avi;
@@ -95,12 +83,14 @@ int encoder_threads() {
 }
 
 VideoFormat video_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
-  return {.codec = codec_of(output.codec),
+  return {.codec = video_codec_of(output.codec),
           .container = container_of(output),
           .crf = output.crf,
           .threads = threads,
           .size_px = footage.size_px,
           .layout = footage.layout,
+          .bit_depth = footage.bit_depth,
+          .max_bit_depth = output.max_bit_depth,
           .color = footage.color,
           .frame_rate_num = footage.frame_rate_num,
           .frame_rate_den = footage.frame_rate_den,
@@ -114,6 +104,7 @@ VideoFormat mask_format(const VideoFormat& image, MasksChoice masks) {
   format.codec = masks == MasksChoice::png ? VideoCodec::png : VideoCodec::ffv1;
   format.container = Container::mkv;
   format.layout = PixelLayout::gray;
+  format.bit_depth = 8;
   format.color = {.range = ColorRange::full, .range_stated = true};
   return format;
 }
@@ -229,10 +220,11 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
   const cv::Size size = footage.size_px;
   const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
   const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
-  if (project.output.codec == CodecChoice::h264 && odd && shares_chroma)
+  const VideoCodec codec = video_codec_of(project.output.codec);
+  if ((codec == VideoCodec::h264 || codec == VideoCodec::hevc) && odd && shares_chroma)
     return fail(project.file.string() + ": export.video.codec",
-                fmt::format("h264 needs an even width and height, the footage is {}; use ffv1, mjpeg or png",
-                            image_size_text(size)),
+                fmt::format("{} needs an even width and height, the footage is {}; use ffv1, av1, mjpeg or png",
+                            name_of(codec), image_size_text(size)),
                 ErrorKind::bad_project);
   return {};
 }

@@ -212,11 +212,14 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
 }
 
 void add_output(FieldList list, ExportSettings& output) {
-  list.add("video.codec", choice_of(output.codec, {"ffv1", "h264", "mjpeg", "png"}), "",
-           "ffv1: lossless; h264: small; mjpeg; png: numbered images");
+  list.add("video.codec", choice_of(output.codec, {"ffv1", "h264", "hevc", "av1", "mjpeg", "png"}), "",
+           "ffv1: lossless; h264: small; hevc, av1: smaller, slower; mjpeg; png: numbered images");
   list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi"}), "",
-           "auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
-  list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
+           "auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg");
+  list.number("video.crf", &output.crf, "", 0, 63,
+              "quality: 0 lossless, 18 visually so, worst is 51 of h264 and hevc, 63 of av1");
+  list.number("video.max_bit_depth", &output.max_bit_depth, "", 8, 16,
+              "samples of more bits are rounded to this many: 8 for players that know no more");
   list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "",
            "opacity of the intruders, as video or images");
   static const std::string label_help = "annotation formats to write: " + listed(kLabelNames);  // a Field keeps no copy

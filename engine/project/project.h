@@ -289,7 +289,7 @@ struct AppearanceSettings {
 };
 
 // Formats of the exported video and masks; automatic: the container that suits the codec.
-enum class CodecChoice { ffv1, h264, mjpeg, png };
+enum class CodecChoice { ffv1, h264, hevc, av1, mjpeg, png };
 enum class ContainerChoice { automatic, mkv, mp4, avi };
 enum class MasksChoice { none, video, png };
 
@@ -304,12 +304,14 @@ inline constexpr auto kLabelNames =
 inline constexpr auto kWellClearNames =
     std::to_array<std::string_view>({"dwc-en-route", "dwc-non-cooperative", "dwc-terminal", "small-uas", "nmac"});
 
-// What an export writes. crf: quality of h264, 0 (lossless) to 51. The two thresholds leave out labels of intruders
-// with fewer visible pixels, or a smaller visible share.
+// What an export writes. crf: quality of h264 and hevc, 0 (lossless) to 51, and of av1, to 63. max_bit_depth: samples
+// of more bits are rounded to this many. The two thresholds leave out labels of intruders with fewer visible pixels, or
+// a smaller visible share.
 struct ExportSettings {
   CodecChoice codec = CodecChoice::ffv1;
   ContainerChoice container = ContainerChoice::automatic;
   int crf = 18;
+  int max_bit_depth = 16;
   MasksChoice masks = MasksChoice::video;
   std::vector<std::string> labels{"xml"};
   int label_least_pixels = 1;

@@ -125,6 +125,12 @@ void check_output(const ExportSettings& output, Problems& problems) {
   const ContainerChoice container = output.container;
   if (output.codec == CodecChoice::ffv1 && container == ContainerChoice::mp4)
     problems.push_back({"export.video.container", "mp4 cannot hold ffv1; use mkv or avi"});
+  const bool is_hevc = output.codec == CodecChoice::hevc;
+  if ((is_hevc || output.codec == CodecChoice::av1) && container == ContainerChoice::avi)
+    problems.push_back(
+        {"export.video.container", fmt::format("avi cannot hold {}; use mp4 or mkv", is_hevc ? "hevc" : "av1")});
+  if ((is_hevc || output.codec == CodecChoice::h264) && output.crf > 51)
+    problems.push_back({"export.video.crf", fmt::format("is {}; of h264 and hevc 51 is the worst", output.crf)});
   if (output.codec == CodecChoice::png && container != ContainerChoice::automatic)
     problems.push_back({"export.video.container", "png writes numbered images, not a container; use auto"});
 }

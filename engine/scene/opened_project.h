@@ -13,6 +13,7 @@
 #include "scene/scene_files.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
+#include "video/video_writer.h"
 
 // The way from a project to a scene: validate, open the footage, open what else the project names.
 namespace sigs {
@@ -59,7 +60,12 @@ struct OpenedProject {
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);
 
-// That the codec match has to do with a default quantiser, as neither the footage nor the project states one.
+// The codec that an export writes.
+[[nodiscard]] VideoCodec video_codec_of(CodecChoice choice);
+
+// What becomes of the footage's coding: that the codec match has to do with a default quantiser, as neither the footage
+// nor the project states one; of footage of more than 8 bits, what rounds its samples, and that there is no codec
+// match.
 [[nodiscard]] std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& video);
 
 // Number of frames sampled to find intruders that are never visible, where each is visible in one of these.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -25,20 +26,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What is written as PNG: one channel for gray, else BGR.
-cv::Mat png_image(const Frame& frame) {
-  cv::Mat image = bgr_of(frame);
+// What is written as PNG: one channel for gray, else BGR, of 8 or 16 bits.
+cv::Mat png_image(const Frame& frame, int max_bit_depth) {
+  cv::Mat image = std::min(frame.bit_depth, max_bit_depth) > 8 ? bgr16_of(frame) : bgr_of(frame);
   if (frame.layout == PixelLayout::gray) cv::extractChannel(image, image, 0);
   return image;
 }
 
-// Writes one image as folder/frame_000123.png: 8-bit gray for gray footage (as full range), else 8-bit RGB.
-// Error write_failed.
-Result<void> write_png(const fs::path& folder, const Frame& frame, int number) {
+// Writes one image as folder/frame_000123.png: gray for gray footage (as full range), else RGB; 16-bit for frames of
+// more than 8 bits. Error write_failed.
+Result<void> write_png(const fs::path& folder, const Frame& frame, int number, int max_bit_depth) {
   const fs::path path = folder / fmt::format("frame_{:06}.png", number);
   std::vector<uchar> bytes;
   try {
-    image_codecs::imencode(".png", png_image(frame), bytes);
+    image_codecs::imencode(".png", png_image(frame, max_bit_depth), bytes);
   } catch (const cv::Exception& problem) {
     return fail(path.string(), "cannot be written as PNG: " + problem.err, ErrorKind::write_failed);
   }
@@ -91,7 +92,10 @@ void VideoWriter::warm_up() {
 
 Result<void> VideoWriter::write(const Frame& frame, int number) {
   ENSURE(!state_->finished);
-  return guarded([&] { return state_->file ? state_->file->write(frame) : write_png(state_->path, frame, number); });
+  return guarded([&] {
+    return state_->file ? state_->file->write(frame)
+                        : write_png(state_->path, frame, number, state_->format.max_bit_depth);
+  });
 }
 
 Result<void> VideoWriter::write_blank(double time_s, int number) {
@@ -99,7 +103,8 @@ Result<void> VideoWriter::write_blank(double time_s, int number) {
   return guarded([&] {
     if (state_->file) return state_->file->write_blank(time_s);
     const VideoFormat& format = state_->format;
-    return write_png(state_->path, blank_frame(format.layout, format.size_px, format.color), number);
+    return write_png(state_->path, blank_frame(format.layout, format.size_px, format.color, format.bit_depth), number,
+                     format.max_bit_depth);
   });
 }
 
@@ -107,6 +112,45 @@ Result<void> VideoWriter::finish() {
   ENSURE(!state_->finished);
   state_->finished = true;
   return guarded([this] { return state_->file ? state_->file->finish() : Result<void>(); });
+}
+
+int max_bit_depth(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::ffv1:
+    case VideoCodec::png:
+      return 16;
+    case VideoCodec::hevc:
+    case VideoCodec::av1:
+      return 12;
+    case VideoCodec::h264:
+      return 10;
+    case VideoCodec::mjpeg:
+      break;
+  }
+  return 8;
+}
+
+const char* name_of(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::ffv1:
+      return "ffv1";
+    case VideoCodec::h264:
+      return "h264";
+    case VideoCodec::hevc:
+      return "hevc";
+    case VideoCodec::av1:
+      return "av1";
+    case VideoCodec::mjpeg:
+      return "mjpeg";
+    case VideoCodec::png:
+      return "png";
+  }
+  return "";
+}
+
+int max_crf(VideoCodec codec) {
+  if (codec == VideoCodec::av1) return 63;
+  return codec == VideoCodec::h264 || codec == VideoCodec::hevc ? 51 : 0;
 }
 
 const char* extension_of(Container container) {

@@ -55,7 +55,8 @@ const cv::Size kSize(160, 120);
 }  // namespace
 
 TEST_CASE("an export gives the same bytes on one thread and on several and every time") {
-  constexpr CodecChoice kCodecs[] = {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png};
+  constexpr CodecChoice kCodecs[] = {CodecChoice::ffv1, CodecChoice::h264,  CodecChoice::hevc,
+                                     CodecChoice::av1,  CodecChoice::mjpeg, CodecChoice::png};
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
   int number = 0;
