@@ -75,7 +75,7 @@ Result<Project> project_of(const MaskOptions& options) {
 }
 
 Result<FrameSource> footage_of(const Project& project) {
-  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  Result<FrameSource> source = open_footage(project);
   if (!source && !project.file.empty())
     return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   if (source)

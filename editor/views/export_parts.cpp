@@ -66,8 +66,9 @@ bool open_with_desktop(const fs::path& path) {
 }
 
 // In the order of the project's choices.
-constexpr std::array kCodecs{"ffv1 (lossless)", "h264 (small)", "mjpeg", "png (numbered images)"};
-constexpr std::array kContainers{"auto", "mkv", "mp4", "avi"};
+constexpr std::array kCodecs{"ffv1 (lossless)", "h264 (small)", "mjpeg", "png (numbered images)",
+                              "tiff (numbered images)", "jpeg (numbered images)", "raw (uncompressed)"};
+constexpr std::array kContainers{"auto", "mkv", "mp4", "avi", "nut", "y4m"};
 constexpr std::array kMasks{"none", "video", "png (numbered images)"};
 
 template <class Choice, std::size_t N>
@@ -171,11 +172,11 @@ void draw_video_choices(const ViewContext& context) {
       if (p.output.codec != codec) p.output.container = ContainerChoice::automatic;
       p.output.codec = codec;
     });
-  if (output.codec == CodecChoice::png) return;
+  if (writes_images(output.codec)) return;
   ImGui::SameLine();
   if (choose(context, "container", kContainers, output.container, scaled(90)))
     context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
-  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
+  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, avi for mjpeg, nut for raw");
   if (output.codec != CodecChoice::h264) return;
   ImGui::SetNextItemWidth(scaled(210));
   if (ImGui::SliderInt("##crf", &output.crf, 0, 51, "crf %d", ImGuiSliderFlags_AlwaysClamp))

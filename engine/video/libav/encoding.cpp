@@ -29,6 +29,12 @@ const char* name_of(VideoCodec codec) {
       return "mjpeg";
     case VideoCodec::png:
       return "png";
+    case VideoCodec::tiff:
+      return "tiff";
+    case VideoCodec::jpeg:
+      return "jpeg";
+    case VideoCodec::raw:
+      return "raw";
   }
   return "";
 }
@@ -78,6 +84,14 @@ Encoding ffv1_encoding(const VideoFormat& format) {
       encoding.pixel_format = AV_PIX_FMT_0RGB32;
       break;
   }
+  return encoding;
+}
+
+// Planes as the footage has them; RGB packed, which more programs read than its planes.
+Encoding raw_encoding(const VideoFormat& format) {
+  Encoding encoding = ffv1_encoding(format);
+  encoding.encoder = "rawvideo";
+  if (format.layout == PixelLayout::rgb) encoding.pixel_format = AV_PIX_FMT_RGB24;
   return encoding;
 }
 
@@ -176,9 +190,10 @@ void set_up_frame(AVCodecContext& context, const VideoFormat& format, const Enco
 }  // namespace
 
 Result<Encoding> encoding_for(const VideoFormat& format) {
-  ENSURE(format.codec != VideoCodec::png);
+  ENSURE(format.codec != VideoCodec::png && format.codec != VideoCodec::tiff && format.codec != VideoCodec::jpeg);
   if (const Result<void> pair = check_pair(format); !pair) return fail(pair.error());
   const Encoding encoding = format.codec == VideoCodec::ffv1   ? ffv1_encoding(format)
+                            : format.codec == VideoCodec::raw  ? raw_encoding(format)
                             : format.codec == VideoCodec::h264 ? h264_encoding(format)
                                                                : mjpeg_encoding(format);
   if (const Result<void> size = check_size(format, encoding); !size) return fail(size.error());
